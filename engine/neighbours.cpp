@@ -1,0 +1,98 @@
+// Counting sort into a periodic cell grid.
+#include "engine/neighbours.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+namespace {
+
+/// Widening that covers the rounding of x / width for any |x| below a thousand million cells.
+constexpr double kRoundingMargin = 1.0 + 1e-6;
+
+/// About two cells a particle keep the grid linear in n when the particles are spread thin.
+std::int64_t cellLimit(std::size_t particleCount) { return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount)); }
+
+std::array<std::int64_t, 3> chooseDimensions(const std::vector<Vec3>& positions, double width) {
+    Vec3 low = positions.front();
+    Vec3 high = positions.front();
+    for (const Vec3& position : positions) {
+        low = low.cwiseMin(position);
+        high = high.cwiseMax(position);
+    }
+    const std::int64_t limit = cellLimit(positions.size());
+    std::array<std::int64_t, 3> dimensions{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double cells = std::floor((high[axis] - low[axis]) / width) + 2.0;
+        dimensions[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::min(cells, static_cast<double>(limit)));
+    }
+    // Any size is correct; halving the longest axis keeps cells that share storage far apart.
+    while (dimensions[0] * dimensions[1] * dimensions[2] > limit) {
+        std::int64_t& longest = *std::max_element(dimensions.begin(), dimensions.end());
+        longest = (longest + 1) / 2;
+    }
+    return dimensions;
+}
+
+std::int64_t wrapped(std::int64_t index, std::int64_t size) {
+    const std::int64_t rest = index % size;
+    return rest < 0 ? rest + size : rest;
+}
+
+}  // namespace
+
+void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth) {
+    grid.order.resize(positions.size());
+    grid.cellOf.resize(positions.size());
+    grid.start.assign(2, 0);
+    grid.dimensions = {1, 1, 1};
+    if (positions.empty()) return;
+
+    const double width = cellWidth * kRoundingMargin;
+    grid.dimensions = chooseDimensions(positions, width);
+    const auto [nx, ny, nz] = grid.dimensions;
+    grid.start.assign(static_cast<std::size_t>(nx * ny * nz) + 1, 0);
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        const auto x = wrapped(static_cast<std::int64_t>(std::floor(positions[p].x() / width)), nx);
+        const auto y = wrapped(static_cast<std::int64_t>(std::floor(positions[p].y() / width)), ny);
+        const auto z = wrapped(static_cast<std::int64_t>(std::floor(positions[p].z() / width)), nz);
+        grid.cellOf[p] = static_cast<std::uint32_t>((z * ny + y) * nx + x);
+        ++grid.start[grid.cellOf[p] + 1];
+    }
+    for (std::size_t cell = 1; cell < grid.start.size(); ++cell) grid.start[cell] += grid.start[cell - 1];
+    // Filling moves each start to its cell's end, which is the next cell's start: shift back afterwards.
+    for (std::size_t p = 0; p < positions.size(); ++p)
+        grid.order[grid.start[grid.cellOf[p]]++] = static_cast<std::uint32_t>(p);
+    std::copy_backward(grid.start.begin(), grid.start.end() - 1, grid.start.end());
+    grid.start.front() = 0;
+}
+
+Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {
+    const auto [nx, ny, nz] = grid.dimensions;
+    const std::int64_t x = cell % nx;
+    const std::int64_t y = (cell / nx) % ny;
+    const std::int64_t z = cell / (nx * ny);
+    // With one or two cells along an axis, steps of -1 and +1 meet: visit each cell once.
+    const auto firstStep = [](std::int64_t size) { return size >= 3 ? -1 : 0; };
+    const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
+
+    Neighbourhood found;
+    for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
+        for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
+            const std::int64_t row = (wrapped(z + dz, nz) * ny + wrapped(y + dy, ny)) * nx;
+            for (std::int64_t dx = firstStep(nx); dx <= lastStep(nx); ++dx) {
+                const auto at = static_cast<std::size_t>(row + wrapped(x + dx, nx));
+                const CellRange range{grid.start[at], grid.start[at + 1]};
+                if (range.begin == range.end) continue;
+                CellRange* last = found.count > 0 ? &found.ranges[static_cast<std::size_t>(found.count - 1)] : nullptr;
+                if (last != nullptr && last->end == range.begin)
+                    last->end = range.end;
+                else
+                    found.ranges[static_cast<std::size_t>(found.count++)] = range;
+            }
+        }
+    }
+    return found;
+}
+
+}  // namespace engine

@@ -1,0 +1,43 @@
+// The cell grid: particles sorted into cubic cells at least as wide as the cutoff, so that everything a particle can feel is in
+// the 27 cells around it. The grid is periodic in its indices: far away cells share storage with near ones and are told apart by
+// the distance test alone. So an outlier costs nothing, memory is linear in n, and no box has to bound the world.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/vec3.h"
+
+namespace engine {
+
+/// Consecutive entries of CellGrid::order.
+struct CellRange {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+};
+
+/// The ranges that hold a cell's neighbourhood; each particle occurs in at most one.
+struct Neighbourhood {
+    std::array<CellRange, 27> ranges;
+    int count = 0;
+};
+
+struct CellGrid {
+    std::array<std::int64_t, 3> dimensions{1, 1, 1};    ///< cells along x, y, z
+    std::vector<std::uint32_t> start;                   ///< first entry of each cell in order, and one past the last
+    std::vector<std::uint32_t> order;                   ///< particle indices by cell, x fastest; ascending within a cell
+    std::vector<std::uint32_t> cellOf;                  ///< cell of each particle
+
+    std::size_t cellCount() const { return start.size() - 1; }
+};
+
+/// Sorts the positions (finite, in metres) into cells of the given width (m, above 0).
+/// Holds:  the order within a cell is that of the indices, so that it depends on the positions alone.
+void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth);
+
+/// The ranges around a cell, in a fixed order, neighbours along x joined where storage is consecutive.
+Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell);
+
+}  // namespace engine

@@ -1,0 +1,123 @@
+// The force between two particles: equations 2, 5 and 6 of the paper, with the pair energy and stiffness that follow from them.
+// This is the only place where they are written; every path over pairs and every obstacle calls it.
+//
+// With D0 = r_i + r_p, R = c_r D0 and S = c_d D0, m = 5, n = 3 and b2 = b1/D0^2, equation 2 is P times the coefficient
+//     s_r (b1/D^5 - b2/D^3) - s_d b_d (V.P)/D^2
+//   = (1/D) b1 (1/D^2 - 1/D0^2) (1/D^2 - 1/R^2) [D < R]  -  b_d (1 - D^2/S^2) (V.P)/D^2 [D < S]
+// because s_r b1/D^5 (1 - D^2/D0^2) = b1/D (1/D^2)(1 - D^2/R^2)(1/D^2)(1 - D^2/D0^2).
+//
+// The guard near D = 0, the only departure: below the core distance the coefficient keeps the value it has there, so that the
+// force falls linearly to zero instead of growing without bound, and the energy is finite. With the core at the radius of
+// equal particles (a share of 1/2) this is the clamp of D that the published program has.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/material.h"
+
+namespace engine {
+
+/// The constants of one pair, worked out once from its material and its rest length.
+template <class Scalar>
+struct PairConstants {
+    Scalar b1{};                ///< N m^4
+    Scalar bd{};                ///< kg/s
+    Scalar inverseRestSq{};     ///< 1/D0^2
+    Scalar inverseReachSq{};    ///< 1/R^2
+    Scalar reachSq{};           ///< R^2, repulsion and attraction end here
+    Scalar inverseDampingSq{};  ///< 1/S^2
+    Scalar dampingSq{};         ///< S^2, damping ends here; 0 when b_d is 0
+    Scalar coreSq{};            ///< square of the guard's distance
+    Scalar cutoffSq{};          ///< nothing acts at or beyond it
+};
+
+/// Which terms of the coefficient are compiled.
+struct PairTerms {
+    bool attraction = true;     ///< c_r above 1
+    bool damping = true;        ///< b_d above 0
+};
+
+/// Constants of a pair of the given material (see mixed() for unlike ones) and rest length D0 = r_i + r_p, in metres.
+template <class Scalar>
+PairConstants<Scalar> pairConstants(const Material& material, double restLength) {
+    const double reach = material.repulsionReach * restLength;
+    const double damping = material.dampingReach * restLength;
+    const double core = material.coreFraction * restLength;
+    PairConstants<Scalar> c;
+    c.b1 = static_cast<Scalar>(material.repulsion);
+    c.bd = static_cast<Scalar>(material.damping);
+    c.inverseRestSq = static_cast<Scalar>(1.0 / (restLength * restLength));
+    c.inverseReachSq = static_cast<Scalar>(1.0 / (reach * reach));
+    c.reachSq = static_cast<Scalar>(reach * reach);
+    c.inverseDampingSq = static_cast<Scalar>(1.0 / (damping * damping));
+    c.dampingSq = material.damping > 0.0 ? static_cast<Scalar>(damping * damping) : Scalar(0);
+    c.coreSq = static_cast<Scalar>(core * core);
+    c.cutoffSq = std::max(c.reachSq, c.dampingSq);
+    return c;
+}
+
+/// Coefficient of P in equation 2, in N/m; exactly zero at and beyond the cutoff.
+/// Shape:  distanceSq = P.P (m^2), approach = V.P (m^2/s), P = x_p - x_i, V = v_p - v_i.
+/// Holds:  unchanged when p and i are swapped, so that the force negates bit for bit.
+/// Source: Cote 2024, equations 2, 5, 6; departs from them only below the core distance.
+template <PairTerms terms, class Scalar>
+Scalar pairCoefficient(Scalar distanceSq, Scalar approach, const PairConstants<Scalar>& c) {
+    const Scalar guardedSq = std::max(distanceSq, c.coreSq);
+    const Scalar inverseSq = Scalar(1) / guardedSq;
+    Scalar coefficient = 0;
+    if (guardedSq < c.reachSq) {
+        const Scalar toRest = inverseSq - c.inverseRestSq;
+        const Scalar toReach = terms.attraction ? inverseSq - c.inverseReachSq : toRest;
+        coefficient = c.b1 * std::sqrt(inverseSq) * (toRest * toReach);
+    }
+    if constexpr (terms.damping) {
+        if (guardedSq < c.dampingSq)
+            coefficient -= c.bd * (Scalar(1) - guardedSq * c.inverseDampingSq) * (approach * inverseSq);
+    }
+    return coefficient;
+}
+
+/// Pair energy U(D) of the conservative part, in joules: minus the integral of the force from the cutoff.
+///   U = b1 { (D^-3 - R^-3)/3 - A (1/D - 1/R) + B (R - D) },  A = 1/D0^2 + 1/R^2,  B = 1/(D0^2 R^2)
+/// Below the core distance Dc, where F = F(Dc) D/Dc:  U = U(Dc) + F(Dc) (Dc^2 - D^2) / (2 Dc).
+template <class Scalar>
+Scalar pairEnergy(Scalar distance, const PairConstants<Scalar>& c) {
+    if (distance * distance >= c.reachSq) return Scalar(0);
+    const Scalar core = std::sqrt(c.coreSq);
+    const Scalar guarded = std::max(distance, core);
+    const Scalar reach = std::sqrt(c.reachSq);
+    const Scalar inverse = Scalar(1) / guarded;
+    const Scalar inverseReach = Scalar(1) / reach;
+    const Scalar cubes = (inverse * inverse * inverse - inverseReach * inverseReach * inverseReach) / Scalar(3);
+    const Scalar a = c.inverseRestSq + c.inverseReachSq;
+    const Scalar b = c.inverseRestSq * c.inverseReachSq;
+    const Scalar outside = c.b1 * (cubes - a * (inverse - inverseReach) + b * (reach - guarded));
+    if (distance >= core) return outside;
+    const Scalar slope = pairCoefficient<PairTerms{true, false}>(c.coreSq, Scalar(0), c);
+    return outside + slope * (c.coreSq - distance * distance) / Scalar(2);
+}
+
+/// Stiffness k = -dF/dD of the conservative part, in N/m; negative where the force softens with approach.
+///   k = b1 (4 D^-5 - 2 A D^-3), and -F(Dc)/Dc below the core distance.
+template <class Scalar>
+Scalar pairStiffness(Scalar distance, const PairConstants<Scalar>& c) {
+    const Scalar distanceSq = distance * distance;
+    if (distanceSq >= c.reachSq) return Scalar(0);
+    if (distanceSq < c.coreSq) return -pairCoefficient<PairTerms{true, false}>(c.coreSq, Scalar(0), c);
+    const Scalar inverse = Scalar(1) / distance;
+    const Scalar inverseCubed = inverse * inverse * inverse;
+    const Scalar a = c.inverseRestSq + c.inverseReachSq;
+    return c.b1 * (Scalar(4) * inverseCubed * inverse * inverse - Scalar(2) * a * inverseCubed);
+}
+
+/// A stand-in for P when two particles coincide exactly and P has no direction: a short vector drawn from their ids.
+/// Shape:  length kCoincidentShare * restLength, m. Holds: swapping the ids negates it bit for bit.
+std::array<double, 3> coincidentSeparation(std::uint32_t idP, std::uint32_t idI, double restLength);
+
+/// Chosen: long enough for the linear core to part the pair within a few steps, short beside any core.
+inline constexpr double kCoincidentShare = 0.01;
+
+}  // namespace engine

@@ -1,0 +1,16 @@
+// Appending is the only way a particle enters; it keeps the arrays of equal length and the ids in order of birth.
+#include "engine/particles.h"
+
+namespace engine {
+
+void append(Particles& particles, const NewParticle& particle) {
+    particles.position.push_back(particle.position);
+    particles.velocity.push_back(particle.velocity);
+    particles.radius.push_back(particle.radius);
+    particles.mass.push_back(particle.mass);
+    particles.birthTime.push_back(particle.birthTime);
+    particles.material.push_back(particle.material);
+    particles.id.push_back(static_cast<std::uint32_t>(particles.id.size()));
+}
+
+}  // namespace engine

@@ -1,0 +1,38 @@
+// The state of all particles as a structure of arrays, in order of birth. Index and id agree until particles can die;
+// code that needs identity uses the id.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/vec3.h"
+
+namespace engine {
+
+struct Particles {
+    std::vector<Vec3> position;             ///< m
+    std::vector<Vec3> velocity;             ///< m/s
+    std::vector<double> radius;             ///< m
+    std::vector<double> mass;               ///< kg
+    std::vector<double> birthTime;          ///< s
+    std::vector<std::uint32_t> material;    ///< index into the materials of the set-up
+    std::vector<std::uint32_t> id;          ///< 0, 1, 2, ... in order of birth
+
+    std::size_t count() const { return position.size(); }
+};
+
+/// One particle on its way into Particles.
+struct NewParticle {
+    Vec3 position = Vec3::Zero();
+    Vec3 velocity = Vec3::Zero();
+    double radius = 0.15;
+    double mass = 1.0;
+    double birthTime = 0.0;
+    std::uint32_t material = 0;
+};
+
+/// Appends a particle with the next id.
+void append(Particles& particles, const NewParticle& particle);
+
+}  // namespace engine

@@ -1,0 +1,93 @@
+// The step, seen whole: births that are due, then one step of the stepper, then the check that the state is still finite.
+#include "engine/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "engine/steppers.h"
+
+namespace engine {
+namespace {
+
+void giveBirth(Simulation& simulation) {
+    std::size_t born = 0;
+    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) {
+        const Emitter& emitter = simulation.setup.emitters[e];
+        const BirthContext context{simulation.time, simulation.setup.gravity, simulation.setup.seed, e};
+        born += emit(emitter, simulation.emitters[e], context, simulation.setup.materials[emitter.material],
+                     simulation.particles);
+    }
+    if (born > 0) simulation.forcesCurrent = false;
+}
+
+bool isSound(const Vec3& position) {
+    // Written so that a NaN fails.
+    return std::abs(position.x()) < kWorldLimit && std::abs(position.y()) < kWorldLimit &&
+           std::abs(position.z()) < kWorldLimit;
+}
+
+[[noreturn]] void reportInstability(const Simulation& simulation, std::size_t p, double h) {
+    const Vec3& x = simulation.particles.position[p];
+    std::ostringstream text;
+    text << "the simulation became unstable: particle " << simulation.particles.id[p] << " is at (" << x.x() << ", "
+         << x.y() << ", " << x.z() << ") m with speed " << std::sqrt(squaredLength(simulation.particles.velocity[p]))
+         << " m/s at time " << simulation.time << " s, step " << simulation.steps.count << " of " << h
+         << " s; lower physics.step, or raise material.mass";
+    throw InstabilityError(text.str());
+}
+
+void checkSound(const Simulation& simulation, double h) {
+    const auto& positions = simulation.particles.position;
+    const auto lost = std::find_if_not(positions.begin(), positions.end(), isSound);
+    if (lost != positions.end()) reportInstability(simulation, static_cast<std::size_t>(lost - positions.begin()), h);
+}
+
+void record(StepStatistics& steps, double h) {
+    steps.shortest = steps.count == 0 ? h : std::min(steps.shortest, h);
+    steps.longest = std::max(steps.longest, h);
+    ++steps.count;
+}
+
+}  // namespace
+
+Simulation start(const Setup& setup) {
+    Simulation simulation;
+    simulation.setup = setup;
+    simulation.evaluator = ForceEvaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces);
+    simulation.particles = setup.initial;
+    for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
+    giveBirth(simulation);
+    return simulation;
+}
+
+void advance(Simulation& simulation, double time) {
+    const double from = simulation.time;
+    if (time <= from) return;
+    // The smallest whole number of steps; the slack keeps 0.02 s at steps of 0.01 s from becoming three.
+    const double count = std::max(1.0, std::ceil((time - from) / simulation.setup.step * (1.0 - 1e-9)));
+    const double h = (time - from) / count;
+    for (double step = 0.0; step < count; step += 1.0) {
+        simulation.time = from + step * h;
+        giveBirth(simulation);
+        takeStep(simulation, h);
+        record(simulation.steps, h);
+        checkSound(simulation, h);
+    }
+    simulation.time = time;
+    giveBirth(simulation);
+}
+
+std::uint64_t birthCount(const Simulation& simulation) {
+    std::uint64_t sum = 0;
+    for (const EmitterState& state : simulation.emitters) sum += state.births;
+    return sum;
+}
+
+std::uint64_t refusalCount(const Simulation& simulation) {
+    std::uint64_t sum = 0;
+    for (const EmitterState& state : simulation.emitters) sum += state.refusals;
+    return sum;
+}
+
+}  // namespace engine

@@ -1,0 +1,15 @@
+// The steppers: each takes a simulation one step further. Called by advance() and by the error estimate; births and checks are
+// the caller's.
+#pragma once
+
+#include "engine/simulation.h"
+
+namespace engine {
+
+/// Moves particles, velocities and time by one step of the set-up's stepper, h in seconds.
+void takeStep(Simulation& simulation, double h);
+
+/// Order of convergence of the positions.
+int orderOf(StepperKind stepper);
+
+}  // namespace engine

@@ -1,0 +1,48 @@
+// Particle sets that the suites of the engine share.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/forces.h"
+#include "engine/particles.h"
+#include "engine/random.h"
+
+namespace clouds {
+
+inline engine::Vec3 randomVector(std::uint64_t seed, std::uint64_t index) {
+    return {engine::symmetricUnit(engine::randomBits(seed, index, 0)), engine::symmetricUnit(engine::randomBits(seed, index, 1)),
+            engine::symmetricUnit(engine::randomBits(seed, index, 2))};
+}
+
+/// Particles strewn evenly through a cube of the given half edge (m), with random velocities of up to 1 m/s an axis.
+inline engine::Particles strewn(std::size_t count, double halfEdge, std::uint64_t seed = 7) {
+    engine::Particles particles;
+    for (std::uint64_t p = 0; p < count; ++p) {
+        engine::NewParticle particle;
+        particle.position = halfEdge * randomVector(seed, p);
+        particle.velocity = randomVector(seed + 1, p);
+        engine::append(particles, particle);
+    }
+    return particles;
+}
+
+/// The same with radii of 0.1 to 0.2 m and masses of 0.1 to 1.9 kg.
+inline engine::Particles strewnUnequal(std::size_t count, double halfEdge, std::uint64_t seed = 7) {
+    engine::Particles particles = strewn(count, halfEdge, seed);
+    for (std::size_t p = 0; p < count; ++p) {
+        const engine::Vec3 random = randomVector(seed + 2, p);
+        particles.radius[p] = 0.15 + 0.05 * random.x();
+        particles.mass[p] = 1.0 + 0.9 * random.y();
+    }
+    return particles;
+}
+
+inline engine::ForceLaw lawOf(const engine::Material& material) {
+    engine::ForceLaw law;
+    law.materials = {material};
+    return law;
+}
+
+inline engine::ForceLaw lawOf(const char* preset) { return lawOf(*engine::materialPreset(preset)); }
+
+}  // namespace clouds

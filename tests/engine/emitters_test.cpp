@@ -1,0 +1,143 @@
+// Births: on time, where they should be, never on top of another unless the scene wants it.
+#include "engine/emitters.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+using namespace engine;
+
+namespace {
+
+Emitter pointEmitter(double interval, const Vec3& velocity) {
+    Emitter emitter;
+    emitter.sites = {Vec3::Zero()};
+    emitter.interval = interval;
+    emitter.velocity = velocity;
+    return emitter;
+}
+
+/// Runs an emitter alone, moving its particles freely without gravity.
+struct Run {
+    Emitter emitter;
+    EmitterState state = initialState(emitter);
+    Particles particles = {};
+
+    void until(double end, double step, std::uint64_t seed = 1) {
+        for (int k = 0; k * step < end; ++k) {
+            emit(emitter, state, {k * step, Vec3::Zero(), seed, 0}, Material{}, particles);
+            for (std::size_t p = 0; p < particles.count(); ++p) particles.position[p] += step * particles.velocity[p];
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A point nozzle gives birth at its interval, evenly spaced whatever the step", "[emitters]") {
+    for (const double step : {0.01, 0.004, 0.0137}) {
+        Run run{pointEmitter(0.1, Vec3(0, 10, 0))};
+        run.until(0.95, step);
+        REQUIRE(run.particles.count() == 10);
+        for (std::size_t p = 1; p < 10; ++p) {
+            const double gap = run.particles.position[p - 1].y() - run.particles.position[p].y();
+            CHECK(gap == Approx(1.0).epsilon(1e-12));  // sums of a hundred steps
+        }
+        CHECK(run.state.refusals == 0);
+    }
+}
+
+TEST_CASE("A late newborn has fallen with gravity", "[emitters]") {
+    const Emitter emitter = pointEmitter(1.0, Vec3(2, 0, 0));
+    EmitterState state = initialState(emitter);
+    Particles particles = {};
+    emit(emitter, state, {0.5, Vec3(0, -8, 0), 1, 0}, Material{}, particles);
+    REQUIRE(particles.count() == 1);
+    CHECK(particles.position[0] == Vec3(1.0, -1.0, 0.0));
+    CHECK(particles.velocity[0] == Vec3(2.0, -4.0, 0.0));
+    CHECK(particles.birthTime[0] == 0.0);
+}
+
+TEST_CASE("A birth without room waits and is counted once", "[emitters]") {
+    Run run{pointEmitter(0.1, Vec3(0, 1, 0))};  // 0.1 m per interval, 0.3 m needed
+    run.until(2.0, 0.01);
+    for (std::size_t p = 1; p < run.particles.count(); ++p)
+        CHECK((run.particles.position[p] - run.particles.position[p - 1]).norm() >= 0.3 - 1e-12);  // rounding of sums
+    CHECK(run.particles.count() == 7);      // every 0.3 s
+    CHECK(run.state.refusals == 7);         // all but the first had to wait, and the eighth still does
+    CHECK(run.state.births == 7);
+}
+
+TEST_CASE("Clearance zero lets births overlap, as published", "[emitters]") {
+    Emitter emitter = pointEmitter(0.1, Vec3::Zero());
+    emitter.clearance = 0.0;
+    Run run{emitter};
+    run.until(0.95, 0.01);
+    CHECK(run.particles.count() == 10);
+    CHECK(run.state.refusals == 0);
+}
+
+TEST_CASE("Start, until and limit bound the births", "[emitters]") {
+    Emitter emitter = pointEmitter(0.1, Vec3(0, 10, 0));
+    emitter.start = 0.25;
+    emitter.until = 0.65;
+    Run timed{emitter};
+    timed.until(2.0, 0.01);
+    CHECK(timed.particles.count() == 4);  // 0.25 0.35 0.45 0.55
+    emitter.until = 1e9;
+    emitter.limit = 3;
+    Run limited{emitter};
+    limited.until(2.0, 0.01);
+    CHECK(limited.particles.count() == 3);
+}
+
+TEST_CASE("Random choice is seeded and reaches every site", "[emitters]") {
+    Emitter emitter = pointEmitter(0.02, Vec3(0, 15, 0));
+    emitter.sites = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(4, 0, 0)};
+    emitter.pick = Pick::random;
+    const auto columns = [&](std::uint64_t seed) {
+        Run run{emitter};
+        run.until(2.0, 0.01, seed);
+        std::vector<double> x;
+        for (const Vec3& position : run.particles.position) x.push_back(position.x());
+        return x;
+    };
+    const auto first = columns(1);
+    CHECK(first.size() == 100);
+    CHECK(std::set<double>(first.begin(), first.end()).size() == 5);
+    CHECK(columns(1) == first);
+    CHECK(columns(2) != first);
+}
+
+TEST_CASE("A disc nozzle is hexagonal and lies across its direction", "[emitters]") {
+    CHECK(discSites(Vec3::Zero(), Vec3::UnitY(), 0.0, 0.3).size() == 1);
+    CHECK(discSites(Vec3::Zero(), Vec3::UnitY(), 0.3, 0.3).size() == 7);
+    CHECK(discSites(Vec3::Zero(), Vec3::UnitY(), 0.6, 0.3).size() == 19);
+    const Vec3 direction(1, 2, -0.5);
+    for (const Vec3& site : discSites(Vec3(1, 1, 1), direction, 0.6, 0.3)) {
+        CHECK(std::abs(dot(site - Vec3(1, 1, 1), direction)) < 1e-14);  // rounding of products of size 2
+        CHECK((site - Vec3(1, 1, 1)).norm() <= 0.6 + 1e-8);             // the slack of the rim
+    }
+}
+
+TEST_CASE("All sites of a disc give birth on their own schedules", "[emitters]") {
+    Emitter emitter = pointEmitter(0.1, Vec3(0, 10, 0));
+    emitter.sites = discSites(Vec3::Zero(), emitter.velocity, 0.3, 0.3);
+    Run run{emitter};
+    append(run.particles, {.position = emitter.sites[0]});  // blocks one of the seven for ever
+    run.until(0.55, 0.01);
+    CHECK(run.particles.count() == 1 + 6 * 6);
+    CHECK(run.state.refusals == 1);
+}
+
+TEST_CASE("Jitter moves births across the velocity only", "[emitters]") {
+    Emitter emitter = pointEmitter(0.1, Vec3(0, 10, 0));
+    emitter.jitter = 0.2;
+    Run run{emitter};
+    run.until(0.95, 0.01);
+    double largest = 0.0;
+    for (std::size_t p = 0; p < run.particles.count(); ++p) {
+        largest = std::max({largest, std::abs(run.particles.position[p].x()), std::abs(run.particles.position[p].z())});
+    }
+    CHECK(largest > 0.005);
+    CHECK(largest <= 0.2 * 0.15);
+}

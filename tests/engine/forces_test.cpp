@@ -1,0 +1,194 @@
+// The grid against the O(n^2) reference, which in turn is held against hand-worked sums and its own energy.
+#include "engine/forces.h"
+
+#include <tbb/global_control.h>
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "clouds.h"
+
+using namespace engine;
+
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+std::vector<Vec3> reference(const ForceLaw& law, const Particles& particles) {
+    std::vector<Vec3> forces;
+    pairForcesReference(law, particles, particles.velocity, forces);
+    return forces;
+}
+
+std::vector<Vec3> onGrid(const ForceLaw& law, const Particles& particles) {
+    ForceEvaluator evaluator(law, ForceMethod::grid);
+    std::vector<Vec3> forces;
+    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    return forces;
+}
+
+/// Sum of the lengths of the pair forces on p: what the rounding of any order of summation scales with.
+double forceScale(const ForceLaw& law, const Particles& particles, std::size_t p) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < particles.count(); ++i) {
+        if (i == p) continue;
+        const double rest = particles.radius[p] + particles.radius[i];
+        const Material material = mixed(law.materials[particles.material[p]], law.materials[particles.material[i]]);
+        const auto c = pairConstants<double>(material, rest);
+        Vec3 separation = particles.position[p] - particles.position[i];
+        if (squaredLength(separation) == 0.0) separation = Vec3(kCoincidentShare * rest, 0.0, 0.0);
+        const double approach = dot(particles.velocity[p] - particles.velocity[i], separation);
+        const double lengthSq = squaredLength(separation);
+        sum += std::abs(pairCoefficient<PairTerms{}>(lengthSq, approach, c)) * std::sqrt(lengthSq);
+    }
+    return sum;
+}
+
+void checkGridAgainstReference(const ForceLaw& law, const Particles& particles) {
+    const auto expected = reference(law, particles);
+    const auto actual = onGrid(law, particles);
+    REQUIRE(actual.size() == expected.size());
+    for (std::size_t p = 0; p < expected.size(); ++p) {
+        // Pairs have equal bits; two orders of summation differ by at most one rounding per term of the running sum, twice.
+        const double tolerance = 2.0 * static_cast<double>(particles.count()) * kEps * forceScale(law, particles, p);
+        const double difference = (actual[p] - expected[p]).cwiseAbs().maxCoeff();
+        INFO("particle " << p << ": " << actual[p].transpose() << " against " << expected[p].transpose());
+        CHECK(difference <= tolerance);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("The grid agrees with the reference for every preset", "[forces]") {
+    for (const std::string& name : materialPresetNames()) {
+        INFO(name);
+        checkGridAgainstReference(clouds::lawOf(name.c_str()), clouds::strewn(400, 1.1));
+        checkGridAgainstReference(clouds::lawOf(name.c_str()), clouds::strewnUnequal(400, 1.1));
+    }
+}
+
+TEST_CASE("The grid agrees with the reference for several materials", "[forces]") {
+    ForceLaw law;
+    law.materials = {*materialPreset("liquid"), *materialPreset("solid"), *materialPreset("powder")};
+    Particles particles = clouds::strewnUnequal(300, 1.0);
+    for (std::size_t p = 0; p < particles.count(); ++p) particles.material[p] = static_cast<std::uint32_t>(p % 3);
+    checkGridAgainstReference(law, particles);
+}
+
+TEST_CASE("The grid agrees with the reference without damping", "[forces]") {
+    for (const char* name : {"solid", "powder"}) {
+        Material material = *materialPreset(name);
+        material.damping = 0.0;
+        checkGridAgainstReference(clouds::lawOf(material), clouds::strewn(300, 1.0));
+    }
+}
+
+TEST_CASE("Edges: none, one, two, coincident, one cell, outliers", "[forces]") {
+    const ForceLaw law = clouds::lawOf("solid");
+    for (const std::size_t count : {0U, 1U, 2U}) checkGridAgainstReference(law, clouds::strewn(count, 0.1));
+    checkGridAgainstReference(law, clouds::strewn(60, 0.05));
+    Particles coincident = clouds::strewn(20, 0.3);
+    for (std::size_t p = 0; p < 8; ++p) coincident.position[p] = Vec3(0.1, 0.1, 0.1);
+    checkGridAgainstReference(law, coincident);
+    for (const Vec3& force : onGrid(law, coincident)) CHECK(force.allFinite());
+    Particles far = clouds::strewn(100, 0.8);
+    far.position[3] = Vec3(9e7, -9e7, 9e7);
+    far.position[4] = Vec3(9e7, -9e7, 9e7 + 0.2);
+    checkGridAgainstReference(law, far);
+}
+
+TEST_CASE("Two particles by hand", "[forces]") {
+    Particles particles;
+    append(particles, {.position = Vec3(0.2, 0, 0), .velocity = Vec3(-1, 0.5, 0)});
+    append(particles, {.position = Vec3(0, 0, 0), .velocity = Vec3(0, 0, 0)});
+    // b1/D^4 (1 - D^2/D0^2)^2 = 0.01/0.0016 (5/9)^2 and b_d (1 - D^2/0.36) V = 1 (1 - 1/9) along the axis.
+    const double expected = 0.01 / 0.0016 * 25.0 / 81.0 + 8.0 / 9.0;
+    const auto forces = onGrid(clouds::lawOf("liquid"), particles);
+    CHECK(forces[0].x() == Approx(expected).epsilon(16 * kEps));  // a dozen roundings
+    CHECK(forces[0].y() == 0.0);
+    CHECK(forces[1] == -forces[0]);
+}
+
+TEST_CASE("Pair forces add up to nothing and turn nothing", "[forces]") {
+    const Particles particles = clouds::strewnUnequal(500, 1.2);
+    const ForceLaw law = clouds::lawOf("solid");
+    const auto forces = onGrid(law, particles);
+    Vec3 sum = Vec3::Zero();
+    Vec3 torque = Vec3::Zero();
+    double scale = 0.0;
+    for (std::size_t p = 0; p < forces.size(); ++p) {
+        sum += forces[p];
+        torque += particles.position[p].cross(forces[p]);
+        scale += forceScale(law, particles, p);
+    }
+    const double tolerance = 500 * kEps * scale;  // one rounding of the running sum for each of 500 terms
+    CHECK(sum.cwiseAbs().maxCoeff() <= tolerance);
+    CHECK(torque.cwiseAbs().maxCoeff() <= 2 * 1.2 * tolerance);  // arms of up to 1.2 m, two products each
+}
+
+TEST_CASE("The forces are minus the gradient of the energy, on the grid and by every pair", "[forces]") {
+    Material material = *materialPreset("solid");
+    material.damping = 0.0;
+    const ForceLaw law = clouds::lawOf(material);
+    Particles particles = clouds::strewn(60, 0.45);
+    ForceEvaluator evaluator(law, ForceMethod::grid);
+    const double total = pairEnergyReference(law, particles);
+    CHECK(evaluator.pairEnergyGrid(particles) == Approx(total).epsilon(1e4 * kEps));  // 3600 terms, either order
+    const auto forces = reference(law, particles);
+    for (const std::size_t p : {0U, 7U, 31U})
+        for (int axis = 0; axis < 3; ++axis) {
+            const double h = 1e-6;
+            Particles moved = particles;
+            moved.position[p][axis] += h;
+            const double above = pairEnergyReference(law, moved);
+            moved.position[p][axis] -= 2 * h;
+            const double below = pairEnergyReference(law, moved);
+            // Rounding 60^2 eps |U| / h and truncation (h/D)^2 F with D at least the core of 0.075.
+            const double tolerance = 3600 * kEps * std::abs(total) / h + 2e-9 * forceScale(law, particles, p);
+            CHECK(std::abs(forces[p][axis] + (above - below) / (2 * h)) <= tolerance);
+        }
+}
+
+TEST_CASE("The same bits for any number of threads", "[forces]") {
+    const Particles particles = clouds::strewnUnequal(2000, 2.0);
+    const ForceLaw law = clouds::lawOf("solid");
+    const auto expected = onGrid(law, particles);
+    for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        CHECK(onGrid(law, particles) == expected);
+    }
+}
+
+TEST_CASE("Only the terms that a scene needs", "[forces]") {
+    const Particles equal = clouds::strewn(10, 1.0);
+    const ForceTerms powder = termsFor(clouds::lawOf("powder"), equal);
+    CHECK_FALSE(powder.pair.attraction);
+    CHECK(powder.pair.damping);
+    CHECK(powder.uniform);
+    CHECK(powder.cutoff == Approx(0.3));
+    CHECK(termsFor(clouds::lawOf("liquid"), equal).cutoff == Approx(0.6));
+    CHECK(termsFor(clouds::lawOf("solid"), equal).pair.attraction);
+    CHECK_FALSE(termsFor(clouds::lawOf("solid"), clouds::strewnUnequal(10, 1.0)).uniform);
+    Material undamped = *materialPreset("liquid");
+    undamped.damping = 0.0;
+    CHECK_FALSE(termsFor(clouds::lawOf(undamped), equal).pair.damping);
+    CHECK(termsFor(clouds::lawOf(undamped), equal).cutoff == Approx(0.3));  // no damping, no reach of damping
+}
+
+TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") {
+    ForceLaw law = clouds::lawOf("liquid");
+    law.gravity = Vec3(0, -9.8, 0);
+    law.scenery.colliders = {Plane{}};
+    Particles particles;
+    append(particles, {.position = Vec3(0, 0.1, 0), .mass = 2.0});
+    append(particles, {.position = Vec3(5, 3.0, 0), .mass = 2.0});
+    for (const ForceMethod method : {ForceMethod::grid, ForceMethod::reference}) {
+        ForceEvaluator evaluator(law, method);
+        std::vector<Vec3> forces;
+        evaluator.evaluate(particles, particles.velocity, forces);
+        const Vec3 contact = contactForce(law.scenery, {particles.position[0], Vec3::Zero(), 0.15, 2.0});
+        CHECK(contact.y() > 0.0);
+        CHECK(forces[0].y() == Approx(-19.6 + contact.y()).epsilon(4 * kEps));  // two sums
+        CHECK(forces[1] == Vec3(0, -19.6, 0));
+    }
+}

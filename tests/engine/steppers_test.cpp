@@ -1,0 +1,154 @@
+// Order of convergence, closed forms, and what must be kept or may only fall.
+#include "engine/steppers.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "clouds.h"
+#include "engine/bodies.h"
+#include "engine/decay.h"
+#include "engine/diagnostics.h"
+#include "engine/local_error.h"
+
+using namespace engine;
+
+namespace {
+
+Setup freeSetup(const Material& material, StepperKind stepper, double step) {
+    Setup setup;
+    setup.materials = {material};
+    setup.gravity = Vec3::Zero();
+    setup.stepper = stepper;
+    setup.step = step;
+    return setup;
+}
+
+/// Two solid particles about their rest length; amplitude in metres.
+Setup oscillator(StepperKind stepper, double step, double amplitude) {
+    Material material = *materialPreset("solid");
+    material.damping = 0.0;
+    Setup setup = freeSetup(material, stepper, step);
+    append(setup.initial, {.position = Vec3(0.15 + 0.5 * amplitude, 0, 0)});
+    append(setup.initial, {.position = Vec3(-0.15 - 0.5 * amplitude, 0, 0)});
+    return setup;
+}
+
+/// A damped, moving packing with drag after 0.1 s. No pair gets as close as the core, whose kink would hide the order.
+std::vector<Vec3> packingAt(const char* preset, StepperKind stepper, double step) {
+    Setup setup = freeSetup(*materialPreset(preset), stepper, step);
+    setup.drag = 1.005;
+    for (const Vec3& position : gridPositions(Vec3::Zero(), {4, 4, 3}, {.spacing = 0.27, .jitter = 0.1}))
+        append(setup.initial, {.position = position, .velocity = clouds::randomVector(3, setup.initial.count())});
+    Simulation simulation = start(setup);
+    advance(simulation, 0.1);
+    return simulation.particles.position;
+}
+
+double distanceBetween(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double sumSq = 0.0;
+    for (std::size_t p = 0; p < a.size(); ++p) sumSq += squaredLength(a[p] - b[p]);
+    return std::sqrt(sumSq / static_cast<double>(a.size()));
+}
+
+double measuredOrder(const char* preset, StepperKind stepper) {
+    const auto reference = packingAt(preset, StepperKind::velocityVerlet, 0.1 / 8192);
+    const double coarse = distanceBetween(packingAt(preset, stepper, 0.1 / 128), reference);
+    const double fine = distanceBetween(packingAt(preset, stepper, 0.1 / 256), reference);
+    return std::log2(coarse / fine);
+}
+
+}  // namespace
+
+TEST_CASE("Symplectic Euler is of order 1, velocity Verlet of order 2, with damping and drag", "[steppers]") {
+    for (const char* preset : {"liquid", "solid", "powder"}) {
+        INFO(preset);
+        // The next order contributes its share of the step, under a tenth at 128 steps.
+        CHECK(measuredOrder(preset, StepperKind::symplecticEuler) == Approx(1.0).margin(0.1));
+        CHECK(measuredOrder(preset, StepperKind::velocityVerlet) == Approx(2.0).margin(0.1));
+    }
+}
+
+TEST_CASE("One step of symplectic Euler is equations 7 and 8", "[steppers]") {
+    Setup setup = freeSetup(*materialPreset("liquid"), StepperKind::symplecticEuler, 0.01);
+    setup.gravity = Vec3(0, -9.8, 0);
+    append(setup.initial, {.position = Vec3(1, 2, 3), .velocity = Vec3(1, 0, 0)});
+    Simulation simulation = start(setup);
+    advance(simulation, 0.01);
+    CHECK(simulation.particles.velocity[0].isApprox(Vec3(1, -0.098, 0), 1e-15));
+    CHECK(simulation.particles.position[0].isApprox(Vec3(1.01, 2 - 0.00098, 3), 1e-15));
+}
+
+TEST_CASE("Two bodies oscillate with the closed-form period", "[steppers]") {
+    // Reduced mass 1/2, k = 2 (1 - 1/c_r^2) b1 / D0^5: omega = sqrt(2 k). Phase after five periods measured by position.
+    const double omega = std::sqrt(2.0 * 2.0 * 0.75 * 0.8 / std::pow(0.3, 5));
+    const double amplitude = 1e-5;
+    Simulation simulation = start(oscillator(StepperKind::velocityVerlet, 1e-5, amplitude));
+    advance(simulation, 5.25 * 2.0 * M_PI / omega);
+    const double gap = simulation.particles.position[0].x() - simulation.particles.position[1].x() - 0.3;
+    // A quarter period past a crest: zero, up to the phase error omega^3 dt^2 t/24 = 1.3e-6 and anharmonic shift of about
+    // (amplitude/D0)^2 and offset of order (F''/2k) amplitude^2 = 10 amplitude^2/D0.
+    CHECK(std::abs(gap) <= amplitude * (1e-5 + 15 * amplitude / 0.3));
+}
+
+TEST_CASE("Without damping the energy error falls with the order of the step", "[steppers]") {
+    const auto drift = [](double step) {
+        Simulation simulation = start(oscillator(StepperKind::velocityVerlet, step, 0.03));
+        const double before = energy(simulation.evaluator, simulation.particles).total();
+        double largest = 0.0;
+        for (int frame = 1; frame <= 50; ++frame) {
+            advance(simulation, 0.01 * frame);
+            const double now = energy(simulation.evaluator, simulation.particles).total();
+            largest = std::max(largest, std::abs(now - before));
+        }
+        return largest;
+    };
+    CHECK(std::log2(drift(1e-3) / drift(5e-4)) == Approx(2.0).margin(0.15));  // the share of the next even order
+}
+
+TEST_CASE("Damping and drag only remove energy, momentum is kept without drag", "[steppers]") {
+    Setup setup = freeSetup(*materialPreset("solid"), StepperKind::velocityVerlet, 1e-4);
+    setup.initial = clouds::strewnUnequal(100, 0.8);
+    Simulation simulation = start(setup);
+    const Vec3 momentum = linearMomentum(simulation.particles);
+    const Vec3 spin = angularMomentum(simulation.particles);
+    double before = energy(simulation.evaluator, simulation.particles).total();
+    for (int frame = 1; frame <= 20; ++frame) {
+        advance(simulation, 0.005 * frame);
+        const double now = energy(simulation.evaluator, simulation.particles).total();
+        CHECK(now < before);
+        before = now;
+    }
+    double scale = 0.0;
+    for (std::size_t p = 0; p < 100; ++p) scale += simulation.particles.mass[p] * simulation.particles.velocity[p].norm();
+    CHECK((linearMomentum(simulation.particles) - momentum).norm() <= 1e-13 * scale);  // a rounding a step and particle
+    CHECK((angularMomentum(simulation.particles) - spin).norm() <= 1e-13 * scale * 3.0);  // arms of up to 3 m
+}
+
+TEST_CASE("Drag does not depend on the step", "[steppers]") {
+    for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet})
+        for (const double step : {0.1, 0.01, 0.003}) {
+            Setup setup = freeSetup(*materialPreset("liquid"), stepper, step);
+            setup.drag = 1.005;
+            append(setup.initial, {.velocity = Vec3(2, 0, 0)});
+            Simulation simulation = start(setup);
+            advance(simulation, 1.0);
+            CHECK(simulation.particles.velocity[0].x() == Approx(2 * std::exp(-1.005)).epsilon(1e-13));  // 334 products
+        }
+}
+
+TEST_CASE("The local error of a step is what the stepper really errs by", "[steppers]") {
+    Setup setup = freeSetup(*materialPreset("solid"), StepperKind::velocityVerlet, 1e-3);
+    setup.initial = clouds::strewn(40, 0.5);
+    Simulation simulation = start(setup);
+    advance(simulation, 0.01);
+    const std::string before = stateHash(simulation.particles);
+    const double estimate = localError(simulation);
+    CHECK(stateHash(simulation.particles) == before);
+
+    Simulation coarse = simulation;
+    takeStep(coarse, 1e-3);
+    Simulation exact = simulation;
+    for (int k = 0; k < 256; ++k) takeStep(exact, 1e-3 / 256);
+    const double real = distanceBetween(coarse.particles.position, exact.particles.position) / 0.15 / 1e-3;
+    CHECK(estimate == Approx(real).epsilon(0.25));  // the next order's share at this step
+}
