@@ -1,4 +1,4 @@
-// Which terms a set of particles needs, and the total force: pairs, gravity, obstacles.
+// The total force: pairs, gravity, obstacles.
 #include "engine/forces.h"
 
 #include <tbb/blocked_range.h>
@@ -7,45 +7,12 @@
 
 #include <utility>
 
+#include "engine/forces_grid.h"
+
 namespace engine {
-namespace {
-
-bool sameLaw(const Material& a, const Material& b) {
-    return a.repulsion == b.repulsion && a.damping == b.damping && a.repulsionReach == b.repulsionReach &&
-           a.dampingReach == b.dampingReach && a.coreFraction == b.coreFraction;
-}
-
-}  // namespace
-
-std::vector<Material> mixedPairs(const std::vector<Material>& materials) {
-    std::vector<Material> pairs;
-    for (const Material& a : materials)
-        for (const Material& b : materials) pairs.push_back(sameLaw(a, b) ? a : mixed(a, b));
-    return pairs;
-}
-
-ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
-    ForceTerms terms;
-    double reach = 0.0;
-    for (const Material& material : law.materials) {
-        terms.pair.attraction |= material.repulsionReach > 1.0;
-        terms.pair.damping |= material.damping > 0.0;
-        terms.uniform &= sameLaw(material, law.materials.front());
-        // The mix's reaches lie between those of its parts.
-        reach = std::max(reach, material.repulsionReach);
-        if (material.damping > 0.0) reach = std::max(reach, material.dampingReach);
-    }
-    double largestRadius = 0.0;
-    for (const double radius : particles.radius) {
-        terms.uniform &= radius == particles.radius.front();
-        largestRadius = std::max(largestRadius, radius);
-    }
-    terms.cutoff = reach * 2.0 * largestRadius;
-    return terms;
-}
 
 ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method)
-    : law_(std::move(law)), method_(method), pairs_(mixedPairs(law_.materials)) {}
+    : law_(std::move(law)), method_(method), pairs_(law_) {}
 
 void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
                               std::vector<Vec3>& forces) {
@@ -66,6 +33,20 @@ void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3
             for (std::size_t p = range.begin(); p < range.end(); ++p) addExternal(p);
         });
     });
+}
+
+void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,
+                                    std::vector<Vec3>& forces) {
+    forces.assign(particles.count(), Vec3::Zero());
+    if (particles.count() < 2) return;
+    pairs_.prepare(law_, particles, velocities);
+    pairForces(pairs_, forces);
+}
+
+double ForceEvaluator::pairEnergyGrid(const Particles& particles) {
+    if (particles.count() < 2) return 0.0;
+    pairs_.prepare(law_, particles, particles.velocity);
+    return pairEnergySum(pairs_);
 }
 
 }  // namespace engine

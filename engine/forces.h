@@ -4,10 +4,8 @@
 
 #include <vector>
 
-#include "engine/colliders.h"
-#include "engine/material.h"
-#include "engine/neighbours.h"
-#include "engine/pair_law.h"
+#include "engine/force_law.h"
+#include "engine/pair_traversal.h"
 #include "engine/particles.h"
 
 namespace engine {
@@ -17,25 +15,6 @@ enum class ForceMethod {
     grid        ///< pairs of neighbouring cells, threaded
 };
 
-/// Everything that acts on particles.
-struct ForceLaw {
-    std::vector<Material> materials;
-    Vec3 gravity = Vec3::Zero();    ///< m/s^2
-    Scenery scenery;
-};
-
-/// What some pair of the particles needs; the rest is not compiled into their kernel.
-struct ForceTerms {
-    PairTerms pair{.attraction = false, .damping = false};
-    bool uniform = true;            ///< one law and one radius: constants are not looked up per pair
-    double cutoff = 0.0;            ///< no pair acts at or beyond it, m
-};
-
-ForceTerms termsFor(const ForceLaw& law, const Particles& particles);
-
-/// Every particle's material against every other's, mixed once. Row-major, materials.size() squared.
-std::vector<Material> mixedPairs(const std::vector<Material>& materials);
-
 /// The pair forces of equation 1, in newtons, by every pair in double. The oracle of every faster way; never optimised.
 /// Shape:  velocities and forces as particles.position; velocities are those the damping sees (m/s).
 void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
@@ -43,15 +22,6 @@ void pairForcesReference(const ForceLaw& law, const Particles& particles, const 
 
 /// Pair energy of the conservative part, in joules, by every pair.
 double pairEnergyReference(const ForceLaw& law, const Particles& particles);
-
-/// A particle as the grid kernel reads it, in cell order; one cache line.
-struct alignas(64) PairRecord {
-    double x, y, z;
-    double vx, vy, vz;
-    double radius;
-    std::uint32_t material;
-    std::uint32_t id;
-};
 
 /// Evaluates forces again and again and keeps the memory it needs for that.
 class ForceEvaluator {
@@ -72,14 +42,9 @@ class ForceEvaluator {
     const ForceLaw& law() const { return law_; }
 
    private:
-    void sortIntoCells(const Particles& particles, const std::vector<Vec3>& velocities, double cutoff);
-
     ForceLaw law_;
     ForceMethod method_ = ForceMethod::grid;
-    std::vector<Material> pairs_;       ///< mixedPairs of the law's materials
-    CellGrid grid_;
-    std::vector<PairRecord> records_;   ///< in the grid's order
-    std::vector<double> energies_;      ///< per particle, in the grid's order
+    PairTraversal pairs_;
 };
 
 }  // namespace engine

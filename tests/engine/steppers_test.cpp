@@ -9,6 +9,7 @@
 #include "engine/decay.h"
 #include "engine/diagnostics.h"
 #include "engine/local_error.h"
+#include "engine/step_bound.h"
 
 using namespace engine;
 
@@ -151,4 +152,34 @@ TEST_CASE("The local error of a step is what the stepper really errs by", "[step
     for (int k = 0; k < 256; ++k) takeStep(exact, 1e-3 / 256);
     const double real = distanceBetween(coarse.particles.position, exact.particles.position) / 0.15 / 1e-3;
     CHECK(estimate == Approx(real).epsilon(0.25));  // the next order's share at this step
+}
+
+TEST_CASE("The step bound of two bodies is the closed form, and it is the limit", "[steppers]") {
+    Simulation pair = start(oscillator(StepperKind::symplecticEuler, 0.01, 0.0));
+    const auto bound = stepBound(pair.evaluator.law(), pair.particles);
+    REQUIRE(bound);
+    // w^2 = 2 k / m without damping: dt = 2 / w.
+    const double stiffness = 2.0 * 0.75 * 0.8 / std::pow(0.3, 5);
+    CHECK(bound->seconds == Approx(2.0 / std::sqrt(2.0 * stiffness)).epsilon(1e-12));  // roundings of a root and an eigenvalue
+    CHECK_FALSE(bound->byDamping);
+    const auto largestGap = [](double step) {
+        Simulation simulation = start(oscillator(StepperKind::symplecticEuler, step, 1e-7));
+        double largest = 0.0;
+        for (int k = 1; k <= 200; ++k) {
+            takeStep(simulation, step);
+            largest = std::max(largest, std::abs(simulation.particles.position[0].x() - simulation.particles.position[1].x() - 0.3));
+        }
+        return largest;
+    };
+    CHECK(largestGap(0.95 * bound->seconds) < 1e-6);  // bounded: at most 1/sqrt(1 - 0.95^2) = 3.2 times the amplitude
+    CHECK(largestGap(1.05 * bound->seconds) > 1e-3);  // grows by acosh(1.05) = 0.63 an oscillation until it is large
+}
+
+TEST_CASE("No step bound without pairs, a damping bound with strong damping", "[steppers]") {
+    CHECK_FALSE(stepBound(clouds::lawOf("solid"), clouds::strewn(1, 1.0)));
+    Material honey = *materialPreset("liquid");
+    honey.damping = 1000.0;
+    const auto bound = stepBound(clouds::lawOf(honey), clouds::strewn(50, 0.4));
+    REQUIRE(bound);
+    CHECK(bound->byDamping);
 }

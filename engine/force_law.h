@@ -1,0 +1,32 @@
+// What acts on particles, and which of its terms a set of particles needs.
+#pragma once
+
+#include <vector>
+
+#include "engine/colliders.h"
+#include "engine/material.h"
+#include "engine/pair_law.h"
+#include "engine/particles.h"
+
+namespace engine {
+
+/// Everything that acts on particles.
+struct ForceLaw {
+    std::vector<Material> materials;
+    Vec3 gravity = Vec3::Zero();    ///< m/s^2
+    Scenery scenery;
+};
+
+/// What some pair of the particles needs; the rest is not compiled into their kernel.
+struct ForceTerms {
+    PairTerms pair{.attraction = false, .damping = false};
+    bool uniform = true;            ///< one law and one radius: constants are not looked up per pair
+    double cutoff = 0.0;            ///< no pair acts at or beyond it, m
+};
+
+ForceTerms termsFor(const ForceLaw& law, const Particles& particles);
+
+/// Every particle's material against every other's, mixed once. Row-major, materials.size() squared.
+std::vector<Material> mixedPairs(const std::vector<Material>& materials);
+
+}  // namespace engine
