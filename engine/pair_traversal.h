@@ -7,6 +7,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "engine/force_law.h"
@@ -46,23 +48,23 @@ struct PairTraversal {
     }
 
     /// Calls visit(other, P, P.P) for every other particle within the cutoff of the one at a place in the grid's order.
+    /// Most candidates of a cell are out of reach, unpredictably so: they are sifted without branches first.
     template <class Visit>
     void forEachNeighbour(const Neighbourhood& around, std::uint32_t self, const Visit& visit) const {
         const PairRecord& p = records[self];
         const double cutoffSq = terms.cutoff * terms.cutoff;
+        std::array<std::uint32_t, kSieve> within;
         for (int r = 0; r < around.count; ++r) {
             const CellRange range = around.ranges[static_cast<std::size_t>(r)];
-            for (std::uint32_t other = range.begin; other < range.end; ++other) {
-                const PairRecord& i = records[other];
-                Vec3 separation(p.x - i.x, p.y - i.y, p.z - i.z);
-                double distanceSq = squaredLength(separation);
-                if (distanceSq >= cutoffSq || other == self) continue;
-                if (distanceSq == 0.0) {
-                    const auto [x, y, z] = coincidentSeparation(p.id, i.id, p.radius + i.radius);
-                    separation = Vec3(x, y, z);
-                    distanceSq = squaredLength(separation);
+            for (std::uint32_t begin = range.begin; begin < range.end; begin += kSieve) {
+                const std::uint32_t end = std::min(begin + kSieve, range.end);
+                std::size_t found = 0;
+                for (std::uint32_t other = begin; other < end; ++other) {
+                    within[found] = other;
+                    found += squaredLength(separationOf(p, records[other])) < cutoffSq ? 1U : 0U;
                 }
-                visit(i, separation, distanceSq);
+                for (std::size_t k = 0; k < found; ++k)
+                    if (within[k] != self) visitOne(p, records[within[k]], visit);
             }
         }
     }
@@ -81,6 +83,23 @@ struct PairTraversal {
                 }
             });
         });
+    }
+
+   private:
+    static constexpr std::uint32_t kSieve = 256;    // chosen: a kilobyte on the stack, longer than most rows of cells
+
+    static Vec3 separationOf(const PairRecord& p, const PairRecord& i) { return {p.x - i.x, p.y - i.y, p.z - i.z}; }
+
+    template <class Visit>
+    static void visitOne(const PairRecord& p, const PairRecord& i, const Visit& visit) {
+        Vec3 separation = separationOf(p, i);
+        double distanceSq = squaredLength(separation);
+        if (distanceSq == 0.0) {
+            const auto [x, y, z] = coincidentSeparation(p.id, i.id, p.radius + i.radius);
+            separation = Vec3(x, y, z);
+            distanceSq = squaredLength(separation);
+        }
+        visit(i, separation, distanceSq);
     }
 };
 

@@ -54,6 +54,10 @@ void takeStep(Simulation& simulation, double h) {
     }
 }
 
+std::string_view nameOf(StepperKind stepper) {
+    return stepper == StepperKind::symplecticEuler ? "symplectic-euler" : "velocity-verlet";
+}
+
 int orderOf(StepperKind stepper) { return stepper == StepperKind::symplecticEuler ? 1 : 2; }
 
 }  // namespace engine

@@ -1,0 +1,50 @@
+// A camera as the passes use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that a sphere can touch.
+// The light is such a camera too (parallel projection along the light).
+#pragma once
+
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "render/view.h"
+
+namespace render {
+
+/// Pixels or cells, both ends included.
+struct Rect {
+    int x0 = 0;
+    int y0 = 0;
+    int x1 = -1;
+    int y1 = -1;
+};
+
+/// Seen from here a point is p = x right + y up + z forward, relative to the eye; z is the view depth.
+/// Holds:  right, up, forward are orthonormal; pixel (px, py) looks along (halfWidth X, halfHeight Y, 1) from the eye in
+///         perspective, along (0, 0, 1) from (halfWidth X, halfHeight Y, 0) in parallel projection, where X = 2 px/width - 1 and
+///         Y = 1 - 2 py/height.
+struct CameraFrame {
+    glm::vec3 eye{0.0F};
+    glm::vec3 right{1.0F, 0.0F, 0.0F};
+    glm::vec3 up{0.0F, 1.0F, 0.0F};
+    glm::vec3 forward{0.0F, 0.0F, -1.0F};
+    float halfWidth = 1.0F;
+    float halfHeight = 1.0F;
+    bool perspective = true;
+    int width = 1;      ///< pixels
+    int height = 1;
+
+    glm::vec3 toView(glm::vec3 point) const {
+        const glm::vec3 offset = point - eye;
+        return {dot(offset, right), dot(offset, up), dot(offset, forward)};
+    }
+    /// Width of a pixel in metres: at view depth 1 in perspective, at any depth in parallel projection.
+    float pixelWidth() const { return 2.0F * halfHeight / static_cast<float>(height); }
+};
+
+CameraFrame cameraFrame(const Camera& camera, PictureSize size);
+
+/// The pixels that a sphere in view coordinates can touch, one pixel of margin included, within the picture; empty when it is
+/// behind the eye or outside the picture. A sphere that reaches the eye's plane may touch every pixel.
+std::optional<Rect> pixelsTouched(const CameraFrame& frame, glm::vec3 center, float radius);
+
+}  // namespace render

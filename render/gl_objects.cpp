@@ -1,0 +1,100 @@
+// Creation and use of GL objects, with every limit that depends on data checked.
+#include "render/gl_objects.h"
+
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "render/system_error.h"
+
+namespace render {
+
+namespace {
+
+template <typename Name>
+Name generate(const Gl& gl, void (*make)(GLsizei, GLuint*)) {
+    GLuint name = 0;
+    make(1, &name);
+    return Name(gl, name);
+}
+
+GLint limitOf(const Gl& gl, GLenum name) {
+    GLint value = 0;
+    gl.GetIntegerv(name, &value);
+    return value;
+}
+
+}  // namespace
+
+TextureBuffer::TextureBuffer(const Gl& gl, std::string_view name, GLenum format, std::size_t texelBytes)
+    : gl_(&gl),
+      name_(name),
+      texelBytes_(texelBytes),
+      buffer_(generate<BufferName>(gl, gl.GenBuffers)),
+      texture_(generate<TextureName>(gl, gl.GenTextures)) {
+    gl.BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
+    gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(texelBytes), nullptr, GL_STREAM_DRAW);
+    gl.BindTexture(GL_TEXTURE_BUFFER, texture_.get());
+    gl.TexBuffer(GL_TEXTURE_BUFFER, format, buffer_.get());
+}
+
+void TextureBuffer::upload(std::span<const std::byte> bytes) {
+    const auto limit = static_cast<std::size_t>(limitOf(*gl_, GL_MAX_TEXTURE_BUFFER_SIZE));
+    const std::size_t texels = bytes.size() / texelBytes_;
+    if (texels > limit) {
+        throw SystemError(fmt::format("{} entries of {} are more than OpenGL's texture buffers hold ({})", texels, name_, limit));
+    }
+    gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
+    // An empty buffer may not be sampled at all; one texel always stands.
+    const std::size_t size = bytes.empty() ? texelBytes_ : bytes.size();
+    gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(), GL_STREAM_DRAW);
+}
+
+void TextureBuffer::bind(int unit) const {
+    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl_->BindTexture(GL_TEXTURE_BUFFER, texture_.get());
+}
+
+Target::Target(const Gl& gl, GLenum format, int width, int height)
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      texture_(generate<TextureName>(gl, gl.GenTextures)),
+      framebuffer_(generate<FramebufferName>(gl, gl.GenFramebuffers)) {
+    const GLint limit = limitOf(gl, GL_MAX_TEXTURE_SIZE);
+    if (width > limit || height > limit) {
+        throw SystemError(fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}", width, height, limit));
+    }
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, texture_.get());
+    const GLenum type = format == GL_RGBA8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
+    gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA, type, nullptr);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.get(), 0);
+    const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        throw SystemError(fmt::format("OpenGL cannot draw to {} x {} pixels: framebuffer status 0x{:04x}", width, height, status));
+    }
+}
+
+void Target::bindForDrawing() const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    gl_->Viewport(0, 0, width_, height_);
+}
+
+void Target::bindAsTexture(int unit) const {
+    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl_->BindTexture(GL_TEXTURE_2D, texture_.get());
+}
+
+void checkGl(const Gl& gl, std::string_view doing) {
+    const GLenum error = gl.GetError();
+    if (error == GL_NO_ERROR) return;
+    const char* meaning = error == GL_OUT_OF_MEMORY ? " (out of memory)" : "";
+    throw SystemError(fmt::format("OpenGL error 0x{:04x}{} while {}", error, meaning, doing));
+}
+
+}  // namespace render

@@ -1,0 +1,86 @@
+// OpenGL handles that free themselves. All need their context current while they live, are used and die.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "render/gl.h"
+
+namespace render {
+
+/// Owns one GL name; Delete frees it.
+template <void (*Delete)(const Gl&, GLuint)>
+class GlName {
+ public:
+    GlName() = default;
+    GlName(const Gl& gl, GLuint name) : gl_(&gl), name_(name) {}
+    GlName(GlName&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+    GlName& operator=(GlName&& other) noexcept {
+        std::swap(gl_, other.gl_);
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    ~GlName() {
+        if (name_ != 0) Delete(*gl_, name_);
+    }
+    GLuint get() const { return name_; }
+
+ private:
+    const Gl* gl_ = nullptr;
+    GLuint name_ = 0;
+};
+
+inline void deleteBuffer(const Gl& gl, GLuint name) { gl.DeleteBuffers(1, &name); }
+inline void deleteTexture(const Gl& gl, GLuint name) { gl.DeleteTextures(1, &name); }
+inline void deleteFramebuffer(const Gl& gl, GLuint name) { gl.DeleteFramebuffers(1, &name); }
+inline void deleteVertexArray(const Gl& gl, GLuint name) { gl.DeleteVertexArrays(1, &name); }
+inline void deleteProgram(const Gl& gl, GLuint name) { gl.DeleteProgram(name); }
+
+using BufferName = GlName<deleteBuffer>;
+using TextureName = GlName<deleteTexture>;
+using FramebufferName = GlName<deleteFramebuffer>;
+using VertexArrayName = GlName<deleteVertexArray>;
+using ProgramName = GlName<deleteProgram>;
+
+/// A list that shaders read by texelFetch; a texture buffer is read twice as fast as a storage buffer in llvmpipe.
+class TextureBuffer {
+ public:
+    /// format: GL_RGBA32F and the like; texelBytes: its size.
+    TextureBuffer(const Gl& gl, std::string_view name, GLenum format, std::size_t texelBytes);
+
+    /// Replaces the contents. Throws SystemError beyond what OpenGL can address.
+    void upload(std::span<const std::byte> bytes);
+    void bind(int unit) const;
+
+ private:
+    const Gl* gl_;
+    std::string_view name_;
+    std::size_t texelBytes_;
+    BufferName buffer_;
+    TextureName texture_;
+};
+
+/// A colour target of a fixed size. Throws SystemError where OpenGL cannot make it.
+class Target {
+ public:
+    Target(const Gl& gl, GLenum format, int width, int height);
+
+    void bindForDrawing() const;
+    void bindAsTexture(int unit) const;
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+ private:
+    const Gl* gl_;
+    int width_;
+    int height_;
+    TextureName texture_;
+    FramebufferName framebuffer_;
+};
+
+/// Throws SystemError with OpenGL's error code where anything failed since the last call.
+void checkGl(const Gl& gl, std::string_view doing);
+
+}  // namespace render

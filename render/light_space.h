@@ -1,0 +1,60 @@
+// The view from the light: a plane spanned by u and v, heights towards the light. Spheres that cast shadows are binned to a
+// grid on that plane, so that a shaded point walks only what may stand between it and the light. Positions relative to the eye.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/tiles.h"
+
+namespace render {
+
+/// Right-handed and orthonormal: u, v, and towards the light.
+struct LightBasis {
+    glm::vec3 u{1.0F, 0.0F, 0.0F};
+    glm::vec3 v{0.0F, 0.0F, 1.0F};
+    glm::vec3 toLight{0.0F, 1.0F, 0.0F};
+
+    glm::vec3 toLightSpace(glm::vec3 point) const { return {dot(point, u), dot(point, v), dot(point, toLight)}; }
+};
+
+LightBasis lightBasis(glm::vec3 toLight);
+
+/// A sphere that casts shadows; what the shaders read.
+struct LightSphere {
+    float u = 0.0F;
+    float v = 0.0F;
+    float height = 0.0F;
+    float radius = 0.0F;
+};
+
+/// Begin and end of a cell's list.
+struct ListRange {
+    std::int32_t begin = 0;
+    std::int32_t end = 0;
+};
+
+struct LightGrid {
+    glm::vec2 origin{0.0F};
+    float cellSize = 1.0F;
+    int columns = 1;
+    int rows = 1;
+    std::vector<ListRange> cells;
+    std::vector<LightSphere> spheres;   ///< cell after cell, the nearest to the light first
+};
+
+/// Bins spheres (center relative to the eye) for a light.
+LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres);
+
+/// Bounds of spheres on the light's plane and along it.
+struct LightBounds {
+    glm::vec3 low{0.0F};
+    glm::vec3 high{0.0F};
+};
+
+LightBounds lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres);
+
+}  // namespace render

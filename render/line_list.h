@@ -1,0 +1,30 @@
+// Edges of boxes and the like as straight lines on the picture: projected, clipped, binned to tiles. Used by the picture pass.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/camera_frame.h"
+#include "render/tiles.h"
+#include "render/view.h"
+
+namespace render {
+
+/// Three texels, as shaders/lines.glsl reads them.
+struct ScreenLine {
+    glm::vec4 ends{0.0F};       ///< x, y of both ends, pixels
+    glm::vec4 depths{1.0F};     ///< view depth at both ends, m; width, pixels; unused
+    glm::vec4 color{0.0F};
+};
+
+struct LineList {
+    std::vector<ScreenLine> lines;
+    CellLists tiles;
+};
+
+/// Leaves out what is behind the eye or outside the picture.
+LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges);
+
+}  // namespace render

@@ -1,0 +1,77 @@
+// Draws a view tile by tile: fills the lists that the shaders walk, chooses a program for each class of tiles, draws. Used by
+// the Renderer alone, with the context current.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/camera_frame.h"
+#include "render/gl_objects.h"
+#include "render/light_space.h"
+#include "render/line_list.h"
+#include "render/metaball_frame.h"
+#include "render/program_cache.h"
+#include "render/view.h"
+
+namespace render {
+
+/// Mirrors FrameBlock of shaders/frame.glsl, where the fields are explained.
+struct FrameBlock {
+    glm::vec4 right, up, forward, picture, toLight, lightColor, ambientSky, ambientGround, groundColor, groundCenter;
+    glm::vec4 backgroundTop, backgroundBottom, lightU, lightV, lightGrid;
+    glm::ivec4 lightCells;
+    glm::vec4 depthMap;
+    glm::ivec4 counts;
+};
+
+/// Which rays one drawing takes through a pixel, and what becomes of their colours.
+struct Sampling {
+    int samples = 1;                ///< 1 or 4
+    glm::vec2 offset{0.0F};         ///< from the pixel's middle, pixels; with one sample only
+    bool encode = true;             ///< sRGB bytes; otherwise linear
+};
+
+class PicturePass {
+ public:
+    explicit PicturePass(const Gl& gl);
+
+    /// Fills and uploads everything that does not depend on where in the pixel the rays go.
+    void prepare(const CameraFrame& frame, const View& view, int depthMapTexels);
+
+    /// Casts the metaballs for these rays; draws nothing yet. Does nothing for spheres.
+    void castField(const View& view, const Sampling& sampling);
+
+    /// Draws to the bound target, whose size is a whole number of tiles.
+    void draw(const View& view, const Sampling& sampling, PictureSize target);
+
+    ProgramCache& programs() { return programs_; }
+
+ private:
+    void uploadSpheres(const View& view);
+    void uploadLight(const View& view, int depthMapTexels);
+    void uploadLines(const View& view);
+    void uploadBoxes(const View& view);
+    void uploadFrame(const View& view, const Sampling& sampling);
+    Features featuresOf(const View& view, const Sampling& sampling, int tileClass) const;
+    int classOf(std::size_t tile) const;
+    std::vector<int> uploadTileTable();
+
+    const Gl* gl_;
+    ProgramCache programs_;
+    TextureBuffer boxes_, tileTable_, tileSpheres_, tileSphereIds_, sphereColors_, fieldSamples_;
+    TextureBuffer lightLists_, lightSpheres_, lightDepths_, lines_, lineLists_;
+    BufferName frameBlock_;
+
+    CameraFrame frame_;
+    CellLists sphereTiles_;
+    LineList lineList_;
+    LightBasis light_;
+    LightGrid lightGrid_;
+    DepthMap depthMap_;
+    std::vector<std::int32_t> fieldSlots_;
+    bool castsField_ = false;
+};
+
+}  // namespace render

@@ -1,0 +1,115 @@
+// Puts shaders together from the embedded files, a #define per feature.
+#include "render/program_cache.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "render/system_error.h"
+
+namespace render {
+
+namespace {
+
+struct Unit {
+    const char* name;
+    TextureUnit unit;
+};
+
+constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
+                                          {"tileTable", kTileTableUnit},
+                                          {"tileSpheres", kTileSpheresUnit},
+                                          {"tileSphereIds", kTileSphereIdsUnit},
+                                          {"sphereColors", kSphereColorsUnit},
+                                          {"fieldSamples", kFieldSamplesUnit},
+                                          {"lightLists", kLightListsUnit},
+                                          {"lightSpheres", kLightSpheresUnit},
+                                          {"lightDepths", kLightDepthsUnit},
+                                          {"lines", kLinesUnit},
+                                          {"lineLists", kLineListsUnit},
+                                          {"accumulated", kAccumulatedUnit}}};
+
+std::string definesOf(const Features& features) {
+    std::string text = fmt::format("#version 330 core\n#extension GL_ARB_shader_bit_encoding : require\n#define SAMPLES {}\n", features.samples);
+    const auto define = [&text](const char* name, bool wanted) {
+        if (wanted) text += fmt::format("#define {}\n", name);
+    };
+    define("SPHERES", features.spheres);
+    define("FIELD", features.field);
+    define("BOXES", features.boxes);
+    define("GROUND", features.ground);
+    define("LINES", features.lines);
+    define("SHADOWS", features.shadows);
+    define("LIGHT_SPHERES", features.lightSpheres);
+    define("LIGHT_FIELD", features.lightField);
+    define("SPECULAR", features.specular);
+    define("ENCODE", features.encode);
+    return text;
+}
+
+std::string joined(std::string text, std::initializer_list<const char*> names) {
+    for (const char* name : names) text += shaderSource(name);
+    return text;
+}
+
+GLuint compile(const Gl& gl, GLenum stage, const std::string& source) {
+    const GLuint shader = gl.CreateShader(stage);
+    const char* text = source.c_str();
+    gl.ShaderSource(shader, 1, &text, nullptr);
+    gl.CompileShader(shader);
+    GLint good = GL_FALSE;
+    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good == GL_TRUE) return shader;
+    std::array<char, 2000> words{};
+    gl.GetShaderInfoLog(shader, static_cast<GLsizei>(words.size()), nullptr, words.data());
+    gl.DeleteShader(shader);
+    throw SystemError(fmt::format("OpenGL cannot compile globular's shaders: {}", words.data()));
+}
+
+}  // namespace
+
+GLuint ProgramCache::build(ProgramName& place, const std::string& vertex, const std::string& fragment) const {
+    ProgramName program(*gl_, gl_->CreateProgram());
+    const GLuint vertexShader = compile(*gl_, GL_VERTEX_SHADER, vertex);
+    const GLuint fragmentShader = compile(*gl_, GL_FRAGMENT_SHADER, fragment);
+    gl_->AttachShader(program.get(), vertexShader);
+    gl_->AttachShader(program.get(), fragmentShader);
+    gl_->LinkProgram(program.get());
+    gl_->DeleteShader(vertexShader);
+    gl_->DeleteShader(fragmentShader);
+    GLint good = GL_FALSE;
+    gl_->GetProgramiv(program.get(), GL_LINK_STATUS, &good);
+    if (good != GL_TRUE) {
+        std::array<char, 2000> words{};
+        gl_->GetProgramInfoLog(program.get(), static_cast<GLsizei>(words.size()), nullptr, words.data());
+        throw SystemError(fmt::format("OpenGL cannot link globular's shaders: {}", words.data()));
+    }
+    gl_->UseProgram(program.get());
+    for (const Unit& unit : kUnits) setInteger(program.get(), unit.name, unit.unit);
+    const GLuint block = gl_->GetUniformBlockIndex(program.get(), "FrameBlock");
+    if (block != GL_INVALID_INDEX) gl_->UniformBlockBinding(program.get(), block, 0);
+    place = std::move(program);
+    return place.get();
+}
+
+GLuint ProgramCache::picture(const Features& features) {
+    ProgramName& place = pictures_[features];
+    if (place.get() != 0) return place.get();
+    const std::string vertex = joined("#version 330 core\n", {"tile.vert"});
+    std::string fragment = joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "shadow.glsl", "shade.glsl"});
+    if (features.lines) fragment = joined(fragment, {"lines.glsl"});
+    return build(place, vertex, joined(fragment, {"picture.frag"}));
+}
+
+GLuint ProgramCache::resolve() {
+    if (resolve_.get() != 0) return resolve_.get();
+    return build(resolve_, joined("#version 330 core\n", {"full_screen.vert"}),
+                 joined("#version 330 core\n", {"encode.glsl", "resolve.frag"}));
+}
+
+void ProgramCache::setInteger(GLuint program, const char* name, int value) const {
+    const GLint location = gl_->GetUniformLocation(program, name);
+    if (location >= 0) gl_->Uniform1i(location, value);
+}
+
+}  // namespace render

@@ -1,0 +1,56 @@
+// Shader programs by what a view contains: a feature that a view lacks is not compiled in. Owned by the picture pass.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "render/gl_objects.h"
+
+namespace render {
+
+/// Text of a file of shaders/, embedded by the build.
+std::string_view shaderSource(std::string_view name);
+
+/// What one draw of tiles needs.
+struct Features {
+    int samples = 1;
+    bool spheres = false;
+    bool field = false;
+    bool boxes = false;
+    bool ground = false;
+    bool lines = false;
+    bool shadows = false;
+    bool lightSpheres = false;      ///< spheres cast shadows
+    bool lightField = false;        ///< metaballs cast shadows
+    bool specular = false;
+    bool encode = true;             ///< to sRGB bytes; otherwise linear, for averaging
+
+    auto operator<=>(const Features&) const = default;
+};
+
+/// Texture units, the same in every program.
+enum TextureUnit : int {
+    kBoxesUnit, kTileTableUnit, kTileSpheresUnit, kTileSphereIdsUnit, kSphereColorsUnit, kFieldSamplesUnit,
+    kLightListsUnit, kLightSpheresUnit, kLightDepthsUnit, kLinesUnit, kLineListsUnit, kAccumulatedUnit
+};
+
+class ProgramCache {
+ public:
+    explicit ProgramCache(const Gl& gl) : gl_(&gl) {}
+
+    /// Compiled on first use; throws SystemError with the compiler's words.
+    GLuint picture(const Features& features);
+    GLuint resolve();
+    void setInteger(GLuint program, const char* name, int value) const;
+
+ private:
+    GLuint build(ProgramName& place, const std::string& vertex, const std::string& fragment) const;
+
+    const Gl* gl_;
+    std::map<Features, ProgramName> pictures_;
+    ProgramName resolve_;
+};
+
+}  // namespace render

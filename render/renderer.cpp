@@ -1,0 +1,161 @@
+// From view to image: prepare, cast, draw, read back; at final quality nine times with the rays moved within the pixel.
+#include "render/renderer.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "render/picture_pass.h"
+#include "render/system_error.h"
+
+namespace render {
+
+namespace {
+
+// Shadow texels along the longer side of what the particles cover.
+int depthMapTexels(Quality quality) { return quality == Quality::final ? 2048 : 1024; }
+
+int wholeTiles(int pixels) { return (pixels + kTileSize - 1) / kTileSize * kTileSize; }
+
+bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Numbers that are not finite come from a bug upstream, and would make nonsense of the binning.
+void requireFinite(const View& view) {
+    for (std::size_t k = 0; k < view.particles.size(); ++k) {
+        const Sphere& s = view.particles[k];
+        if (finite(s.center) && std::isfinite(s.radius)) continue;
+        throw std::logic_error(fmt::format("render: particle {} of {} is at ({}, {}, {}) with radius {}", k, view.particles.size(),
+                                           s.center.x, s.center.y, s.center.z, s.radius));
+    }
+    if (!finite(view.camera.eye) || !finite(view.camera.target) || !finite(view.light.toLight)) {
+        throw std::logic_error("render: the camera or the light has a coordinate that is not finite");
+    }
+}
+
+class Stopwatch {
+ public:
+    /// Seconds since the last call.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - start_).count();
+        start_ = now;
+        return seconds;
+    }
+
+ private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+PictureSize checkedSize(PictureSize size) {
+    if (size.width > 0 && size.height > 0) return size;
+    throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
+}
+
+VertexArrayName vertexArray(const Gl& gl) {
+    GLuint name = 0;
+    gl.GenVertexArrays(1, &name);
+    return VertexArrayName(gl, name);
+}
+
+}  // namespace
+
+struct Renderer::Parts {
+    Parts(Context& context_, PictureSize size_, Quality quality_)
+        : context(context_), size(checkedSize(size_)), padded{wholeTiles(size_.width), wholeTiles(size_.height)}, quality(quality_),
+          pass(context_.gl()), bytes(context_.gl(), GL_RGBA8, padded.width, padded.height), vertices(vertexArray(context_.gl())) {
+        if (quality == Quality::final) linear = std::make_unique<Target>(context_.gl(), GL_RGBA32F, padded.width, padded.height);
+        context.gl().BindVertexArray(vertices.get());
+        context.gl().Enable(GL_PROGRAM_POINT_SIZE);
+        context.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
+        context.gl().BlendFunc(GL_ONE, GL_ONE);
+    }
+
+    void drawOnce(const View& view, const Sampling& sampling) {
+        Stopwatch watch;
+        pass.castField(view, sampling);
+        times.cast += watch.lap();
+        pass.draw(view, sampling, padded);
+        times.draw += watch.lap();
+    }
+
+    // Regular 3 x 3 grid, each sample clamped, averaged in linear light.
+    void drawFinal(const View& view) {
+        const Gl& gl = context.gl();
+        linear->bindForDrawing();
+        gl.ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+        gl.Clear(GL_COLOR_BUFFER_BIT);
+        gl.Enable(GL_BLEND);
+        for (int row = -1; row <= 1; ++row) {
+            for (int column = -1; column <= 1; ++column) {
+                drawOnce(view, {1, glm::vec2(column, row) / 3.0F, false});
+            }
+        }
+        gl.Disable(GL_BLEND);
+        bytes.bindForDrawing();
+        linear->bindAsTexture(kAccumulatedUnit);
+        const GLuint program = pass.programs().resolve();
+        gl.UseProgram(program);
+        pass.programs().setInteger(program, "sampleCount", 9);
+        gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    }
+
+    void drawDirectly(const View& view) {
+        bytes.bindForDrawing();
+        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), true});
+    }
+
+    Image readBack() const {
+        Image image{size.width, size.height, {}};
+        image.rgb.resize(image.byteCount());
+        context.gl().ReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+        checkGl(context.gl(), "drawing a frame");
+        return image;
+    }
+
+    Context& context;
+    PictureSize size;
+    PictureSize padded;
+    Quality quality;
+    PicturePass pass;
+    Target bytes;
+    std::unique_ptr<Target> linear;
+    VertexArrayName vertices;
+    DrawTimes times;
+};
+
+Renderer::Renderer(Context& context, PictureSize size, Quality quality) {
+    const CurrentContext current(context);
+    parts_ = std::make_unique<Parts>(context, size, quality);
+    checkGl(context.gl(), "setting the renderer up");
+}
+
+Renderer::~Renderer() {
+    try {
+        const CurrentContext current(parts_->context);
+        parts_.reset();
+    } catch (const SystemError&) {
+        // Without its context nothing can be freed; the context's own end frees it.
+        static_cast<void>(parts_.release());
+    }
+}
+
+Image Renderer::draw(const View& view) {
+    requireFinite(view);
+    const CurrentContext current(parts_->context);
+    Parts& parts = *parts_;
+    parts.times = {};
+    Stopwatch watch;
+    parts.pass.prepare(cameraFrame(view.camera, parts.size), view, depthMapTexels(parts.quality));
+    parts.times.prepare = watch.lap();
+    parts.quality == Quality::final ? parts.drawFinal(view) : parts.drawDirectly(view);
+    watch.lap();
+    Image image = parts.readBack();
+    parts.times.draw += watch.lap();
+    return image;
+}
+
+const DrawTimes& Renderer::times() const { return parts_->times; }
+
+}  // namespace render

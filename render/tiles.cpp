@@ -1,0 +1,116 @@
+// Counting sort of items into cells: count, add up, fill. Called for the camera's tiles, the light's grid and the lines.
+#include "render/tiles.h"
+
+#include <array>
+#include <bit>
+#include <limits>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "render/system_error.h"
+
+namespace render {
+
+namespace {
+
+// Bits of a float in an order that compares like the float.
+std::uint32_t sortable(float key) {
+    const auto bits = std::bit_cast<std::uint32_t>(key);
+    return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
+}
+
+struct KeyedPlace {
+    std::uint32_t key;
+    std::uint32_t place;
+};
+
+constexpr int kDigitBits = 11;
+constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+
+void sortByDigit(const std::vector<KeyedPlace>& from, std::vector<KeyedPlace>& to, int shift) {
+    std::array<std::uint32_t, kDigits + 1> start{};
+    for (const KeyedPlace& item : from) ++start[((item.key >> shift) & (kDigits - 1)) + 1];
+    for (std::size_t digit = 0; digit < kDigits; ++digit) start[digit + 1] += start[digit];
+    for (const KeyedPlace& item : from) to[start[(item.key >> shift) & (kDigits - 1)]++] = item;
+}
+
+// Calls visit(cell, item) for every cell of every item within rows [row0, row1).
+template <typename Visit>
+void forCells(std::span<const BinItem> items, const CellLists& lists, Rect band, const Visit& visit) {
+    for (const BinItem& item : items) {
+        const int first = std::max(item.cells.y0, band.y0);
+        const int last = std::min(item.cells.y1, band.y1);
+        for (int row = first; row <= last; ++row) {
+            for (int column = item.cells.x0; column <= item.cells.x1; ++column) {
+                visit(lists.cellIndex(column, row), item);
+            }
+        }
+    }
+}
+
+// Bands of rows are independent of each other, so threads share neither counters nor lists.
+constexpr int kBands = 8;
+
+template <typename Visit>
+void forCellsInBands(std::span<const BinItem> items, const CellLists& lists, const Visit& visit) {
+    tbb::parallel_for(0, kBands, [&](int band) {
+        const Rect rows{0, lists.rows * band / kBands, lists.columns - 1, lists.rows * (band + 1) / kBands - 1};
+        forCells(items, lists, rows, visit);
+    });
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> orderByKey(std::span<const float> keys) {
+    std::vector<KeyedPlace> items(keys.size());
+    for (std::size_t place = 0; place < keys.size(); ++place) {
+        items[place] = {sortable(keys[place]), static_cast<std::uint32_t>(place)};
+    }
+    std::vector<KeyedPlace> other(keys.size());
+    sortByDigit(items, other, 0);
+    sortByDigit(other, items, kDigitBits);
+    sortByDigit(items, other, 2 * kDigitBits);
+    std::vector<std::uint32_t> order(keys.size());
+    for (std::size_t place = 0; place < keys.size(); ++place) order[place] = other[place].place;
+    return order;
+}
+
+CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
+    CellLists lists;
+    lists.columns = columns;
+    lists.rows = rows;
+    const std::size_t cellCount = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    std::vector<std::uint32_t> next(cellCount, 0);
+    forCellsInBands(items, lists, [&](std::size_t cell, const BinItem&) { ++next[cell]; });
+
+    lists.begin.resize(cellCount + 1, 0);
+    std::uint64_t total = 0;
+    for (std::size_t cell = 0; cell < cellCount; ++cell) {
+        lists.begin[cell] = static_cast<std::uint32_t>(total);
+        total += next[cell];
+        if (total > std::numeric_limits<std::int32_t>::max()) {
+            throw SystemError(fmt::format("drawing {} items takes more than 2^31 list entries", items.size()));
+        }
+    }
+    lists.begin[cellCount] = static_cast<std::uint32_t>(total);
+    lists.items.resize(total);
+    for (std::size_t cell = 0; cell < cellCount; ++cell) next[cell] = lists.begin[cell];
+    forCellsInBands(items, lists, [&](std::size_t cell, const BinItem& item) { lists.items[next[cell]++] = item.index; });
+    return lists;
+}
+
+CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres) {
+    std::vector<float> nearest(spheres.size());
+    for (std::size_t k = 0; k < spheres.size(); ++k) nearest[k] = spheres[k].center.z - spheres[k].radius;
+    std::vector<BinItem> items;
+    items.reserve(spheres.size());
+    for (const std::uint32_t index : orderByKey(nearest)) {
+        const auto pixels = pixelsTouched(frame, spheres[index].center, spheres[index].radius);
+        if (!pixels) continue;
+        items.push_back({index, {pixels->x0 / kTileSize, pixels->y0 / kTileSize, pixels->x1 / kTileSize, pixels->y1 / kTileSize}});
+    }
+    return binItems(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
+}
+
+}  // namespace render

@@ -1,0 +1,82 @@
+// [camera] and [look].
+#include <numbers>
+
+#include "scenes/builders.h"
+
+namespace scenes {
+namespace {
+
+using engine::Vec3;
+
+/// Squared sine of the angle below which "up" cannot be told from the direction of view.
+constexpr double kParallel = 1e-12;
+
+void checkView(Section& section, BuildContext& context) {
+    const auto forward = unitVector(section.vector("target") - section.vector("eye"));
+    const auto up = unitVector(section.vector("up"));
+    if (!forward) report(section, "target", "target is where eye is, must be another point", context);
+    if (!up) report(section, "up", "up is [0, 0, 0], must not be zero", context);
+    if (forward && up && engine::squaredLength(forward->cross(*up)) < kParallel)
+        report(section, "up", "up lies along the direction of view, must point across it", context);
+}
+
+void readColors(const Section& section, Look& look) {
+    look.backgroundTop = section.vector("background_top");
+    look.backgroundBottom = section.vector("background_bottom");
+    look.edgeColor = section.vector("edge_color");
+    look.edgeWidth = section.number("edge_width");
+    if (look.colorBy == ColorBy::material) return;
+    look.ramp = section.vectors("colors");
+    look.rampLow = section.numbers("color_range")[0];
+    look.rampHigh = section.numbers("color_range")[1];
+}
+
+void readLight(const Section& section, Look& look) {
+    look.lightColor = section.vector("light_color");
+    look.shadows = section.flag("shadows");
+    look.ambientSky = section.vector("ambient_sky");
+    look.ambientGround = section.vector("ambient_ground");
+    look.specular = section.number("specular");
+    look.glossExponent = static_cast<int>(section.integer("gloss"));
+    look.ground = section.flag("ground");
+    look.groundHeight = section.number("ground_height");
+    look.groundColor = section.vector("ground_color");
+    look.groundFade = section.number("ground_fade");
+}
+
+}  // namespace
+
+CameraPlacement buildCamera(Section& section, BuildContext& context) {
+    CameraPlacement camera;
+    checkView(section, context);
+    if (!section.isSound()) return camera;
+    camera.eye = section.vector("eye");
+    camera.target = section.vector("target");
+    camera.up = section.vector("up");
+    if (section.text("projection") == "orthographic") {
+        camera.projection = render::Projection::orthographic;
+        camera.halfHeight = section.number("half_height");
+    } else {
+        camera.verticalFov = section.number("fov") * std::numbers::pi / 180.0;
+    }
+    return camera;
+}
+
+Look buildLook(Section& section, BuildContext& context) {
+    Look look;
+    const auto toLight = unitVector(section.vector("light_direction"));
+    if (!toLight) report(section, "light_direction", "light_direction is [0, 0, 0], must not be zero", context);
+    if (!section.isSound()) return look;
+    look.toLight = *toLight;
+    look.style = section.text("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;
+    const std::string& colorBy = section.text("color_by");
+    look.colorBy = colorBy == "speed" ? ColorBy::speed : colorBy == "age" ? ColorBy::age : ColorBy::material;
+    if (look.colorBy == ColorBy::speed) section.deriveInterval("color_range", 0.0, 5.0);
+    if (look.colorBy == ColorBy::age) section.deriveInterval("color_range", 0.0, context.duration);
+    readColors(section, look);
+    readLight(section, look);
+    look.metaballReach = section.number("metaball_reach");
+    return look;
+}
+
+}  // namespace scenes

@@ -1,0 +1,27 @@
+// The 64-bit FNV-1a hash, by which runs of the same scene are recognised.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace scenes {
+
+/// FNV-1a of the bytes; continues from an earlier hash if one is given.
+constexpr std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xCBF29CE484222325ULL) {
+    for (const char byte : bytes) {
+        hash ^= static_cast<unsigned char>(byte);
+        hash *= 0x100000001B3ULL;
+    }
+    return hash;
+}
+
+/// As 16 hexadecimal digits.
+inline std::string hexadecimal(std::uint64_t hash) {
+    std::string text(16, '0');
+    for (int digit = 15; digit >= 0; --digit, hash >>= 4)
+        text[static_cast<std::size_t>(digit)] = "0123456789abcdef"[hash & 0xF];
+    return text;
+}
+
+}  // namespace scenes

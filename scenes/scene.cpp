@@ -1,0 +1,144 @@
+// The way from text to scene: parse, override, check against the schema, build the parts, and report all that went
+// wrong.
+#include "scenes/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/builders.h"
+#include "scenes/document.h"
+#include "scenes/fnv.h"
+#include "scenes/overrides.h"
+#include "scenes/read_file.h"
+#include "scenes/read_sections.h"
+
+namespace scenes {
+namespace {
+
+void readTop(const Section& top, Scene& scene) {
+    scene.title = top.text("title");
+    scene.description = top.text("description");
+    scene.duration = top.number("duration");
+    scene.fps = static_cast<int>(top.integer("fps"));
+    scene.seed = static_cast<std::uint64_t>(top.integer("seed"));
+}
+
+void readPhysics(const Section& physics, engine::Setup& setup) {
+    setup.gravity = physics.vector("gravity");
+    setup.drag = physics.number("drag");
+    setup.step = physics.number("step");
+    setup.stepper = physics.text("stepper") == "symplectic-euler" ? engine::StepperKind::symplecticEuler
+                                                                  : engine::StepperKind::velocityVerlet;
+    setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
+}
+
+void readStill(Sections& sections, BuildContext& context, Scene& scene) {
+    Section& still = sections.still;
+    still.deriveNumber("time", 0.5 * context.duration);
+    if (still.has("time") && sections.top.has("duration") && still.number("time") > context.duration)
+        report(still, "time",
+               fmt::format("time is {}, must be at most the duration, {} (seconds)", still.canonical("time"),
+                           sections.top.canonical("duration")),
+               context);
+    if (still.has("time")) scene.stillTime = still.number("time");
+}
+
+/// Something has to move.
+void checkPopulation(const Sections& sections, const engine::Setup& setup, BuildContext& context) {
+    if (sections.doubtful || !sections.emitters.empty()) return;
+    if (sections.bodies.empty())
+        context.problems.add({}, "there is nothing to simulate: give a [[body]] or an [[emitter]]");
+    else if (setup.initial.count() == 0 && context.problems.empty())
+        context.problems.add({}, "there is nothing to simulate: the bodies have no particles");
+}
+
+std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
+    std::vector<EffectiveValue> values;
+    for (const Section* section : sections.all()) {
+        for (const Key* key : keysOf(section->table().name)) {
+            const std::string_view name = nameOf(*key);
+            if (!section->has(name)) continue;
+            values.push_back(
+                {section->prefix().empty() ? std::string(name) : fmt::format("{}.{}", section->prefix(), name),
+                 section->canonical(name), std::string(key->unit), section->origin(name)});
+        }
+    }
+    return values;
+}
+
+/// Equal for scenes that mean the same, however they are written.
+std::string hashOf(const std::vector<EffectiveValue>& values, std::uint64_t contentHash) {
+    std::uint64_t hash = contentHash;
+    for (const EffectiveValue& value : values) hash = fnv1a(fmt::format("{} = {}\n", value.path, value.text), hash);
+    return hexadecimal(hash);
+}
+
+BuildContext contextOf(const Sections& sections, const std::string& fileName, ProblemList& problems) {
+    BuildContext context{.problems = problems,
+                         .folder = std::filesystem::path(fileName).parent_path().string(),
+                         .contentHash = fnv1a({})};
+    // A duration that does not fit is reported; what is built with this one is thrown away.
+    if (sections.top.has("duration")) context.duration = sections.top.number("duration");
+    context.seed = static_cast<std::uint64_t>(sections.top.integer("seed"));
+    return context;
+}
+
+void build(Sections& sections, BuildContext& context, Scene& scene) {
+    Materials materials = buildMaterials(sections.materials, context);
+    scene.setup.initial = buildBodies(sections.bodies, materials, context);
+    scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
+    Obstacles obstacles = buildObstacles(sections.obstacles, sections.look, context);
+    scene.camera = buildCamera(sections.camera, context);
+    scene.look = buildLook(sections.look, context);
+    readStill(sections, context, scene);
+    checkPopulation(sections, scene.setup, context);
+    scene.setup.materials = std::move(materials.list);
+    scene.materialColors = std::move(materials.colors);
+    scene.setup.scenery.colliders = std::move(obstacles.colliders);
+    scene.obstacleLooks = std::move(obstacles.looks);
+}
+
+}  // namespace
+
+int frameCount(const Scene& scene) {
+    return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps)));
+}
+
+int stillFrame(const Scene& scene) {
+    return std::clamp(static_cast<int>(std::lround(scene.stillTime * scene.fps)), 0, frameCount(scene) - 1);
+}
+
+double frameTime(const Scene& scene, int frame) {
+    return static_cast<double>(frame) / scene.fps;
+}
+
+Scene readScene(std::string_view text, const std::string& fileName, const std::vector<std::string>& overrides) {
+    ProblemList problems(fileName, overrides);
+    Document document = parseDocument(text, problems);
+    applyOverrides(document.root, overrides, problems);
+    Sections sections = readSections(document, problems);
+    BuildContext context = contextOf(sections, fileName, problems);
+    context.damaged = document.damaged;
+    Scene scene;
+    build(sections, context, scene);
+    problems.throwIfAny();
+
+    readTop(sections.top, scene);
+    readPhysics(sections.physics, scene.setup);
+    scene.setup.seed = scene.seed;
+    scene.size = {static_cast<int>(sections.look.numbers("size")[0]),
+                  static_cast<int>(sections.look.numbers("size")[1])};
+    scene.sourceName = fileName;
+    scene.values = effectiveValues(sections);
+    scene.sceneHash = hashOf(scene.values, context.contentHash);
+    return scene;
+}
+
+Scene loadScene(const std::string& path, const std::vector<std::string>& overrides) {
+    return readScene(readFile(path, kLargestSceneFile), path, overrides);
+}
+
+}  // namespace scenes

@@ -1,0 +1,59 @@
+// A scene: everything a scene file says, checked, in the form the engine and the renderer take. Made by readScene and
+// loadScene, which report all mistakes of a file at once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/simulation.h"
+#include "scenes/input_error.h"
+#include "scenes/look.h"
+#include "scenes/section.h"
+
+namespace scenes {
+
+/// What a key of the scene amounts to after overrides and defaults.
+struct EffectiveValue {
+    std::string path;  ///< "body[0].radius"
+    std::string text;  ///< in TOML
+    std::string unit;
+    Origin origin = Origin::given;
+};
+
+struct Scene {
+    std::string title;
+    std::string description;
+    double duration = 1.0;  ///< s
+    int fps = 30;
+    std::uint64_t seed = 1;
+    engine::Setup setup;
+    std::vector<engine::Vec3> materialColors;  ///< linear RGB, one for each material of the set-up
+    std::vector<ObstacleLook> obstacleLooks;   ///< one for each collider of the set-up
+    CameraPlacement camera;
+    Look look;
+    render::PictureSize size;
+    double stillTime = 0.5;  ///< s
+    std::string sourceName;  ///< the file it was read from
+    std::string sceneHash;   ///< 16 hexadecimal digits over all effective values and the files they name
+    std::vector<EffectiveValue> values;
+};
+
+/// Frames of the animation: round(duration * fps), at least 1.
+int frameCount(const Scene& scene);
+
+/// The moment a frame shows, in seconds: frame / fps, not accumulated. Frame 0 is the start.
+double frameTime(const Scene& scene, int frame);
+
+/// The frame nearest to the scene's still, within the animation.
+int stillFrame(const Scene& scene);
+
+/// The scene that a text describes. Files it names are sought in the folder of fileName, which also opens each message.
+/// Throws: InputError with all mistakes, by position, then those of the overrides ("physics.step=0.005").
+Scene readScene(std::string_view text, const std::string& fileName, const std::vector<std::string>& overrides);
+
+/// The scene in a file. Throws: InputError, also for a file that cannot be read.
+Scene loadScene(const std::string& path, const std::vector<std::string>& overrides);
+
+}  // namespace scenes

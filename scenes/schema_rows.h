@@ -1,0 +1,22 @@
+// The rows of the schema by subject, and the bounds they share. Included by the schema's own files only.
+#pragma once
+
+#include "scenes/schema.h"
+
+namespace scenes {
+
+inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+inline constexpr Range kPositive{.low = 0.0, .high = kNoBound, .lowOpen = true};
+inline constexpr Range kNotNegative{.low = 0.0};
+inline constexpr Range kUnitInterval{.low = 0.0, .high = 1.0};
+
+/// Title, timing, physics and materials.
+std::vector<Key> worldRows();
+
+/// Bodies, emitters and obstacles.
+std::vector<Key> contentRows();
+
+/// Camera, look and still.
+std::vector<Key> pictureRows();
+
+}  // namespace scenes

@@ -1,0 +1,92 @@
+// The arrows between folders: every #include line of the sources is read, and one that points the wrong way fails by name.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::set<std::string> kFolders = {"engine", "render", "scenes", "tools", "tests"};
+
+/// Which of our folders a folder may include, itself left out.
+const std::map<std::string, std::set<std::string>> kAllowed = {
+    {"engine", {}}, {"render", {}}, {"scenes", {"engine"}}, {"tools", {"engine", "render", "scenes"}},
+    {"tests", {"engine", "render", "scenes", "tools"}}};
+
+/// The one header of another folder that is allowed by name.
+const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", "render/view.h"}};
+
+/// What the engine and the scenes must never see: files, clocks, environment, output, GL.
+const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
+    {"engine", {"fstream", "iostream", "filesystem", "chrono", "cstdio", "cstdlib", "random", "GL/osmesa.h", "GL/glcorearb.h"}},
+    {"scenes", {"iostream", "chrono", "GL/osmesa.h", "GL/glcorearb.h"}},
+    {"render", {"iostream", "chrono"}}};
+
+struct Include {
+    std::string folder;     ///< of the file that includes
+    std::string file;
+    int line = 0;
+    std::string target;
+};
+
+std::vector<Include> includesIn(const std::string& folder, const std::string& file, std::istream& stream) {
+    static const std::regex pattern(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
+    std::vector<Include> found;
+    std::string text;
+    for (int line = 1; std::getline(stream, text); ++line) {
+        std::smatch match;
+        if (std::regex_search(text, match, pattern)) found.push_back({folder, file, line, match[1]});
+    }
+    return found;
+}
+
+std::vector<Include> allIncludes() {
+    std::vector<Include> found;
+    for (const std::string& folder : kFolders)
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLOBULAR_SOURCE) / folder)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".h" && extension != ".cpp") continue;
+            std::ifstream stream(entry.path());
+            const auto here = includesIn(folder, fs::relative(entry.path(), GLOBULAR_SOURCE).string(), stream);
+            found.insert(found.end(), here.begin(), here.end());
+        }
+    return found;
+}
+
+/// Why an include is wrong; empty if it is not.
+std::string verdict(const Include& include) {
+    const std::string target = include.target.substr(0, include.target.find('/'));
+    if (kFolders.count(target) == 1 && target != include.folder && kAllowed.at(include.folder).count(target) == 0 &&
+        kAllowedFiles.count({include.folder, include.target}) == 0)
+        return include.folder + "/ must not include " + target + "/";
+    const auto forbidden = kForbiddenHeaders.find(include.folder);
+    if (forbidden != kForbiddenHeaders.end() && forbidden->second.count(include.target) == 1)
+        return include.folder + "/ must not include <" + include.target + ">";
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("Every include follows the arrows between folders", "[layering]") {
+    const auto includes = allIncludes();
+    REQUIRE(includes.size() > 200);  // the sources were found
+    for (const Include& include : includes) {
+        INFO(include.file << ":" << include.line << ": " << include.target);
+        CHECK(verdict(include) == "");
+    }
+}
+
+TEST_CASE("A wrong arrow is noticed", "[layering]") {
+    CHECK(verdict({"engine", "engine/x.cpp", 1, "scenes/scene.h"}) != "");
+    CHECK(verdict({"render", "render/x.cpp", 1, "engine/vec3.h"}) != "");
+    CHECK(verdict({"scenes", "scenes/x.cpp", 1, "render/context.h"}) != "");
+    CHECK(verdict({"scenes", "scenes/x.cpp", 1, "render/view.h"}) == "");
+    CHECK(verdict({"engine", "engine/x.cpp", 1, "chrono"}) != "");
+    CHECK(verdict({"tools", "tools/x.cpp", 1, "tests/engine/clouds.h"}) != "");
+}

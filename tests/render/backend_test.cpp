@@ -1,0 +1,76 @@
+// The same view gives the same bytes: either backend, any thread count, any thread, any run.
+#include <catch2/catch.hpp>
+
+#include <thread>
+
+#include <tbb/global_control.h>
+
+#include "render/system_error.h"
+#include "tests/render/pictures.h"
+
+using namespace pictures;
+using render::Backend;
+using render::Quality;
+
+namespace {
+
+constexpr render::PictureSize kSize{200, 117};
+
+std::vector<render::View> views() {
+    render::View spheres = cloudWithObstacles(300);
+    spheres.light.shadows = true;
+    spheres.edges.push_back({{-1.5F, 0.0F, -1.5F}, {1.5F, 2.0F, 1.5F}});
+    render::View balls = spheres;
+    balls.style = render::Style::metaballs;
+    return {spheres, balls};
+}
+
+}  // namespace
+
+TEST_CASE("Backends are known by name") {
+    CHECK(render::backendNamed("osmesa") == Backend::osmesa);
+    CHECK(render::backendNamed("egl") == Backend::egl);
+    CHECK_FALSE(render::backendNamed("vulkan").has_value());
+    CHECK_FALSE(render::backendNamed("").has_value());
+}
+
+TEST_CASE("The renderer's name is Mesa's software renderer") {
+    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
+        const render::Context context(backend);
+        CHECK(context.rendererName().find("pipe") != std::string::npos);
+    }
+}
+
+TEST_CASE("Both backends give identical pixels") {
+    for (const render::View& view : views()) {
+        for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
+            CHECK(drawn(view, kSize, quality).rgb == drawn(view, kSize, quality, Backend::egl).rgb);
+        }
+    }
+}
+
+TEST_CASE("One and two threads, and run after run, give identical pixels") {
+    for (const render::View& view : views()) {
+        const render::Image first = drawn(view, kSize, Quality::normal);
+        CHECK(first.rgb == drawn(view, kSize, Quality::normal).rgb);
+        for (const std::size_t threads : {1U, 2U}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            CHECK(first.rgb == drawn(view, kSize, Quality::normal).rgb);
+        }
+    }
+}
+
+TEST_CASE("Frames may be drawn from one thread after another, and leave nothing behind") {
+    const std::vector<render::View> both = views();
+    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
+        render::Context context(backend);
+        render::Renderer renderer(context, kSize, Quality::normal);
+        const render::Image spheres = renderer.draw(both[0]);
+        render::Image balls;
+        render::Image again;
+        std::thread([&] { balls = renderer.draw(both[1]); }).join();
+        std::thread([&] { again = renderer.draw(both[0]); }).join();
+        CHECK(spheres.rgb == again.rgb);
+        CHECK(balls.rgb == drawn(both[1], kSize, Quality::normal).rgb);
+    }
+}

@@ -1,0 +1,119 @@
+// Views at the edge of what a renderer is asked: nothing, one, very many, around the eye, odd sizes, bad numbers.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "render/system_error.h"
+#include "tests/render/pictures.h"
+
+using namespace pictures;
+using render::Quality;
+using render::Style;
+
+namespace {
+
+constexpr render::PictureSize kSize{97, 61};
+
+// 4 pixels of 5917: outlines, where single precision may decide otherwise. 2 steps: packed normals of metaballs.
+void requireOracle(const render::View& view) {
+    const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), 2);
+    INFO(difference);
+    CHECK(difference.share <= 4.0 / 5917.0);
+}
+
+}  // namespace
+
+TEST_CASE("No particle and one particle") {
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        for (const int count : {0, 1}) {
+            render::View view = cloud(count);
+            view.style = style;
+            requireOracle(view);
+        }
+    }
+}
+
+TEST_CASE("The eye inside a particle") {
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        render::View view = cloud(30);
+        view.style = style;
+        view.particles.push_back({view.camera.eye + glm::vec3(0.1F, 0.0F, 0.05F), 0.4F, {0.5F, 0.9F, 0.1F}});
+        requireOracle(view);
+    }
+}
+
+TEST_CASE("Particles across the eye's plane and behind the eye") {
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        render::View view = cloud(30);
+        view.style = style;
+        const glm::vec3 forward = glm::normalize(view.camera.target - view.camera.eye);
+        const glm::vec3 right = glm::normalize(glm::cross(forward, view.camera.up));
+        view.particles.push_back({view.camera.eye + 0.5F * right + 0.02F * forward, 0.3F, {0.9F, 0.9F, 0.1F}});
+        view.particles.push_back({view.camera.eye - 2.0F * forward, 0.5F, {0.9F, 0.0F, 0.1F}});
+        requireOracle(view);
+    }
+}
+
+TEST_CASE("The eye inside a box") {
+    render::View view = cloud(30);
+    view.boxObstacles.push_back({view.camera.eye - glm::vec3(0.3F, 0.2F, 0.4F), view.camera.eye + glm::vec3(0.3F), {0.3F, 0.6F, 0.3F}});
+    requireOracle(view);
+}
+
+TEST_CASE("Pictures of odd sizes are cut from the same picture") {
+    const render::View view = cloud(20);
+    for (const render::PictureSize size : {render::PictureSize{1, 1}, {1, 40}, {33, 17}, {16, 16}, {255, 3}}) {
+        for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
+            const render::Image image = drawn(view, size, quality);
+            CHECK(image.width == size.width);
+            CHECK(image.height == size.height);
+            CHECK(image.rgb.size() == image.byteCount());
+        }
+        const Difference difference = compare(drawn(view, size, Quality::draft), fromOracle(view, size, 1), 1);
+        INFO(difference);
+        CHECK(difference.share * size.width * size.height <= 1.0);  // one outline pixel
+    }
+}
+
+TEST_CASE("Fifty thousand particles") {
+    render::View view = cloud(50000);
+    for (render::Sphere& particle : view.particles) particle.radius *= 0.15F;
+    view.light.shadows = true;
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        view.style = style;
+        const render::Image image = drawn(view, {320, 180}, Quality::normal);
+        const Difference difference = compare(image, drawn(cloud(0), {320, 180}, Quality::normal), 8);
+        INFO(difference);
+        CHECK(difference.share > 0.2);      // the cloud covers a good part of the picture
+    }
+}
+
+TEST_CASE("Every particle in every tile") {
+    render::View view = cloud(0);
+    for (int k = 0; k < 3000; ++k) view.particles.push_back({{0.001F * float(k % 50), 1.0F, 0.0F}, 6.0F, {0.2F, 0.4F, 0.6F}});
+    const render::Image image = drawn(view, {320, 180}, Quality::normal);
+    // Inside them all: depth 0 everywhere, so one colour per direction of the normal and no background.
+    CHECK(compare(image, drawn(cloud(0), {320, 180}, Quality::normal), 2).share > 0.95);
+}
+
+TEST_CASE("A particle without size is not drawn") {
+    render::View view = cloud(0);
+    const render::Image empty = drawn(view, kSize, Quality::normal);
+    view.particles.push_back({{0.0F, 1.0F, 0.0F}, 0.0F, {1.0F, 0.0F, 0.0F}});
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        view.style = style;
+        CHECK(drawn(view, kSize, Quality::normal).rgb == empty.rgb);
+    }
+}
+
+TEST_CASE("Numbers that are not finite are refused by name") {
+    render::View view = cloud(3);
+    view.particles[1].center.y = std::numeric_limits<float>::quiet_NaN();
+    CHECK_THROWS_WITH(drawn(view, kSize, Quality::draft), Catch::Contains("particle 1 of 3"));
+}
+
+TEST_CASE("A picture beyond OpenGL's limit is a SystemError") {
+    CHECK_THROWS_AS(drawn(cloud(0), {200000, 10}, Quality::draft), render::SystemError);
+    CHECK_THROWS_WITH(drawn(cloud(0), {200000, 10}, Quality::draft), Catch::Contains("200000 x 16"));
+}

@@ -1,0 +1,42 @@
+// The shaders' sRGB encoding against the standard's formula, through the picture of a background.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "tests/render/pictures.h"
+
+namespace {
+
+double exactSteps(double c) { return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055); }
+
+// A column of pixels from `bottom` to `top`, and how far its bytes are from the exact values at most.
+double largestError(float bottom, float top) {
+    constexpr int kHeight = 8192;
+    render::View view;
+    view.background = {glm::vec3(top), glm::vec3(bottom)};
+    const render::Image image = pictures::drawn(view, {1, kHeight}, render::Quality::draft);
+    double largest = 0.0;
+    for (int y = 0; y < kHeight; ++y) {
+        const double t = 1.0 - (y + 0.5) / kHeight;
+        const double c = double(bottom) + (double(top) - double(bottom)) * t;
+        largest = std::max(largest, std::abs(exactSteps(c) - image.rgb[static_cast<std::size_t>(3 * y)]));
+    }
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("sRGB encoding rounds the exact value to the nearest byte") {
+    // Half a step is the rounding itself; the polynomial is within 0.0025 of a step, single precision (1e-7 of c, with a slope of
+    // up to 3300 steps near 0 and 110 steps at 1) within 0.001.
+    CHECK(largestError(0.0F, 1.0F) < 0.5 + 0.0035);
+    CHECK(largestError(0.0F, 0.02F) < 0.5 + 0.0035);    // the linear part and the joint, looked at closely
+}
+
+TEST_CASE("Black is 0 and white is 255") {
+    render::View view;
+    view.background = {glm::vec3(1.0F), glm::vec3(1.0F)};
+    CHECK(pictures::drawn(view, {3, 3}, render::Quality::normal).rgb == std::vector<std::uint8_t>(27, 255));
+    view.background = {};
+    CHECK(pictures::drawn(view, {3, 3}, render::Quality::final).rgb == std::vector<std::uint8_t>(27, 0));
+}

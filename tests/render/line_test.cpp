@@ -1,0 +1,80 @@
+// Lines: width in pixels, hidden by what is nearer, whatever the quality.
+#include <catch2/catch.hpp>
+
+#include "tests/render/pictures.h"
+
+using namespace pictures;
+using render::Quality;
+
+namespace {
+
+constexpr render::PictureSize kSize{64, 48};
+
+// A white horizontal line through the middle of a black picture, at z = 0, the eye at z = 10.
+render::View lineView(float width) {
+    render::View view;
+    view.camera.eye = {0.0F, 0.0F, 10.0F};
+    view.edges.push_back({{-20.0F, 0.0F, 0.0F}, {20.0F, 0.0F, 0.0F}, glm::vec3(1.0F), width});
+    return view;
+}
+
+// Linear light over one column of the picture, in pixels.
+double lightInColumn(const render::Image& image, int x) {
+    double sum = 0.0;
+    for (int y = 0; y < image.height; ++y) {
+        const double s = image.rgb[static_cast<std::size_t>(3 * (y * image.width + x))] / 255.0;
+        sum += s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("A line is as wide as it says, at any quality") {
+    for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
+        for (const float width : {0.5F, 1.0F, 1.5F, 3.0F}) {
+            CAPTURE(width);
+            const double light = lightInColumn(drawn(lineView(width), kSize, quality), 30);
+            CHECK(light == Approx(double(width)).margin(0.03));     // bytes: two grey pixels, 0.01 each of linear light
+        }
+    }
+}
+
+TEST_CASE("A line is hidden by what is nearer only") {
+    render::View view = lineView(2.0F);
+    view.particles.push_back({{-1.0F, 0.0F, 2.0F}, 0.6F, {0.0F, 0.0F, 0.0F}});
+    view.particles.push_back({{1.5F, 0.0F, -2.0F}, 0.6F, {0.0F, 0.0F, 0.0F}});
+    view.light.color = glm::vec3(0.0F);
+    for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
+        view.style = style;
+        const render::Image image = drawn(view, kSize, Quality::normal);
+        // 13.3 pixels a metre at z = 2 or so: columns 32 - 1.0 * 48 / (8 * 0.73) and 32 + 1.5 * 48 / (12 * 0.73).
+        CHECK(lightInColumn(image, 24) < 0.01);
+        CHECK(lightInColumn(image, 40) > 1.9);
+        CHECK(lightInColumn(image, 2) > 1.9);
+    }
+}
+
+TEST_CASE("The edges of a box show on its near side and not on its far side") {
+    render::View view;
+    view.camera.eye = {3.0F, 2.5F, 6.0F};
+    view.boxObstacles.push_back({glm::vec3(-1.0F), glm::vec3(1.0F), glm::vec3(0.0F)});
+    view.light.color = glm::vec3(0.0F);
+    view.edges.push_back({{-1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}, glm::vec3(1.0F), 2.0F});
+    const render::Image near = drawn(view, kSize, Quality::normal);
+    view.edges[0] = {{-1.0F, -1.0F, -1.0F}, {-1.0F, 0.5F, -1.0F}, glm::vec3(1.0F), 2.0F};
+    const render::Image far = drawn(view, kSize, Quality::normal);
+    const render::Image none = drawn([&] { render::View v = view; v.edges.clear(); return v; }(), kSize, Quality::normal);
+    CHECK(compare(near, none, 40).share * 64 * 48 > 20.0);  // some 15 pixels long, two wide
+    CHECK(compare(far, none, 8).largest <= 8);
+}
+
+TEST_CASE("Lines through the eye's plane and off the picture do no harm") {
+    render::View view = lineView(1.5F);
+    const render::Image plain = drawn(view, kSize, Quality::normal);
+    view.edges.push_back({{0.0F, 5.0F, 30.0F}, {0.0F, 5.0F, 20.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
+    view.edges.push_back({{500.0F, 5.0F, 0.0F}, {600.0F, 5.0F, 0.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
+    CHECK(drawn(view, kSize, Quality::normal).rgb == plain.rgb);
+    view.edges.push_back({{0.0F, -1.0F, 30.0F}, {0.0F, -1.0F, -30.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
+    CHECK(compare(drawn(view, kSize, Quality::normal), plain, 8).share > 0.01);     // it does cross the lower half
+}

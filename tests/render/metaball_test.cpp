@@ -1,0 +1,132 @@
+// The ray cast of metaballs against the oracle's exact roots: hits, depths, colours, shadows.
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <cmath>
+
+#include "render/metaball_frame.h"
+#include "tests/render/pictures.h"
+
+using namespace pictures;
+using render::Quality;
+
+namespace {
+
+constexpr render::PictureSize kSize{121, 75};
+
+render::View blobs(int count) {
+    render::View view = cloud(count);
+    view.style = render::Style::metaballs;
+    return view;
+}
+
+// View depths of the cast, pixel by pixel; 0 where nothing is hit.
+std::vector<double> castDepths(const render::View& view) {
+    const render::FieldPicture picture = render::castPicture(render::cameraFrame(view.camera, kSize), view, {});
+    const int columns = (kSize.width + render::kTileSize - 1) / render::kTileSize;
+    std::vector<double> depths;
+    for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 0; x < kSize.width; ++x) {
+            const std::int32_t slot = picture.slots[static_cast<std::size_t>(y / 16 * columns + x / 16)];
+            const auto place = static_cast<std::size_t>(slot * 256 + y % 16 * 16 + x % 16);
+            depths.push_back(slot < 0 ? 0.0 : double(std::bit_cast<float>(picture.samples[place].depthBits)));
+        }
+    }
+    return depths;
+}
+
+struct DepthCheck {
+    int hits = 0;
+    int otherMask = 0;
+    int otherSurface = 0;   // more than a tenth of a radius apart
+    double largest = 0.0;   // of the others, in radii
+};
+
+DepthCheck checkDepths(const render::View& view) {
+    const std::vector<double> depths = castDepths(view);
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(view.camera.target) - glm::dvec3(view.camera.eye));
+    constexpr double kRadius = 0.08;    // the smallest of the cloud
+    DepthCheck check;
+    for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 0; x < kSize.width; ++x) {
+            const oracle::Ray ray = oracle::pixelRay(view, kSize, x + 0.5, y + 0.5);
+            const oracle::Hit hit = oracle::trace(view, ray);
+            const double depth = depths[static_cast<std::size_t>(y * kSize.width + x)];
+            const bool expected = hit.kind == oracle::Hit::Kind::particle;
+            check.otherMask += expected != (depth > 0.0) ? 1 : 0;
+            if (!expected || depth == 0.0) continue;
+            ++check.hits;
+            const double error = std::abs(depth - hit.distance * glm::dot(ray.direction, forward)) / kRadius;
+            check.otherSurface += error > 0.1 ? 1 : 0;
+            if (error <= 0.1) check.largest = std::max(check.largest, error);
+        }
+    }
+    return check;
+}
+
+void requireSurface(render::View view) {
+    view.ground.reset();
+    const DepthCheck check = checkDepths(view);
+    CAPTURE(check.hits, check.otherMask, check.otherSurface, check.largest);
+    CHECK(check.hits > 1000);           // the test looks at something
+    CHECK(check.otherMask <= 4);        // grazing rays: the field's maximum lies within a rounding of the threshold
+    CHECK(check.otherSurface <= 4);     // the same at inner outlines
+    CHECK(check.largest < 5e-4);        // in single precision (1e-6 of the depth) over the root of a flat maximum at grazing rays
+}
+
+}  // namespace
+
+TEST_CASE("Metaballs are where the exact roots of the field are") {
+    render::View view = blobs(200);
+    requireSurface(view);
+    view.camera.projection = render::Projection::orthographic;
+    view.camera.halfHeight = 2.0F;
+    requireSurface(view);
+    view.field.reach = 1.5F;
+    requireSurface(view);
+    view.field.reach = 4.0F;
+    requireSurface(view);
+}
+
+TEST_CASE("A lone metaball is a sphere") {
+    render::View view = blobs(0);
+    view.particles.push_back({{0.0F, 1.0F, 0.0F}, 0.8F, {0.9F, 0.4F, 0.2F}});
+    const render::Image ball = drawn(view, kSize, Quality::draft);
+    view.style = render::Style::spheres;
+    const Difference difference = compare(ball, drawn(view, kSize, Quality::draft), 2);
+    INFO(difference);
+    CHECK(difference.share <= 4.0 / 9075.0);    // 2 steps: 16-bit normals and the glint's power of 32; 4 outline pixels
+}
+
+TEST_CASE("Metaballs are coloured and shaded as the oracle's") {
+    render::View view = blobs(150);
+    view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});
+    view.boxObstacles.push_back({{0.81F, 0.01F, 1.2F}, {1.6F, 0.7F, 2.0F}, {0.2F, 0.3F, 0.7F}});
+    const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), 2);
+    INFO(difference);
+    CHECK(difference.share <= 10.0 / 9075.0);   // 2 steps: packing as above; pixels on outlines
+    CHECK(difference.mean < 0.2);               // rounding: a quarter of the channels one step off at most
+}
+
+TEST_CASE("Metaballs cast the oracle's shadows up to the depth map's resolution") {
+    render::View view = blobs(150);
+    view.light.shadows = true;
+    const render::Image soft = drawn(view, kSize, Quality::draft);
+    const Difference difference = compare(soft, fromOracle(view, kSize, 1), 3);
+    INFO(difference);
+    CHECK(difference.share < 0.08);     // shadows' outlines, smoothed over two texels: about a pixel either side
+    CHECK(difference.mean < 1.5);       // half the contrast (some 60 steps) of a fortieth of the pixels
+    view.light.shadows = false;
+    CHECK(compare(soft, drawn(view, kSize, Quality::draft), 3).share > 0.05);   // counted once: 0.095
+}
+
+TEST_CASE("Better quality is nearer to the exact metaballs") {
+    const render::View view = blobs(150);
+    const render::Image exact = fromOracle(view, kSize, 4);
+    const double draft = compare(drawn(view, kSize, Quality::draft), exact, 0).mean;
+    const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;
+    const double final = compare(drawn(view, kSize, Quality::final), exact, 0).mean;
+    CAPTURE(draft, normal, final);
+    CHECK(normal < 0.6 * draft);    // four samples at outlines: half the error of one
+    CHECK(final < 0.75 * normal);   // nine samples everywhere
+}

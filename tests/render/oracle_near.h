@@ -1,0 +1,29 @@
+// Comparison within a tolerance, for the oracle's own tests; a failure prints both values, their difference and the
+// tolerance.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+#include <glm/glm.hpp>
+
+namespace oracle {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();      ///< one unit of rounding
+constexpr double kFloatEps = std::numeric_limits<float>::epsilon();  ///< the same of the float inputs
+
+inline void checkNear(double value, double expected, double tolerance) {
+    const double difference = value - expected;
+    INFO(value << ", expected " << expected << ", difference " << difference << ", tolerance " << tolerance);
+    CHECK(std::abs(difference) <= tolerance);
+}
+
+inline void checkNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance) {
+    for (int axis = 0; axis < 3; ++axis) {
+        INFO("component " << axis);
+        checkNear(value[axis], expected[axis], tolerance);
+    }
+}
+
+}  // namespace oracle

@@ -1,0 +1,97 @@
+// What the renderer's tests share: views to draw, and how two pictures are compared.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <ostream>
+#include <random>
+
+#include "render/context.h"
+#include "render/image.h"
+#include "render/renderer.h"
+#include "render/view.h"
+#include "tests/render/oracle.h"
+
+namespace pictures {
+
+/// How far two pictures are apart, in 8-bit steps of a channel.
+struct Difference {
+    bool sameSize = true;
+    int largest = 0;
+    int worstX = 0;
+    int worstY = 0;
+    double mean = 0.0;
+    double share = 0.0;     ///< of pixels that differ by more than the limit given
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Difference& d) {
+    return out << "largest " << d.largest << " at (" << d.worstX << ", " << d.worstY << "), mean " << d.mean << ", share " << d.share;
+}
+
+inline Difference compare(const render::Image& a, const render::Image& b, int limit) {
+    Difference result;
+    result.sameSize = a.width == b.width && a.height == b.height && a.rgb.size() == b.rgb.size();
+    if (!result.sameSize) return result;
+    double sum = 0.0;
+    int over = 0;
+    for (std::size_t pixel = 0; 3 * pixel < a.rgb.size(); ++pixel) {
+        int worst = 0;
+        for (std::size_t k = 3 * pixel; k < 3 * pixel + 3; ++k) {
+            const int step = std::abs(int(a.rgb[k]) - int(b.rgb[k]));
+            sum += step;
+            worst = std::max(worst, step);
+        }
+        over += worst > limit ? 1 : 0;
+        if (worst <= result.largest) continue;
+        result.largest = worst;
+        result.worstX = static_cast<int>(pixel % static_cast<std::size_t>(a.width));
+        result.worstY = static_cast<int>(pixel / static_cast<std::size_t>(a.width));
+    }
+    result.mean = sum / static_cast<double>(a.rgb.size());
+    result.share = 3.0 * over / static_cast<double>(a.rgb.size());
+    return result;
+}
+
+inline render::Image fromOracle(const render::View& view, render::PictureSize size, int samplesPerAxis) {
+    oracle::Picture picture = oracle::draw(view, size, samplesPerAxis);
+    return {picture.width, picture.height, std::move(picture.rgb)};
+}
+
+inline render::Image drawn(const render::View& view, render::PictureSize size, render::Quality quality,
+                           render::Backend backend = render::Backend::osmesa) {
+    render::Context context(backend);
+    render::Renderer renderer(context, size, quality);
+    return renderer.draw(view);
+}
+
+/// Particles of different sizes in a ball, over a ground, with light and sky of different colours.
+inline render::View cloud(int count, unsigned seed = 7) {
+    render::View view;
+    std::mt19937 random(seed);
+    const auto uniform = [&random] { return static_cast<float>(random()) / 4294967296.0F; };
+    for (int k = 0; k < count; ++k) {
+        const glm::vec3 at(3.0F * uniform() - 1.5F, 2.0F * uniform() + 0.2F, 3.0F * uniform() - 1.5F);
+        view.particles.push_back({at, 0.08F + 0.1F * uniform(), {uniform(), uniform(), uniform()}});
+    }
+    view.camera.eye = {2.0F, 3.0F, 5.0F};
+    view.camera.target = {0.0F, 0.9F, 0.0F};
+    view.light.toLight = glm::normalize(glm::vec3(0.5F, 0.8F, 0.3F));
+    view.light.color = {0.9F, 0.85F, 0.8F};
+    view.light.shadows = false;
+    view.ambient = {{0.2F, 0.25F, 0.3F}, {0.12F, 0.1F, 0.1F}};
+    view.surface = {0.05F, 5};
+    view.background = {{0.3F, 0.5F, 0.8F}, {0.7F, 0.6F, 0.5F}};
+    view.ground = render::Ground{0.0F, {0.5F, 0.5F, 0.45F}, {0.0F, 0.0F, 0.0F}, 6.0F};
+    return view;
+}
+
+/// The cloud with a sphere and a box beside it. The box stands a little off the ground and off the middle of the picture, where
+/// two surfaces, or an edge and a column of pixel centres, would coincide.
+inline render::View cloudWithObstacles(int count) {
+    render::View view = cloud(count);
+    view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});
+    view.boxObstacles.push_back({{0.81F, 0.01F, 1.2F}, {1.6F, 0.7F, 2.0F}, {0.2F, 0.3F, 0.7F}});
+    return view;
+}
+
+}  // namespace pictures

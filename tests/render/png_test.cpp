@@ -1,0 +1,42 @@
+// PNG: what goes in comes out, and what is no PNG is named.
+#include <catch2/catch.hpp>
+
+#include <random>
+
+#include "render/png.h"
+#include "render/system_error.h"
+
+namespace {
+
+render::Image noise(int width, int height) {
+    render::Image image{width, height, {}};
+    std::mt19937 random(3);
+    image.rgb.resize(image.byteCount());
+    for (std::uint8_t& byte : image.rgb) byte = static_cast<std::uint8_t>(random() >> 24);
+    return image;
+}
+
+}  // namespace
+
+TEST_CASE("PNG keeps every byte") {
+    for (const auto& [width, height] : {std::pair{1, 1}, std::pair{17, 3}, std::pair{640, 360}}) {
+        const render::Image image = noise(width, height);
+        const render::Image back = render::decodePng(render::encodePng(image), "noise");
+        CHECK(back.width == width);
+        CHECK(back.height == height);
+        CHECK(back.rgb == image.rgb);
+    }
+}
+
+TEST_CASE("PNG compresses") {
+    render::Image image{640, 360, {}};
+    image.rgb.assign(image.byteCount(), 77);
+    CHECK(render::encodePng(image).size() < image.byteCount() / 50);
+}
+
+TEST_CASE("A broken PNG is a SystemError that names it") {
+    std::vector<std::uint8_t> bytes = render::encodePng(noise(20, 20));
+    bytes.resize(bytes.size() / 2);
+    CHECK_THROWS_WITH(render::decodePng(bytes, "golden/half.png"), Catch::Contains("golden/half.png"));
+    CHECK_THROWS_AS(render::decodePng({}, "empty.png"), render::SystemError);
+}

@@ -1,0 +1,101 @@
+// The sphere pass, obstacles, ground and background against the oracle.
+#include <catch2/catch.hpp>
+
+#include "tests/render/pictures.h"
+
+using namespace pictures;
+using render::Quality;
+
+namespace {
+
+constexpr render::PictureSize kSize{121, 75};    // no whole number of tiles
+
+// Nine tenths of a step: rounding to bytes half a step either side, single precision in the shader far less.
+constexpr int kStep = 1;
+
+void requireAlike(const render::View& view, double share) {
+    const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), kStep);
+    INFO(difference);
+    REQUIRE(difference.sameSize);
+    CHECK(difference.share <= share);
+    CHECK(difference.mean < 0.05 + 60.0 * share);   // rounding at most, and 60 steps for each pixel on the other side of an outline
+}
+
+}  // namespace
+
+TEST_CASE("The comparison finds a wrong picture") {
+    const render::View view = cloud(50);
+    const render::Image good = drawn(view, kSize, Quality::draft);
+    CHECK(compare(good, good, 0).largest == 0);
+    render::Image bad = good;
+    for (std::size_t k = 0; k < 3 * 121 * 4; ++k) bad.rgb[k] = static_cast<std::uint8_t>(255 - bad.rgb[k]);
+    CHECK(compare(good, bad, kStep).share > 0.04);      // 4 of 75 rows
+    render::View moved = view;
+    moved.camera.eye.x += 0.05F;
+    CHECK(compare(good, drawn(moved, kSize, Quality::draft), kStep).share > 0.05);
+    CHECK_FALSE(compare(good, render::Image{1, 1, {0, 0, 0}}, 0).sameSize);
+}
+
+TEST_CASE("Spheres, perspective and orthographic, are those of the oracle") {
+    render::View view = cloud(200);
+    // 2 pixels of 9075: rays so close to an outline that single precision decides otherwise (1e-6 of some 3000 outline pixels).
+    requireAlike(view, 2.0 / 9075.0);
+    view.camera.projection = render::Projection::orthographic;
+    view.camera.halfHeight = 2.0F;
+    requireAlike(view, 2.0 / 9075.0);   // the same
+}
+
+TEST_CASE("Obstacles, ground and background are those of the oracle") {
+    requireAlike(cloudWithObstacles(60), 2.0 / 9075.0);     // outline pixels as above
+    render::View view = cloudWithObstacles(0);
+    view.surface.specular = 0.0F;
+    requireAlike(view, 2.0 / 9075.0);
+    view.ground.reset();
+    requireAlike(view, 2.0 / 9075.0);
+    requireAlike(render::View{}, 0.0);      // nothing but black
+}
+
+TEST_CASE("Seen from below the ground hides what is above it") {
+    render::View view = cloudWithObstacles(40);
+    view.camera.eye.y = -1.0F;
+    requireAlike(view, 2.0 / 9075.0);   // outline pixels as above
+}
+
+TEST_CASE("Spheres far off the axis stay exact") {
+    render::View view = cloud(40);
+    view.camera.verticalFov = 2.2F;
+    view.camera.eye = {0.3F, 1.5F, 2.0F};
+    requireAlike(view, 2.0 / 9075.0);   // outline pixels as above
+}
+
+TEST_CASE("Shadows are the oracle's up to their softened edge") {
+    render::View view = cloudWithObstacles(120);
+    view.light.shadows = true;
+    // The edge is a pixel wide where the oracle's is hard: half of the outlines' pixels, some 8 % of the picture, may differ.
+    requireAlike(view, 0.08);
+    view.camera.projection = render::Projection::orthographic;
+    view.camera.halfHeight = 2.0F;
+    requireAlike(view, 0.08);
+    view.light.toLight = {0.0F, 1.0F, 0.0F};    // along an axis: boxes have no sides towards the light
+    requireAlike(view, 0.08);
+}
+
+TEST_CASE("Shadows are shadows: without them the picture is another") {
+    render::View view = cloudWithObstacles(120);
+    const render::Image lit = drawn(view, kSize, Quality::draft);
+    view.light.shadows = true;
+    CHECK(compare(lit, drawn(view, kSize, Quality::draft), kStep).share > 0.04);    // counted once: 0.075
+}
+
+TEST_CASE("Better quality is nearer to the exact picture") {
+    render::View view = cloudWithObstacles(150);
+    view.light.shadows = true;
+    const render::Image exact = fromOracle(view, kSize, 6);
+    const double draft = compare(drawn(view, kSize, Quality::draft), exact, 0).mean;
+    const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;
+    const double final = compare(drawn(view, kSize, Quality::final), exact, 0).mean;
+    CAPTURE(draft, normal, final);
+    CHECK(normal < 0.6 * draft);    // four samples at outlines: half the error of one
+    CHECK(final < 0.75 * normal);   // nine: two thirds of the error of four
+    CHECK(final < 1.5);             // steps; what nine of 36 samples leave
+}

@@ -1,0 +1,63 @@
+// Binning: every pixel's list holds what the pixel can see, in order.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/tiles.h"
+#include "tests/render/pictures.h"
+
+TEST_CASE("orderByKey sorts by key, equal keys by place") {
+    const std::vector<float> keys = {3.0F, -1.0F, 0.0F, -0.5F, 3.0F, -1e30F, 1e-30F};
+    CHECK(render::orderByKey(keys) == std::vector<std::uint32_t>{5, 1, 3, 2, 6, 0, 4});
+    CHECK(render::orderByKey({}).empty());
+}
+
+TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to back") {
+    for (const auto projection : {render::Projection::perspective, render::Projection::orthographic}) {
+        render::View view = pictures::cloud(300);
+        view.camera.projection = projection;
+        view.camera.halfHeight = 1.5F;
+        view.camera.eye = {0.2F, 1.0F, 1.2F};      // among them: some are behind, some around the eye
+        const render::PictureSize size{90, 50};
+        const render::CameraFrame frame = render::cameraFrame(view.camera, size);
+        std::vector<render::ViewSphere> spheres;
+        for (const render::Sphere& s : view.particles) spheres.push_back({frame.toView(s.center), s.radius});
+        const render::CellLists lists = render::binToTiles(frame, spheres);
+        REQUIRE(lists.columns == 6);
+        REQUIRE(lists.rows == 4);
+        int met = 0;
+        int missing = 0;
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const oracle::Ray ray = oracle::pixelRay(view, size, x + 0.5, y + 0.5);
+                const std::size_t cell = lists.cellIndex(x / 16, y / 16);
+                const auto begin = lists.items.begin() + lists.begin[cell];
+                const auto end = lists.items.begin() + lists.begin[cell + 1];
+                for (std::uint32_t k = 0; k < view.particles.size(); ++k) {
+                    const glm::dvec3 toCenter = glm::dvec3(view.particles[k].center) - ray.origin;
+                    const double along = glm::dot(toCenter, ray.direction);
+                    const double radius = view.particles[k].radius;
+                    const double square = glm::dot(toCenter, toCenter) - along * along;
+                    if (square > radius * radius || along + std::sqrt(radius * radius - square) < 0.0) continue;
+                    ++met;
+                    missing += std::find(begin, end, k) == end ? 1 : 0;
+                }
+            }
+        }
+        CHECK(met > 1000);
+        CHECK(missing == 0);
+        for (std::size_t cell = 0; cell + 1 < lists.begin.size(); ++cell) {
+            const auto front = [&](std::uint32_t k) { return spheres[k].center.z - spheres[k].radius; };
+            CHECK(std::is_sorted(lists.items.begin() + lists.begin[cell], lists.items.begin() + lists.begin[cell + 1],
+                                 [&](std::uint32_t a, std::uint32_t b) { return front(a) < front(b); }));
+        }
+    }
+}
+
+TEST_CASE("Lists stay short: a small sphere touches few tiles") {
+    const render::CameraFrame frame = render::cameraFrame(render::Camera{}, {1280, 720});
+    const std::vector<render::ViewSphere> spheres(1000, {{0.05F, 0.05F, 10.0F}, 0.05F});
+    // 0.1 m at 10 m are 10 pixels here, with a pixel of margin 12: at most 2 x 2 tiles.
+    CHECK(render::binToTiles(frame, spheres).items.size() <= 4000);
+}

@@ -1,0 +1,160 @@
+// Films: what ffprobe reads back, identical bytes for any number of threads, and every way in which ffmpeg fails.
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "render/child_process.h"
+#include "render/system_error.h"
+#include "render/video.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder that is gone after the test.
+struct Folder {
+    Folder() : path(fs::temp_directory_path() / ("globular-video-test-" + std::to_string(::getpid()))) { fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string file(const std::string& name) const { return (path / name).string(); }
+    bool empty() const { return fs::is_empty(path); }
+    fs::path path;
+};
+
+render::Image frame(render::PictureSize size, int index) {
+    render::Image image{size.width, size.height, {}};
+    image.rgb.resize(image.byteCount());
+    for (std::size_t k = 0; k < image.rgb.size(); ++k) image.rgb[k] = static_cast<std::uint8_t>((k / 3 * 5 + static_cast<std::size_t>(index) * 40 + k % 3 * 80) % 256);
+    return image;
+}
+
+void writeFilm(const render::VideoOptions& options, int frames) {
+    render::VideoWriter writer(options);
+    for (int k = 0; k < frames; ++k) writer.add(frame(options.size, k));
+    writer.finish();
+}
+
+std::string bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string probe(const std::string& path) {
+    render::ChildProcess child({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries",
+                                "stream=codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,color_primaries,r_frame_rate,nb_read_frames",
+                                "-of", "default=noprint_wrappers=1", path});
+    CHECK(child.wait().empty());
+    return child.output();
+}
+
+// A stand-in for ffmpeg that answers the probe for libx264 and then does what it is told.
+std::string fakeFfmpeg(const Folder& folder, const std::string& action) {
+    const std::string path = folder.file("fake-ffmpeg");
+    std::ofstream(path) << "#!/bin/sh\ncase \"$*\" in *encoder=libx264*) echo 'Encoder libx264'; exit 0;; esac\n" << action << "\n";
+    fs::permissions(path, fs::perms::owner_all);
+    return path;
+}
+
+}  // namespace
+
+TEST_CASE("A film has its frames, rate, size and colour tags") {
+    const Folder folder;
+    const std::string path = folder.file("film.mp4");
+    writeFilm({path, {64, 48}, 25, 2}, 7);
+    const std::string found = probe(path);
+    INFO(found);
+    for (const char* expected : {"codec_name=h264", "width=64", "height=48", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709",
+                                 "color_transfer=bt709", "color_primaries=bt709", "r_frame_rate=25/1", "nb_read_frames=7"}) {
+        CHECK_THAT(found, Catch::Contains(expected));
+    }
+    CHECK_FALSE(fs::exists(path + ".partial"));
+}
+
+TEST_CASE("Odd sizes are padded to even") {
+    const Folder folder;
+    writeFilm({folder.file("odd.mp4"), {33, 17}, 30, 1}, 3);
+    const std::string found = probe(folder.file("odd.mp4"));
+    CHECK_THAT(found, Catch::Contains("width=34"));
+    CHECK_THAT(found, Catch::Contains("height=18"));
+    CHECK_THAT(found, Catch::Contains("nb_read_frames=3"));
+}
+
+TEST_CASE("The number of threads does not change a byte") {
+    const Folder folder;
+    for (const int threads : {1, 2, 3}) writeFilm({folder.file(std::to_string(threads)), {320, 180}, 30, threads}, 12);
+    CHECK(bytesOf(folder.file("1")).size() > 1000);
+    CHECK(bytesOf(folder.file("1")) == bytesOf(folder.file("2")));
+    CHECK(bytesOf(folder.file("1")) == bytesOf(folder.file("3")));
+}
+
+TEST_CASE("Colours survive: a red film is red") {
+    const Folder folder;
+    render::Image red{64, 64, {}};
+    for (int k = 0; k < 64 * 64; ++k) red.rgb.insert(red.rgb.end(), {220, 40, 30});
+    {
+        render::VideoWriter writer({folder.file("red.mp4"), {64, 64}, 30, 1});
+        writer.add(red);
+        writer.finish();
+    }
+    render::ChildProcess decoder({"ffmpeg", "-v", "error", "-nostdin", "-i", folder.file("red.mp4"), "-pix_fmt", "rgb24", "-f", "rawvideo", folder.file("red.rgb")});
+    CHECK(decoder.wait().empty());
+    const std::string bytes = bytesOf(folder.file("red.rgb"));
+    REQUIRE(bytes.size() == 3 * 64 * 64);
+    // crf 18 and limited range: 3 steps. BT.601 taken for BT.709 would be off by 10 and more.
+    CHECK(std::abs(int(static_cast<unsigned char>(bytes[6000])) - 220) <= 3);
+    CHECK(std::abs(int(static_cast<unsigned char>(bytes[6001])) - 40) <= 3);
+    CHECK(std::abs(int(static_cast<unsigned char>(bytes[6002])) - 30) <= 3);
+}
+
+TEST_CASE("A missing ffmpeg is one clear SystemError") {
+    const Folder folder;
+    render::VideoOptions options{folder.file("a.mp4"), {16, 16}};
+    options.ffmpeg = "/nowhere/ffmpeg";
+    CHECK_THROWS_AS(render::VideoWriter(options), render::SystemError);
+    CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("cannot start /nowhere/ffmpeg: No such file") && Catch::Contains("install ffmpeg"));
+    CHECK(folder.empty());
+}
+
+TEST_CASE("An ffmpeg without libx264 is named as such") {
+    const Folder folder;
+    render::VideoOptions options{folder.file("a.mp4"), {16, 16}};
+    options.ffmpeg = "true";
+    CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("no libx264"));
+}
+
+TEST_CASE("An ffmpeg that dies is one clear SystemError with its last words, and no SIGPIPE") {
+    const Folder folder;
+    const render::PictureSize size{640, 360};   // more than a socket holds
+    render::VideoOptions options{folder.file("a.mp4"), size};
+    options.ffmpeg = fakeFfmpeg(folder, "echo 'the disk is on fire' >&2; exit 3");
+    const auto film = [&] { writeFilm(options, 5); };
+    CHECK_THROWS_AS(film(), render::SystemError);
+    CHECK_THROWS_WITH(film(), Catch::Contains("a.mp4") && Catch::Contains("exit status 3") && Catch::Contains("the disk is on fire"));
+    options.ffmpeg = fakeFfmpeg(folder, "kill -9 $$");
+    CHECK_THROWS_WITH(film(), Catch::Contains("signal 9"));
+    CHECK_FALSE(fs::exists(folder.file("a.mp4")));
+}
+
+TEST_CASE("An ffmpeg that talks without end does not stop the film") {
+    const Folder folder;
+    render::VideoOptions options{folder.file("a.mp4"), {64, 64}};
+    options.ffmpeg = fakeFfmpeg(folder, "head -c 1000000 /dev/zero | tr '\\0' 'x' >&2; cat > /dev/null; exit 1");
+    CHECK_THROWS_WITH(writeFilm(options, 3), Catch::Contains("exit status 1"));
+}
+
+TEST_CASE("A folder that does not exist is said by ffmpeg") {
+    CHECK_THROWS_WITH(writeFilm({"/nowhere/a.mp4", {64, 64}}, 2), Catch::Contains("/nowhere/a.mp4") && Catch::Contains("No such file"));
+}
+
+TEST_CASE("A film that is given up leaves nothing") {
+    const Folder folder;
+    {
+        render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30, 1});
+        for (int k = 0; k < 5; ++k) writer.add(frame({64, 64}, k));
+    }
+    CHECK(folder.empty());
+}

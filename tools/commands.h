@@ -1,0 +1,17 @@
+// The subcommands of the program. Each adds itself to the command line, with its flags, its help and what it does when it is
+// called; failures come back to main as exceptions.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tools {
+
+void addRenderCommand(CLI::App& program);
+void addSimulateCommand(CLI::App& program);
+void addFiguresCommand(CLI::App& program);
+void addVideoCommand(CLI::App& program);
+void addCheckCommand(CLI::App& program);
+void addScenesCommand(CLI::App& program);
+void addSchemaCommand(CLI::App& program);
+
+}  // namespace tools

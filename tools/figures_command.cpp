@@ -1,0 +1,120 @@
+// globular figures: the paper's figures as stills, videos and one page that shows them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands.h"
+#include "tools/figures_page.h"
+#include "tools/output_file.h"
+#include "tools/render_loop.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FiguresOptions {
+    RunOptions run;
+    std::string backend = "osmesa";
+    std::string folder = "out/figures";
+    std::vector<int> numbers;
+};
+
+RenderJob jobFor(const scenes::Scene& scene, const FiguresOptions& options) {
+    RenderJob job;
+    job.scene = &scene;
+    DrawOptions draw;
+    draw.backend = options.backend;
+    job.backend = backendOf(draw);
+    job.threads = threadCount(options.run);
+    job.talk = options.run.talk();
+    return job;
+}
+
+RenderResult renderWhole(const RenderJob& job) {
+    RenderResult result = renderFrames(job);
+    if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
+    return result;
+}
+
+/// The still alone, in the best quality; the frames before it are simulated but not drawn.
+void renderStill(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
+    RenderJob job = jobFor(scene, options);
+    const int frame = scenes::stillFrame(scene);
+    job.frames = {frame, frame};
+    job.quality = render::Quality::final;
+    job.title = fmt::format("figure {} still", entry.number);
+    job.pngPath = [&](int) { return entry.stillPath; };
+    renderWhole(job);
+}
+
+RenderResult renderVideo(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
+    RenderJob job = jobFor(scene, options);
+    job.frames = {0, scenes::frameCount(scene) - 1};
+    job.videoPath = entry.videoPath;
+    job.title = fmt::format("figure {}", entry.number);
+    job.pngPath = [](int) { return std::nullopt; };
+    return renderWhole(job);
+}
+
+FigureEntry makeFigure(int number, const FiguresOptions& options) {
+    const std::string name = fmt::format("figure-{}", number);
+    const scenes::Scene scene = load({name, {}});
+    const fs::path folder = options.folder;
+    FigureEntry entry;
+    entry.number = number;
+    entry.title = scene.title;
+    entry.description = scene.description;
+    entry.stillPath = (folder / (name + ".png")).string();
+    entry.videoPath = (folder / (name + ".mp4")).string();
+    entry.stillTime = scenes::frameTime(scene, scenes::stillFrame(scene));
+    for (const scenes::EffectiveValue& value : scene.values) {
+        if (value.origin == scenes::Origin::fallback) continue;
+        entry.parameters.emplace_back(value.path, value.unit.empty() ? value.text : value.text + " " + value.unit);
+    }
+    entry.command = fmt::format("globular render {} -o out/{} --video out/{}.mp4", name, name, name);
+
+    renderStill(scene, options, entry);
+    RenderResult result = renderVideo(scene, options, entry);
+    entry.stateHash = result.report.stateHash;
+    writeFile(folder / (name + ".json"), runJson(scene, result.simulation, result.report).dump(2) + "\n");
+    return entry;
+}
+
+void makeFigures(const FiguresOptions& options) {
+    createFolder(options.folder);
+    std::vector<FigureEntry> entries;
+    for (const int number : options.numbers) {
+        entries.push_back(makeFigure(number, options));
+        const FigureEntry& entry = entries.back();
+        if (options.run.json)
+            fmt::print("{}\n", nlohmann::ordered_json{{"event", "figure"}, {"figure", number}, {"still", entry.stillPath},
+                                                      {"video", entry.videoPath}, {"state_hash", entry.stateHash}}.dump());
+        else if (!options.run.quiet)
+            fmt::print("figure {}: {}, {}\n", number, entry.stillPath, entry.videoPath);
+    }
+    const fs::path page = fs::path(options.folder) / "index.html";
+    writeFile(page, figuresPage(entries));
+    if (options.run.talk() == Talk::normal) fmt::print("all of it: {}\n", page.string());
+}
+
+}  // namespace
+
+void addFiguresCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("figures", "the paper's figures: stills, videos, and a page that shows them");
+    const auto options = std::make_shared<FiguresOptions>();
+    command->add_option("FIGURE", options->numbers, "which figures (default: all four)")->check(CLI::Range(1, 4));
+    command->add_option("-o,--output", options->folder, "folder to write to (default: out/figures)")->type_name("DIR");
+    command->add_option("--gl", options->backend, "OpenGL backend: osmesa or egl (default: osmesa)")->type_name("NAME");
+    addTo(*command, options->run);
+    command->footer("Example: globular figures 1 3 -o out/figures");
+    command->callback([options] {
+        if (options->numbers.empty()) options->numbers = {1, 2, 3, 4};
+        makeFigures(*options);
+    });
+}
+
+}  // namespace tools

@@ -1,0 +1,87 @@
+// HTML by hand: two templates and an escape function.
+#include "tools/figures_page.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "tools/output_file.h"
+
+namespace tools {
+namespace {
+
+constexpr const char* kHead = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>Globular dynamics: the figures</title>
+<style>
+body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 76rem; padding: 2rem 1rem; color: #222; background: #f6f6f4; }
+section { background: #fff; border: 1px solid #ddd; border-radius: 6px; margin: 2rem 0; padding: 1rem 1.5rem; }
+.pictures { display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start; }
+figure { margin: 0; flex: 1 1 22rem; }
+img, video { width: 100%; background: #000; display: block; }
+figcaption { color: #666; font-size: 0.85rem; margin-top: 0.3rem; }
+table { border-collapse: collapse; font-size: 0.85rem; }
+td { border-top: 1px solid #eee; padding: 0.1rem 1rem 0.1rem 0; vertical-align: top; }
+code { background: #f0f0ec; padding: 0 0.2rem; }
+</style></head><body>
+<h1>Globular dynamics: the figures</h1>
+<p>The figures of &ldquo;Exploration of Globular Dynamic Particle Systems&rdquo; (J. Cote), simulated and drawn anew by globular.</p>
+)";
+
+std::string escaped(const std::string& text) {
+    std::string html;
+    for (const char c : text) {
+        if (c == '&') html += "&amp;";
+        else if (c == '<') html += "&lt;";
+        else if (c == '>') html += "&gt;";
+        else if (c == '"') html += "&quot;";
+        else html += c;
+    }
+    return html;
+}
+
+std::string dataUri(const std::string& type, const std::string& path) {
+    return "data:" + type + ";base64," + base64(readFile(path));
+}
+
+std::string parameterTable(const FigureEntry& figure) {
+    std::string rows;
+    for (const auto& [key, value] : figure.parameters)
+        rows += fmt::format("<tr><td><code>{}</code></td><td>{}</td></tr>\n", escaped(key), escaped(value));
+    return "<table>\n" + rows + "</table>\n";
+}
+
+std::string section(const FigureEntry& figure) {
+    return fmt::format(
+        "<section><h2>Figure {}: {}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n"
+        "<figure><img alt=\"Figure {}\" src=\"{}\"><figcaption>Still at {} s</figcaption></figure>\n"
+        "<figure><video controls loop muted src=\"{}\"></video><figcaption>The whole animation</figcaption></figure>\n"
+        "</div>\n<p>Again: <code>{}</code>; state of the last frame <code>{}</code></p>\n"
+        "<details><summary>Parameters</summary>\n{}</details></section>\n",
+        figure.number, escaped(figure.title), escaped(figure.description), figure.number, dataUri("image/png", figure.stillPath),
+        figure.stillTime, dataUri("video/mp4", figure.videoPath), escaped(figure.command), figure.stateHash, parameterTable(figure));
+}
+
+}  // namespace
+
+std::string base64(const std::vector<unsigned char>& bytes) {
+    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t k = 0; k < bytes.size(); k += 3) {
+        const std::size_t present = std::min<std::size_t>(3, bytes.size() - k);
+        std::uint32_t group = 0;
+        for (std::size_t b = 0; b < 3; ++b) group = (group << 8) | (b < present ? bytes[k + b] : 0U);
+        for (std::size_t digit = 0; digit < 4; ++digit)
+            text += digit <= present ? kDigits[(group >> (18 - 6 * digit)) & 63U] : '=';
+    }
+    return text;
+}
+
+std::string figuresPage(const std::vector<FigureEntry>& figures) {
+    std::string html = kHead;
+    for (const FigureEntry& figure : figures) html += section(figure);
+    return html + "</body></html>\n";
+}
+
+}  // namespace tools

@@ -1,0 +1,29 @@
+// The page that shows the figures: one HTML file with everything in it, to be opened from disk or sent by mail.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tools {
+
+/// What the page shows of one figure.
+struct FigureEntry {
+    int number = 0;
+    std::string title;
+    std::string description;
+    std::string stillPath;      ///< PNG
+    std::string videoPath;      ///< MP4
+    double stillTime = 0.0;     ///< s
+    std::vector<std::pair<std::string, std::string>> parameters;    ///< key and value as in the scene file
+    std::string command;        ///< renders the scene again
+    std::string stateHash;
+};
+
+/// The page as HTML, stills and videos embedded. Reads the files; throws render::SystemError.
+std::string figuresPage(const std::vector<FigureEntry>& figures);
+
+/// Standard base64 (RFC 4648) with padding.
+std::string base64(const std::vector<unsigned char>& bytes);
+
+}  // namespace tools

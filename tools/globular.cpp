@@ -1,0 +1,59 @@
+// The program: subcommands in, exit codes out. Errors are caught here and nowhere else, one line for each problem.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <sstream>
+
+#include "engine/simulation.h"
+#include "render/system_error.h"
+#include "scenes/input_error.h"
+#include "tools/commands.h"
+
+namespace {
+
+constexpr int kOutsideFailed = 1;
+constexpr int kInputWrong = 2;
+constexpr int kUnstable = 3;
+
+int report(const std::string& problems, int exitCode) {
+    std::istringstream lines(problems);
+    for (std::string line; std::getline(lines, line);) fmt::print(stderr, "error: {}\n", line);
+    return exitCode;
+}
+
+int run(CLI::App& program, int argc, char** argv) {
+    try {
+        program.parse(argc, argv);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+        return report(error.what(), kInputWrong);
+    } catch (const scenes::InputError& error) {
+        return report(error.what(), kInputWrong);
+    } catch (const engine::InstabilityError& error) {
+        return report(error.what(), kUnstable);
+    } catch (const std::exception& error) {
+        return report(error.what(), kOutsideFailed);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App program{"globular: a scene file to an animation of globular dynamics, without a display", "globular"};
+    program.set_version_flag("--version", "globular " GLOBULAR_VERSION);
+    program.require_subcommand(1);
+    program.footer("Example: globular render liquid -o out/liquid --video out/liquid.mp4");
+    tools::addRenderCommand(program);
+    tools::addSimulateCommand(program);
+    tools::addFiguresCommand(program);
+    tools::addVideoCommand(program);
+    tools::addCheckCommand(program);
+    tools::addScenesCommand(program);
+    tools::addSchemaCommand(program);
+    const int code = run(program, argc, argv);
+    // Results go to stdout; a full disk behind it is a failure like any other.
+    if (std::fflush(stdout) != 0 && code == 0) return report("cannot write to standard output", kOutsideFailed);
+    return code;
+}

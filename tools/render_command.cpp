@@ -1,0 +1,81 @@
+// globular render: simulate and draw a scene to PNG frames, a run.json and a video.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands.h"
+#include "tools/output_file.h"
+#include "tools/render_loop.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+    RunOptions run;
+    SceneOptions scene;
+    DrawOptions draw;
+    std::string folder;
+    std::string video;
+    std::string frames;
+};
+
+void printSummary(const RenderOptions& options, const fs::path& folder, const nlohmann::ordered_json& json) {
+    if (options.run.json) {
+        fmt::print("{}\n", nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
+    } else if (!options.run.quiet) {
+        fmt::print("{} frames in {}{}\n", json["frames"].get<int>(), folder.string(),
+                   options.video.empty() ? "" : ", video " + options.video);
+        fmt::print("{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), state {}\n",
+                   json["particles"].get<std::size_t>(), json["steps"]["count"].get<std::uint64_t>(),
+                   json["seconds"]["all"].get<double>(), json["seconds"]["simulating"].get<double>(),
+                   json["seconds"]["drawing"].get<double>(), json["seconds"]["encoding"].get<double>(),
+                   json["state_hash"].get<std::string>());
+    }
+}
+
+void render(const RenderOptions& options) {
+    SceneOptions sceneOptions = options.scene;
+    for (const std::string& change : overridesOf(options.draw)) sceneOptions.overrides.push_back(change);
+    const scenes::Scene scene = load(sceneOptions);
+
+    RenderJob job;
+    job.scene = &scene;
+    job.frames = frameRange(options.frames, scenes::frameCount(scene));
+    job.quality = qualityOf(options.draw);
+    job.backend = backendOf(options.draw);
+    job.threads = threadCount(options.run);
+    job.talk = options.run.talk();
+    job.title = fs::path(scene.sourceName).stem().string();
+    job.videoPath = options.video;
+    const fs::path folder = options.folder.empty() ? fs::path("out") / job.title : fs::path(options.folder);
+    job.pngPath = [folder](int frame) { return (folder / fmt::format("frame-{:05}.png", frame)).string(); };
+
+    createFolder(folder);
+    if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
+    RenderResult result = renderFrames(job);
+    const auto json = runJson(scene, result.simulation, result.report);
+    writeFile(folder / "run.json", json.dump(2) + "\n");
+    if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
+    printSummary(options, folder, json);
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "simulate and draw a scene: PNG frames, run.json, a video");
+    const auto options = std::make_shared<RenderOptions>();
+    addTo(*command, options->scene);
+    command->add_option("-o,--output", options->folder, "folder for frames and run.json (default: out/NAME)")->type_name("DIR");
+    command->add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
+    command->add_option("--frames", options->frames, "draw only these frames")->type_name("A-B");
+    addTo(*command, options->draw);
+    addTo(*command, options->run);
+    command->footer("Example: globular render liquid -o out/liquid --video out/liquid.mp4");
+    command->callback([options] { render(*options); });
+}
+
+}  // namespace tools

@@ -1,0 +1,43 @@
+// run.json: what a run did, for people and scripts. Filled in by the loops that simulate and draw.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "engine/simulation.h"
+#include "scenes/scene.h"
+
+namespace tools {
+
+/// Where a run's time went, s of wall clock; stages overlap, so they may add up to more than all.
+struct StageSeconds {
+    double simulating = 0.0;
+    double drawing = 0.0;
+    double encoding = 0.0;      ///< PNG, PLY and video
+    double all = 0.0;
+};
+
+/// Local errors of sampled steps, in radii per second of motion.
+struct ErrorSamples {
+    int count = 0;
+    double sum = 0.0;
+    double largest = 0.0;
+};
+
+/// Measures the local error at the current state and adds it.
+void addSample(ErrorSamples& samples, const engine::Simulation& simulation);
+
+struct RunReport {
+    StageSeconds seconds;
+    ErrorSamples errors;
+    int frames = 0;                 ///< written
+    int threads = 1;
+    std::string glRenderer;         ///< empty where nothing was drawn
+    std::string stateHash;          ///< of the last frame
+    std::string unstable;           ///< why the run ended early; empty for a whole one
+};
+
+/// The content of run.json for a run that has come to the given state.
+nlohmann::ordered_json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report);
+
+}  // namespace tools

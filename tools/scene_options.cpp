@@ -1,0 +1,111 @@
+// Flags to settings.
+#include "tools/scene_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <thread>
+
+#include "render/system_error.h"
+#include "scenes/input_error.h"
+#include "scenes/library.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void failFlag(const std::string& flag, const std::string& message) {
+    throw scenes::InputError({{flag, 0, 0, message}});
+}
+
+/// A whole number that fills the text.
+std::optional<int> wholeNumber(std::string_view text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+void addTo(CLI::App& command, RunOptions& options) {
+    command.add_flag("--quiet", options.quiet, "no progress and no summary");
+    command.add_flag("--json", options.json, "progress and result as JSON, one object a line, on stdout");
+    command.add_option("--threads", options.threads, "how many threads to use (default: all of the machine)")
+        ->check(CLI::Range(1, 1024));
+}
+
+void addTo(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.scene, "a scene file, or the name of a built-in scene (see globular scenes)")->required();
+    command.add_option("--set", options.overrides, "change a key of the scene, e.g. --set physics.step=0.005")
+        ->type_name("KEY=VALUE")->allow_extra_args(false);
+}
+
+void addTo(CLI::App& command, DrawOptions& options) {
+    command.add_option("--size", options.size, "picture size in pixels (default: the scene's)")->type_name("WxH");
+    command.add_option("--style", options.style, "spheres or metaballs (default: the scene's)")
+        ->check(CLI::IsMember({"spheres", "metaballs"}));
+    command.add_option("--quality", options.quality, "draft, normal or final (default: normal)")
+        ->check(CLI::IsMember({"draft", "normal", "final"}));
+    command.add_option("--gl", options.backend, "OpenGL backend: osmesa or egl (default: osmesa)")->type_name("NAME");
+}
+
+int threadCount(const RunOptions& options) {
+    if (options.threads > 0) return options.threads;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+scenes::Scene load(const SceneOptions& options) {
+    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), options.overrides);
+}
+
+std::vector<std::string> overridesOf(const DrawOptions& options) {
+    std::vector<std::string> overrides;
+    if (!options.style.empty()) overrides.push_back("look.style=" + options.style);
+    if (options.size.empty()) return overrides;
+    const std::size_t cross = options.size.find('x');
+    const auto width = wholeNumber(std::string_view(options.size).substr(0, cross));
+    const auto height =
+        cross == std::string::npos ? std::nullopt : wholeNumber(std::string_view(options.size).substr(cross + 1));
+    if (!width || !height) failFlag("--size " + options.size, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
+    overrides.push_back(fmt::format("look.size=[{}, {}]", *width, *height));
+    return overrides;
+}
+
+render::Quality qualityOf(const DrawOptions& options) {
+    if (options.quality == "draft") return render::Quality::draft;
+    return options.quality == "final" ? render::Quality::final : render::Quality::normal;
+}
+
+render::Backend backendOf(const DrawOptions& options) {
+    const auto backend = render::backendNamed(options.backend);
+    if (!backend)
+        throw render::SystemError(
+            fmt::format("there is no OpenGL backend \"{}\"; choose one of: {}", options.backend, render::kBackendNames));
+    return *backend;
+}
+
+std::vector<std::string> sceneFolders() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    const fs::path installed = program.parent_path().parent_path() / "share" / "globular" / "scenes";
+    if (!error && fs::is_directory(installed)) return {installed.string()};
+    return {GLOBULAR_SOURCE_SCENES};
+}
+
+FrameRange frameRange(const std::string& text, int count) {
+    if (text.empty()) return {0, count - 1};
+    const std::size_t dash = text.find('-');
+    const auto first = wholeNumber(std::string_view(text).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : wholeNumber(std::string_view(text).substr(dash + 1));
+    const std::string flag = "--frames " + text;
+    if (!first || !last) failFlag(flag, "must be FIRST-LAST or a single frame, e.g. 0-119");
+    if (*first > *last) failFlag(flag, fmt::format("the first frame, {}, comes after the last, {}", *first, *last));
+    if (*last >= count) failFlag(flag, fmt::format("the scene has frames 0 to {}", count - 1));
+    return {*first, *last};
+}
+
+}  // namespace tools

@@ -1,0 +1,69 @@
+// The flags that several commands share, and what they mean together. One place, so that they read alike everywhere.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/context.h"
+#include "render/view.h"
+#include "scenes/scene.h"
+#include "tools/progress.h"
+
+namespace tools {
+
+/// How the program talks and how many threads it uses.
+struct RunOptions {
+    bool quiet = false;
+    bool json = false;
+    int threads = 0;        ///< 0: as many as the machine has
+
+    Talk talk() const { return json ? Talk::json : quiet ? Talk::quiet : Talk::normal; }
+};
+
+/// Which scene, with what changed.
+struct SceneOptions {
+    std::string scene;                      ///< path or built-in name
+    std::vector<std::string> overrides;     ///< key=value
+};
+
+/// How frames are drawn.
+struct DrawOptions {
+    std::string size;                       ///< WxH; empty: the scene's
+    std::string style;                      ///< empty: the scene's
+    std::string quality = "normal";
+    std::string backend = "osmesa";
+};
+
+void addTo(CLI::App& command, RunOptions& options);
+void addTo(CLI::App& command, SceneOptions& options);
+void addTo(CLI::App& command, DrawOptions& options);
+
+/// The number of threads to use, at least 1.
+int threadCount(const RunOptions& options);
+
+/// The scene with its overrides. Throws scenes::InputError.
+scenes::Scene load(const SceneOptions& options);
+
+/// Size and style as overrides of the scene's look.
+std::vector<std::string> overridesOf(const DrawOptions& options);
+
+render::Quality qualityOf(const DrawOptions& options);
+
+/// Throws render::SystemError for a name that is no backend.
+render::Backend backendOf(const DrawOptions& options);
+
+/// Folders of the built-in scenes: beside the installed program, else in the sources it was built from.
+std::vector<std::string> sceneFolders();
+
+/// Inclusive frame numbers.
+struct FrameRange {
+    int first = 0;
+    int last = 0;
+};
+
+/// "A-B" or "A" within 0 to count - 1; empty text means all. Throws scenes::InputError.
+FrameRange frameRange(const std::string& text, int count);
+
+}  // namespace tools

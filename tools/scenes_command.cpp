@@ -1,0 +1,32 @@
+// globular scenes: the built-in scenes by name.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "scenes/library.h"
+#include "tools/commands.h"
+#include "tools/scene_options.h"
+
+namespace tools {
+
+void addScenesCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("scenes", "the built-in scenes");
+    const auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "one JSON object a line");
+    command->footer("Example: globular scenes");
+    command->callback([json] {
+        const auto list = scenes::listScenes(sceneFolders());
+        std::size_t width = 0;
+        for (const auto& scene : list) width = std::max(width, scene.name.size());
+        for (const auto& scene : list) {
+            if (*json)
+                fmt::print("{}\n", nlohmann::ordered_json{{"name", scene.name}, {"title", scene.title}, {"path", scene.path}}.dump());
+            else
+                fmt::print("{:<{}}  {}\n", scene.name, width, scene.title);
+        }
+    });
+}
+
+}  // namespace tools

@@ -1,0 +1,29 @@
+// globular schema: every key that a scene file may hold.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "scenes/schema.h"
+#include "tools/commands.h"
+
+namespace tools {
+
+void addSchemaCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("schema", "every key of a scene file with type, unit, default, range, help");
+    const auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "one JSON object a line");
+    command->footer("Example: globular schema");
+    command->callback([json] {
+        if (!*json) {
+            fmt::print("{}", scenes::schemaText());
+            return;
+        }
+        for (const scenes::SchemaRow& row : scenes::schemaRows())
+            fmt::print("{}\n", nlohmann::ordered_json{{"key", row.key}, {"type", row.type}, {"unit", row.unit},
+                                                      {"default", row.fallback}, {"range", row.range},
+                                                      {"applies_to", row.appliesTo}, {"help", row.help}}.dump());
+    });
+}
+
+}  // namespace tools

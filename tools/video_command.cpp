@@ -1,0 +1,115 @@
+// globular video: frames that exist become a video; a gap is refused.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "render/png.h"
+#include "render/system_error.h"
+#include "render/video.h"
+#include "scenes/input_error.h"
+#include "tools/commands.h"
+#include "tools/output_file.h"
+#include "tools/progress.h"
+#include "tools/scene_options.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct VideoCommandOptions {
+    RunOptions run;
+    std::string folder;
+    std::string output;
+    int fps = 0;
+};
+
+std::string frameName(int number) { return fmt::format("frame-{:05}.png", number); }
+
+/// The numbers of the frames in a folder, in order.
+std::vector<int> frameNumbers(const fs::path& folder) {
+    std::error_code error;
+    std::vector<int> numbers;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string stem = entry.path().stem().string();
+        if (entry.path().extension() != ".png" || !stem.starts_with("frame-")) continue;
+        const int number = std::atoi(stem.c_str() + 6);
+        if (entry.path().filename() == frameName(number)) numbers.push_back(number);
+    }
+    if (error) throw render::SystemError(fmt::format("cannot read folder {}: {}", folder.string(), error.message()));
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+void refuseGaps(const fs::path& folder, const std::vector<int>& numbers) {
+    if (numbers.empty())
+        throw render::SystemError(fmt::format("{} holds no frames (frame-00000.png, ...)", folder.string()));
+    for (std::size_t k = 1; k < numbers.size(); ++k)
+        if (numbers[k] != numbers[k - 1] + 1)
+            throw render::SystemError(fmt::format("{} is missing; frames {} and {} exist", (folder / frameName(numbers[k - 1] + 1)).string(),
+                                                  numbers[k - 1], numbers[k]));
+}
+
+/// The rate of the run that wrote the frames, or 30 where nothing says.
+int rateOf(const VideoCommandOptions& options) {
+    if (options.fps > 0) return options.fps;
+    const fs::path run = fs::path(options.folder) / "run.json";
+    if (!fs::exists(run)) return 30;
+    const auto bytes = readFile(run);
+    const auto json = nlohmann::json::parse(bytes, nullptr, false);
+    if (!json.is_object() || !json.contains("fps") || !json["fps"].is_number_integer())
+        throw render::SystemError(fmt::format("{} names no frame rate; give one with --fps", run.string()));
+    return json["fps"].get<int>();
+}
+
+void encode(const VideoCommandOptions& options) {
+    const fs::path folder = options.folder;
+    const std::vector<int> numbers = frameNumbers(folder);
+    refuseGaps(folder, numbers);
+    if (fs::path(options.output).has_parent_path()) createFolder(fs::path(options.output).parent_path());
+
+    const auto read = [&](int number) {
+        const fs::path path = folder / frameName(number);
+        return render::decodePng(readFile(path), path.string());
+    };
+    const render::Image first = read(numbers.front());
+    render::VideoOptions video;
+    video.path = options.output;
+    video.size = {first.width, first.height};
+    video.fps = rateOf(options);
+    video.threads = threadCount(options.run);
+    render::VideoWriter writer(video);
+    Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.talk());
+    for (const int number : numbers) {
+        const render::Image image = read(number);
+        if (image.width != first.width || image.height != first.height)
+            throw render::SystemError(fmt::format("{} is {}x{}, the frames before it are {}x{}", (folder / frameName(number)).string(),
+                                                  image.width, image.height, first.width, first.height));
+        writer.add(image);
+        progress.frameDone(number, static_cast<double>(number) / video.fps);
+    }
+    writer.finish();
+    if (options.run.json)
+        fmt::print("{}\n", nlohmann::ordered_json{{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}}.dump());
+    else if (!options.run.quiet)
+        fmt::print("{} frames in {}\n", numbers.size(), options.output);
+}
+
+}  // namespace
+
+void addVideoCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("video", "frames that exist to a video; refuses gaps");
+    const auto options = std::make_shared<VideoCommandOptions>();
+    command->add_option("DIR", options->folder, "folder with frame-00000.png, ...")->required();
+    command->add_option("-o,--output", options->output, "the video to write")->required()->type_name("FILE.mp4");
+    command->add_option("--fps", options->fps, "frames per second (default: that of run.json, else 30)")->check(CLI::Range(1, 240));
+    addTo(*command, options->run);
+    command->footer("Example: globular video out/liquid -o out/liquid.mp4");
+    command->callback([options] { encode(*options); });
+}
+
+}  // namespace tools
