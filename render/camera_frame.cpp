@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace render {
 
@@ -13,7 +14,8 @@ struct Interval {
     double high;
 };
 
-// Tangents from the eye to the circle (a, z, r): a/z runs over (a z -+ r sqrt(a^2 + z^2 - r^2)) / (z^2 - r^2), for z > r.
+// Tangents from the eye to the circle (a, z, r): a/z runs over (a z -+ r sqrt(a^2 + z^2 - r^2)) / (z^2 - r^2), for z >
+// r.
 Interval tangents(double a, double z, double r) {
     const double root = r * std::sqrt(std::max(a * a + z * z - r * r, 0.0));
     const double scale = 1.0 / (z * z - r * r);
@@ -22,6 +24,19 @@ Interval tangents(double a, double z, double r) {
 
 int clampedPixel(double at, int count) {
     return static_cast<int>(std::clamp(std::floor(at), -1.0, static_cast<double>(count)));
+}
+
+// Intervals on the plane at depth 1 (parallel projection: on any) as pixels of the picture, so many pixels wider.
+std::optional<Rect> within(const CameraFrame& frame, Interval x, Interval y, double margin) {
+    const double perX = 0.5 * frame.width / frame.halfWidth;
+    const double perY = 0.5 * frame.height / frame.halfHeight;
+    const Rect rect{clampedPixel(0.5 * frame.width + x.low * perX - margin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.high * perY - margin, frame.height),
+                    clampedPixel(0.5 * frame.width + x.high * perX + margin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.low * perY + margin, frame.height)};
+    if (rect.x0 >= frame.width || rect.y0 >= frame.height || rect.x1 < 0 || rect.y1 < 0) return std::nullopt;
+    return Rect{std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, frame.width - 1),
+                std::min(rect.y1, frame.height - 1)};
 }
 
 glm::vec3 anyPerpendicular(glm::vec3 direction) {
@@ -53,24 +68,34 @@ std::optional<Rect> pixelsTouched(const CameraFrame& frame, glm::vec3 center, fl
     const double z = center.z;
     const double r = radius;
     if (z + r <= 0.0) return std::nullopt;
-    Rect whole{0, 0, frame.width - 1, frame.height - 1};
     Interval x{center.x - r, center.x + r};
     Interval y{center.y - r, center.y + r};
     if (frame.perspective) {
         // Touching the eye's plane to within rounding: the tangents are useless there.
-        if (z <= r * 1.0001) return whole;
+        if (z <= r * 1.0001) return Rect{0, 0, frame.width - 1, frame.height - 1};
         x = tangents(center.x, z, r);
         y = tangents(center.y, z, r);
     }
-    const double perX = 0.5 * frame.width / frame.halfWidth;
-    const double perY = 0.5 * frame.height / frame.halfHeight;
-    Rect rect;
-    rect.x0 = clampedPixel(0.5 * frame.width + x.low * perX - 1.0, frame.width);
-    rect.x1 = clampedPixel(0.5 * frame.width + x.high * perX + 1.0, frame.width);
-    rect.y0 = clampedPixel(0.5 * frame.height - y.high * perY - 1.0, frame.height);
-    rect.y1 = clampedPixel(0.5 * frame.height - y.low * perY + 1.0, frame.height);
-    if (rect.x0 >= frame.width || rect.y0 >= frame.height || rect.x1 < 0 || rect.y1 < 0) return std::nullopt;
-    return Rect{std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, whole.x1), std::min(rect.y1, whole.y1)};
+    return within(frame, x, y, 1.0);
+}
+
+std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minimum, glm::vec3 maximum) {
+    Interval x{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    Interval y = x;
+    int behind = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) != 0 ? maximum.x : minimum.x, (corner & 2) != 0 ? maximum.y : minimum.y,
+                           (corner & 4) != 0 ? maximum.z : minimum.z);
+        const glm::dvec3 view(frame.toView(at));
+        if (view.z <= 1e-6) ++behind;
+        const double scale = frame.perspective ? 1.0 / std::max(view.z, 1e-6) : 1.0;
+        x = {std::min(x.low, view.x * scale), std::max(x.high, view.x * scale)};
+        y = {std::min(y.low, view.y * scale), std::max(y.high, view.y * scale)};
+    }
+    if (behind == 8) return std::nullopt;
+    // Corners on both sides of the eye's plane: what is between them may be anywhere.
+    if (behind > 0 && frame.perspective) return Rect{0, 0, frame.width - 1, frame.height - 1};
+    return within(frame, x, y, 2.0);
 }
 
 }  // namespace render

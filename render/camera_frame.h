@@ -1,5 +1,5 @@
-// A camera as the passes use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that a sphere can touch.
-// The light is such a camera too (parallel projection along the light).
+// A camera as the passes use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that a sphere
+// can touch. The light is such a camera too (parallel projection along the light).
 #pragma once
 
 #include <optional>
@@ -19,9 +19,10 @@ struct Rect {
 };
 
 /// Seen from here a point is p = x right + y up + z forward, relative to the eye; z is the view depth.
-/// Holds:  right, up, forward are orthonormal; pixel (px, py) looks along (halfWidth X, halfHeight Y, 1) from the eye in
-///         perspective, along (0, 0, 1) from (halfWidth X, halfHeight Y, 0) in parallel projection, where X = 2 px/width - 1 and
-///         Y = 1 - 2 py/height.
+/// Holds:  right, up, forward are orthonormal; pixel (px, py) looks along (halfWidth X, halfHeight Y, 1) from the eye
+/// in
+///         perspective, along (0, 0, 1) from (halfWidth X, halfHeight Y, 0) in parallel projection, where X = 2
+///         px/width - 1 and Y = 1 - 2 py/height.
 struct CameraFrame {
     glm::vec3 eye{0.0F};
     glm::vec3 right{1.0F, 0.0F, 0.0F};
@@ -30,7 +31,7 @@ struct CameraFrame {
     float halfWidth = 1.0F;
     float halfHeight = 1.0F;
     bool perspective = true;
-    int width = 1;      ///< pixels
+    int width = 1;  ///< pixels
     int height = 1;
 
     glm::vec3 toView(glm::vec3 point) const {
@@ -43,8 +44,12 @@ struct CameraFrame {
 
 CameraFrame cameraFrame(const Camera& camera, PictureSize size);
 
-/// The pixels that a sphere in view coordinates can touch, one pixel of margin included, within the picture; empty when it is
-/// behind the eye or outside the picture. A sphere that reaches the eye's plane may touch every pixel.
+/// The pixels that a sphere in view coordinates can touch, one pixel of margin included, within the picture; empty when
+/// it is behind the eye or outside the picture. A sphere that reaches the eye's plane may touch every pixel.
 std::optional<Rect> pixelsTouched(const CameraFrame& frame, glm::vec3 center, float radius);
+
+/// The same for a box given by two corners in world axes; the rectangle is that of its projected corners, two pixels
+/// wider.
+std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minimum, glm::vec3 maximum);
 
 }  // namespace render

@@ -25,7 +25,9 @@ namespace render {
 
 namespace {
 
-std::string words(int error) { return std::generic_category().message(error); }
+std::string words(int error) {
+    return std::generic_category().message(error);
+}
 
 int unnamedFile() {
     std::error_code ignored;
@@ -33,7 +35,8 @@ int unnamedFile() {
     if (ignored) folder = "/tmp";
     std::string name = (folder / "globular-XXXXXX").string();
     const int file = ::mkostemp(name.data(), O_CLOEXEC);
-    if (file < 0) throw SystemError(fmt::format("cannot create a temporary file in {}: {}", folder.string(), words(errno)));
+    if (file < 0)
+        throw SystemError(fmt::format("cannot create a temporary file in {}: {}", folder.string(), words(errno)));
     ::unlink(name.c_str());
     return file;
 }
@@ -103,7 +106,7 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
 
 std::string ChildProcess::wait() {
     closeInput();
-    if (pid_ <= 0) return "no such process any more";   // waitpid(-1) would take someone else's child
+    if (pid_ <= 0) return "no such process any more";  // waitpid(-1) would take someone else's child
     int status = 0;
     while (::waitpid(pid_, &status, 0) < 0) {
         if (errno != EINTR) return fmt::format("no exit status: {}", words(errno));

@@ -10,10 +10,12 @@
 
 namespace render {
 
-/// A running program. Its output goes to an unnamed file, because a pipe that nobody reads fills up and stops both sides.
+/// A running program. Its output goes to an unnamed file, because a pipe that nobody reads fills up and stops both
+/// sides.
 class ChildProcess {
  public:
-    /// arguments[0] is the program, looked up on PATH; no shell is involved. Throws SystemError when it cannot be started.
+    /// arguments[0] is the program, looked up on PATH; no shell is involved. Throws SystemError when it cannot be
+    /// started.
     explicit ChildProcess(const std::vector<std::string>& arguments);
     /// Kills the child if it still runs.
     ~ChildProcess();
@@ -23,7 +25,8 @@ class ChildProcess {
     /// Writes everything to the child's input; false when the child no longer reads. Never raises SIGPIPE.
     bool write(std::span<const std::uint8_t> bytes);
 
-    /// Closes the input, waits for the end, and says how it ended: empty for exit status 0, else "exit status 1" or "signal 9 (...)".
+    /// Closes the input, waits for the end, and says how it ended: empty for exit status 0, else "exit status 1" or
+    /// "signal 9 (...)".
     std::string wait();
 
     /// What the child wrote to its output and errors; the end of it, at most so many bytes.

@@ -1,4 +1,5 @@
-// What both backends share: choosing one, loading the functions, refusing what would not give the same pixels everywhere.
+// What both backends share: choosing one, loading the functions, refusing what would not give the same pixels
+// everywhere.
 #include "render/context.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// An off-screen OpenGL context of Mesa's software renderer, for machines without a display. Made by tools/ once per run and
-// handed to the Renderer. OSMesa left Mesa in 25.1, hence two backends that give the same pixels.
+// An off-screen OpenGL context of Mesa's software renderer, for machines without a display. Made by tools/ once per run
+// and handed to the Renderer. OSMesa left Mesa in 25.1, hence two backends that give the same pixels.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,8 @@ class NativeContext {
 std::unique_ptr<NativeContext> makeOsmesaContext();
 std::unique_ptr<NativeContext> makeEglContext();
 
-/// An OpenGL 3.3 core (or later) context. Current on no thread after construction; successive frames may be drawn from different
-/// threads as long as one releases it before the next makes it current.
+/// An OpenGL 3.3 core (or later) context. Current on no thread after construction; successive frames may be drawn from
+/// different threads as long as one releases it before the next makes it current.
 class Context {
  public:
     /// Throws SystemError: no such library, no OpenGL 3.3, or a renderer that is not Mesa's software renderer.

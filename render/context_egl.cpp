@@ -27,8 +27,9 @@ class EglContext final : public NativeContext {
         // EGL counts nothing: one display per process, so it is never terminated, as another context may still use it.
         if (eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) fail("eglInitialize");
         if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) fail("eglBindAPI(EGL_OPENGL_API)");
-        const std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-                                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        const std::array<EGLint, 7> attributes = {
+            EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
         context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
         if (context_ == EGL_NO_CONTEXT) fail("eglCreateContext for OpenGL 3.3 core");
     }
@@ -66,7 +67,9 @@ class EglContext final : public NativeContext {
 
 }  // namespace
 
-std::unique_ptr<NativeContext> makeEglContext() { return std::make_unique<EglContext>(); }
+std::unique_ptr<NativeContext> makeEglContext() {
+    return std::make_unique<EglContext>();
+}
 
 }  // namespace render
 

@@ -17,9 +17,19 @@ namespace {
 class OsmesaContext final : public NativeContext {
  public:
     OsmesaContext() {
-        const std::array<int, 13> attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                                                OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3,
-                                                OSMESA_DEPTH_BITS, 0, OSMESA_STENCIL_BITS, 0, 0};
+        const std::array<int, 13> attributes = {OSMESA_FORMAT,
+                                                OSMESA_RGBA,
+                                                OSMESA_PROFILE,
+                                                OSMESA_CORE_PROFILE,
+                                                OSMESA_CONTEXT_MAJOR_VERSION,
+                                                3,
+                                                OSMESA_CONTEXT_MINOR_VERSION,
+                                                3,
+                                                OSMESA_DEPTH_BITS,
+                                                0,
+                                                OSMESA_STENCIL_BITS,
+                                                0,
+                                                0};
         context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
         if (context_ == nullptr) throw SystemError("OSMesa cannot create an OpenGL 3.3 core context");
     }
@@ -53,7 +63,9 @@ class OsmesaContext final : public NativeContext {
 
 }  // namespace
 
-std::unique_ptr<NativeContext> makeOsmesaContext() { return std::make_unique<OsmesaContext>(); }
+std::unique_ptr<NativeContext> makeOsmesaContext() {
+    return std::make_unique<OsmesaContext>();
+}
 
 }  // namespace render
 

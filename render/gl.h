@@ -1,5 +1,5 @@
-// The few dozen OpenGL functions that render/ calls, as one table per context. Loaded by hand because the usual loaders look for
-// a GLX or EGL context and abort under OSMesa.
+// The few dozen OpenGL functions that render/ calls, as one table per context. Loaded by hand because the usual loaders
+// look for a GLX or EGL context and abort under OSMesa.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -9,55 +9,55 @@
 namespace render {
 
 // name without "gl", type
-#define RENDER_GL_FUNCTIONS(X)                                \
-    X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                  \
-    X(AttachShader, PFNGLATTACHSHADERPROC)                    \
-    X(BindBuffer, PFNGLBINDBUFFERPROC)                        \
-    X(BindBufferBase, PFNGLBINDBUFFERBASEPROC)                \
-    X(BindFramebuffer, PFNGLBINDFRAMEBUFFERPROC)              \
-    X(BindTexture, PFNGLBINDTEXTUREPROC)                      \
-    X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)              \
-    X(BlendFunc, PFNGLBLENDFUNCPROC)                          \
-    X(BufferData, PFNGLBUFFERDATAPROC)                        \
+#define RENDER_GL_FUNCTIONS(X)                                 \
+    X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                   \
+    X(AttachShader, PFNGLATTACHSHADERPROC)                     \
+    X(BindBuffer, PFNGLBINDBUFFERPROC)                         \
+    X(BindBufferBase, PFNGLBINDBUFFERBASEPROC)                 \
+    X(BindFramebuffer, PFNGLBINDFRAMEBUFFERPROC)               \
+    X(BindTexture, PFNGLBINDTEXTUREPROC)                       \
+    X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)               \
+    X(BlendFunc, PFNGLBLENDFUNCPROC)                           \
+    X(BufferData, PFNGLBUFFERDATAPROC)                         \
     X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC) \
-    X(Clear, PFNGLCLEARPROC)                                  \
-    X(ClearColor, PFNGLCLEARCOLORPROC)                        \
-    X(CompileShader, PFNGLCOMPILESHADERPROC)                  \
-    X(CreateProgram, PFNGLCREATEPROGRAMPROC)                  \
-    X(CreateShader, PFNGLCREATESHADERPROC)                    \
-    X(DeleteBuffers, PFNGLDELETEBUFFERSPROC)                  \
-    X(DeleteFramebuffers, PFNGLDELETEFRAMEBUFFERSPROC)        \
-    X(DeleteProgram, PFNGLDELETEPROGRAMPROC)                  \
-    X(DeleteShader, PFNGLDELETESHADERPROC)                    \
-    X(DeleteTextures, PFNGLDELETETEXTURESPROC)                \
-    X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)        \
-    X(Disable, PFNGLDISABLEPROC)                              \
-    X(DrawArrays, PFNGLDRAWARRAYSPROC)                        \
-    X(Enable, PFNGLENABLEPROC)                                \
-    X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)    \
-    X(GenBuffers, PFNGLGENBUFFERSPROC)                        \
-    X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)              \
-    X(GenTextures, PFNGLGENTEXTURESPROC)                      \
-    X(GenVertexArrays, PFNGLGENVERTEXARRAYSPROC)              \
-    X(GetError, PFNGLGETERRORPROC)                            \
-    X(GetIntegerv, PFNGLGETINTEGERVPROC)                      \
-    X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)          \
-    X(GetProgramiv, PFNGLGETPROGRAMIVPROC)                    \
-    X(GetShaderInfoLog, PFNGLGETSHADERINFOLOGPROC)            \
-    X(GetShaderiv, PFNGLGETSHADERIVPROC)                      \
-    X(GetString, PFNGLGETSTRINGPROC)                          \
-    X(GetUniformBlockIndex, PFNGLGETUNIFORMBLOCKINDEXPROC)    \
-    X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)        \
-    X(LinkProgram, PFNGLLINKPROGRAMPROC)                      \
-    X(PixelStorei, PFNGLPIXELSTOREIPROC)                      \
-    X(ReadPixels, PFNGLREADPIXELSPROC)                        \
-    X(ShaderSource, PFNGLSHADERSOURCEPROC)                    \
-    X(TexBuffer, PFNGLTEXBUFFERPROC)                          \
-    X(TexImage2D, PFNGLTEXIMAGE2DPROC)                        \
-    X(TexParameteri, PFNGLTEXPARAMETERIPROC)                  \
-    X(Uniform1i, PFNGLUNIFORM1IPROC)                          \
-    X(UniformBlockBinding, PFNGLUNIFORMBLOCKBINDINGPROC)      \
-    X(UseProgram, PFNGLUSEPROGRAMPROC)                        \
+    X(Clear, PFNGLCLEARPROC)                                   \
+    X(ClearColor, PFNGLCLEARCOLORPROC)                         \
+    X(CompileShader, PFNGLCOMPILESHADERPROC)                   \
+    X(CreateProgram, PFNGLCREATEPROGRAMPROC)                   \
+    X(CreateShader, PFNGLCREATESHADERPROC)                     \
+    X(DeleteBuffers, PFNGLDELETEBUFFERSPROC)                   \
+    X(DeleteFramebuffers, PFNGLDELETEFRAMEBUFFERSPROC)         \
+    X(DeleteProgram, PFNGLDELETEPROGRAMPROC)                   \
+    X(DeleteShader, PFNGLDELETESHADERPROC)                     \
+    X(DeleteTextures, PFNGLDELETETEXTURESPROC)                 \
+    X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)         \
+    X(Disable, PFNGLDISABLEPROC)                               \
+    X(DrawArrays, PFNGLDRAWARRAYSPROC)                         \
+    X(Enable, PFNGLENABLEPROC)                                 \
+    X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)     \
+    X(GenBuffers, PFNGLGENBUFFERSPROC)                         \
+    X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)               \
+    X(GenTextures, PFNGLGENTEXTURESPROC)                       \
+    X(GenVertexArrays, PFNGLGENVERTEXARRAYSPROC)               \
+    X(GetError, PFNGLGETERRORPROC)                             \
+    X(GetIntegerv, PFNGLGETINTEGERVPROC)                       \
+    X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)           \
+    X(GetProgramiv, PFNGLGETPROGRAMIVPROC)                     \
+    X(GetShaderInfoLog, PFNGLGETSHADERINFOLOGPROC)             \
+    X(GetShaderiv, PFNGLGETSHADERIVPROC)                       \
+    X(GetString, PFNGLGETSTRINGPROC)                           \
+    X(GetUniformBlockIndex, PFNGLGETUNIFORMBLOCKINDEXPROC)     \
+    X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)         \
+    X(LinkProgram, PFNGLLINKPROGRAMPROC)                       \
+    X(PixelStorei, PFNGLPIXELSTOREIPROC)                       \
+    X(ReadPixels, PFNGLREADPIXELSPROC)                         \
+    X(ShaderSource, PFNGLSHADERSOURCEPROC)                     \
+    X(TexBuffer, PFNGLTEXBUFFERPROC)                           \
+    X(TexImage2D, PFNGLTEXIMAGE2DPROC)                         \
+    X(TexParameteri, PFNGLTEXPARAMETERIPROC)                   \
+    X(Uniform1i, PFNGLUNIFORM1IPROC)                           \
+    X(UniformBlockBinding, PFNGLUNIFORMBLOCKBINDINGPROC)       \
+    X(UseProgram, PFNGLUSEPROGRAMPROC)                         \
     X(Viewport, PFNGLVIEWPORTPROC)
 
 /// OpenGL's functions, called as gl.DrawArrays(...).

@@ -42,12 +42,14 @@ void TextureBuffer::upload(std::span<const std::byte> bytes) {
     const auto limit = static_cast<std::size_t>(limitOf(*gl_, GL_MAX_TEXTURE_BUFFER_SIZE));
     const std::size_t texels = bytes.size() / texelBytes_;
     if (texels > limit) {
-        throw SystemError(fmt::format("{} entries of {} are more than OpenGL's texture buffers hold ({})", texels, name_, limit));
+        throw SystemError(
+            fmt::format("{} entries of {} are more than OpenGL's texture buffers hold ({})", texels, name_, limit));
     }
     gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
     // An empty buffer may not be sampled at all; one texel always stands.
     const std::size_t size = bytes.empty() ? texelBytes_ : bytes.size();
-    gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(), GL_STREAM_DRAW);
+    gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(),
+                    GL_STREAM_DRAW);
 }
 
 void TextureBuffer::bind(int unit) const {
@@ -63,7 +65,8 @@ Target::Target(const Gl& gl, GLenum format, int width, int height)
       framebuffer_(generate<FramebufferName>(gl, gl.GenFramebuffers)) {
     const GLint limit = limitOf(gl, GL_MAX_TEXTURE_SIZE);
     if (width > limit || height > limit) {
-        throw SystemError(fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}", width, height, limit));
+        throw SystemError(
+            fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}", width, height, limit));
     }
     gl.ActiveTexture(GL_TEXTURE0);
     gl.BindTexture(GL_TEXTURE_2D, texture_.get());
@@ -76,7 +79,8 @@ Target::Target(const Gl& gl, GLenum format, int width, int height)
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.get(), 0);
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
-        throw SystemError(fmt::format("OpenGL cannot draw to {} x {} pixels: framebuffer status 0x{:04x}", width, height, status));
+        throw SystemError(
+            fmt::format("OpenGL cannot draw to {} x {} pixels: framebuffer status 0x{:04x}", width, height, status));
     }
 }
 

@@ -32,11 +32,21 @@ class GlName {
     GLuint name_ = 0;
 };
 
-inline void deleteBuffer(const Gl& gl, GLuint name) { gl.DeleteBuffers(1, &name); }
-inline void deleteTexture(const Gl& gl, GLuint name) { gl.DeleteTextures(1, &name); }
-inline void deleteFramebuffer(const Gl& gl, GLuint name) { gl.DeleteFramebuffers(1, &name); }
-inline void deleteVertexArray(const Gl& gl, GLuint name) { gl.DeleteVertexArrays(1, &name); }
-inline void deleteProgram(const Gl& gl, GLuint name) { gl.DeleteProgram(name); }
+inline void deleteBuffer(const Gl& gl, GLuint name) {
+    gl.DeleteBuffers(1, &name);
+}
+inline void deleteTexture(const Gl& gl, GLuint name) {
+    gl.DeleteTextures(1, &name);
+}
+inline void deleteFramebuffer(const Gl& gl, GLuint name) {
+    gl.DeleteFramebuffers(1, &name);
+}
+inline void deleteVertexArray(const Gl& gl, GLuint name) {
+    gl.DeleteVertexArrays(1, &name);
+}
+inline void deleteProgram(const Gl& gl, GLuint name) {
+    gl.DeleteProgram(name);
+}
 
 using BufferName = GlName<deleteBuffer>;
 using TextureName = GlName<deleteTexture>;

@@ -15,7 +15,9 @@ struct Image {
     std::vector<std::uint8_t> rgb;
 
     /// Number of bytes that the pixels take.
-    std::size_t byteCount() const { return std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    std::size_t byteCount() const {
+        return std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
 };
 
 }  // namespace render

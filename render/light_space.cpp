@@ -22,7 +22,8 @@ float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {
     double sum = 0.0;
     for (const ViewSphere& sphere : spheres) sum += sphere.radius;
     const auto meanDiameter = static_cast<float>(2.0 * sum / static_cast<double>(spheres.size()));
-    return std::max({meanDiameter, extent.x / static_cast<float>(kMostCells - 1), extent.y / static_cast<float>(kMostCells - 1), 1e-6F});
+    return std::max({meanDiameter, extent.x / static_cast<float>(kMostCells - 1),
+                     extent.y / static_cast<float>(kMostCells - 1), 1e-6F});
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {
 LightBasis lightBasis(glm::vec3 toLight) {
     LightBasis basis;
     basis.toLight = normalize(toLight);
-    const glm::vec3 other = std::abs(basis.toLight.x) < 0.9F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
+    const glm::vec3 other =
+        std::abs(basis.toLight.x) < 0.9F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
     basis.u = normalize(cross(other, basis.toLight));
     basis.v = cross(basis.toLight, basis.u);
     return basis;
@@ -75,16 +77,18 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     for (std::size_t place = 0; place < order.size(); ++place) {
         const LightSphere& sphere = seen[order[place]];
         const float reach = kMargin * sphere.radius;
-        items[place] = {order[place], {cellOf(sphere.u - reach, low.x, grid.cellSize, grid.columns),
-                                       cellOf(sphere.v - reach, low.y, grid.cellSize, grid.rows),
-                                       cellOf(sphere.u + reach, low.x, grid.cellSize, grid.columns),
-                                       cellOf(sphere.v + reach, low.y, grid.cellSize, grid.rows)}};
+        items[place] = {order[place],
+                        {cellOf(sphere.u - reach, low.x, grid.cellSize, grid.columns),
+                         cellOf(sphere.v - reach, low.y, grid.cellSize, grid.rows),
+                         cellOf(sphere.u + reach, low.x, grid.cellSize, grid.columns),
+                         cellOf(sphere.v + reach, low.y, grid.cellSize, grid.rows)}};
     }
     const CellLists lists = binItems(items, grid.columns, grid.rows);
     grid.cells.resize(lists.begin.size() - 1);
     grid.spheres.resize(lists.items.size());
     tbb::parallel_for(std::size_t{0}, grid.cells.size(), [&](std::size_t cell) {
-        grid.cells[cell] = {static_cast<std::int32_t>(lists.begin[cell]), static_cast<std::int32_t>(lists.begin[cell + 1])};
+        grid.cells[cell] = {static_cast<std::int32_t>(lists.begin[cell]),
+                            static_cast<std::int32_t>(lists.begin[cell + 1])};
         for (std::size_t k = lists.begin[cell]; k < lists.begin[cell + 1]; ++k) grid.spheres[k] = seen[lists.items[k]];
     });
     return grid;

@@ -1,5 +1,6 @@
-// The view from the light: a plane spanned by u and v, heights towards the light. Spheres that cast shadows are binned to a
-// grid on that plane, so that a shaded point walks only what may stand between it and the light. Positions relative to the eye.
+// The view from the light: a plane spanned by u and v, heights towards the light. Spheres that cast shadows are binned
+// to a grid on that plane, so that a shaded point walks only what may stand between it and the light. Positions
+// relative to the eye.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,7 @@ struct LightGrid {
     int columns = 1;
     int rows = 1;
     std::vector<ListRange> cells;
-    std::vector<LightSphere> spheres;   ///< cell after cell, the nearest to the light first
+    std::vector<LightSphere> spheres;  ///< cell after cell, the nearest to the light first
 };
 
 /// Bins spheres (center relative to the eye) for a light.

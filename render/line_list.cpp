@@ -10,7 +10,7 @@ namespace render {
 
 namespace {
 
-constexpr double kNearDepth = 1e-3;     // m; closer than that a line has no direction on the picture
+constexpr double kNearDepth = 1e-3;  // m; closer than that a line has no direction on the picture
 
 struct ScreenPoint {
     double x;
@@ -43,7 +43,8 @@ bool narrow(double from, double step, double low, double high, std::pair<double,
 }
 
 ScreenPoint between(const CameraFrame& frame, const ScreenPoint& a, const ScreenPoint& b, double t) {
-    const double depth = frame.perspective ? 1.0 / ((1.0 - t) / a.depth + t / b.depth) : a.depth + (b.depth - a.depth) * t;
+    const double depth =
+        frame.perspective ? 1.0 / ((1.0 - t) / a.depth + t / b.depth) : a.depth + (b.depth - a.depth) * t;
     return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, depth};
 }
 
@@ -59,10 +60,12 @@ std::optional<ScreenLine> screenLine(const CameraFrame& frame, const Edge& edge)
     if (!narrow(a.y, b.y - a.y, -margin, frame.height + margin, part)) return std::nullopt;
     const ScreenPoint c = between(frame, a, b, part.first);
     const ScreenPoint d = between(frame, a, b, part.second);
-    return ScreenLine{glm::vec4(c.x, c.y, d.x, d.y), glm::vec4(c.depth, d.depth, edge.width, 0.0), glm::vec4(edge.color, 0.0F)};
+    return ScreenLine{glm::vec4(c.x, c.y, d.x, d.y), glm::vec4(c.depth, d.depth, edge.width, 0.0),
+                      glm::vec4(edge.color, 0.0F)};
 }
 
-// Whether the line comes within reach of a tile: distance of the tile's centre to the segment against half its diagonal.
+// Whether the line comes within reach of a tile: distance of the tile's centre to the segment against half its
+// diagonal.
 bool touches(const ScreenLine& line, int column, int row) {
     const glm::vec2 center = (glm::vec2(column, row) + 0.5F) * static_cast<float>(kTileSize);
     const glm::vec2 from(line.ends.x, line.ends.y);

@@ -1,4 +1,5 @@
-// Edges of boxes and the like as straight lines on the picture: projected, clipped, binned to tiles. Used by the picture pass.
+// Edges of boxes and the like as straight lines on the picture: projected, clipped, binned to tiles. Used by the
+// picture pass.
 #pragma once
 
 #include <span>
@@ -14,8 +15,8 @@ namespace render {
 
 /// Three texels, as shaders/lines.glsl reads them.
 struct ScreenLine {
-    glm::vec4 ends{0.0F};       ///< x, y of both ends, pixels
-    glm::vec4 depths{1.0F};     ///< view depth at both ends, m; width, pixels; unused
+    glm::vec4 ends{0.0F};    ///< x, y of both ends, pixels
+    glm::vec4 depths{1.0F};  ///< view depth at both ends, m; width, pixels; unused
     glm::vec4 color{0.0F};
 };
 

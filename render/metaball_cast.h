@@ -1,5 +1,5 @@
-// The ray cast of the metaball field: where rays first meet the surface, on the CPU, as many rays at a time as the machine has
-// lanes. Called by metaball_frame.cpp once per tile of the picture and of the light's depth map.
+// The ray cast of the metaball field: where rays first meet the surface, on the CPU, as many rays at a time as the
+// machine has lanes. Called by metaball_frame.cpp once per tile of the picture and of the light's depth map.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace render {
 /// A ball of the field in the camera's view coordinates.
 struct FieldBall {
     glm::vec3 center{0.0F};
-    float reach = 1.0F;         ///< where its kernel ends, m
+    float reach = 1.0F;  ///< where its kernel ends, m
     float inverseReach = 1.0F;
     glm::vec3 color{0.0F};
 };
@@ -25,10 +25,10 @@ struct FieldBall {
 struct FieldCast {
     CameraFrame frame;
     std::span<const FieldBall> balls;
-    const CellLists* tiles = nullptr;       ///< of the balls' reaches, front to back
+    const CellLists* tiles = nullptr;  ///< of the balls' reaches, front to back
     float threshold = 0.5F;
-    float step = 0.05F;                     ///< view depth between samples of the field, m
-    bool depthOnly = false;                 ///< leaves normal and color unwritten
+    float step = 0.05F;      ///< view depth between samples of the field, m
+    bool depthOnly = false;  ///< leaves normal and color unwritten
 };
 
 inline constexpr std::size_t kBlockRays = 256;
@@ -38,15 +38,19 @@ struct RayBlock {
     alignas(64) std::array<float, kBlockRays> x{};
     alignas(64) std::array<float, kBlockRays> y{};
     std::size_t count = 0;
-    alignas(64) std::array<float, kBlockRays> depth{};      ///< view depth of the hit; negative: none
+    alignas(64) std::array<float, kBlockRays> depth{};                  ///< view depth of the hit; negative: none
     alignas(64) std::array<std::array<float, kBlockRays>, 3> normal{};  ///< in view coordinates, unit length
     alignas(64) std::array<std::array<float, kBlockRays>, 3> color{};
 };
 
 /// Casts the rays of a block, all within one tile.
-/// Holds:  a ray's result depends on its own position and the tile alone, bit for bit: neither on the other rays of the block
-///         nor on the number of lanes, because the samples stand on a grid common to the tile, a ball out of a ray's reach adds
-///         exactly 0, and multiplications and additions are never fused.
+/// Holds:  a ray's result depends on its own position and the tile alone, bit for bit: neither on the other rays of the
+/// block
+///         nor on the number of lanes, because the samples stand on a grid common to the tile, a ball out of a ray's
+///         reach adds exactly 0, and multiplications and additions are never fused.
 void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block);
+
+/// Name of the instruction set that castBlock uses on this machine, e.g. "AVX2". Its results are the same on each.
+const char* castInstructionSet();
 
 }  // namespace render

@@ -13,7 +13,8 @@ namespace render {
 
 namespace {
 
-// Places of a tile's 256 pixels along a Z curve, so that any group of 4, 8 or 16 in a row is compact and its rays meet few balls.
+// Places of a tile's 256 pixels along a Z curve, so that any group of 4, 8 or 16 in a row is compact and its rays meet
+// few balls.
 constexpr std::array<std::uint8_t, kBlockRays> zCurve() {
     std::array<std::uint8_t, kBlockRays> places{};
     for (unsigned k = 0; k < kBlockRays; ++k) {
@@ -31,7 +32,8 @@ constexpr std::array<std::uint8_t, kBlockRays> zCurve() {
 constexpr std::array<std::uint8_t, kBlockRays> kZCurve = zCurve();
 
 // The rotated grid of shaders/picture.frag.
-constexpr std::array<std::array<float, 2>, 4> kOffsets = {{{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
+constexpr std::array<std::array<float, 2>, 4> kOffsets = {
+    {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
 
 struct BinnedField {
     std::vector<FieldBall> balls;
@@ -44,11 +46,15 @@ BinnedField binField(const CameraFrame& frame, const View& view) {
     field.balls = fieldBalls(frame, view);
     std::vector<ViewSphere> reaches(field.balls.size());
     float smallest = std::numeric_limits<float>::max();
+    double sum = 0.0;
     for (std::size_t k = 0; k < field.balls.size(); ++k) {
         reaches[k] = {field.balls[k].center, field.balls[k].reach};
         smallest = std::min(smallest, field.balls[k].reach);
+        sum += field.balls[k].reach;
     }
-    field.smallestRadius = smallest / view.field.reach;
+    // A dwarf among giants may not make every ray crawl: a tenth of the mean radius is as small as it gets.
+    const double mean = sum / static_cast<double>(std::max<std::size_t>(field.balls.size(), 1));
+    field.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / view.field.reach;
     field.tiles = binToTiles(frame, reaches);
     return field;
 }
@@ -75,34 +81,6 @@ void placeRays(RayBlock& block, const CellLists& tiles, std::size_t tile, glm::v
     }
 }
 
-std::uint32_t packedNormal(glm::vec3 n) {
-    const float scale = 1.0F / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    glm::vec2 folded(n.x * scale, n.y * scale);
-    if (n.z < 0.0F) {
-        folded = {(1.0F - std::abs(n.y * scale)) * (n.x >= 0.0F ? 1.0F : -1.0F),
-                  (1.0F - std::abs(n.x * scale)) * (n.y >= 0.0F ? 1.0F : -1.0F)};
-    }
-    const auto packed = [](float at) { return static_cast<std::uint32_t>(std::clamp((at + 1.0F) * 32767.5F + 0.5F, 0.0F, 65535.0F)); };
-    return packed(folded.x) | packed(folded.y) << 16;
-}
-
-std::uint32_t packedRoots(glm::vec3 color) {
-    const auto packed = [](float at, float most) {
-        return static_cast<std::uint32_t>(std::sqrt(std::clamp(at, 0.0F, 1.0F)) * most + 0.5F);
-    };
-    return packed(color.x, 2047.0F) | packed(color.y, 2047.0F) << 11 | packed(color.z, 1023.0F) << 22;
-}
-
-FieldSample sampleOf(const CameraFrame& frame, const RayBlock& block, std::size_t k) {
-    if (!(block.depth[k] >= 0.0F)) return {};
-    const glm::vec3 normal =
-        block.normal[0][k] * frame.right + block.normal[1][k] * frame.up + block.normal[2][k] * frame.forward;
-    // A hit at the eye itself still has to differ from no hit.
-    const float depth = std::max(block.depth[k], 1e-30F);
-    return {std::bit_cast<std::uint32_t>(depth), packedNormal(normal),
-            packedRoots({block.color[0][k], block.color[1][k], block.color[2][k]}), 0};
-}
-
 // The samples at pixels, for looking at neighbours across tiles.
 class Neighbours {
  public:
@@ -112,7 +90,8 @@ class Neighbours {
         if (x < 0 || y < 0 || x >= tiles_.columns * kTileSize || y >= tiles_.rows * kTileSize) return 0.0F;
         const std::int32_t slot = picture_.slots[tiles_.cellIndex(x / kTileSize, y / kTileSize)];
         if (slot < 0) return 0.0F;
-        const auto place = static_cast<std::size_t>(slot) * kBlockRays + static_cast<std::size_t>(y % kTileSize * kTileSize + x % kTileSize);
+        const auto place = static_cast<std::size_t>(slot) * kBlockRays +
+                           static_cast<std::size_t>(y % kTileSize * kTileSize + x % kTileSize);
         return std::bit_cast<float>(picture_.samples[place].depthBits);
     }
 
@@ -134,7 +113,7 @@ class Neighbours {
 // The extra samples of one tile, in the order of its pixels.
 struct TileExtras {
     std::vector<std::uint8_t> pixels;
-    std::vector<FieldSample> samples;   ///< four a pixel
+    std::vector<FieldSample> samples;  ///< four a pixel
 };
 
 TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::uint8_t> pixels) {
@@ -145,7 +124,7 @@ TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::
     RayBlock block;
     const auto flush = [&] {
         castBlock(cast, tile, block);
-        for (std::size_t k = 0; k < block.count; ++k) extras.samples.push_back(sampleOf(cast.frame, block, k));
+        for (std::size_t k = 0; k < block.count; ++k) extras.samples.push_back(packedSample(cast.frame, block, k));
         block.count = 0;
     };
     for (const std::uint8_t pixel : pixels) {
@@ -177,7 +156,8 @@ void addExtras(const FieldCast& cast, float jump, FieldPicture& picture) {
     for (std::size_t tile = 0; tile < extras.size(); ++tile) {
         const std::size_t base = static_cast<std::size_t>(std::max(picture.slots[tile], 0)) * kBlockRays;
         for (std::size_t k = 0; k < extras[tile].pixels.size(); ++k) {
-            picture.samples[base + extras[tile].pixels[k]].extra = static_cast<std::uint32_t>(picture.samples.size() + 4 * k);
+            picture.samples[base + extras[tile].pixels[k]].extra =
+                static_cast<std::uint32_t>(picture.samples.size() + 4 * k);
         }
         picture.samples.insert(picture.samples.end(), extras[tile].samples.begin(), extras[tile].samples.end());
     }
@@ -187,13 +167,14 @@ CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) 
     CameraFrame frame;
     frame.perspective = false;
     frame.right = basis.u;
-    frame.up = -basis.v;    // rows of the map run along +v
+    frame.up = -basis.v;  // rows of the map run along +v
     frame.forward = -basis.toLight;
     frame.width = map.columns;
     frame.height = map.rows;
     frame.halfWidth = 0.5F * static_cast<float>(map.columns) * map.texelSize;
     frame.halfHeight = 0.5F * static_cast<float>(map.rows) * map.texelSize;
-    frame.eye = (map.origin.x + frame.halfWidth) * basis.u + (map.origin.y + frame.halfHeight) * basis.v + top * basis.toLight;
+    frame.eye =
+        (map.origin.x + frame.halfWidth) * basis.u + (map.origin.y + frame.halfHeight) * basis.v + top * basis.toLight;
     return frame;
 }
 
@@ -203,7 +184,8 @@ constexpr float kTexelsPerRadius = 12.0F;
 DepthMap emptyMap(const LightBounds& bounds, float radius, int mostTexels) {
     DepthMap map;
     const glm::vec3 extent = bounds.high - bounds.low;
-    map.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(mostTexels - 4), radius / kTexelsPerRadius);
+    map.texelSize =
+        std::max(std::max(extent.x, extent.y) / static_cast<float>(mostTexels - 4), radius / kTexelsPerRadius);
     // Two texels of margin for the filter.
     map.columns = static_cast<int>(extent.x / map.texelSize) + 5;
     map.rows = static_cast<int>(extent.y / map.texelSize) + 5;
@@ -243,7 +225,7 @@ FieldPicture castPicture(const CameraFrame& frame, const View& view, const Field
         placeRays(block, field.tiles, tile, sampling.offset);
         castBlock(cast, tile, block);
         FieldSample* out = &picture.samples[static_cast<std::size_t>(picture.slots[tile]) * kBlockRays];
-        for (std::size_t k = 0; k < kBlockRays; ++k) out[kZCurve[k]] = sampleOf(frame, block, k);
+        for (std::size_t k = 0; k < kBlockRays; ++k) out[kZCurve[k]] = packedSample(frame, block, k);
     });
     if (sampling.extraAtOutlines) addExtras(cast, 0.5F * field.smallestRadius, picture);
     return picture;
@@ -277,7 +259,8 @@ DepthMap castDepthMap(const LightBasis& basis, const View& view, int mostTexels)
             const int x = static_cast<int>(block.x[k]);
             const int y = static_cast<int>(block.y[k]);
             if (x >= map.columns || y >= map.rows || block.depth[k] < 0.0F) continue;
-            const auto place = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.columns) + static_cast<std::size_t>(x);
+            const auto place =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(map.columns) + static_cast<std::size_t>(x);
             map.heights[place] = bounds.high.z - block.depth[k];
         }
     });

@@ -1,4 +1,5 @@
-// The metaballs of one view, cast: samples of their surface for the picture, heights for the shadows. Called by the picture pass.
+// The metaballs of one view, cast: samples of their surface for the picture, heights for the shadows. Called by the
+// picture pass.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "render/camera_frame.h"
+#include "render/field_sample.h"
 #include "render/light_space.h"
 #include "render/metaball_cast.h"
 #include "render/tiles.h"
@@ -14,23 +16,15 @@
 
 namespace render {
 
-/// A point of the surface as shaders/picture.frag unpacks it.
-struct FieldSample {
-    std::uint32_t depthBits = 0;    ///< view depth, a float's bits; 0: no surface
-    std::uint32_t normal = 0;       ///< octahedral, 16 + 16 bits, in world axes
-    std::uint32_t color = 0;        ///< square roots, 11 + 11 + 10 bits
-    std::uint32_t extra = 0;        ///< first of four more samples at the sub-pixel places; 0: none
-};
-
 struct FieldPicture {
-    std::vector<FieldSample> samples;   ///< 256 a slot, row by row, then the extra samples
-    std::vector<std::int32_t> slots;    ///< per tile; -1 where no ball reaches
+    std::vector<FieldSample> samples;  ///< 256 a slot, row by row, then the extra samples
+    std::vector<std::int32_t> slots;   ///< per tile; -1 where no ball reaches
 };
 
 /// Where in the pixel the rays go.
 struct FieldSampling {
-    glm::vec2 offset{0.0F};         ///< of the one sample, in pixels from the middle
-    bool extraAtOutlines = false;   ///< four more samples where neighbours differ
+    glm::vec2 offset{0.0F};        ///< of the one sample, in pixels from the middle
+    bool extraAtOutlines = false;  ///< four more samples where neighbours differ
 };
 
 /// Heights of the surface over the light's plane.
@@ -39,7 +33,7 @@ struct DepthMap {
     float texelSize = 1.0F;
     int columns = 1;
     int rows = 1;
-    std::vector<float> heights;     ///< towards the light; kNoHeight where there is no surface
+    std::vector<float> heights;  ///< towards the light; kNoHeight where there is no surface
 };
 
 inline constexpr float kNoHeight = -3e38F;
@@ -47,7 +41,7 @@ inline constexpr float kNoHeight = -3e38F;
 /// Balls of the particles in a camera's coordinates; radii not above zero are left out.
 std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const View& view);
 
-/// 0.5: half a radius of the smallest ball per step, measured against the oracle's exact roots.
+/// Half a radius of the smallest ball per step: metaball_test.cpp finds no hit missed against the oracle's exact roots.
 FieldPicture castPicture(const CameraFrame& frame, const View& view, const FieldSampling& sampling);
 
 /// mostTexels: along the longer side.

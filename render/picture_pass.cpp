@@ -12,7 +12,7 @@ namespace render {
 namespace {
 
 // A tile's class: which of these it shows. Tiles of one class are drawn together with a program that has only that.
-enum ClassBit { kSphereBit = 1, kFieldBit = 2, kLineBit = 4, kClassCount = 8 };
+enum ClassBit { kSphereBit = 1, kFieldBit = 2, kLineBit = 4, kBoxBit = 8, kClassCount = 16 };
 
 struct TileRow {
     std::int32_t column, row, sphereBegin, sphereEnd, fieldSlot, lineBegin, lineEnd, unused;
@@ -23,12 +23,14 @@ std::span<const std::byte> bytesOf(const std::vector<T>& items) {
     return std::as_bytes(std::span<const T>(items));
 }
 
-std::int32_t beginOf(const CellLists& lists, std::size_t cell) { return static_cast<std::int32_t>(lists.begin[cell]); }
+std::int32_t beginOf(const CellLists& lists, std::size_t cell) {
+    return static_cast<std::int32_t>(lists.begin[cell]);
+}
 
 // Spheres that OpenGL draws: obstacles always, particles unless they are metaballs.
 struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;    // center relative to the eye, in world axes
-    std::vector<glm::vec4> colors;      // w: specular
+    std::vector<ViewSphere> spheres;  // center relative to the eye, in world axes
+    std::vector<glm::vec4> colors;    // w: specular
 };
 
 DrawnSpheres drawnSpheres(const View& view) {
@@ -118,6 +120,16 @@ void PicturePass::uploadBoxes(const View& view) {
         texels.emplace_back(box.color, 0.0F);
     }
     boxes_.upload(bytesOf(texels));
+    boxTiles_.assign(sphereTiles_.begin.size() - 1, 0);
+    for (const BoxObstacle& box : view.boxObstacles) {
+        const auto pixels = pixelsTouchedByBox(frame_, box.minimum, box.maximum);
+        if (!pixels) continue;
+        for (int row = pixels->y0 / kTileSize; row <= pixels->y1 / kTileSize; ++row) {
+            for (int column = pixels->x0 / kTileSize; column <= pixels->x1 / kTileSize; ++column) {
+                boxTiles_[sphereTiles_.cellIndex(column, row)] = 1;
+            }
+        }
+    }
 }
 
 void PicturePass::castField(const View& view, const Sampling& sampling) {
@@ -160,13 +172,14 @@ Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int
     features.spheres = (tileClass & kSphereBit) != 0;
     features.field = (tileClass & kFieldBit) != 0;
     features.lines = (tileClass & kLineBit) != 0;
-    features.boxes = !view.boxObstacles.empty();
+    features.boxes = (tileClass & kBoxBit) != 0;
     features.ground = view.ground.has_value();
     features.lightSpheres = !lightGrid_.spheres.empty();
     features.lightField = depthMap_.heights.size() > 1;
-    const bool casters = features.lightSpheres || features.lightField || features.boxes;
-    features.shadows = view.light.shadows && casters;
-    features.specular = view.surface.specular > 0.0F && (features.field || (features.spheres && view.style == Style::spheres));
+    features.lightBoxes = view.light.shadows && !view.boxObstacles.empty();
+    features.shadows = features.lightSpheres || features.lightField || features.lightBoxes;
+    features.specular =
+        view.surface.specular > 0.0F && (features.field || (features.spheres && view.style == Style::spheres));
     return features;
 }
 
@@ -175,6 +188,7 @@ int PicturePass::classOf(std::size_t tile) const {
     if (sphereTiles_.begin[tile + 1] > sphereTiles_.begin[tile]) bits |= kSphereBit;
     if (!fieldSlots_.empty() && fieldSlots_[tile] >= 0) bits |= kFieldBit;
     if (lineList_.tiles.begin[tile + 1] > lineList_.tiles.begin[tile]) bits |= kLineBit;
+    if (boxTiles_[tile] != 0) bits |= kBoxBit;
     return bits;
 }
 
@@ -189,10 +203,14 @@ std::vector<int> PicturePass::uploadTileTable() {
     for (std::size_t tile = 0; tile < tileCount; ++tile) {
         const auto columns = static_cast<std::size_t>(sphereTiles_.columns);
         rows[static_cast<std::size_t>(next[static_cast<std::size_t>(classOf(tile))]++)] = {
-            static_cast<std::int32_t>(tile % columns), static_cast<std::int32_t>(tile / columns),
-            beginOf(sphereTiles_, tile), beginOf(sphereTiles_, tile + 1),
+            static_cast<std::int32_t>(tile % columns),
+            static_cast<std::int32_t>(tile / columns),
+            beginOf(sphereTiles_, tile),
+            beginOf(sphereTiles_, tile + 1),
             fieldSlots_.empty() ? -1 : fieldSlots_[tile],
-            beginOf(lineList_.tiles, tile), beginOf(lineList_.tiles, tile + 1), 0};
+            beginOf(lineList_.tiles, tile),
+            beginOf(lineList_.tiles, tile + 1),
+            0};
     }
     tileTable_.upload(bytesOf(rows));
     return first;

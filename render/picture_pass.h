@@ -1,5 +1,5 @@
-// Draws a view tile by tile: fills the lists that the shaders walk, chooses a program for each class of tiles, draws. Used by
-// the Renderer alone, with the context current.
+// Draws a view tile by tile: fills the lists that the shaders walk, chooses a program for each class of tiles, draws.
+// Used by the Renderer alone, with the context current.
 #pragma once
 
 #include <span>
@@ -28,9 +28,9 @@ struct FrameBlock {
 
 /// Which rays one drawing takes through a pixel, and what becomes of their colours.
 struct Sampling {
-    int samples = 1;                ///< 1 or 4
-    glm::vec2 offset{0.0F};         ///< from the pixel's middle, pixels; with one sample only
-    bool encode = true;             ///< sRGB bytes; otherwise linear
+    int samples = 1;         ///< 1 or 4
+    glm::vec2 offset{0.0F};  ///< from the pixel's middle, pixels; with one sample only
+    bool encode = true;      ///< sRGB bytes; otherwise linear
 };
 
 class PicturePass {
@@ -67,6 +67,7 @@ class PicturePass {
     CameraFrame frame_;
     CellLists sphereTiles_;
     LineList lineList_;
+    std::vector<std::uint8_t> boxTiles_;  // 1 where a box may be seen
     LightBasis light_;
     LightGrid lightGrid_;
     DepthMap depthMap_;

@@ -15,8 +15,8 @@ namespace {
 
 // Signature given by stb: returns a malloc'd zlib stream, which stb frees.
 unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, int /*quality*/) {
-    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(libdeflate_alloc_compressor(1),
-                                                                                             libdeflate_free_compressor);
+    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+        libdeflate_alloc_compressor(1), libdeflate_free_compressor);
     if (!compressor) return nullptr;
     const auto input = static_cast<std::size_t>(size);
     const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), input);
@@ -49,8 +49,8 @@ unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, 
 namespace render {
 
 std::vector<std::uint8_t> encodePng(const Image& image) {
-    // Filter 1 (difference to the left) is nearly as small as trying all five and much faster. A constant of the library's state,
-    // written once although frames are encoded from several threads.
+    // Filter 1 (difference to the left) is nearly as small as trying all five and much faster. A constant of the
+    // library's state, written once although frames are encoded from several threads.
     static const int filter = stbi_write_force_png_filter = 1;
     static_cast<void>(filter);
     int size = 0;

@@ -10,7 +10,8 @@
 
 namespace render {
 
-/// Fast rather than small: libdeflate's level 1 takes a quarter of the time of stb's own compressor, and the file is smaller.
+/// Fast rather than small: libdeflate's level 1 takes a quarter of the time of stb's own compressor, and the file is
+/// smaller.
 std::vector<std::uint8_t> encodePng(const Image& image);
 
 /// Eight bits a channel, alpha dropped. Throws SystemError with the name and the decoder's words.

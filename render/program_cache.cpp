@@ -30,13 +30,14 @@ constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
                                           {"accumulated", kAccumulatedUnit}}};
 
 std::string definesOf(const Features& features) {
-    std::string text = fmt::format("#version 330 core\n#extension GL_ARB_shader_bit_encoding : require\n#define SAMPLES {}\n", features.samples);
+    std::string text = fmt::format("#version 330 core\n#define SAMPLES {}\n", features.samples);
     const auto define = [&text](const char* name, bool wanted) {
         if (wanted) text += fmt::format("#define {}\n", name);
     };
     define("SPHERES", features.spheres);
     define("FIELD", features.field);
     define("BOXES", features.boxes);
+    define("LIGHT_BOXES", features.lightBoxes);
     define("GROUND", features.ground);
     define("LINES", features.lines);
     define("SHADOWS", features.shadows);
@@ -96,7 +97,8 @@ GLuint ProgramCache::picture(const Features& features) {
     ProgramName& place = pictures_[features];
     if (place.get() != 0) return place.get();
     const std::string vertex = joined("#version 330 core\n", {"tile.vert"});
-    std::string fragment = joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "shadow.glsl", "shade.glsl"});
+    std::string fragment =
+        joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "shadow.glsl", "shade.glsl"});
     if (features.lines) fragment = joined(fragment, {"lines.glsl"});
     return build(place, vertex, joined(fragment, {"picture.frag"}));
 }

@@ -18,22 +18,33 @@ struct Features {
     int samples = 1;
     bool spheres = false;
     bool field = false;
-    bool boxes = false;
+    bool boxes = false;       ///< boxes are seen
+    bool lightBoxes = false;  ///< boxes cast shadows
     bool ground = false;
     bool lines = false;
     bool shadows = false;
-    bool lightSpheres = false;      ///< spheres cast shadows
-    bool lightField = false;        ///< metaballs cast shadows
+    bool lightSpheres = false;  ///< spheres cast shadows
+    bool lightField = false;    ///< metaballs cast shadows
     bool specular = false;
-    bool encode = true;             ///< to sRGB bytes; otherwise linear, for averaging
+    bool encode = true;  ///< to sRGB bytes; otherwise linear, for averaging
 
     auto operator<=>(const Features&) const = default;
 };
 
 /// Texture units, the same in every program.
 enum TextureUnit : int {
-    kBoxesUnit, kTileTableUnit, kTileSpheresUnit, kTileSphereIdsUnit, kSphereColorsUnit, kFieldSamplesUnit,
-    kLightListsUnit, kLightSpheresUnit, kLightDepthsUnit, kLinesUnit, kLineListsUnit, kAccumulatedUnit
+    kBoxesUnit,
+    kTileTableUnit,
+    kTileSpheresUnit,
+    kTileSphereIdsUnit,
+    kSphereColorsUnit,
+    kFieldSamplesUnit,
+    kLightListsUnit,
+    kLightSpheresUnit,
+    kLightDepthsUnit,
+    kLinesUnit,
+    kLineListsUnit,
+    kAccumulatedUnit
 };
 
 class ProgramCache {

@@ -15,23 +15,31 @@ namespace render {
 namespace {
 
 // Shadow texels along the longer side of what the particles cover.
-int depthMapTexels(Quality quality) { return quality == Quality::final ? 2048 : 1024; }
+int depthMapTexels(Quality quality) {
+    return quality == Quality::final ? 2048 : 1024;
+}
 
-int wholeTiles(int pixels) { return (pixels + kTileSize - 1) / kTileSize * kTileSize; }
+int wholeTiles(int pixels) {
+    return (pixels + kTileSize - 1) / kTileSize * kTileSize;
+}
 
-bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(glm::vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // Numbers that are not finite come from a bug upstream, and would make nonsense of the binning.
 void requireFinite(const View& view) {
     for (std::size_t k = 0; k < view.particles.size(); ++k) {
         const Sphere& s = view.particles[k];
         if (finite(s.center) && std::isfinite(s.radius)) continue;
-        throw std::logic_error(fmt::format("render: particle {} of {} is at ({}, {}, {}) with radius {}", k, view.particles.size(),
-                                           s.center.x, s.center.y, s.center.z, s.radius));
+        throw std::logic_error(fmt::format("render: particle {} of {} is at ({}, {}, {}) with radius {}", k,
+                                           view.particles.size(), s.center.x, s.center.y, s.center.z, s.radius));
     }
     if (!finite(view.camera.eye) || !finite(view.camera.target) || !finite(view.light.toLight)) {
         throw std::logic_error("render: the camera or the light has a coordinate that is not finite");
     }
+    if (dot(view.light.toLight, view.light.toLight) == 0.0F)
+        throw std::logic_error("render: the light has no direction");
 }
 
 class Stopwatch {
@@ -63,9 +71,15 @@ VertexArrayName vertexArray(const Gl& gl) {
 
 struct Renderer::Parts {
     Parts(Context& context_, PictureSize size_, Quality quality_)
-        : context(context_), size(checkedSize(size_)), padded{wholeTiles(size_.width), wholeTiles(size_.height)}, quality(quality_),
-          pass(context_.gl()), bytes(context_.gl(), GL_RGBA8, padded.width, padded.height), vertices(vertexArray(context_.gl())) {
-        if (quality == Quality::final) linear = std::make_unique<Target>(context_.gl(), GL_RGBA32F, padded.width, padded.height);
+        : context(context_),
+          size(checkedSize(size_)),
+          padded{wholeTiles(size_.width), wholeTiles(size_.height)},
+          quality(quality_),
+          pass(context_.gl()),
+          bytes(context_.gl(), GL_RGBA8, padded.width, padded.height),
+          vertices(vertexArray(context_.gl())) {
+        if (quality == Quality::final)
+            linear = std::make_unique<Target>(context_.gl(), GL_RGBA32F, padded.width, padded.height);
         context.gl().BindVertexArray(vertices.get());
         context.gl().Enable(GL_PROGRAM_POINT_SIZE);
         context.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -77,7 +91,6 @@ struct Renderer::Parts {
         pass.castField(view, sampling);
         times.cast += watch.lap();
         pass.draw(view, sampling, padded);
-        times.draw += watch.lap();
     }
 
     // Regular 3 x 3 grid, each sample clamped, averaged in linear light.
@@ -150,12 +163,13 @@ Image Renderer::draw(const View& view) {
     parts.pass.prepare(cameraFrame(view.camera, parts.size), view, depthMapTexels(parts.quality));
     parts.times.prepare = watch.lap();
     parts.quality == Quality::final ? parts.drawFinal(view) : parts.drawDirectly(view);
-    watch.lap();
     Image image = parts.readBack();
-    parts.times.draw += watch.lap();
+    parts.times.draw = watch.lap() - parts.times.cast;
     return image;
 }
 
-const DrawTimes& Renderer::times() const { return parts_->times; }
+const DrawTimes& Renderer::times() const {
+    return parts_->times;
+}
 
 }  // namespace render

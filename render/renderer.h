@@ -11,9 +11,9 @@ namespace render {
 
 /// Where the time of one picture went, in seconds.
 struct DrawTimes {
-    double prepare = 0.0;   ///< binning, uploads, the metaballs' shadow map
-    double cast = 0.0;      ///< ray casting of metaballs on the CPU
-    double draw = 0.0;      ///< OpenGL, reading the pixels back included
+    double prepare = 0.0;  ///< binning, uploads, the metaballs' shadow map
+    double cast = 0.0;     ///< ray casting of metaballs on the CPU
+    double draw = 0.0;     ///< OpenGL, reading the pixels back included
 };
 
 /// Draws views of one size and quality. Frames may come from different threads, one at a time.
@@ -26,8 +26,8 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Throws SystemError where OpenGL fails or a list outgrows its limits, std::logic_error for a view with numbers that are
-    /// not finite.
+    /// Throws SystemError where OpenGL fails or a list outgrows its limits, std::logic_error for a view with numbers
+    /// that are not finite.
     Image draw(const View& view);
 
     /// Of the last picture drawn.

@@ -1,4 +1,5 @@
-// Counting sort of items into cells: count, add up, fill. Called for the camera's tiles, the light's grid and the lines.
+// Counting sort of items into cells: count, add up, fill. Called for the camera's tiles, the light's grid and the
+// lines.
 #include "render/tiles.h"
 
 #include <array>
@@ -96,7 +97,8 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
     lists.begin[cellCount] = static_cast<std::uint32_t>(total);
     lists.items.resize(total);
     for (std::size_t cell = 0; cell < cellCount; ++cell) next[cell] = lists.begin[cell];
-    forCellsInBands(items, lists, [&](std::size_t cell, const BinItem& item) { lists.items[next[cell]++] = item.index; });
+    forCellsInBands(items, lists,
+                    [&](std::size_t cell, const BinItem& item) { lists.items[next[cell]++] = item.index; });
     return lists;
 }
 
@@ -108,7 +110,8 @@ CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spher
     for (const std::uint32_t index : orderByKey(nearest)) {
         const auto pixels = pixelsTouched(frame, spheres[index].center, spheres[index].radius);
         if (!pixels) continue;
-        items.push_back({index, {pixels->x0 / kTileSize, pixels->y0 / kTileSize, pixels->x1 / kTileSize, pixels->y1 / kTileSize}});
+        items.push_back(
+            {index, {pixels->x0 / kTileSize, pixels->y0 / kTileSize, pixels->x1 / kTileSize, pixels->y1 / kTileSize}});
     }
     return binItems(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
 }

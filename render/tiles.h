@@ -1,5 +1,5 @@
-// Binning: which items touch which cell of a grid, in a wanted order. One routine serves the picture's 16-pixel tiles, the
-// light's grid and the lines, so that a pixel only ever walks a short list.
+// Binning: which items touch which cell of a grid, in a wanted order. One routine serves the picture's 16-pixel tiles,
+// the light's grid and the lines, so that a pixel only ever walks a short list.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace render {
 
-inline constexpr int kTileSize = 16;     ///< pixels; measured best among 8, 16 and 32 in the prototypes
+inline constexpr int kTileSize = 16;  ///< pixels; measured best among 8, 16 and 32 in the prototypes
 
 /// Lists of items per cell, row by row, one after another.
 struct CellLists {
     int columns = 0;
     int rows = 0;
-    std::vector<std::uint32_t> begin;    ///< cells + 1 entries: cell c holds items[begin[c]] ... items[begin[c + 1] - 1]
+    std::vector<std::uint32_t> begin;  ///< cells + 1 entries: cell c holds items[begin[c]] ... items[begin[c + 1] - 1]
     std::vector<std::uint32_t> items;
 
     std::size_t cellIndex(int column, int row) const {
@@ -26,10 +26,9 @@ struct CellLists {
 
 /// An item's place in the grid.
 struct BinItem {
-    std::uint32_t index = 0;    ///< what is written to the lists
-    Rect cells;                 ///< within the grid
+    std::uint32_t index = 0;  ///< what is written to the lists
+    Rect cells;               ///< within the grid
 };
-
 
 /// Lists every cell's items in the order of `items`.
 /// Holds:  the result depends on nothing but the arguments; throws SystemError beyond 2^31 entries.

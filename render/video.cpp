@@ -17,9 +17,13 @@ namespace render {
 
 namespace {
 
-std::string partialPath(const VideoOptions& options) { return options.path + ".partial"; }
+std::string partialPath(const VideoOptions& options) {
+    return options.path + ".partial";
+}
 
-int even(int pixels) { return pixels + pixels % 2; }
+int even(int pixels) {
+    return pixels + pixels % 2;
+}
 
 ChildProcess started(const std::vector<std::string>& arguments) {
     try {
@@ -40,18 +44,17 @@ void requireX264(const VideoOptions& options) {
     }
 }
 
-// Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes for any number of threads and any processor.
-// Without the BT.709 conversion and tags ffmpeg assumes BT.601 and colours shift. An even size is what yuv420p takes.
+// Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes for any number of threads and any
+// processor. Without the BT.709 conversion and tags ffmpeg assumes BT.601 and colours shift. An even size is what
+// yuv420p takes.
 std::vector<std::string> commandLine(const VideoOptions& options) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
-    return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
-            "-f", "rawvideo", "-pix_fmt", "rgb24",
-            "-video_size", fmt::format("{}x{}", even(options.size.width), even(options.size.height)),
-            "-framerate", fmt::format("{}", options.fps), "-i", "-",
-            "-vf", filter, "-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p",
-            "-threads", fmt::format("{}", options.threads), "-sws_flags", "+accurate_rnd+bitexact",
-            "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-            "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
+    return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt",
+            "rgb24", "-video_size", fmt::format("{}x{}", even(options.size.width), even(options.size.height)),
+            "-framerate", fmt::format("{}", options.fps), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset",
+            "veryfast", "-crf", "18", "-pix_fmt", "yuv420p", "-threads", fmt::format("{}", options.threads),
+            "-sws_flags", "+accurate_rnd+bitexact", "-color_range", "tv", "-colorspace", "bt709", "-color_primaries",
+            "bt709", "-color_trc", "bt709", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
             "-bsf:v", "filter_units=remove_types=6", "-movflags", "+faststart", "-f", "mp4",
             // A path that begins with a dash or looks like a protocol is still a file.
             "file:" + partialPath(options)};
@@ -59,7 +62,8 @@ std::vector<std::string> commandLine(const VideoOptions& options) {
 
 VideoOptions checked(VideoOptions options) {
     if (options.size.width > 0 && options.size.height > 0 && options.fps > 0) return options;
-    throw std::logic_error(fmt::format("video: {} x {} pixels at {} frames a second", options.size.width, options.size.height, options.fps));
+    throw std::logic_error(fmt::format("video: {} x {} pixels at {} frames a second", options.size.width,
+                                       options.size.height, options.fps));
 }
 
 }  // namespace
@@ -81,7 +85,8 @@ struct VideoWriter::Parts {
     [[noreturn]] void fail(const std::string& ended) const {
         const std::string words = process->output();
         throw SystemError(fmt::format("cannot write {}: {} ended with {}{}{}", options.path, options.ffmpeg,
-                                      ended.empty() ? "exit status 0 too early" : ended, words.empty() ? "" : ": ", words));
+                                      ended.empty() ? "exit status 0 too early" : ended, words.empty() ? "" : ": ",
+                                      words));
     }
 
     VideoOptions options;
@@ -97,7 +102,8 @@ VideoWriter::~VideoWriter() = default;
 void VideoWriter::add(const Image& image) {
     const PictureSize size = parts_->options.size;
     if (image.width != size.width || image.height != size.height || image.rgb.size() != image.byteCount()) {
-        throw std::logic_error(fmt::format("video: a frame of {} x {} pixels for {} x {}", image.width, image.height, size.width, size.height));
+        throw std::logic_error(fmt::format("video: a frame of {} x {} pixels for {} x {}", image.width, image.height,
+                                           size.width, size.height));
     }
     const auto row = static_cast<std::size_t>(3 * size.width);
     std::vector<std::uint8_t>& bytes = parts_->padded;
@@ -105,7 +111,9 @@ void VideoWriter::add(const Image& image) {
     for (int y = 0; y < even(size.height); ++y) {
         const auto from = image.rgb.begin() + static_cast<std::ptrdiff_t>(row) * std::min(y, size.height - 1);
         bytes.insert(bytes.end(), from, from + static_cast<std::ptrdiff_t>(row));
-        if (size.width % 2 != 0) bytes.insert(bytes.end(), from + static_cast<std::ptrdiff_t>(row - 3), from + static_cast<std::ptrdiff_t>(row));
+        if (size.width % 2 != 0)
+            bytes.insert(bytes.end(), from + static_cast<std::ptrdiff_t>(row - 3),
+                         from + static_cast<std::ptrdiff_t>(row));
     }
     if (!parts_->process->write(bytes)) parts_->fail(parts_->process->wait());
 }
@@ -116,7 +124,8 @@ void VideoWriter::finish() {
     const std::string partial = partialPath(parts_->options);
     std::error_code error;
     std::filesystem::rename(partial, parts_->options.path, error);
-    if (error) throw SystemError(fmt::format("cannot rename {} to {}: {}", partial, parts_->options.path, error.message()));
+    if (error)
+        throw SystemError(fmt::format("cannot rename {} to {}: {}", partial, parts_->options.path, error.message()));
     parts_->finished = true;
 }
 

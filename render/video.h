@@ -1,4 +1,5 @@
-// Frames to an MP4 by the ffmpeg program: started with an argument vector, fed raw pixels through a pipe. Used by tools/.
+// Frames to an MP4 by the ffmpeg program: started with an argument vector, fed raw pixels through a pipe. Used by
+// tools/.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@
 namespace render {
 
 struct VideoOptions {
-    std::string path;               ///< the finished film; written to path + ".partial" and renamed when whole
+    std::string path;  ///< the finished film; written to path + ".partial" and renamed when whole
     PictureSize size;
     int fps = 30;
     int threads = 2;                ///< of the encoder; the file's bytes do not depend on it

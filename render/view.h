@@ -46,7 +46,7 @@ struct Camera {
 
 /// Parallel light.
 struct Light {
-    glm::vec3 toLight{0.4F, 0.8F, 0.45F};   ///< unit length
+    glm::vec3 toLight{0.4F, 0.8F, 0.4472136F};///< unit length
     glm::vec3 color{1.0F};
     bool shadows = true;                    ///< no shadow pass is run without
 };

@@ -35,7 +35,7 @@ std::optional<engine::Vec3> colorFromHex(std::string_view text) {
 
 engine::Vec3 rampColor(const std::vector<engine::Vec3>& colors, double place) {
     // The comparison is written so that a place that is no number takes the first colour.
-    if (!(place > 0.0)) return colors.front();
+    if (!(place > 0.0) || colors.size() == 1) return colors.front();
     if (place >= 1.0) return colors.back();
     const double scaled = place * static_cast<double>(colors.size() - 1);
     const auto below = std::min(static_cast<std::size_t>(scaled), colors.size() - 2);

@@ -45,8 +45,8 @@ bool opensStatement(const std::string& line) {
 /// What is still open at the end of a line.
 struct Open {
     int brackets = 0;
-    std::string quote;      ///< the delimiter of a string that spans lines
-    bool runaway = false;   ///< a string that cannot span lines did not end in its own
+    std::string quote;     ///< the delimiter of a string that spans lines
+    bool runaway = false;  ///< a string that cannot span lines did not end in its own
 };
 
 /// The end of a string that opens at a place with the given delimiter; npos if it does not end in this line.

@@ -25,7 +25,8 @@ int report(const std::string& problems, int exitCode) {
 int run(CLI::App& program, int argc, char** argv) {
     try {
         program.parse(argc, argv);
-        return 0;
+        if (!program.get_subcommands().empty()) return 0;
+        return report("which command? See globular --help", kInputWrong);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
         return report(error.what(), kInputWrong);
@@ -43,7 +44,7 @@ int run(CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
     CLI::App program{"globular: a scene file to an animation of globular dynamics, without a display", "globular"};
     program.set_version_flag("--version", "globular " GLOBULAR_VERSION);
-    program.require_subcommand(1);
+    program.require_subcommand(0, 1);
     program.footer("Example: globular render liquid -o out/liquid --video out/liquid.mp4");
     tools::addRenderCommand(program);
     tools::addSimulateCommand(program);

@@ -7,6 +7,7 @@
 #include "engine/diagnostics.h"
 #include "engine/local_error.h"
 #include "engine/steppers.h"
+#include "render/metaball_cast.h"
 
 namespace tools {
 namespace {
@@ -54,6 +55,7 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
     json["version"] = GLOBULAR_VERSION;
     json["seed"] = scene.seed;
     json["threads"] = report.threads;
+    json["instruction_set"] = render::castInstructionSet();
     json["gl_renderer"] = report.glRenderer.empty() ? Json(nullptr) : Json(report.glRenderer);
     json["particles"] = simulation.particles.count();
     json["births"] = engine::birthCount(simulation);

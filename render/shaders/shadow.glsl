@@ -85,7 +85,7 @@ float visibility(Point point, bool facing) {
 #ifdef LIGHT_SPHERES
     cover += coverOfSpheres(point.position, point.pixelWidth, facing);
 #endif
-#ifdef BOXES
+#ifdef LIGHT_BOXES
     cover += coverOfBoxes(point.position, point.pixelWidth);
 #endif
 #ifdef LIGHT_FIELD

@@ -1,7 +1,7 @@
 // Packings: counts, spacing, containment, jitter.
 #include "engine/bodies.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <cmath>
 
 using namespace engine;

@@ -1,7 +1,7 @@
 // Obstacles of section 3.2 against hand-worked contacts.
 #include "engine/colliders.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <cmath>
 #include <limits>
 

@@ -1,11 +1,11 @@
 // Energy, momenta, hash, and the exponential of the drag.
 #include "engine/diagnostics.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <cmath>
 #include <limits>
 
-#include "clouds.h"
+#include "tests/engine/clouds.h"
 #include "engine/decay.h"
 
 using namespace engine;

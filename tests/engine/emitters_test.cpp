@@ -1,7 +1,7 @@
 // Births: on time, where they should be, never on top of another unless the scene wants it.
 #include "engine/emitters.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <cmath>
 #include <set>
 

@@ -3,10 +3,10 @@
 
 #include <tbb/global_control.h>
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <limits>
 
-#include "clouds.h"
+#include "tests/engine/clouds.h"
 
 using namespace engine;
 

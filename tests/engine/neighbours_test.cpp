@@ -2,10 +2,10 @@
 #include "engine/neighbours.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <set>
 
-#include "clouds.h"
+#include "tests/engine/clouds.h"
 
 using namespace engine;
 

@@ -1,11 +1,11 @@
 // Laws of the pair force against closed forms, the printed equation and central differences.
 #include "engine/pair_law.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <cmath>
 #include <limits>
 
-#include "clouds.h"
+#include "tests/engine/clouds.h"
 
 using namespace engine;
 

@@ -3,9 +3,9 @@
 
 #include <tbb/global_control.h>
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
-#include "clouds.h"
+#include "tests/engine/clouds.h"
 #include "engine/bodies.h"
 #include "engine/diagnostics.h"
 

@@ -1,10 +1,10 @@
 // Order of convergence, closed forms, and what must be kept or may only fall.
 #include "engine/steppers.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <cmath>
 
-#include "clouds.h"
+#include "tests/engine/clouds.h"
 #include "engine/bodies.h"
 #include "engine/decay.h"
 #include "engine/diagnostics.h"

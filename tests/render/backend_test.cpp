@@ -1,5 +1,5 @@
 // The same view gives the same bytes: either backend, any thread count, any thread, any run.
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include <thread>
 

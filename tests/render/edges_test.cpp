@@ -1,5 +1,5 @@
 // Views at the edge of what a renderer is asked: nothing, one, very many, around the eye, odd sizes, bad numbers.
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include <cmath>
 #include <limits>
@@ -57,7 +57,8 @@ TEST_CASE("Particles across the eye's plane and behind the eye") {
 
 TEST_CASE("The eye inside a box") {
     render::View view = cloud(30);
-    view.boxObstacles.push_back({view.camera.eye - glm::vec3(0.3F, 0.2F, 0.4F), view.camera.eye + glm::vec3(0.3F), {0.3F, 0.6F, 0.3F}});
+    view.boxObstacles.push_back(
+        {view.camera.eye - glm::vec3(0.3F, 0.2F, 0.4F), view.camera.eye + glm::vec3(0.3F), {0.3F, 0.6F, 0.3F}});
     requireOracle(view);
 }
 
@@ -85,13 +86,14 @@ TEST_CASE("Fifty thousand particles") {
         const render::Image image = drawn(view, {320, 180}, Quality::normal);
         const Difference difference = compare(image, drawn(cloud(0), {320, 180}, Quality::normal), 8);
         INFO(difference);
-        CHECK(difference.share > 0.2);      // the cloud covers a good part of the picture
+        CHECK(difference.share > 0.2);  // the cloud covers a good part of the picture
     }
 }
 
 TEST_CASE("Every particle in every tile") {
     render::View view = cloud(0);
-    for (int k = 0; k < 3000; ++k) view.particles.push_back({{0.001F * float(k % 50), 1.0F, 0.0F}, 6.0F, {0.2F, 0.4F, 0.6F}});
+    for (int k = 0; k < 3000; ++k)
+        view.particles.push_back({{0.001F * float(k % 50), 1.0F, 0.0F}, 6.0F, {0.2F, 0.4F, 0.6F}});
     const render::Image image = drawn(view, {320, 180}, Quality::normal);
     // Inside them all: depth 0 everywhere, so one colour per direction of the normal and no background.
     CHECK(compare(image, drawn(cloud(0), {320, 180}, Quality::normal), 2).share > 0.95);

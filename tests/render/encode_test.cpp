@@ -1,5 +1,5 @@
 // The shaders' sRGB encoding against the standard's formula, through the picture of a background.
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include <cmath>
 
@@ -7,7 +7,9 @@
 
 namespace {
 
-double exactSteps(double c) { return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055); }
+double exactSteps(double c) {
+    return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
+}
 
 // A column of pixels from `bottom` to `top`, and how far its bytes are from the exact values at most.
 double largestError(float bottom, float top) {
@@ -27,10 +29,10 @@ double largestError(float bottom, float top) {
 }  // namespace
 
 TEST_CASE("sRGB encoding rounds the exact value to the nearest byte") {
-    // Half a step is the rounding itself; the polynomial is within 0.0025 of a step, single precision (1e-7 of c, with a slope of
-    // up to 3300 steps near 0 and 110 steps at 1) within 0.001.
+    // Half a step is the rounding itself; the polynomial is within 0.0025 of a step, single precision (1e-7 of c, with
+    // a slope of up to 3300 steps near 0 and 110 steps at 1) within 0.001.
     CHECK(largestError(0.0F, 1.0F) < 0.5 + 0.0035);
-    CHECK(largestError(0.0F, 0.02F) < 0.5 + 0.0035);    // the linear part and the joint, looked at closely
+    CHECK(largestError(0.0F, 0.02F) < 0.5 + 0.0035);  // the linear part and the joint, looked at closely
 }
 
 TEST_CASE("Black is 0 and white is 255") {

@@ -1,5 +1,5 @@
 // Lines: width in pixels, hidden by what is nearer, whatever the quality.
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include "tests/render/pictures.h"
 
@@ -35,7 +35,7 @@ TEST_CASE("A line is as wide as it says, at any quality") {
         for (const float width : {0.5F, 1.0F, 1.5F, 3.0F}) {
             CAPTURE(width);
             const double light = lightInColumn(drawn(lineView(width), kSize, quality), 30);
-            CHECK(light == Approx(double(width)).margin(0.03));     // bytes: two grey pixels, 0.01 each of linear light
+            CHECK(light == Approx(double(width)).margin(0.03));  // bytes: two grey pixels, 0.01 each of linear light
         }
     }
 }
@@ -64,7 +64,13 @@ TEST_CASE("The edges of a box show on its near side and not on its far side") {
     const render::Image near = drawn(view, kSize, Quality::normal);
     view.edges[0] = {{-1.0F, -1.0F, -1.0F}, {-1.0F, 0.5F, -1.0F}, glm::vec3(1.0F), 2.0F};
     const render::Image far = drawn(view, kSize, Quality::normal);
-    const render::Image none = drawn([&] { render::View v = view; v.edges.clear(); return v; }(), kSize, Quality::normal);
+    const render::Image none = drawn(
+        [&] {
+            render::View v = view;
+            v.edges.clear();
+            return v;
+        }(),
+        kSize, Quality::normal);
     CHECK(compare(near, none, 40).share * 64 * 48 > 20.0);  // some 15 pixels long, two wide
     CHECK(compare(far, none, 8).largest <= 8);
 }
@@ -76,5 +82,5 @@ TEST_CASE("Lines through the eye's plane and off the picture do no harm") {
     view.edges.push_back({{500.0F, 5.0F, 0.0F}, {600.0F, 5.0F, 0.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
     CHECK(drawn(view, kSize, Quality::normal).rgb == plain.rgb);
     view.edges.push_back({{0.0F, -1.0F, 30.0F}, {0.0F, -1.0F, -30.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
-    CHECK(compare(drawn(view, kSize, Quality::normal), plain, 8).share > 0.01);     // it does cross the lower half
+    CHECK(compare(drawn(view, kSize, Quality::normal), plain, 8).share > 0.01);  // it does cross the lower half
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 #include <glm/glm.hpp>
 
 namespace oracle {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include "tests/render/oracle_near.h"
 #include "tests/render/polynomial.h"

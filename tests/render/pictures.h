@@ -21,11 +21,12 @@ struct Difference {
     int worstX = 0;
     int worstY = 0;
     double mean = 0.0;
-    double share = 0.0;     ///< of pixels that differ by more than the limit given
+    double share = 0.0;  ///< of pixels that differ by more than the limit given
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Difference& d) {
-    return out << "largest " << d.largest << " at (" << d.worstX << ", " << d.worstY << "), mean " << d.mean << ", share " << d.share;
+    return out << "largest " << d.largest << " at (" << d.worstX << ", " << d.worstY << "), mean " << d.mean
+               << ", share " << d.share;
 }
 
 inline Difference compare(const render::Image& a, const render::Image& b, int limit) {
@@ -85,8 +86,8 @@ inline render::View cloud(int count, unsigned seed = 7) {
     return view;
 }
 
-/// The cloud with a sphere and a box beside it. The box stands a little off the ground and off the middle of the picture, where
-/// two surfaces, or an edge and a column of pixel centres, would coincide.
+/// The cloud with a sphere and a box beside it. The box stands a little off the ground and off the middle of the
+/// picture, where two surfaces, or an edge and a column of pixel centres, would coincide.
 inline render::View cloudWithObstacles(int count) {
     render::View view = cloud(count);
     view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});

@@ -1,5 +1,5 @@
 // PNG: what goes in comes out, and what is no PNG is named.
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include <random>
 

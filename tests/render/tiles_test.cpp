@@ -1,5 +1,5 @@
 // Binning: every pixel's list holds what the pixel can see, in order.
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to
         render::View view = pictures::cloud(300);
         view.camera.projection = projection;
         view.camera.halfHeight = 1.5F;
-        view.camera.eye = {0.2F, 1.0F, 1.2F};      // among them: some are behind, some around the eye
+        view.camera.eye = {0.2F, 1.0F, 1.2F};  // among them: some are behind, some around the eye
         const render::PictureSize size{90, 50};
         const render::CameraFrame frame = render::cameraFrame(view.camera, size);
         std::vector<render::ViewSphere> spheres;

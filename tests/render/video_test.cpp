@@ -1,5 +1,5 @@
 // Films: what ffprobe reads back, identical bytes for any number of threads, and every way in which ffmpeg fails.
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 #include <unistd.h>
 
@@ -16,7 +16,9 @@ namespace {
 
 // A folder that is gone after the test.
 struct Folder {
-    Folder() : path(fs::temp_directory_path() / ("globular-video-test-" + std::to_string(::getpid()))) { fs::create_directories(path); }
+    Folder() : path(fs::temp_directory_path() / ("globular-video-test-" + std::to_string(::getpid()))) {
+        fs::create_directories(path);
+    }
     ~Folder() { fs::remove_all(path); }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
@@ -28,7 +30,8 @@ struct Folder {
 render::Image frame(render::PictureSize size, int index) {
     render::Image image{size.width, size.height, {}};
     image.rgb.resize(image.byteCount());
-    for (std::size_t k = 0; k < image.rgb.size(); ++k) image.rgb[k] = static_cast<std::uint8_t>((k / 3 * 5 + static_cast<std::size_t>(index) * 40 + k % 3 * 80) % 256);
+    for (std::size_t k = 0; k < image.rgb.size(); ++k)
+        image.rgb[k] = static_cast<std::uint8_t>((k / 3 * 5 + static_cast<std::size_t>(index) * 40 + k % 3 * 80) % 256);
     return image;
 }
 
@@ -45,7 +48,8 @@ std::string bytesOf(const std::string& path) {
 
 std::string probe(const std::string& path) {
     render::ChildProcess child({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries",
-                                "stream=codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,color_primaries,r_frame_rate,nb_read_frames",
+                                "stream=codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,color_"
+                                "primaries,r_frame_rate,nb_read_frames",
                                 "-of", "default=noprint_wrappers=1", path});
     CHECK(child.wait().empty());
     return child.output();
@@ -54,7 +58,8 @@ std::string probe(const std::string& path) {
 // A stand-in for ffmpeg that answers the probe for libx264 and then does what it is told.
 std::string fakeFfmpeg(const Folder& folder, const std::string& action) {
     const std::string path = folder.file("fake-ffmpeg");
-    std::ofstream(path) << "#!/bin/sh\ncase \"$*\" in *encoder=libx264*) echo 'Encoder libx264'; exit 0;; esac\n" << action << "\n";
+    std::ofstream(path) << "#!/bin/sh\ncase \"$*\" in *encoder=libx264*) echo 'Encoder libx264'; exit 0;; esac\n"
+                        << action << "\n";
     fs::permissions(path, fs::perms::owner_all);
     return path;
 }
@@ -67,8 +72,9 @@ TEST_CASE("A film has its frames, rate, size and colour tags") {
     writeFilm({path, {64, 48}, 25, 2}, 7);
     const std::string found = probe(path);
     INFO(found);
-    for (const char* expected : {"codec_name=h264", "width=64", "height=48", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709",
-                                 "color_transfer=bt709", "color_primaries=bt709", "r_frame_rate=25/1", "nb_read_frames=7"}) {
+    for (const char* expected :
+         {"codec_name=h264", "width=64", "height=48", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709",
+          "color_transfer=bt709", "color_primaries=bt709", "r_frame_rate=25/1", "nb_read_frames=7"}) {
         CHECK_THAT(found, Catch::Contains(expected));
     }
     CHECK_FALSE(fs::exists(path + ".partial"));
@@ -100,7 +106,8 @@ TEST_CASE("Colours survive: a red film is red") {
         writer.add(red);
         writer.finish();
     }
-    render::ChildProcess decoder({"ffmpeg", "-v", "error", "-nostdin", "-i", folder.file("red.mp4"), "-pix_fmt", "rgb24", "-f", "rawvideo", folder.file("red.rgb")});
+    render::ChildProcess decoder({"ffmpeg", "-v", "error", "-nostdin", "-i", folder.file("red.mp4"), "-pix_fmt",
+                                  "rgb24", "-f", "rawvideo", folder.file("red.rgb")});
     CHECK(decoder.wait().empty());
     const std::string bytes = bytesOf(folder.file("red.rgb"));
     REQUIRE(bytes.size() == 3 * 64 * 64);
@@ -115,7 +122,8 @@ TEST_CASE("A missing ffmpeg is one clear SystemError") {
     render::VideoOptions options{folder.file("a.mp4"), {16, 16}};
     options.ffmpeg = "/nowhere/ffmpeg";
     CHECK_THROWS_AS(render::VideoWriter(options), render::SystemError);
-    CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("cannot start /nowhere/ffmpeg: No such file") && Catch::Contains("install ffmpeg"));
+    CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("cannot start /nowhere/ffmpeg: No such file") &&
+                                                        Catch::Contains("install ffmpeg"));
     CHECK(folder.empty());
 }
 
@@ -128,12 +136,13 @@ TEST_CASE("An ffmpeg without libx264 is named as such") {
 
 TEST_CASE("An ffmpeg that dies is one clear SystemError with its last words, and no SIGPIPE") {
     const Folder folder;
-    const render::PictureSize size{640, 360};   // more than a socket holds
+    const render::PictureSize size{640, 360};  // more than a socket holds
     render::VideoOptions options{folder.file("a.mp4"), size};
     options.ffmpeg = fakeFfmpeg(folder, "echo 'the disk is on fire' >&2; exit 3");
     const auto film = [&] { writeFilm(options, 5); };
     CHECK_THROWS_AS(film(), render::SystemError);
-    CHECK_THROWS_WITH(film(), Catch::Contains("a.mp4") && Catch::Contains("exit status 3") && Catch::Contains("the disk is on fire"));
+    CHECK_THROWS_WITH(
+        film(), Catch::Contains("a.mp4") && Catch::Contains("exit status 3") && Catch::Contains("the disk is on fire"));
     options.ffmpeg = fakeFfmpeg(folder, "kill -9 $$");
     CHECK_THROWS_WITH(film(), Catch::Contains("signal 9"));
     CHECK_FALSE(fs::exists(folder.file("a.mp4")));
@@ -147,7 +156,8 @@ TEST_CASE("An ffmpeg that talks without end does not stop the film") {
 }
 
 TEST_CASE("A folder that does not exist is said by ffmpeg") {
-    CHECK_THROWS_WITH(writeFilm({"/nowhere/a.mp4", {64, 64}}, 2), Catch::Contains("/nowhere/a.mp4") && Catch::Contains("No such file"));
+    CHECK_THROWS_WITH(writeFilm({"/nowhere/a.mp4", {64, 64}}, 2),
+                      Catch::Contains("/nowhere/a.mp4") && Catch::Contains("No such file"));
 }
 
 TEST_CASE("A film that is given up leaves nothing") {

@@ -1,0 +1,225 @@
+// Sections to the engine's input: materials, bodies, emitters and obstacles, number by number.
+#include "tests/catch.h"
+
+#include "engine/bodies.h"
+#include "engine/emitters.h"
+#include "scenes/color.h"
+#include "scenes/particle_file.h"
+#include "tests/scenes/scene_text.h"
+
+using engine::Vec3;
+using scenes_test::kBall;
+using scenes_test::kTop;
+using scenes_test::Lines;
+using scenes_test::problemsOf;
+using scenes_test::sceneOf;
+using scenes_test::ScratchFolder;
+
+namespace {
+
+engine::Particles particlesOf(const std::string& body) {
+    return sceneOf(kTop + "[[body]]\n" + body).setup.initial;
+}
+
+engine::Emitter emitterOf(const std::string& lines) {
+    return sceneOf(kTop + "[[emitter]]\n" + lines).setup.emitters.at(0);
+}
+
+scenes::Scene obstacleScene(const std::string& lines) {
+    return sceneOf(kBall + "[[obstacle]]\n" + lines);
+}
+
+}  // namespace
+
+TEST_CASE("a material starts from its preset and overrides what it likes") {
+    const scenes::Scene scene =
+        sceneOf(kBall + "[material]\npreset = \"solid\"\nmass = 2\nbd = 7\ncolor = \"#ff0000\"\ncore = 0.5\n");
+    const engine::Material& material = scene.setup.materials.at(0);
+    const engine::Material preset = *engine::materialPreset("solid");
+    CHECK(material.name == "solid");
+    CHECK(material.radius == preset.radius);
+    CHECK(material.repulsion == preset.repulsion);
+    CHECK(material.repulsionReach == preset.repulsionReach);
+    CHECK(material.dampingReach == preset.dampingReach);
+    CHECK(material.mass == 2.0);
+    CHECK(material.damping == 7.0);
+    CHECK(material.coreFraction == 0.5);
+    CHECK(scene.materialColors.at(0) == Vec3(1.0, 0.0, 0.0));
+}
+
+TEST_CASE("bodies and emitters choose materials by name, else take the first") {
+    const scenes::Scene scene =
+        sceneOf(kTop +
+                "[[material]]\nname = \"a\"\nradius = 0.1\n[[material]]\nname = \"b\"\nradius = 0.2\nmass = 3\n"
+                "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\nmaterial = \"b\"\n"
+                "[[body]]\nshape = \"points\"\npositions = [[1, 0, 0]]\n"
+                "[[emitter]]\nposition = [2, 0, 0]\nrate = 1\nmaterial = \"b\"\n");
+    CHECK(scene.setup.initial.material == std::vector<std::uint32_t>{1, 0});
+    CHECK(scene.setup.initial.radius == std::vector<double>{0.2, 0.1});
+    CHECK(scene.setup.initial.mass == std::vector<double>{3.0, 1.0});
+    CHECK(scene.setup.emitters.at(0).material == 1);
+}
+
+TEST_CASE("packed bodies are those of the engine, spaced by two radii") {
+    const engine::Particles ball =
+        particlesOf("shape = \"ball\"\ncenter = [1, 2, 3]\nradius = 1\nvelocity = [4, 5, 6]\n");
+    CHECK(ball.position == engine::ballPositions(Vec3(1, 2, 3), 1.0, {.spacing = 0.3}));
+    CHECK(ball.velocity.at(0) == Vec3(4.0, 5.0, 6.0));
+    CHECK(ball.count() > 50);
+    const engine::Particles box =
+        particlesOf("shape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 2, 1]\nspacing = 0.5\n");
+    CHECK(box.position == engine::boxPositions(Vec3(0, 0, 0), Vec3(1, 2, 1), {.spacing = 0.5}));
+    const engine::Particles grid =
+        particlesOf("shape = \"grid\"\ncounts = [3, 2, 1]\nparticle_radius = 0.25\nparticle_mass = 9\n");
+    CHECK(grid.position == engine::gridPositions(Vec3(0, 0, 0), {3, 2, 1}, {.spacing = 0.5}));
+    CHECK(grid.radius.at(5) == 0.25);
+    CHECK(grid.mass.at(5) == 9.0);
+}
+
+TEST_CASE("jitter depends on the seed of the scene and differs between bodies") {
+    const std::string body = "[[body]]\nshape = \"grid\"\ncounts = [2, 2, 2]\njitter = 0.2\n";
+    const std::string text = kTop + body + body;
+    const engine::Particles one = sceneOf(text).setup.initial;
+    CHECK(one.position == sceneOf(text).setup.initial.position);
+    CHECK(one.position != sceneOf(text, {"seed=2"}).setup.initial.position);
+    REQUIRE(one.count() == 16);
+    CHECK(one.position[0] != one.position[8]);
+    // At most jitter * spacing = 0.2 * 0.3 m in each coordinate.
+    CHECK((one.position[0] - Vec3(-0.15, -0.15, -0.15)).cwiseAbs().maxCoeff() <= 0.06);
+}
+
+TEST_CASE("points are taken as they are") {
+    const engine::Particles points = particlesOf(
+        "shape = \"points\"\npositions = [[0, 0, 0], [1, 2, 3]]\nvelocities = [[0, 0, 1], [0, 1, 0]]\nvelocity = [5, "
+        "0, 0]\n");
+    CHECK(points.position == std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 2, 3)});
+    CHECK(points.velocity == std::vector<Vec3>{Vec3(5, 0, 1), Vec3(5, 1, 0)});
+    CHECK(points.id == std::vector<std::uint32_t>{0, 1});
+}
+
+TEST_CASE("a file body is found beside the scene and gives back the state it was made from") {
+    const ScratchFolder folder;
+    engine::Particles state;
+    append(state,
+           {.position = Vec3(0.1, 0.2, 0.3), .velocity = Vec3(1, 2, 3), .radius = 0.07, .mass = 0.5, .material = 1});
+    append(state, {.position = Vec3(4, 5, 6), .velocity = Vec3(-1, 0, 0), .radius = 0.08, .mass = 0.25, .material = 0});
+    folder.write("state/drops.ply", scenes::encodeParticles(state));
+    const std::string text = kTop +
+                             "[[material]]\nname = \"a\"\n[[material]]\nname = \"b\"\n[[body]]\nshape = \"file\"\nfile "
+                             "= \"state/drops.ply\"\n";
+    const std::string scenePath = folder.write("s.toml", text);
+    const engine::Particles read = scenes::loadScene(scenePath, {}).setup.initial;
+    CHECK(read.position == state.position);
+    CHECK(read.velocity == state.velocity);
+    CHECK(read.radius == state.radius);
+    CHECK(read.mass == state.mass);
+    CHECK(read.material == state.material);
+
+    const engine::Particles changed =
+        scenes::loadScene(scenePath, {"body[0].material=b", "body[0].particle_mass=2", "body[0].velocity=[1,0,0]"})
+            .setup.initial;
+    CHECK(changed.material == std::vector<std::uint32_t>{1, 1});
+    CHECK(changed.mass == std::vector<double>{2.0, 2.0});
+    CHECK(changed.radius == state.radius);
+    CHECK(changed.velocity.at(1) == Vec3(0.0, 0.0, 0.0));
+
+    const std::string before = scenes::loadScene(scenePath, {}).sceneHash;
+    state.position[0].x() = 0.1000001;
+    folder.write("state/drops.ply", scenes::encodeParticles(state));
+    CHECK(scenes::loadScene(scenePath, {}).sceneHash != before);
+}
+
+TEST_CASE("a file body that cannot be used is reported at its key") {
+    const ScratchFolder folder;
+    const std::string body = kTop + "[[body]]\nshape = \"file\"\nfile = \"none.ply\"\n";
+    const std::string scenePath = folder.write("s.toml", body);
+    const auto problem = [&] {
+        try {
+            scenes::loadScene(scenePath, {});
+        } catch (const scenes::InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    const std::string ply = (folder.path / "none.ply").string();
+    CHECK(problem() == scenePath + ":5:8: " + ply + ": cannot be read: No such file or directory");
+    folder.write("none.ply", "nonsense");
+    CHECK(problem() == scenePath + ":5:8: " + ply + ": is not a PLY file");
+    engine::Particles state;
+    append(state, {.material = 1});
+    folder.write("none.ply", scenes::encodeParticles(state));
+    CHECK(problem() == scenePath + ":5:8: " + ply +
+                           ": particle 0 is of material 1, the scene has 1 (counted from 0); name one with material");
+    folder.write("none.ply", scenes::encodeParticles({}));
+    CHECK(problem() == scenePath + ": there is nothing to simulate: the bodies have no particles");
+}
+
+TEST_CASE("emitters have an interval for each schedule") {
+    CHECK(emitterOf("position = [1, 2, 3]\ninterval = 0.25\n").interval == 0.25);
+    CHECK(emitterOf("position = [1, 2, 3]\nrate = 4\n").interval == 0.25);
+    CHECK(emitterOf("positions = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\nrate = 6\n").interval == 0.5);
+    CHECK(emitterOf("positions = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\nrate = 5\npick = \"random\"\n").interval == 0.2);
+}
+
+TEST_CASE("emitters say what they say") {
+    const engine::Emitter emitter = emitterOf(
+        "position = [1, 2, 3]\nrate = 1\nvelocity = [4, 5, 6]\nstart = 0.5\nuntil = 1.5\ncount = 7\npick = "
+        "\"random\"\nclearance = 0\njitter = 0.25\n");
+    CHECK(emitter.sites == std::vector<Vec3>{Vec3(1, 2, 3)});
+    CHECK(emitter.velocity == Vec3(4, 5, 6));
+    CHECK(emitter.start == 0.5);
+    CHECK(emitter.until == 1.5);
+    CHECK(emitter.limit == 7);
+    CHECK(emitter.pick == engine::Pick::random);
+    CHECK(emitter.clearance == 0.0);
+    CHECK(emitter.jitter == 0.25);
+    const engine::Emitter plain = emitterOf("position = [0, 0, 0]\nrate = 1\n");
+    CHECK(plain.until == engine::Emitter{}.until);
+    CHECK(plain.limit == engine::Emitter{}.limit);
+    CHECK(plain.pick == engine::Pick::all);
+    CHECK(plain.clearance == 1.0);
+}
+
+TEST_CASE("a disc is filled with points of birth across its direction") {
+    const std::string disc = "shape = \"disc\"\nposition = [0, 1, 0]\nradius = 0.5\nrate = 10\n";
+    const engine::Emitter along = emitterOf(disc + "velocity = [0, -3, 0]\n");
+    CHECK(along.sites == engine::discSites(Vec3(0, 1, 0), Vec3(0, -1, 0), 0.5, 0.3));
+    CHECK(along.interval == Approx(static_cast<double>(along.sites.size()) / 10.0));
+    const engine::Emitter tilted = emitterOf(disc + "velocity = [0, -3, 0]\ndirection = [2, 0, 0]\nspacing = 0.25\n");
+    CHECK(tilted.sites == engine::discSites(Vec3(0, 1, 0), Vec3(1, 0, 0), 0.5, 0.25));
+}
+
+TEST_CASE("obstacles become colliders") {
+    const auto plane = std::get<engine::Plane>(
+        obstacleScene("shape = \"plane\"\npoint = [0, 1, 0]\nnormal = [0, 3, 4]\n").setup.scenery.colliders.at(0));
+    CHECK(plane.point == Vec3(0, 1, 0));
+    CHECK((plane.normal - Vec3(0.0, 0.6, 0.8)).norm() < 1e-15);  // two roundings of numbers below 1
+    const auto box = std::get<engine::Box>(
+        obstacleScene("shape = \"box\"\nminimum = [0, 1, 2]\nmaximum = [3, 4, 5]\n").setup.scenery.colliders.at(0));
+    CHECK(box.minimum == Vec3(0, 1, 2));
+    CHECK(box.maximum == Vec3(3, 4, 5));
+    const auto container = std::get<engine::Container>(
+        obstacleScene("shape = \"container\"\ncenter = [1, 0, 0]\nsize = [2, 4, 6]\n").setup.scenery.colliders.at(0));
+    CHECK(container.minimum == Vec3(0, -2, -3));
+    CHECK(container.maximum == Vec3(2, 2, 3));
+    const auto sphere = std::get<engine::Sphere>(
+        obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 0.75\nrepulsor = \"literal\"\n")
+            .setup.scenery.colliders.at(0));
+    CHECK(sphere.center == Vec3(1, 2, 3));
+    CHECK(sphere.radius == 0.75);
+    CHECK(sphere.literalRepulsor);
+    CHECK(!std::get<engine::Sphere>(
+               obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 1\n").setup.scenery.colliders.at(0))
+               .literalRepulsor);
+}
+
+TEST_CASE("obstacles are drawn as the scene says") {
+    CHECK(!obstacleScene("shape = \"plane\"\n").obstacleLooks.at(0).visible);
+    const std::string box = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
+    CHECK(!obstacleScene("shape = \"box\"\n" + box).obstacleLooks.at(0).edges);
+    CHECK(obstacleScene("shape = \"container\"\n" + box).obstacleLooks.at(0).edges);
+    CHECK(obstacleScene("shape = \"container\"\n" + box).obstacleLooks.at(0).color == Vec3(1.0, 0.9, 0.0));
+    CHECK(obstacleScene("shape = \"box\"\nedges = true\ncolor = [0.1, 0.2, 0.3]\n" + box).obstacleLooks.at(0).color ==
+          Vec3(0.1, 0.2, 0.3));
+    CHECK(!obstacleScene("shape = \"box\"\nvisible = false\n" + box).obstacleLooks.at(0).visible);
+}

@@ -1,0 +1,179 @@
+// A scene's frame as the renderer gets it: numbers, colours, obstacles and their edges.
+#include "tests/catch.h"
+
+#include <numbers>
+#include <set>
+
+#include "scenes/color.h"
+#include "scenes/frame_view.h"
+#include "tests/scenes/scene_text.h"
+
+using engine::Vec3;
+using scenes_test::kBall;
+using scenes_test::kTop;
+using scenes_test::sceneOf;
+
+namespace {
+
+render::View viewOf(const std::string& text, double time = 0.0) {
+    const scenes::Scene scene = sceneOf(text);
+    return scenes::frameView(scene, scene.setup.initial, time);
+}
+
+const std::string kPoint = kTop + "[[body]]\nshape = \"points\"\npositions = [[0.1, 0.2, 0.3]]\nvelocity = [3, 0, 4]\n";
+
+}  // namespace
+
+TEST_CASE("particles keep place, radius and order, in single precision") {
+    const render::View view = viewOf(
+        kTop + "[[body]]\nshape = \"points\"\npositions = [[0.1, 0.2, 0.3], [1, 2, 3]]\nparticle_radius = 0.7\n");
+    REQUIRE(view.particles.size() == 2);
+    CHECK(view.particles[0].center == glm::vec3(0.1F, 0.2F, 0.3F));
+    CHECK(view.particles[1].center == glm::vec3(1.0F, 2.0F, 3.0F));
+    CHECK(view.particles[0].radius == 0.7F);
+}
+
+TEST_CASE("numbers beyond single precision stay finite") {
+    const render::View view = viewOf(kTop + "[[body]]\nshape = \"points\"\npositions = [[1e300, -1e300, 0]]\n");
+    CHECK(view.particles.at(0).center.x == std::numeric_limits<float>::max());
+    CHECK(view.particles.at(0).center.y == -std::numeric_limits<float>::max());
+}
+
+TEST_CASE("colour by material") {
+    const std::string two =
+        "[[material]]\nname = \"a\"\ncolor = [0.1, 0.2, 0.3]\n[[material]]\nname = \"b\"\ncolor = \"#ffffff\"\n";
+    const render::View view =
+        viewOf(kPoint + "material = \"b\"\n" + "[[body]]\nshape = \"points\"\npositions = [[1, 1, 1]]\n" + two);
+    CHECK(view.particles.at(0).color == glm::vec3(1.0F));
+    CHECK(view.particles.at(1).color == glm::vec3(0.1F, 0.2F, 0.3F));
+}
+
+TEST_CASE("colour by speed and by age runs through the ramp in linear light") {
+    const std::string ramp = "colors = [\"#000000\", \"#ffffff\"]\n";
+    // The speed of (3, 0, 4) is 5, half way from 0 to 10 and a quarter from 4 to 8.
+    CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 10]\n" + ramp).particles.at(0).color ==
+          glm::vec3(0.5F));
+    CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [4, 8]\n" + ramp).particles.at(0).color ==
+          glm::vec3(0.25F));
+    CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 2]\n" + ramp).particles.at(0).color ==
+          glm::vec3(1.0F));
+    CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [6, 8]\n" + ramp).particles.at(0).color ==
+          glm::vec3(0.0F));
+    // By default ages run to the duration, 2 s.
+    CHECK(viewOf(kPoint + "[look]\ncolor_by = \"age\"\n" + ramp, 0.5).particles.at(0).color == glm::vec3(0.25F));
+}
+
+TEST_CASE("the age of a particle counts from its birth") {
+    const scenes::Scene scene =
+        sceneOf(kPoint + "[look]\ncolor_by = \"age\"\ncolors = [\"#000000\", \"#ffffff\"]\ncolor_range = [0, 4]\n");
+    engine::Particles particles = scene.setup.initial;
+    particles.birthTime.at(0) = 1.0;
+    CHECK(scenes::frameView(scene, particles, 2.0).particles.at(0).color == glm::vec3(0.25F));
+    engine::Simulation simulation = engine::start(scene.setup);
+    simulation.particles.birthTime.at(0) = -3.0;
+    CHECK(scenes::frameView(scene, simulation).particles.at(0).color == glm::vec3(0.75F));
+}
+
+TEST_CASE("obstacles are drawn, planes are not") {
+    const render::View view =
+        viewOf(kBall +
+               "[[obstacle]]\nshape = \"plane\"\n[[obstacle]]\nshape = \"sphere\"\ncenter = [1, 2, 3]\nradius = "
+               "0.5\ncolor = [0.1, 0.2, 0.3]\n"
+               "[[obstacle]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 2, 3]\n"
+               "[[obstacle]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.5\nvisible = false\n");
+    REQUIRE(view.sphereObstacles.size() == 1);
+    CHECK(view.sphereObstacles[0].center == glm::vec3(1.0F, 2.0F, 3.0F));
+    CHECK(view.sphereObstacles[0].radius == 0.5F);
+    CHECK(view.sphereObstacles[0].color == glm::vec3(0.1F, 0.2F, 0.3F));
+    REQUIRE(view.boxObstacles.size() == 1);
+    CHECK(view.boxObstacles[0].maximum == glm::vec3(1.0F, 2.0F, 3.0F));
+    CHECK(view.edges.empty());
+    CHECK(!view.ground.has_value());
+}
+
+TEST_CASE("a container has twelve different edges along the axes") {
+    const render::View view = viewOf(
+        kBall +
+        "[[obstacle]]\nshape = \"container\"\nminimum = [0, 0, 0]\nmaximum = [1, 2, 4]\n[look]\nedge_width = 3\n");
+    REQUIRE(view.edges.size() == 12);
+    CHECK(view.boxObstacles.empty());
+    std::set<std::vector<float>> different;
+    float length = 0.0F;
+    for (const render::Edge& edge : view.edges) {
+        different.insert({edge.from.x, edge.from.y, edge.from.z, edge.to.x, edge.to.y, edge.to.z});
+        length += glm::length(edge.to - edge.from);
+        CHECK(edge.color == glm::vec3(1.0F, 0.9F, 0.0F));
+        CHECK(edge.width == 3.0F);
+    }
+    CHECK(different.size() == 12);
+    // Four edges along each axis: 4 (1 + 2 + 4), exact in single precision.
+    CHECK(length == 28.0F);
+}
+
+TEST_CASE("edges take their colours from the look or from the container") {
+    const std::string corners = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
+    const std::string look = "[look]\nedge_color = [0, 0, 1]\n";
+    CHECK(viewOf(kBall + "[[obstacle]]\nshape = \"container\"\n" + corners + look).edges.at(0).color ==
+          glm::vec3(0, 0, 1));
+    CHECK(
+        viewOf(kBall + "[[obstacle]]\nshape = \"container\"\ncolor = [1, 0, 0]\n" + corners + look).edges.at(0).color ==
+        glm::vec3(1, 0, 0));
+    const render::View box =
+        viewOf(kBall + "[[obstacle]]\nshape = \"box\"\nedges = true\ncolor = [1, 0, 0]\n" + corners + look);
+    CHECK(box.edges.at(0).color == glm::vec3(0, 0, 1));
+    CHECK(box.boxObstacles.at(0).color == glm::vec3(1, 0, 0));
+    CHECK(viewOf(kBall + "[[obstacle]]\nshape = \"container\"\nvisible = false\n" + corners).edges.empty());
+    CHECK(viewOf(kBall + "[[obstacle]]\nshape = \"container\"\nedges = false\n" + corners).edges.empty());
+}
+
+TEST_CASE("the camera and the look arrive") {
+    const render::View view =
+        viewOf(kBall +
+               "[camera]\neye = [1, 2, 3]\ntarget = [4, 5, 7]\nup = [0, 0, 1]\nfov = 90\n"
+               "[look]\nstyle = \"metaballs\"\nmetaball_reach = 3\nlight_direction = [0, 0, 2]\nlight_color = [2, 1, "
+               "0.5]\nshadows = false\n"
+               "ambient_sky = [0.1, 0.2, 0.3]\nambient_ground = [0.4, 0.5, 0.6]\nspecular = 0.04\ngloss = 7\n"
+               "background_top = \"#ffffff\"\nbackground_bottom = \"#000000\"\n"
+               "ground = true\nground_height = -2\nground_color = [0.7, 0.8, 0.9]\nground_fade = 12\n");
+    CHECK(view.camera.projection == render::Projection::perspective);
+    CHECK(view.camera.eye == glm::vec3(1, 2, 3));
+    CHECK(view.camera.target == glm::vec3(4, 5, 7));
+    CHECK(view.camera.up == glm::vec3(0, 0, 1));
+    CHECK(view.camera.verticalFov == static_cast<float>(std::numbers::pi / 2.0));
+    CHECK(view.style == render::Style::metaballs);
+    CHECK(view.field.reach == 3.0F);
+    CHECK(view.light.toLight == glm::vec3(0, 0, 1));
+    CHECK(view.light.color == glm::vec3(2.0F, 1.0F, 0.5F));
+    CHECK(!view.light.shadows);
+    CHECK(view.ambient.sky == glm::vec3(0.1F, 0.2F, 0.3F));
+    CHECK(view.ambient.ground == glm::vec3(0.4F, 0.5F, 0.6F));
+    CHECK(view.surface.specular == 0.04F);
+    CHECK(view.surface.glossExponent == 7);
+    CHECK(view.background.top == glm::vec3(1.0F));
+    CHECK(view.background.bottom == glm::vec3(0.0F));
+    REQUIRE(view.ground.has_value());
+    CHECK(view.ground->height == -2.0F);
+    CHECK(view.ground->color == glm::vec3(0.7F, 0.8F, 0.9F));
+    CHECK(view.ground->center == glm::vec3(4, -2, 7));
+    CHECK(view.ground->fadeDistance == 12.0F);
+}
+
+TEST_CASE("an orthographic camera has a half height") {
+    const render::View view = viewOf(kBall + "[camera]\nprojection = \"orthographic\"\nhalf_height = 6\n");
+    CHECK(view.camera.projection == render::Projection::orthographic);
+    CHECK(view.camera.halfHeight == 6.0F);
+}
+
+TEST_CASE("defaults of the schema that repeat the renderer's agree with them") {
+    const render::View view = viewOf(kBall);
+    const render::View plain;
+    CHECK(view.ambient.sky == plain.ambient.sky);
+    CHECK(view.ambient.ground == plain.ambient.ground);
+    CHECK(view.light.color == plain.light.color);
+    CHECK(view.light.shadows == plain.light.shadows);
+    CHECK(view.surface.specular == plain.surface.specular);
+    CHECK(view.surface.glossExponent == plain.surface.glossExponent);
+    CHECK(view.field.reach == plain.field.reach);
+    CHECK(view.camera.eye == plain.camera.eye);
+    CHECK(view.camera.up == plain.camera.up);
+}

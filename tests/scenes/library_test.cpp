@@ -1,0 +1,70 @@
+// Built-in scenes by name.
+#include "tests/catch.h"
+
+#include "scenes/library.h"
+#include "tests/scenes/scene_text.h"
+
+using scenes_test::kBall;
+using scenes_test::ScratchFolder;
+
+namespace {
+
+std::string resolved(const std::string& name, const std::vector<std::string>& roots) {
+    try {
+        return scenes::resolveScene(name, roots);
+    } catch (const scenes::InputError& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
+TEST_CASE("scenes are found by full name, by last part and by path") {
+    const ScratchFolder folder;
+    const std::string liquid = folder.write("liquid.toml", kBall);
+    const std::string figure = folder.write("paper/figure-2.toml", kBall);
+    const std::string honey = folder.write("hard/honey.toml", kBall);
+    folder.write("notes.txt", "");
+    const std::vector<std::string> roots = {folder.path.string()};
+    CHECK(resolved("liquid", roots) == liquid);
+    CHECK(resolved("figure-2", roots) == figure);
+    CHECK(resolved("paper/figure-2", roots) == figure);
+    CHECK(resolved("hard/honey", roots) == honey);
+    CHECK(resolved(honey, {}) == honey);
+    // A path that is meant as one is left to the reader, which says that it does not exist.
+    CHECK(resolved("nowhere/x.toml", roots) == "nowhere/x.toml");
+}
+
+TEST_CASE("an unknown name offers the nearest") {
+    const ScratchFolder folder;
+    folder.write("liquid.toml", kBall);
+    folder.write("a/twin.toml", kBall);
+    folder.write("b/twin.toml", kBall);
+    const std::vector<std::string> roots = {folder.path.string()};
+    CHECK(resolved("liqiud", roots) == "liqiud: there is no such file or built-in scene, did you mean \"liquid\"?");
+    CHECK(resolved("notes", roots) ==
+          "notes: there is no such file and no built-in scene of that name (`globular scenes` lists them)");
+    CHECK(resolved("twin", roots) == "twin: may be any of a/twin, b/twin");
+    CHECK(resolved("a/twin", roots) == (folder.path / "a/twin.toml").string());
+}
+
+TEST_CASE("scenes are listed by name with their titles; the earlier root counts") {
+    const ScratchFolder first;
+    const ScratchFolder second;
+    first.write("b.toml", "title = \"mine\"\nduration = 1\n");
+    second.write("b.toml", "title = \"theirs\"\n");
+    second.write("paper/a.toml", "title = \"A\"\n");
+    second.write("c.toml", "title = 3\n");
+    second.write("d.toml", "title = \"unclosed\n");
+    const std::vector<scenes::LibraryEntry> entries =
+        scenes::listScenes({first.path.string(), second.path.string(), (first.path / "none").string()});
+    REQUIRE(entries.size() == 4);
+    CHECK(entries[0].name == "b");
+    CHECK(entries[0].title == "mine");
+    CHECK(entries[0].path == (first.path / "b.toml").string());
+    CHECK(entries[1].name == "c");
+    CHECK(entries[1].title == "");
+    CHECK(entries[2].title == "");
+    CHECK(entries[3].name == "paper/a");
+    CHECK(entries[3].title == "A");
+}

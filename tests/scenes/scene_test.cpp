@@ -1,0 +1,132 @@
+// What a scene amounts to: values, defaults, frames, effective values and the hash.
+#include "tests/catch.h"
+
+#include <set>
+
+#include "tests/scenes/scene_text.h"
+
+using engine::Vec3;
+using scenes_test::kBall;
+using scenes_test::sceneOf;
+using scenes_test::ScratchFolder;
+
+TEST_CASE("a scene that says little has the defaults of the schema") {
+    const scenes::Scene scene = sceneOf(kBall);
+    CHECK(scene.title == "t");
+    CHECK(scene.duration == 2.0);
+    CHECK(scene.fps == 30);
+    CHECK(scene.seed == 1);
+    CHECK(scene.setup.gravity == Vec3(0.0, -9.8, 0.0));
+    CHECK(scene.setup.drag == 0.0);
+    CHECK(scene.setup.stepper == engine::StepperKind::velocityVerlet);
+    CHECK(scene.setup.step == 0.002);
+    CHECK(scene.setup.forces == engine::ForceMethod::grid);
+    CHECK(scene.stillTime == 1.0);
+    CHECK(scene.size.width == 1280);
+    CHECK(scene.size.height == 720);
+    CHECK(scene.sourceName == "pile.toml");
+    REQUIRE(scene.setup.materials.size() == 1);
+    CHECK(scene.setup.materials[0].name == "liquid");
+    CHECK(scene.setup.materials[0].coreFraction == engine::Material{}.coreFraction);
+    CHECK(scene.look.metaballReach == 2.5);
+}
+
+TEST_CASE("a scene says what it says") {
+    const scenes::Scene scene = sceneOf(
+        "title = \"all\"\ndescription = \"d\"\nduration = 3\nfps = 25\nseed = 9007199254740993\n"
+        "[physics]\ngravity = [1, 2, 3]\ndrag = 0.5\nstepper = \"symplectic-euler\"\nstep = 0.01\nforces = "
+        "\"reference\"\n"
+        "[[body]]\nshape = \"ball\"\nradius = 1\n[still]\ntime = 3\n[look]\nsize = [640, 480]\nstyle = "
+        "\"metaballs\"\n");
+    CHECK(scene.description == "d");
+    CHECK(scene.fps == 25);
+    // 2^53 + 1: a seed is not squeezed through a double.
+    CHECK(scene.seed == 9007199254740993ULL);
+    CHECK(scene.setup.seed == 9007199254740993ULL);
+    CHECK(scene.setup.gravity == Vec3(1.0, 2.0, 3.0));
+    CHECK(scene.setup.drag == 0.5);
+    CHECK(scene.setup.stepper == engine::StepperKind::symplecticEuler);
+    CHECK(scene.setup.step == 0.01);
+    CHECK(scene.setup.forces == engine::ForceMethod::reference);
+    CHECK(scene.stillTime == 3.0);
+    CHECK(scene.size.width == 640);
+    CHECK(scene.size.height == 480);
+    CHECK(scene.look.style == render::Style::metaballs);
+}
+
+TEST_CASE("frames are counted by rounding and start at time zero") {
+    scenes::Scene scene;
+    scene.fps = 30;
+    scene.duration = 2.0;
+    CHECK(scenes::frameCount(scene) == 60);
+    scene.duration = 0.001;
+    CHECK(scenes::frameCount(scene) == 1);
+    scene.duration = 1.0 / 3.0;
+    CHECK(scenes::frameCount(scene) == 10);
+    scene.duration = 0.049;
+    CHECK(scenes::frameCount(scene) == 1);
+    scene.duration = 0.051;
+    CHECK(scenes::frameCount(scene) == 2);
+    CHECK(scenes::frameTime(scene, 0) == 0.0);
+    CHECK(scenes::frameTime(scene, 1) == 1.0 / 30.0);
+    CHECK(scenes::frameTime(scene, 45) == 1.5);
+}
+
+TEST_CASE("the effective values list every key that counts, once, with its origin") {
+    const scenes::Scene scene = sceneOf(kBall + "[material]\nb1 = 0.5\n");
+    std::set<std::string> paths;
+    for (const scenes::EffectiveValue& value : scene.values) CHECK(paths.insert(value.path).second);
+    const auto value = [&](const std::string& path) {
+        for (const scenes::EffectiveValue& candidate : scene.values)
+            if (candidate.path == path) return candidate;
+        FAIL("no value for " << path);
+        return scenes::EffectiveValue{};
+    };
+    CHECK(value("title").text == "\"t\"");
+    CHECK(value("body[0].radius").text == "0.5");
+    CHECK(value("body[0].radius").unit == "m");
+    CHECK(value("body[0].radius").origin == scenes::Origin::given);
+    CHECK(value("body[0].spacing").text == "0.3");
+    CHECK(value("body[0].spacing").origin == scenes::Origin::derived);
+    CHECK(value("material.b1").text == "0.5");
+    CHECK(value("material.cd").text == "2");
+    CHECK(value("physics.gravity").text == "[0, -9.8, 0]");
+    CHECK(value("physics.gravity").origin == scenes::Origin::fallback);
+    CHECK(value("still.time").text == "1");
+    CHECK(paths.count("body[0].counts") == 0);
+}
+
+TEST_CASE("the hash changes with any value and with nothing else") {
+    const std::string hash = sceneOf(kBall).sceneHash;
+    CHECK(hash.size() == 16);
+    CHECK(hash.find_first_not_of("0123456789abcdef") == std::string::npos);
+    CHECK(sceneOf("# comment\n" + kBall + "\n\n").sceneHash == hash);
+    CHECK(sceneOf(kBall + "center = [0.0, 0, 0]\n[physics]\nstep = 2e-3\n").sceneHash == hash);
+    CHECK(sceneOf(kBall, {"duration=2"}).sceneHash == hash);
+    std::set<std::string> hashes = {hash};
+    for (const char* change :
+         {"title=u", "duration=2.5", "fps=31", "seed=2", "physics.step=0.003", "physics.gravity=[0,-9.8,1e-9]",
+          "body[0].radius=0.6", "material.color=#ffffff", "look.shadows=false", "camera.eye=[0,2,11]", "still.time=0.5",
+          "physics.stepper=symplectic-euler"}) {
+        INFO(change);
+        CHECK(hashes.insert(sceneOf(kBall, {change}).sceneHash).second);
+    }
+}
+
+TEST_CASE("scenes are read from files, and a file that cannot be read is an input error") {
+    const ScratchFolder folder;
+    const std::string path = folder.write("s.toml", kBall);
+    CHECK(scenes::loadScene(path, {}).title == "t");
+    CHECK(scenes::loadScene(path, {}).sourceName == path);
+    const auto messageOf = [](const std::string& name) {
+        try {
+            scenes::loadScene(name, {});
+        } catch (const scenes::InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    const std::string missing = (folder.path / "none.toml").string();
+    CHECK(messageOf(missing) == missing + ": cannot be read: No such file or directory");
+    CHECK(messageOf(folder.path.string()) == folder.path.string() + ": cannot be read: it is a folder");
+}

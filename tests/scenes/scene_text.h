@@ -1,0 +1,60 @@
+// Scene texts for tests, and what is wrong with them as lines.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "scenes/input_error.h"
+#include "scenes/scene.h"
+
+namespace scenes_test {
+
+using Lines = std::vector<std::string>;
+
+/// A scene with nothing wrong: a title, a duration and one ball. Whatever is appended starts in line 6.
+inline const std::string kBall = "title = \"t\"\nduration = 2\n[[body]]\nshape = \"ball\"\nradius = 0.5\n";
+
+/// The top alone, without anything to simulate. Whatever is appended starts in line 3.
+inline const std::string kTop = "title = \"t\"\nduration = 2\n";
+
+/// The problems of a scene called pile.toml, one line each; empty if there are none.
+inline Lines problemsOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    try {
+        scenes::readScene(text, "pile.toml", overrides);
+    } catch (const scenes::InputError& error) {
+        Lines lines;
+        for (const scenes::Problem& problem : error.problems()) lines.push_back(scenes::lineOf(problem));
+        return lines;
+    }
+    return {};
+}
+
+inline scenes::Scene sceneOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    return scenes::readScene(text, "pile.toml", overrides);
+}
+
+/// A new folder that is removed at the end.
+struct ScratchFolder {
+    std::filesystem::path path;
+
+    ScratchFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "globular-scenes-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+        path = name;
+    }
+    ~ScratchFolder() { std::filesystem::remove_all(path); }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::string write(const std::string& name, const std::string& bytes) const {
+        const std::filesystem::path file = path / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file, std::ios::binary) << bytes;
+        return file.string();
+    }
+};
+
+}  // namespace scenes_test

@@ -1,0 +1,114 @@
+// The table of keys: complete, consistent with itself and with the engine, and shown in full.
+#include "tests/catch.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/material.h"
+#include "scenes/check.h"
+#include "scenes/document.h"
+#include "scenes/schema.h"
+
+using scenes::Key;
+using scenes::schema;
+
+TEST_CASE("every key has a help line, a known table and its place once") {
+    std::set<std::string_view> paths;
+    for (const Key& key : schema()) {
+        INFO(key.path);
+        CHECK(!key.help.empty());
+        CHECK(key.help.find('\n') == std::string_view::npos);
+        CHECK(paths.insert(key.path).second);
+        REQUIRE(scenes::findTable(scenes::tableOf(key)) != nullptr);
+        CHECK(scenes::findKey(scenes::tableOf(key), scenes::nameOf(key)) == &key);
+        CHECK((key.path.find("[]") != std::string_view::npos) == scenes::findTable(scenes::tableOf(key))->list);
+    }
+    CHECK(schema().size() > 80);
+}
+
+TEST_CASE("every key is required, has a default, or says in words what it is without one") {
+    for (const Key& key : schema()) {
+        INFO(key.path);
+        CHECK(key.required + !key.fallback.empty() + !key.derived.empty() == 1);
+    }
+}
+
+TEST_CASE("every default passes the checks of its own key") {
+    for (const Key& key : schema()) {
+        if (key.fallback.empty()) continue;
+        INFO(key.path << " = " << key.fallback);
+        scenes::ProblemList problems("schema", {});
+        CHECK(scenes::checkValue(key, scenes::parseOverrideValue(std::string(key.fallback), -1), problems).has_value());
+        CHECK(problems.empty());
+    }
+}
+
+TEST_CASE("choices exist where and only where the type is a choice") {
+    for (const Key& key : schema()) {
+        INFO(key.path);
+        CHECK(key.choices.empty() == (key.type != scenes::Type::choice));
+    }
+}
+
+TEST_CASE("keys apply to values that their table's discriminator can have") {
+    for (const Key& key : schema()) {
+        INFO(key.path);
+        if (key.appliesTo.empty()) continue;
+        const scenes::TableInfo& table = *scenes::findTable(scenes::tableOf(key));
+        const Key* discriminator = scenes::findKey(table.name, table.discriminator);
+        REQUIRE(discriminator != nullptr);
+        for (const std::string_view value : key.appliesTo)
+            CHECK(std::count(discriminator->choices.begin(), discriminator->choices.end(), value) == 1);
+    }
+}
+
+TEST_CASE("the presets of the schema are those of the engine") {
+    const Key& key = *scenes::findKey("material", "preset");
+    CHECK(std::vector<std::string>(key.choices.begin(), key.choices.end()) == engine::materialPresetNames());
+}
+
+TEST_CASE("rows show each key with type, unit, default, range and help") {
+    const std::vector<scenes::SchemaRow> rows = scenes::schemaRows();
+    REQUIRE(rows.size() == schema().size());
+    const auto row = [&](const std::string& key) {
+        const auto found =
+            std::find_if(rows.begin(), rows.end(), [&](const auto& candidate) { return candidate.key == key; });
+        REQUIRE(found != rows.end());
+        return *found;
+    };
+    CHECK(row("fps").type == "integer");
+    CHECK(row("fps").unit == "1/s");
+    CHECK(row("fps").fallback == "30");
+    CHECK(row("fps").range == "1 to 240");
+    CHECK(row("title").fallback == "required");
+    CHECK(row("still.time").fallback == "(half the duration)");
+    CHECK(row("physics.stepper").range == "symplectic-euler | velocity-verlet");
+    CHECK(row("body[].center").appliesTo == "shape ball, grid");
+    CHECK(row("material[].core").range == "> 0 and < 1");
+}
+
+TEST_CASE("the text shows every key under the header of its table") {
+    const std::string text = scenes::schemaText();
+    for (const Key& key : schema()) {
+        INFO(key.path);
+        const scenes::TableInfo& table = *scenes::findTable(scenes::tableOf(key));
+        std::string header = "# keys above";
+        if (!table.name.empty()) header.assign("[").append(table.name).append("]");
+        const std::size_t at = text.find(header);
+        REQUIRE(at != std::string::npos);
+        std::string name = "\n  ";
+        name.append(scenes::nameOf(key)).append(" ");
+        CHECK(text.find(name, at) != std::string::npos);
+        CHECK(text.find(std::string(key.help)) != std::string::npos);
+    }
+}
+
+TEST_CASE("ranges and units have words") {
+    CHECK(scenes::rangeText({}) == "");
+    CHECK(scenes::rangeText({.low = 0.0}) == ">= 0");
+    CHECK(scenes::rangeText({.low = 0.0, .lowOpen = true}) == "> 0");
+    CHECK(scenes::rangeText({.low = 0.0, .high = 0.5}) == "0 to 0.5");
+    CHECK(scenes::rangeText({.high = 2.0, .highOpen = true}) == "< 2");
+    CHECK(scenes::unitWords("m") == "metres");
+    CHECK(scenes::unitWords("N m^4") == "N m^4");
+}

@@ -1,0 +1,108 @@
+// Every scene in the repository loads, and the paper's say what the paper says.
+#include "tests/catch.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "scenes/library.h"
+#include "scenes/scene.h"
+
+using engine::Vec3;
+
+namespace {
+
+const std::string kScenes = GLOBULAR_SCENES_DIR;
+
+scenes::Scene paperScene(const std::string& name) {
+    return scenes::loadScene(kScenes + "/paper/" + name + ".toml", {});
+}
+
+/// Table 1 and the published list: b1, b_d, c_r, c_d.
+struct Constants {
+    std::string name;
+    double b1, bd, cr, cd;
+};
+
+const std::vector<Constants> kPaper = {
+    {"figure-1", .01, 1, 1, 2},     {"figure-2", .01, 1, 1, 2},     {"figure-3", .8, 4, 2, 2},
+    {"figure-4", .8, 4, 1, 1},      {"liquid-thin", .005, 1, 1, 2}, {"liquid-thick", .005, 5, 1, 2},
+    {"attraction-1", .01, 1, 1, 1}, {"attraction-2", .01, 1, 1, 2}, {"attraction-3", .01, 1, 2, 2},
+    {"repulsion-1", .1, 1, 1, 1},   {"repulsion-2", .01, 1, 1, 2},  {"repulsion-3", .1, 4, 2, 2},
+    {"issue-high-b1", 2, 1, 2, 2},  {"issue-high-bd", .01, 8, 1, 2}};
+
+}  // namespace
+
+TEST_CASE("every shipped scene loads and has a title") {
+    const std::vector<scenes::LibraryEntry> entries = scenes::listScenes({kScenes});
+    CHECK(entries.size() >= kPaper.size());
+    for (const scenes::LibraryEntry& entry : entries) {
+        INFO(entry.name);
+        CHECK(!entry.title.empty());
+        CHECK_NOTHROW(scenes::loadScene(entry.path, {}));
+    }
+}
+
+TEST_CASE("every shipped scene opens with a comment") {
+    for (const scenes::LibraryEntry& entry : scenes::listScenes({kScenes})) {
+        INFO(entry.name);
+        std::string line;
+        std::ifstream file(entry.path);
+        REQUIRE(std::getline(file, line));
+        CHECK(line.substr(0, 2) == "# ");
+    }
+}
+
+TEST_CASE("the paper's scenes have the paper's constants and method") {
+    for (const Constants& expected : kPaper) {
+        INFO(expected.name);
+        const scenes::Scene scene = paperScene(expected.name);
+        const engine::Material& material = scene.setup.materials.at(0);
+        CHECK(material.repulsion == expected.b1);
+        CHECK(material.damping == expected.bd);
+        CHECK(material.repulsionReach == expected.cr);
+        CHECK(material.dampingReach == expected.cd);
+        CHECK(material.radius == 0.15);
+        CHECK(material.mass == 1.0);
+        CHECK(material.coreFraction == 0.5);
+        CHECK(scene.setup.stepper == engine::StepperKind::symplecticEuler);
+        CHECK(scene.setup.step == 0.01);
+        CHECK(scene.setup.drag == 1.005);
+        CHECK(100 % scene.fps == 0);  // a frame is a whole number of published steps of 0.01 s
+        CHECK(scene.look.backgroundTop == Vec3(0.0, 0.0, 0.0));
+        CHECK(scene.size.width % 2 == 0);
+        CHECK(scene.size.height % 2 == 0);
+    }
+}
+
+TEST_CASE("the paper's scenes have its gravity, obstacles and particles") {
+    for (const Constants& expected : kPaper) {
+        INFO(expected.name);
+        const scenes::Scene scene = paperScene(expected.name);
+        const bool isSheet = expected.name.find("ion-") != std::string::npos;
+        CHECK(scene.setup.gravity == Vec3(0.0, isSheet ? 0.0 : -9.8, 0.0));
+        CHECK(scene.setup.emitters.size() == (isSheet ? 0U : 1U));
+        std::size_t containers = 0;
+        for (const engine::Collider& collider : scene.setup.scenery.colliders) {
+            if (std::holds_alternative<engine::Container>(collider))
+                ++containers;
+            else
+                CHECK(std::get<engine::Sphere>(collider).literalRepulsor);
+        }
+        CHECK(containers == 1);
+        for (const engine::Emitter& emitter : scene.setup.emitters) CHECK(emitter.clearance == 0.0);
+        for (const Vec3& position : scene.setup.initial.position) CHECK(position.z() == 0.0);
+    }
+    CHECK(paperScene("attraction-1").setup.initial.count() == 20);
+    CHECK(paperScene("repulsion-1").setup.initial.count() == 200);
+    CHECK(paperScene("figure-1").setup.emitters.at(0).sites.size() == 5);
+    CHECK(paperScene("figure-1").setup.emitters.at(0).pick == engine::Pick::random);
+    CHECK(paperScene("liquid-thin").setup.scenery.colliders.size() == 7);
+}
+
+TEST_CASE("the floor line of figure 3 is the last but one row of its picture, as published") {
+    const scenes::Scene scene = paperScene("figure-3");
+    // Row of y = -5 from the top: half the rows for half_height, measured down from the target.
+    const double row = 0.5 * scene.size.height * (1.0 + (scene.camera.target.y() + 5.0) / scene.camera.halfHeight);
+    // Published: row 542 of 543; ours has one row more, half at each edge.
+    CHECK(row == Approx(543.0).margin(1.0));
+}

@@ -1,0 +1,68 @@
+// Files are written whole or not at all; base64 is the standard's.
+#include <filesystem>
+
+#include "render/system_error.h"
+#include "tests/catch.h"
+#include "tests/tools/program.h"
+#include "tools/figures_page.h"
+#include "tools/output_file.h"
+#include "tools/scene_options.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+long entryCount(const fs::path& folder) {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+}  // namespace
+
+TEST_CASE("A file is there whole, and nothing else is left behind", "[tools]") {
+    const program::Folder folder;
+    tools::writeFile(folder / "a.txt", std::string("first"));
+    tools::writeFile(folder / "a.txt", std::string("second"));
+    CHECK(program::textOf(folder / "a.txt") == "second");
+    CHECK(entryCount(folder / "") == 1);
+    const auto bytes = tools::readFile(folder / "a.txt");
+    CHECK(std::string(bytes.begin(), bytes.end()) == "second");
+}
+
+TEST_CASE("A file that cannot be written names itself and the reason, and leaves what was there", "[tools]") {
+    const program::Folder folder;
+    tools::createFolder(folder / "taken");
+    tools::writeFile(folder / "taken/inside", std::string("kept"));
+    // A folder of the same name cannot be replaced by a file.
+    CHECK_THROWS_AS(tools::writeFile(folder / "taken", std::string("x")), render::SystemError);
+    CHECK(program::textOf(folder / "taken/inside") == "kept");
+    CHECK(entryCount(folder / "") == 1);
+    try {
+        tools::writeFile(folder / "missing/a.txt", std::string("x"));
+        FAIL("wrote into a folder that does not exist");
+    } catch (const render::SystemError& error) {
+        CHECK(std::string(error.what()).find("missing") != std::string::npos);
+        CHECK(std::string(error.what()).find("No such file or directory") != std::string::npos);
+    }
+    CHECK_THROWS_AS(tools::readFile(folder / "nothing"), render::SystemError);
+}
+
+TEST_CASE("Base64 as in RFC 4648, section 10", "[tools]") {
+    const auto encode = [](const std::string& text) { return tools::base64({text.begin(), text.end()}); };
+    CHECK(encode("") == "");
+    CHECK(encode("f") == "Zg==");
+    CHECK(encode("fo") == "Zm8=");
+    CHECK(encode("foo") == "Zm9v");
+    CHECK(encode("foob") == "Zm9vYg==");
+    CHECK(encode("fooba") == "Zm9vYmE=");
+    CHECK(encode("foobar") == "Zm9vYmFy");
+    CHECK(tools::base64({0xFF, 0xFE, 0xFD}) == "//79");
+}
+
+TEST_CASE("Frame ranges", "[tools]") {
+    CHECK(tools::frameRange("", 10).last == 9);
+    CHECK(tools::frameRange("3", 10).first == 3);
+    CHECK(tools::frameRange("3", 10).last == 3);
+    CHECK(tools::frameRange("2-7", 10).first == 2);
+    CHECK(tools::frameRange("2-7", 10).last == 7);
+    for (const char* wrong : {"7-2", "0-10", "a", "1-", "-1", "1-2-3"}) CHECK_THROWS(tools::frameRange(wrong, 10));
+}

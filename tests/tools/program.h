@@ -1,0 +1,56 @@
+// Runs the program as a user would and keeps what it says.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace program {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int code = -1;
+    std::string out;
+    std::string err;
+};
+
+inline std::string textOf(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// A fresh folder that goes away with the object.
+class Folder {
+   public:
+    Folder() {
+        std::string pattern = (fs::temp_directory_path() / "globular-test-XXXXXX").string();
+        path_ = ::mkdtemp(pattern.data());
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder() { fs::remove_all(path_); }
+
+    fs::path operator/(const std::string& name) const { return path_ / name; }
+
+   private:
+    fs::path path_;
+};
+
+/// arguments: as typed in a shell. environment: assignments put before the program's name.
+inline Outcome run(const std::string& arguments, const std::string& environment = "") {
+    const Folder folder;
+    const std::string command = environment + " " GLOBULAR_PROGRAM " " + arguments + " >" + (folder / "out").string() + " 2>" +
+                                (folder / "err").string();
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
+}
+
+inline long lineCount(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+}  // namespace program
