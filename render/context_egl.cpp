@@ -46,6 +46,9 @@ class EglContext final : public NativeContext {
         if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT) == EGL_FALSE) {
             fail("eglMakeCurrent to no context");
         }
+        // What EGL keeps for a thread is freed at the thread's end and once more at the process's end; so that a worker
+        // thread that ends late does not free it twice, nothing is kept.
+        if (eglReleaseThread() == EGL_FALSE) fail("eglReleaseThread");
     }
     void* address(const char* name) override {
         const auto found = eglGetProcAddress(name);

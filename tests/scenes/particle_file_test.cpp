@@ -26,8 +26,10 @@ engine::Particles sample() {
 }
 
 std::string header(const std::string& properties, int count = 1) {
-    return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) + "\n" + properties +
-           "end_header\n";
+    std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex ";
+    text += std::to_string(count);
+    text += '\n';
+    return text + properties + "end_header\n";
 }
 
 template <class Number>
@@ -110,8 +112,8 @@ TEST_CASE("headers that are not understood are refused") {
     CHECK(problemOf("plyx\n") == "a.ply: is not a PLY file");
     CHECK(problemOf("ply\nformat ascii 1.0\n") == "a.ply:2:1: the format must be \"binary_little_endian 1.0\"");
     CHECK(problemOf("ply\nformat binary_little_endian 1.0\n") == "a.ply:3:1: the header has no end_header");
-    CHECK(problemOf("ply\n" + std::string(70000, 'c') + "\n") == "a.ply:2:1: the header has no end_header");
-    CHECK(problemOf("ply\nelement vertex 1\n" + kDoubles + "end_header\n" + kOrigin) ==
+    CHECK(problemOf(std::string("ply\n").append(70000, 'c') + '\n') == "a.ply:2:1: the header has no end_header");
+    CHECK(problemOf(std::string("ply\nelement vertex 1\n") + kDoubles + "end_header\n" + kOrigin) ==
           "a.ply: the header has no format line");
     CHECK(problemOf("ply\nformat binary_little_endian 1.0\nend_header\n") ==
           "a.ply: the header has no element \"vertex\"");
