@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/steppers.h"
 #include "tools/commands.h"
 #include "tools/figures_page.h"
 #include "tools/output_file.h"
@@ -60,6 +61,14 @@ RenderResult renderVideo(const scenes::Scene& scene, const FiguresOptions& optio
     return renderWhole(job);
 }
 
+/// The columns of Table 1 and what else decides the motion.
+std::string constantsOf(const scenes::Scene& scene, std::size_t particleCount) {
+    const engine::Material& m = scene.setup.materials.front();
+    return fmt::format("{} particles, r = {} m, m = {} kg, b1 = {} N m^4, b_d = {} kg/s, c_r = {}, c_d = {}, {} at {} s",
+                       particleCount, m.radius, m.mass, m.repulsion, m.damping, m.repulsionReach, m.dampingReach,
+                       engine::nameOf(scene.setup.stepper), scene.setup.step);
+}
+
 FigureEntry makeFigure(int number, const FiguresOptions& options) {
     const std::string name = fmt::format("figure-{}", number);
     const scenes::Scene scene = load({name, {}});
@@ -80,6 +89,7 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
     renderStill(scene, options, entry);
     RenderResult result = renderVideo(scene, options, entry);
     entry.stateHash = result.report.stateHash;
+    entry.constants = constantsOf(scene, result.simulation.particles.count());
     writeFile(folder / (name + ".json"), runJson(scene, result.simulation, result.report).dump(2) + "\n");
     return entry;
 }

@@ -53,12 +53,12 @@ std::string parameterTable(const FigureEntry& figure) {
 
 std::string section(const FigureEntry& figure) {
     return fmt::format(
-        "<section><h2>Figure {}: {}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n"
+        "<section><h2>{}</h2>\n<p>{}</p>\n<p><code>{}</code></p>\n<div class=\"pictures\">\n"
         "<figure><img alt=\"Figure {}\" src=\"{}\"><figcaption>Still at {} s</figcaption></figure>\n"
         "<figure><video controls loop muted src=\"{}\"></video><figcaption>The whole animation</figcaption></figure>\n"
         "</div>\n<p>Again: <code>{}</code>; state of the last frame <code>{}</code></p>\n"
-        "<details><summary>Parameters</summary>\n{}</details></section>\n",
-        figure.number, escaped(figure.title), escaped(figure.description), figure.number, dataUri("image/png", figure.stillPath),
+        "<details><summary>All parameters</summary>\n{}</details></section>\n",
+        escaped(figure.title), escaped(figure.description), escaped(figure.constants), figure.number, dataUri("image/png", figure.stillPath),
         figure.stillTime, dataUri("video/mp4", figure.videoPath), escaped(figure.command), figure.stateHash, parameterTable(figure));
 }
 

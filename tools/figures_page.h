@@ -12,6 +12,7 @@ struct FigureEntry {
     int number = 0;
     std::string title;
     std::string description;
+    std::string constants;      ///< of its law and step, in one line
     std::string stillPath;      ///< PNG
     std::string videoPath;      ///< MP4
     double stillTime = 0.0;     ///< s
