@@ -47,13 +47,13 @@ std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing
 
 std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const Packing& packing) {
     std::vector<Vec3> positions;
-    forEachLatticePoint(0.5 * (minimum + maximum), 0.5 * (maximum - minimum), packing.spacing, [&](const Vec3& point) {
-        positions.push_back(point + jitterOf(packing, positions.size()));
-    });
+    forEachLatticePoint(0.5 * (minimum + maximum), 0.5 * (maximum - minimum), packing.spacing,
+                        [&](const Vec3& point) { positions.push_back(point + jitterOf(packing, positions.size())); });
     return positions;
 }
 
-std::vector<Vec3> gridPositions(const Vec3& center, const std::array<std::uint32_t, 3>& counts, const Packing& packing) {
+std::vector<Vec3> gridPositions(const Vec3& center, const std::array<std::uint32_t, 3>& counts,
+                                const Packing& packing) {
     std::vector<Vec3> positions;
     const Vec3 layers(counts[0], counts[1], counts[2]);
     for (std::uint32_t z = 0; z < counts[2]; ++z)

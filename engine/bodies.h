@@ -11,9 +11,9 @@ namespace engine {
 
 /// Where the particles of a packed body sit.
 struct Packing {
-    double spacing = 0.3;       ///< distance of nearest neighbours, m
-    double jitter = 0.0;        ///< random displacement of each coordinate, up to this share of the spacing
-    std::uint64_t seed = 1;     ///< of the jitter
+    double spacing = 0.3;    ///< distance of nearest neighbours, m
+    double jitter = 0.0;     ///< random displacement of each coordinate, up to this share of the spacing
+    std::uint64_t seed = 1;  ///< of the jitter
 };
 
 /// Face-centred cubic positions inside a ball, in metres.

@@ -1,5 +1,5 @@
-// Obstacles as repulsors behind their surface. Every shape is reduced to surfaces (signed distance, normal, repulsor radius);
-// one contact law then serves them all.
+// Obstacles as repulsors behind their surface. Every shape is reduced to surfaces (signed distance, normal, repulsor
+// radius); one contact law then serves them all.
 #include "engine/colliders.h"
 
 #include <cmath>
@@ -12,9 +12,9 @@ namespace {
 
 /// One face as a particle sees it.
 struct Surface {
-    double height = 0.0;            ///< signed distance of the particle's centre, m
-    Vec3 normal = Vec3::UnitY();    ///< away from the solid
-    double repulsorRadius = 0.5;    ///< m
+    double height = 0.0;          ///< signed distance of the particle's centre, m
+    Vec3 normal = Vec3::UnitY();  ///< away from the solid
+    double repulsorRadius = 0.5;  ///< m
 };
 
 template <class Visit>
@@ -61,8 +61,8 @@ void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadi
 /// A surface and a particle as a pair: the repulsor sits repulsorRadius behind the face.
 struct Contact {
     PairConstants<double> constants;
-    double distance = 0.0;      ///< particle to repulsor, at least the core distance, m
-    double beyondCore = 0.0;    ///< how much deeper the particle is, m
+    double distance = 0.0;    ///< particle to repulsor, at least the core distance, m
+    double beyondCore = 0.0;  ///< how much deeper the particle is, m
 };
 
 Contact contactWith(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
@@ -82,8 +82,8 @@ Contact contactWith(const Surface& surface, const RepulsorLaw& law, const Probe&
 
 constexpr PairTerms kRepulsorTerms{.attraction = false, .damping = true};
 
-/// P = distance * normal and V = v of the particle. A particle deeper than the core distance feels the force at the core:
-/// the half-space has no far side to be pushed out of.
+/// P = distance * normal and V = v of the particle. A particle deeper than the core distance feels the force at the
+/// core: the half-space has no far side to be pushed out of.
 Vec3 surfaceForce(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
     const Contact contact = contactWith(surface, law, probe);
     const double approach = contact.distance * dot(probe.velocity, surface.normal);

@@ -1,5 +1,5 @@
-// Fixed obstacles (section 3.2 of the paper). Each answers a particle that touches it with a repulsor: a particle at rest,
-// seen by that particle alone, hidden behind the closest point of the surface.
+// Fixed obstacles (section 3.2 of the paper). Each answers a particle that touches it with a repulsor: a particle at
+// rest, seen by that particle alone, hidden behind the closest point of the surface.
 #pragma once
 
 #include <variant>
@@ -11,37 +11,37 @@ namespace engine {
 
 /// Everything on the far side of the normal is solid.
 struct Plane {
-    Vec3 point = Vec3::Zero();      ///< m
-    Vec3 normal = Vec3::UnitY();    ///< unit length, away from the solid side
+    Vec3 point = Vec3::Zero();    ///< m
+    Vec3 normal = Vec3::UnitY();  ///< unit length, away from the solid side
 };
 
 /// The inside of an axis-aligned box: six planes that face inwards.
 struct Container {
-    Vec3 minimum = Vec3::Zero();    ///< m
-    Vec3 maximum = Vec3::Zero();    ///< m
+    Vec3 minimum = Vec3::Zero();  ///< m
+    Vec3 maximum = Vec3::Zero();  ///< m
 };
 
 /// A solid axis-aligned box.
 struct Box {
-    Vec3 minimum = Vec3::Zero();    ///< m
-    Vec3 maximum = Vec3::Zero();    ///< m
+    Vec3 minimum = Vec3::Zero();  ///< m
+    Vec3 maximum = Vec3::Zero();  ///< m
 };
 
 /// A solid sphere.
 struct Sphere {
-    Vec3 center = Vec3::Zero();     ///< m
-    double radius = 0.5;            ///< m
-    bool literalRepulsor = false;   ///< one repulsor of the sphere's own radius at its centre, as the paper has it
+    Vec3 center = Vec3::Zero();    ///< m
+    double radius = 0.5;           ///< m
+    bool literalRepulsor = false;  ///< one repulsor of the sphere's own radius at its centre, as the paper has it
 };
 
 using Collider = std::variant<Plane, Container, Box, Sphere>;
 
 /// The constants of section 3.2, equal for all obstacles.
 struct RepulsorLaw {
-    double radius = 0.5;            ///< m
-    double repulsion = 10.0;        ///< b1, N m^4
-    double dampingFactor = 5.0;     ///< b_d = this times the c_d of the particle's material, kg/s
-    double coreFraction = 0.25;     ///< the guard of the pair law, see Material::coreFraction
+    double radius = 0.5;         ///< m
+    double repulsion = 10.0;     ///< b1, N m^4
+    double dampingFactor = 5.0;  ///< b_d = this times the c_d of the particle's material, kg/s
+    double coreFraction = 0.25;  ///< the guard of the pair law, see Material::coreFraction
 };
 
 struct Scenery {
@@ -51,10 +51,10 @@ struct Scenery {
 
 /// What an obstacle sees of a particle.
 struct Probe {
-    Vec3 position = Vec3::Zero();   ///< m
-    Vec3 velocity = Vec3::Zero();   ///< m/s
-    double radius = 0.15;           ///< m
-    double dampingReach = 1.0;      ///< c_d of its material
+    Vec3 position = Vec3::Zero();  ///< m
+    Vec3 velocity = Vec3::Zero();  ///< m/s
+    double radius = 0.15;          ///< m
+    double dampingReach = 1.0;     ///< c_d of its material
 };
 
 /// Force of all obstacles on a particle, in newtons; zero where it touches none.

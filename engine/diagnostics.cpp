@@ -9,7 +9,7 @@ namespace engine {
 namespace {
 
 class Fnv1a {
-   public:
+ public:
     void add(std::uint64_t word) {
         for (int byte = 0; byte < 8; ++byte) {
             hash_ = (hash_ ^ ((word >> (8 * byte)) & 0xFF)) * 0x100000001B3ULL;
@@ -24,7 +24,7 @@ class Fnv1a {
         return digits;
     }
 
-   private:
+ private:
     std::uint64_t hash_ = 0xCBF29CE484222325ULL;
 };
 

@@ -1,5 +1,5 @@
-// Births on schedule. Every random number is a function of (seed, emitter, schedule, birth), so a few counters are the whole
-// state and a resumed run draws what the uninterrupted one would have drawn.
+// Births on schedule. Every random number is a function of (seed, emitter, schedule, birth), so a few counters are the
+// whole state and a resumed run draws what the uninterrupted one would have drawn.
 #include "engine/emitters.h"
 
 #include <cmath>
@@ -42,7 +42,8 @@ struct Birth {
 };
 
 std::uint64_t drawBits(const BirthContext& context, const Birth& birth, Purpose purpose) {
-    const std::uint64_t stream = (context.emitterIndex << 40) ^ (birth.schedule << 2) ^ static_cast<std::uint64_t>(purpose);
+    const std::uint64_t stream =
+        (context.emitterIndex << 40) ^ (birth.schedule << 2) ^ static_cast<std::uint64_t>(purpose);
     return randomBits(context.seed, stream, birth.number);
 }
 
@@ -66,9 +67,11 @@ bool isClear(const Particles& particles, const NewParticle& newborn, double clea
     return true;
 }
 
-NewParticle newbornOf(const Emitter& emitter, const BirthContext& context, const Material& material, const Birth& birth) {
+NewParticle newbornOf(const Emitter& emitter, const BirthContext& context, const Material& material,
+                      const Birth& birth) {
     NewParticle newborn;
-    newborn.position = siteOf(emitter, context, birth) + emitter.jitter * material.radius * jitterOf(emitter, context, birth);
+    newborn.position =
+        siteOf(emitter, context, birth) + emitter.jitter * material.radius * jitterOf(emitter, context, birth);
     newborn.velocity = emitter.velocity;
     newborn.radius = material.radius;
     newborn.mass = material.mass;
@@ -132,7 +135,8 @@ std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext
             // A delay shifts the schedule, or its births would come in a burst. Counting from the start keeps the
             // due times of an undisturbed schedule free of accumulated rounding.
             ++schedule.births;
-            if (schedule.delayed) schedule.origin = context.time - static_cast<double>(schedule.births - 1) * emitter.interval;
+            if (schedule.delayed)
+                schedule.origin = context.time - static_cast<double>(schedule.births - 1) * emitter.interval;
             schedule.due = schedule.origin + static_cast<double>(schedule.births) * emitter.interval;
             schedule.delayed = false;
             ++state.births;

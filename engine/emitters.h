@@ -18,30 +18,30 @@ enum class Pick {
 };
 
 struct Emitter {
-    std::vector<Vec3> sites;                                    ///< points of birth, m
-    Vec3 velocity = Vec3::Zero();                               ///< of a newborn, m/s
-    double interval = 0.1;                                      ///< between births of a schedule, s
-    double start = 0.0;                                         ///< first birth, s
-    double until = std::numeric_limits<double>::infinity();     ///< no birth is due at or after this time, s
-    std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();    ///< births in all
+    std::vector<Vec3> sites;                                          ///< points of birth, m
+    Vec3 velocity = Vec3::Zero();                                     ///< of a newborn, m/s
+    double interval = 0.1;                                            ///< between births of a schedule, s
+    double start = 0.0;                                               ///< first birth, s
+    double until = std::numeric_limits<double>::infinity();           ///< no birth is due at or after this time, s
+    std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();  ///< births in all
     Pick pick = Pick::all;
-    double clearance = 1.0;     ///< least distance to any particle, in sums of radii; 0 lets births overlap
-    double jitter = 0.0;        ///< random displacement across the velocity, up to this many radii
+    double clearance = 1.0;  ///< least distance to any particle, in sums of radii; 0 lets births overlap
+    double jitter = 0.0;     ///< random displacement across the velocity, up to this many radii
     std::uint32_t material = 0;
 };
 
 /// When the next birth of one schedule is due. An emitter has one per site, or a single one if it picks at random.
 struct Schedule {
-    double origin = 0.0;        ///< birth number k is due at origin + k intervals, s; a delay moves it
-    double due = 0.0;           ///< s
+    double origin = 0.0;  ///< birth number k is due at origin + k intervals, s; a delay moves it
+    double due = 0.0;     ///< s
     std::uint64_t births = 0;
-    bool delayed = false;       ///< the birth that is due found its place taken
+    bool delayed = false;  ///< the birth that is due found its place taken
 };
 
 struct EmitterState {
     std::vector<Schedule> schedules;
     std::uint64_t births = 0;
-    std::uint64_t refusals = 0;     ///< births that found their place taken when they were due; each is counted once
+    std::uint64_t refusals = 0;  ///< births that found their place taken when they were due; each is counted once
 };
 
 /// Hexagonally packed sites of a disc nozzle, a centre with whole rings around it.
@@ -53,10 +53,10 @@ EmitterState initialState(const Emitter& emitter);
 
 /// What births need to know of the rest of the simulation.
 struct BirthContext {
-    double time = 0.0;              ///< now, s
-    Vec3 gravity = Vec3::Zero();    ///< m/s^2, moves a newborn from its due time to now
+    double time = 0.0;            ///< now, s
+    Vec3 gravity = Vec3::Zero();  ///< m/s^2, moves a newborn from its due time to now
     std::uint64_t seed = 1;
-    std::uint64_t emitterIndex = 0; ///< keys the random numbers
+    std::uint64_t emitterIndex = 0;  ///< keys the random numbers
 };
 
 /// Appends the particles that are due at or before the context's time and have room; returns how many.

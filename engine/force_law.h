@@ -13,15 +13,15 @@ namespace engine {
 /// Everything that acts on particles.
 struct ForceLaw {
     std::vector<Material> materials;
-    Vec3 gravity = Vec3::Zero();    ///< m/s^2
+    Vec3 gravity = Vec3::Zero();  ///< m/s^2
     Scenery scenery;
 };
 
 /// What some pair of the particles needs; the rest is not compiled into their kernel.
 struct ForceTerms {
     PairTerms pair{.attraction = false, .damping = false};
-    bool uniform = true;            ///< one law and one radius: constants are not looked up per pair
-    double cutoff = 0.0;            ///< no pair acts at or beyond it, m
+    bool uniform = true;  ///< one law and one radius: constants are not looked up per pair
+    double cutoff = 0.0;  ///< no pair acts at or beyond it, m
 };
 
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles);

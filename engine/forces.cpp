@@ -25,7 +25,8 @@ void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3
         forces[p] += particles.mass[p] * law_.gravity;
         if (law_.scenery.colliders.empty()) return;
         const double dampingReach = law_.materials[particles.material[p]].dampingReach;
-        forces[p] += contactForce(law_.scenery, {particles.position[p], velocities[p], particles.radius[p], dampingReach});
+        forces[p] +=
+            contactForce(law_.scenery, {particles.position[p], velocities[p], particles.radius[p], dampingReach});
     };
     constexpr std::size_t kGrain = 512;  // chosen: a chunk is some tens of microseconds
     tbb::this_task_arena::isolate([&] {

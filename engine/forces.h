@@ -1,5 +1,6 @@
-// Forces on all particles: equation 1 over the pair law, plus gravity and obstacles. Two ways to the same sum: the O(n^2)
-// reference, which is the paper's own way, and a cell grid, O(n), threaded, that compiles in only the terms the materials need.
+// Forces on all particles: equation 1 over the pair law, plus gravity and obstacles. Two ways to the same sum: the
+// O(n^2) reference, which is the paper's own way, and a cell grid, O(n), threaded, that compiles in only the terms the
+// materials need.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,7 @@ double pairEnergyReference(const ForceLaw& law, const Particles& particles);
 
 /// Evaluates forces again and again and keeps the memory it needs for that.
 class ForceEvaluator {
-   public:
+ public:
     ForceEvaluator() = default;
     ForceEvaluator(ForceLaw law, ForceMethod method);
 
@@ -41,7 +42,7 @@ class ForceEvaluator {
 
     const ForceLaw& law() const { return law_; }
 
-   private:
+ private:
     ForceLaw law_;
     ForceMethod method_ = ForceMethod::grid;
     PairTraversal pairs_;

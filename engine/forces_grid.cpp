@@ -50,9 +50,8 @@ void pairForces(const PairTraversal& pairs, std::vector<Vec3>& forces) {
 
 double pairEnergySum(const PairTraversal& pairs) {
     std::vector<double> energies(pairs.records.size());
-    pairs.forEachParticle([&](const Neighbourhood& around, std::uint32_t self) {
-        energies[self] = energyOf(pairs, around, self);
-    });
+    pairs.forEachParticle(
+        [&](const Neighbourhood& around, std::uint32_t self) { energies[self] = energyOf(pairs, around, self); });
     double sum = 0.0;  // serial: the order of the sum is part of the result
     for (const double energy : energies) sum += energy;
     return sum;

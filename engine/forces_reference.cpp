@@ -1,11 +1,12 @@
-// Equation 1 as the paper evaluates it: every pair, in double, one after another. It is the oracle: obvious, serial, slow.
+// Equation 1 as the paper evaluates it: every pair, in double, one after another. It is the oracle: obvious, serial,
+// slow.
 #include "engine/forces.h"
 
 namespace engine {
 namespace {
 
 struct Pair {
-    Vec3 separation;                    ///< P = x_p - x_i, or its stand-in for coincident particles
+    Vec3 separation;  ///< P = x_p - x_i, or its stand-in for coincident particles
     PairConstants<double> constants;
 };
 

@@ -11,7 +11,9 @@ namespace {
 constexpr double kRoundingMargin = 1.0 + 1e-6;
 
 /// About two cells a particle keep the grid linear in n when the particles are spread thin.
-std::int64_t cellLimit(std::size_t particleCount) { return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount)); }
+std::int64_t cellLimit(std::size_t particleCount) {
+    return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount));
+}
 
 std::array<std::int64_t, 3> chooseDimensions(const std::vector<Vec3>& positions, double width) {
     Vec3 low = positions.front();
@@ -24,7 +26,8 @@ std::array<std::int64_t, 3> chooseDimensions(const std::vector<Vec3>& positions,
     std::array<std::int64_t, 3> dimensions{};
     for (int axis = 0; axis < 3; ++axis) {
         const double cells = std::floor((high[axis] - low[axis]) / width) + 2.0;
-        dimensions[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::min(cells, static_cast<double>(limit)));
+        dimensions[static_cast<std::size_t>(axis)] =
+            static_cast<std::int64_t>(std::min(cells, static_cast<double>(limit)));
     }
     // Any size is correct; halving the longest axis keeps cells that share storage far apart.
     while (dimensions[0] * dimensions[1] * dimensions[2] > limit) {

@@ -1,6 +1,7 @@
-// The cell grid: particles sorted into cubic cells at least as wide as the cutoff, so that everything a particle can feel is in
-// the 27 cells around it. The grid is periodic in its indices: far away cells share storage with near ones and are told apart by
-// the distance test alone. So an outlier costs nothing, memory is linear in n, and no box has to bound the world.
+// The cell grid: particles sorted into cubic cells at least as wide as the cutoff, so that everything a particle can
+// feel is in the 27 cells around it. The grid is periodic in its indices: far away cells share storage with near ones
+// and are told apart by the distance test alone. So an outlier costs nothing, memory is linear in n, and no box has to
+// bound the world.
 #pragma once
 
 #include <array>
@@ -25,10 +26,10 @@ struct Neighbourhood {
 };
 
 struct CellGrid {
-    std::array<std::int64_t, 3> dimensions{1, 1, 1};    ///< cells along x, y, z
-    std::vector<std::uint32_t> start;                   ///< first entry of each cell in order, and one past the last
-    std::vector<std::uint32_t> order;                   ///< particle indices by cell, x fastest; ascending within a cell
-    std::vector<std::uint32_t> cellOf;                  ///< cell of each particle
+    std::array<std::int64_t, 3> dimensions{1, 1, 1};  ///< cells along x, y, z
+    std::vector<std::uint32_t> start;                 ///< first entry of each cell in order, and one past the last
+    std::vector<std::uint32_t> order;                 ///< particle indices by cell, x fastest; ascending within a cell
+    std::vector<std::uint32_t> cellOf;                ///< cell of each particle
 
     std::size_t cellCount() const { return start.size() - 1; }
 };

@@ -1,14 +1,14 @@
-// The force between two particles: equations 2, 5 and 6 of the paper, with the pair energy and stiffness that follow from them.
-// This is the only place where they are written; every path over pairs and every obstacle calls it.
+// The force between two particles: equations 2, 5 and 6 of the paper, with the pair energy and stiffness that follow
+// from them. This is the only place where they are written; every path over pairs and every obstacle calls it.
 //
 // With D0 = r_i + r_p, R = c_r D0 and S = c_d D0, m = 5, n = 3 and b2 = b1/D0^2, equation 2 is P times the coefficient
 //     s_r (b1/D^5 - b2/D^3) - s_d b_d (V.P)/D^2
 //   = (1/D) b1 (1/D^2 - 1/D0^2) (1/D^2 - 1/R^2) [D < R]  -  b_d (1 - D^2/S^2) (V.P)/D^2 [D < S]
 // because s_r b1/D^5 (1 - D^2/D0^2) = b1/D (1/D^2)(1 - D^2/R^2)(1/D^2)(1 - D^2/D0^2).
 //
-// The guard near D = 0, the only departure: below the core distance the coefficient keeps the value it has there, so that the
-// force falls linearly to zero instead of growing without bound, and the energy is finite. With the core at the radius of
-// equal particles (a share of 1/2) this is the clamp of D that the published program has.
+// The guard near D = 0, the only departure: below the core distance the coefficient keeps the value it has there, so
+// that the force falls linearly to zero instead of growing without bound, and the energy is finite. With the core at
+// the radius of equal particles (a share of 1/2) this is the clamp of D that the published program has.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,8 @@ struct PairConstants {
 
 /// Which terms of the coefficient are compiled.
 struct PairTerms {
-    bool attraction = true;     ///< c_r above 1
-    bool damping = true;        ///< b_d above 0
+    bool attraction = true;  ///< c_r above 1
+    bool damping = true;     ///< b_d above 0
 };
 
 /// Constants of a pair of the given material (see mixed() for unlike ones) and rest length D0 = r_i + r_p, in metres.

@@ -16,7 +16,8 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
         const std::size_t p = grid.order[slot];
         const Vec3& x = particles.position[p];
         const Vec3& v = velocities[p];
-        records[slot] = {x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), particles.radius[p], particles.material[p], particles.id[p]};
+        records[slot] = {x.x(),          x.y(), x.z(), v.x(), v.y(), v.z(), particles.radius[p], particles.material[p],
+                         particles.id[p]};
     }
 }
 

@@ -1,6 +1,6 @@
-// One way over all neighbouring pairs for everything that sums over them: forces, energies, the step bound. Each particle visits
-// its own neighbours in a fixed order and writes to itself alone: no thread waits for another, and no sum depends on how the
-// work is shared out.
+// One way over all neighbouring pairs for everything that sums over them: forces, energies, the step bound. Each
+// particle visits its own neighbours in a fixed order and writes to itself alone: no thread waits for another, and no
+// sum depends on how the work is shared out.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -28,12 +28,12 @@ struct alignas(64) PairRecord {
 
 /// Particles sorted for visiting, and the constants of their pairs. Kept between visits for its memory.
 struct PairTraversal {
-    std::vector<Material> pairMaterials;    ///< mixedPairs of the law
+    std::vector<Material> pairMaterials;  ///< mixedPairs of the law
     std::size_t materialCount = 0;
     ForceTerms terms;
-    PairConstants<double> uniform;          ///< of every pair, where the terms are uniform
+    PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
     CellGrid grid;
-    std::vector<PairRecord> records;        ///< in the grid's order
+    std::vector<PairRecord> records;  ///< in the grid's order
 
     PairTraversal() = default;
     explicit PairTraversal(const ForceLaw& law);
@@ -85,8 +85,8 @@ struct PairTraversal {
         });
     }
 
-   private:
-    static constexpr std::uint32_t kSieve = 256;    // chosen: a kilobyte on the stack, longer than most rows of cells
+ private:
+    static constexpr std::uint32_t kSieve = 256;  // chosen: a kilobyte on the stack, longer than most rows of cells
 
     static Vec3 separationOf(const PairRecord& p, const PairRecord& i) { return {p.x - i.x, p.y - i.y, p.z - i.z}; }
 

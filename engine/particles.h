@@ -11,13 +11,13 @@
 namespace engine {
 
 struct Particles {
-    std::vector<Vec3> position;             ///< m
-    std::vector<Vec3> velocity;             ///< m/s
-    std::vector<double> radius;             ///< m
-    std::vector<double> mass;               ///< kg
-    std::vector<double> birthTime;          ///< s
-    std::vector<std::uint32_t> material;    ///< index into the materials of the set-up
-    std::vector<std::uint32_t> id;          ///< 0, 1, 2, ... in order of birth
+    std::vector<Vec3> position;           ///< m
+    std::vector<Vec3> velocity;           ///< m/s
+    std::vector<double> radius;           ///< m
+    std::vector<double> mass;             ///< kg
+    std::vector<double> birthTime;        ///< s
+    std::vector<std::uint32_t> material;  ///< index into the materials of the set-up
+    std::vector<std::uint32_t> id;        ///< 0, 1, 2, ... in order of birth
 
     std::size_t count() const { return position.size(); }
 };

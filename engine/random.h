@@ -1,5 +1,5 @@
-// Random numbers as pure functions of a key: nothing to store, nothing to carry over a resume, the same on every machine.
-// Used for jitter, for the choice among nozzles and for the direction of coincident particles.
+// Random numbers as pure functions of a key: nothing to store, nothing to carry over a resume, the same on every
+// machine. Used for jitter, for the choice among nozzles and for the direction of coincident particles.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,8 @@ inline std::uint64_t randomBits(std::uint64_t seed, std::uint64_t stream, std::u
 }
 
 /// Bits to a double in [-1, 1): the upper 53 bits, exactly representable.
-inline double symmetricUnit(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-52 - 1.0; }
+inline double symmetricUnit(std::uint64_t bits) {
+    return static_cast<double>(bits >> 11) * 0x1.0p-52 - 1.0;
+}
 
 }  // namespace engine

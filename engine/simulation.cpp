@@ -1,4 +1,5 @@
-// The step, seen whole: births that are due, then one step of the stepper, then the check that the state is still finite.
+// The step, seen whole: births that are due, then one step of the stepper, then the check that the state is still
+// finite.
 #include "engine/simulation.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The simulation: a set-up (what the scene says), a state, and the step between. Callers ask for a point in time and get
-// there exactly; everything the step does can be read in simulation.cpp on one screen.
+// The simulation: a set-up (what the scene says), a state, and the step between. Callers ask for a point in time and
+// get there exactly; everything the step does can be read in simulation.cpp on one screen.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@
 namespace engine {
 
 enum class StepperKind {
-    symplecticEuler,    ///< equations 7 and 8 as printed
-    velocityVerlet      ///< second order; damping from the predicted velocity
+    symplecticEuler,  ///< equations 7 and 8 as printed
+    velocityVerlet    ///< second order; damping from the predicted velocity
 };
 
 /// Everything the scene says about the motion.
 struct Setup {
     std::vector<Material> materials = {Material{}};
-    Vec3 gravity = Vec3(0.0, -9.8, 0.0);    ///< m/s^2
-    double drag = 0.0;                      ///< k, 1/s: free motion decays like exp(-k t)
+    Vec3 gravity = Vec3(0.0, -9.8, 0.0);  ///< m/s^2
+    double drag = 0.0;                    ///< k, 1/s: free motion decays like exp(-k t)
     Scenery scenery;
     std::vector<Emitter> emitters;
-    Particles initial;                      ///< at time zero
+    Particles initial;  ///< at time zero
     StepperKind stepper = StepperKind::velocityVerlet;
-    double step = 0.01;                     ///< longest step, s; a frame is divided evenly
+    double step = 0.01;  ///< longest step, s; a frame is divided evenly
     ForceMethod forces = ForceMethod::grid;
     std::uint64_t seed = 1;
 };
@@ -36,8 +36,8 @@ struct Setup {
 /// What the steps of a run looked like.
 struct StepStatistics {
     std::uint64_t count = 0;
-    double shortest = 0.0;      ///< s
-    double longest = 0.0;       ///< s
+    double shortest = 0.0;  ///< s
+    double longest = 0.0;   ///< s
     std::uint64_t forceEvaluations = 0;
 };
 
@@ -46,10 +46,10 @@ struct Simulation {
     ForceEvaluator evaluator;
     Particles particles;
     std::vector<EmitterState> emitters;
-    double time = 0.0;                          ///< s
-    std::vector<Vec3> forces;                   ///< on each particle, N; of this very state while forcesCurrent
+    double time = 0.0;         ///< s
+    std::vector<Vec3> forces;  ///< on each particle, N; of this very state while forcesCurrent
     bool forcesCurrent = false;
-    std::vector<Vec3> predictedVelocities;      ///< scratch of velocity Verlet, m/s
+    std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
     StepStatistics steps;
 };
 

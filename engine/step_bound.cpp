@@ -1,7 +1,7 @@
 // Each particle's own sums, and the eigenvalues that bound the step.
 //
-// The pair's conservative part has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step, so negative
-// parts count as zero. Its damping has b_d s_d along n and nothing across.
+// The pair's conservative part has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step, so
+// negative parts count as zero. Its damping has b_d s_d along n and nothing across.
 #include "engine/step_bound.h"
 
 #include <Eigen/Eigenvalues>
@@ -16,8 +16,8 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 
 struct OwnSums {
-    Matrix3 stiffness = Matrix3::Zero();    ///< N/m
-    Matrix3 damping = Matrix3::Zero();      ///< kg/s
+    Matrix3 stiffness = Matrix3::Zero();  ///< N/m
+    Matrix3 damping = Matrix3::Zero();    ///< kg/s
 };
 
 OwnSums sumsOf(const PairTraversal& pairs, const Neighbourhood& around, std::uint32_t self) {
@@ -29,8 +29,8 @@ OwnSums sumsOf(const PairTraversal& pairs, const Neighbourhood& around, std::uin
         const Vec3 normal = separation / distance;
         const Matrix3 along = normal * normal.transpose();
         const double across = -pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, c);
-        sums.stiffness += std::max(0.0, pairStiffness(distance, c)) * along +
-                          std::max(0.0, across) * (Matrix3::Identity() - along);
+        sums.stiffness +=
+            std::max(0.0, pairStiffness(distance, c)) * along + std::max(0.0, across) * (Matrix3::Identity() - along);
         if (distanceSq < c.dampingSq) sums.damping += c.bd * (1.0 - distanceSq * c.inverseDampingSq) * along;
     });
     return sums;
@@ -55,8 +55,8 @@ std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particl
         const double rate = decay + std::sqrt(decay * decay + 4.0 * frequencySq);
         if (rate > 0.0) bounds[p] = {4.0 / rate, p, decay * decay > 4.0 * frequencySq};
     });
-    const auto tightest = std::min_element(bounds.begin(), bounds.end(),
-                                           [](const StepBound& a, const StepBound& b) { return a.seconds < b.seconds; });
+    const auto tightest = std::min_element(
+        bounds.begin(), bounds.end(), [](const StepBound& a, const StepBound& b) { return a.seconds < b.seconds; });
     if (!std::isfinite(tightest->seconds)) return std::nullopt;
     return *tightest;
 }

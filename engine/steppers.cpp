@@ -11,7 +11,8 @@ void evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities)
     ++simulation.steps.forceEvaluations;
 }
 
-/// Equations 7 and 8: v += F/M dt, then x += v dt with the new velocity. The drag multiplies v in between, as published.
+/// Equations 7 and 8: v += F/M dt, then x += v dt with the new velocity. The drag multiplies v in between, as
+/// published.
 void symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
     evaluateForces(simulation, particles.velocity);
@@ -22,9 +23,9 @@ void symplecticEulerStep(Simulation& simulation, double h) {
     }
 }
 
-/// Half kick, half drift, drag, half drift, half kick. The damping in the second kick needs a velocity that is not known yet: it
-/// is predicted by letting the old force act for the whole step (lambda = 1 of Groot and Warren 1997), which keeps the order at 2
-/// with one evaluation a step. The drag in the middle keeps the step symmetric.
+/// Half kick, half drift, drag, half drift, half kick. The damping in the second kick needs a velocity that is not
+/// known yet: it is predicted by letting the old force act for the whole step (lambda = 1 of Groot and Warren 1997),
+/// which keeps the order at 2 with one evaluation a step. The drag in the middle keeps the step symmetric.
 void velocityVerletStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
     if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity);
@@ -49,8 +50,12 @@ void velocityVerletStep(Simulation& simulation, double h) {
 
 void takeStep(Simulation& simulation, double h) {
     switch (simulation.setup.stepper) {
-        case StepperKind::symplecticEuler: symplecticEulerStep(simulation, h); break;
-        case StepperKind::velocityVerlet: velocityVerletStep(simulation, h); break;
+        case StepperKind::symplecticEuler:
+            symplecticEulerStep(simulation, h);
+            break;
+        case StepperKind::velocityVerlet:
+            velocityVerletStep(simulation, h);
+            break;
     }
 }
 
@@ -58,6 +63,8 @@ std::string_view nameOf(StepperKind stepper) {
     return stepper == StepperKind::symplecticEuler ? "symplectic-euler" : "velocity-verlet";
 }
 
-int orderOf(StepperKind stepper) { return stepper == StepperKind::symplecticEuler ? 1 : 2; }
+int orderOf(StepperKind stepper) {
+    return stepper == StepperKind::symplecticEuler ? 1 : 2;
+}
 
 }  // namespace engine

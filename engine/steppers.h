@@ -1,5 +1,5 @@
-// The steppers: each takes a simulation one step further. Called by advance() and by the error estimate; births and checks are
-// the caller's.
+// The steppers: each takes a simulation one step further. Called by advance() and by the error estimate; births and
+// checks are the caller's.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// The vector type of the simulation, and the few operations whose order of summation is part of the promise that a scene
-// gives the same bits everywhere. Used by every file of the engine.
+// The vector type of the simulation, and the few operations whose order of summation is part of the promise that a
+// scene gives the same bits everywhere. Used by every file of the engine.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,9 +9,13 @@ namespace engine {
 using Vec3 = Eigen::Vector3d;
 
 /// Dot product, summed x, y, z in that order on every target.
-inline double dot(const Vec3& a, const Vec3& b) { return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z(); }
+inline double dot(const Vec3& a, const Vec3& b) {
+    return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
 
 /// Squared length, summed like dot().
-inline double squaredLength(const Vec3& a) { return dot(a, a); }
+inline double squaredLength(const Vec3& a) {
+    return dot(a, a);
+}
 
 }  // namespace engine

@@ -302,7 +302,9 @@ void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
     }
 }
 
-const char* castInstructionSet() { return hwy::TargetName(HWY_TARGET); }
+const char* castInstructionSet() {
+    return hwy::TargetName(HWY_TARGET);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace render
@@ -319,7 +321,9 @@ void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
     HWY_DYNAMIC_DISPATCH(castBlock)(cast, tile, block);
 }
 
-const char* castInstructionSet() { return HWY_DYNAMIC_DISPATCH(castInstructionSet)(); }
+const char* castInstructionSet() {
+    return HWY_DYNAMIC_DISPATCH(castInstructionSet)();
+}
 
 }  // namespace render
 

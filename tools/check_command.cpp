@@ -48,7 +48,8 @@ engine::Particles everyKind(const scenes::Scene& scene) {
     return particles;
 }
 
-/// Bytes a particle takes while a frame is in flight: state, forces and prediction, sorted record and cells, spheres to draw.
+/// Bytes a particle takes while a frame is in flight: state, forces and prediction, sorted record and cells, spheres to
+/// draw.
 std::size_t bytesPerParticle() {
     const std::size_t state = 2 * sizeof(engine::Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
     const std::size_t scratch = 2 * sizeof(engine::Vec3) + sizeof(engine::PairRecord) + 4 * sizeof(std::uint32_t);
@@ -58,14 +59,16 @@ std::size_t bytesPerParticle() {
 
 /// Seconds of one force evaluation per particle, measured on a packing at rest length of the scene's first material.
 double secondsPerParticle(const scenes::Scene& scene, std::uint64_t particleCount) {
-    constexpr std::uint64_t kLargest = 20000;   // chosen: some milliseconds
+    constexpr std::uint64_t kLargest = 20000;  // chosen: some milliseconds
     const engine::Material& material = scene.setup.materials.front();
     const double spacing = 2.0 * material.radius;
     const double edge = spacing * std::cbrt(static_cast<double>(std::min(particleCount, kLargest)) / std::sqrt(2.0));
     engine::Particles particles;
-    for (const engine::Vec3& position : engine::boxPositions(engine::Vec3::Zero(), engine::Vec3::Constant(edge), {.spacing = spacing}))
+    for (const engine::Vec3& position :
+         engine::boxPositions(engine::Vec3::Zero(), engine::Vec3::Constant(edge), {.spacing = spacing}))
         engine::append(particles, {.position = position, .radius = material.radius, .mass = material.mass});
-    engine::ForceEvaluator evaluator({scene.setup.materials, scene.setup.gravity, scene.setup.scenery}, scene.setup.forces);
+    engine::ForceEvaluator evaluator({scene.setup.materials, scene.setup.gravity, scene.setup.scenery},
+                                     scene.setup.forces);
     std::vector<engine::Vec3> forces;
     double fastest = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 3; ++round) {
@@ -77,9 +80,12 @@ double secondsPerParticle(const scenes::Scene& scene, std::uint64_t particleCoun
 }
 
 Json boundJson(const scenes::Scene& scene) {
-    const auto bound = engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.scenery}, scene.setup.initial);
+    const auto bound =
+        engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.scenery}, scene.setup.initial);
     if (!bound) return nullptr;
-    return {{"seconds", bound->seconds}, {"limited_by", bound->byDamping ? "damping" : "stiffness"}, {"particle", bound->particle}};
+    return {{"seconds", bound->seconds},
+            {"limited_by", bound->byDamping ? "damping" : "stiffness"},
+            {"particle", bound->particle}};
 }
 
 Json checkJson(const scenes::Scene& scene) {
@@ -134,10 +140,11 @@ void printCheck(const Json& json) {
     std::string terms;
     for (const Json& term : json["terms"]) terms += (terms.empty() ? "" : ", ") + term.get<std::string>();
     fmt::print("kernel     {}; {}; {}; cutoff {:.4g} m\n", json["kernel"].get<std::string>(), terms,
-               json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair", json["cutoff"].get<double>());
+               json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair",
+               json["cutoff"].get<double>());
     fmt::print("obstacles  {}\n", json["obstacles"].get<std::size_t>());
-    fmt::print("stepper    {}, {} steps of {:.4g} s\n", json["stepper"].get<std::string>(), json["steps"].get<std::int64_t>(),
-               json["step"].get<double>());
+    fmt::print("stepper    {}, {} steps of {:.4g} s\n", json["stepper"].get<std::string>(),
+               json["steps"].get<std::int64_t>(), json["step"].get<double>());
     fmt::print("step bound {}\n", boundText(json));
     fmt::print("memory     {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
                json["bytes_per_particle"].get<std::size_t>());

@@ -1,5 +1,5 @@
-// The subcommands of the program. Each adds itself to the command line, with its flags, its help and what it does when it is
-// called; failures come back to main as exceptions.
+// The subcommands of the program. Each adds itself to the command line, with its flags, its help and what it does when
+// it is called; failures come back to main as exceptions.
 #pragma once
 
 #include <CLI/CLI.hpp>

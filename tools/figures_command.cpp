@@ -64,9 +64,10 @@ RenderResult renderVideo(const scenes::Scene& scene, const FiguresOptions& optio
 /// The columns of Table 1 and what else decides the motion.
 std::string constantsOf(const scenes::Scene& scene, std::size_t particleCount) {
     const engine::Material& m = scene.setup.materials.front();
-    return fmt::format("{} particles, r = {} m, m = {} kg, b1 = {} N m^4, b_d = {} kg/s, c_r = {}, c_d = {}, {} at {} s",
-                       particleCount, m.radius, m.mass, m.repulsion, m.damping, m.repulsionReach, m.dampingReach,
-                       engine::nameOf(scene.setup.stepper), scene.setup.step);
+    return fmt::format(
+        "{} particles, r = {} m, m = {} kg, b1 = {} N m^4, b_d = {} kg/s, c_r = {}, c_d = {}, {} at {} s",
+        particleCount, m.radius, m.mass, m.repulsion, m.damping, m.repulsionReach, m.dampingReach,
+        engine::nameOf(scene.setup.stepper), scene.setup.step);
 }
 
 FigureEntry makeFigure(int number, const FiguresOptions& options) {
@@ -101,8 +102,12 @@ void makeFigures(const FiguresOptions& options) {
         entries.push_back(makeFigure(number, options));
         const FigureEntry& entry = entries.back();
         if (options.run.json)
-            fmt::print("{}\n", nlohmann::ordered_json{{"event", "figure"}, {"figure", number}, {"still", entry.stillPath},
-                                                      {"video", entry.videoPath}, {"state_hash", entry.stateHash}}.dump());
+            fmt::print("{}\n", nlohmann::ordered_json{{"event", "figure"},
+                                                      {"figure", number},
+                                                      {"still", entry.stillPath},
+                                                      {"video", entry.videoPath},
+                                                      {"state_hash", entry.stateHash}}
+                                   .dump());
         else if (!options.run.quiet)
             fmt::print("figure {}: {}, {}\n", number, entry.stillPath, entry.videoPath);
     }
@@ -114,7 +119,8 @@ void makeFigures(const FiguresOptions& options) {
 }  // namespace
 
 void addFiguresCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("figures", "the paper's figures: stills, videos, and a page that shows them");
+    CLI::App* command =
+        program.add_subcommand("figures", "the paper's figures: stills, videos, and a page that shows them");
     const auto options = std::make_shared<FiguresOptions>();
     command->add_option("FIGURE", options->numbers, "which figures (default: all four)")->check(CLI::Range(1, 4));
     command->add_option("-o,--output", options->folder, "folder to write to (default: out/figures)")->type_name("DIR");

@@ -31,11 +31,16 @@ code { background: #f0f0ec; padding: 0 0.2rem; }
 std::string escaped(const std::string& text) {
     std::string html;
     for (const char c : text) {
-        if (c == '&') html += "&amp;";
-        else if (c == '<') html += "&lt;";
-        else if (c == '>') html += "&gt;";
-        else if (c == '"') html += "&quot;";
-        else html += c;
+        if (c == '&')
+            html += "&amp;";
+        else if (c == '<')
+            html += "&lt;";
+        else if (c == '>')
+            html += "&gt;";
+        else if (c == '"')
+            html += "&quot;";
+        else
+            html += c;
     }
     return html;
 }
@@ -58,8 +63,9 @@ std::string section(const FigureEntry& figure) {
         "<figure><video controls loop muted src=\"{}\"></video><figcaption>The whole animation</figcaption></figure>\n"
         "</div>\n<p>Again: <code>{}</code>; state of the last frame <code>{}</code></p>\n"
         "<details><summary>All parameters</summary>\n{}</details></section>\n",
-        escaped(figure.title), escaped(figure.description), escaped(figure.constants), figure.number, dataUri("image/png", figure.stillPath),
-        figure.stillTime, dataUri("video/mp4", figure.videoPath), escaped(figure.command), figure.stateHash, parameterTable(figure));
+        escaped(figure.title), escaped(figure.description), escaped(figure.constants), figure.number,
+        dataUri("image/png", figure.stillPath), figure.stillTime, dataUri("video/mp4", figure.videoPath),
+        escaped(figure.command), figure.stateHash, parameterTable(figure));
 }
 
 }  // namespace

@@ -12,12 +12,12 @@ struct FigureEntry {
     int number = 0;
     std::string title;
     std::string description;
-    std::string constants;      ///< of its law and step, in one line
-    std::string stillPath;      ///< PNG
-    std::string videoPath;      ///< MP4
-    double stillTime = 0.0;     ///< s
-    std::vector<std::pair<std::string, std::string>> parameters;    ///< key and value as in the scene file
-    std::string command;        ///< renders the scene again
+    std::string constants;                                        ///< of its law and step, in one line
+    std::string stillPath;                                        ///< PNG
+    std::string videoPath;                                        ///< MP4
+    double stillTime = 0.0;                                       ///< s
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< key and value as in the scene file
+    std::string command;                                          ///< renders the scene again
     std::string stateHash;
 };
 

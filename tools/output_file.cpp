@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// An open file descriptor; removes its file unless it was kept.
 class TemporaryFile {
-   public:
+ public:
     explicit TemporaryFile(fs::path path) : path_(std::move(path)) {
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
         if (descriptor_ < 0) fail("write", path_, errno);
@@ -54,7 +54,7 @@ class TemporaryFile {
         kept_ = true;
     }
 
-   private:
+ private:
     fs::path path_;
     int descriptor_ = -1;
     bool kept_ = false;

@@ -23,7 +23,10 @@ std::string timeLeft(int done, int total, double elapsed) {
 }  // namespace
 
 Progress::Progress(std::string title, int total, Talk talk)
-    : title_(std::move(title)), total_(total), talk_(talk), terminal_(isatty(STDERR_FILENO) == 1),
+    : title_(std::move(title)),
+      total_(total),
+      talk_(talk),
+      terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
@@ -34,8 +37,8 @@ void Progress::frameDone(int frame, double sceneTime) {
     ++done_;
     if (talk_ == Talk::quiet) return;
     if (talk_ == Talk::json) {
-        const nlohmann::ordered_json line = {{"event", "frame"}, {"scene", title_}, {"frame", frame},
-                                             {"time", sceneTime}, {"done", done_}, {"total", total_}};
+        const nlohmann::ordered_json line = {{"event", "frame"},  {"scene", title_}, {"frame", frame},
+                                             {"time", sceneTime}, {"done", done_},   {"total", total_}};
         fmt::print("{}\n", line.dump());
         return;
     }
@@ -48,8 +51,8 @@ void Progress::frameDone(int frame, double sceneTime) {
 
 void Progress::drawBar(double elapsed) const {
     const int filled = kBarWidth * done_ / total_;
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "", kBarWidth - filled, done_,
-               total_, done_ / elapsed, timeLeft(done_, total_, elapsed));
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "", kBarWidth - filled,
+               done_, total_, done_ / elapsed, timeLeft(done_, total_, elapsed));
     std::fflush(stderr);
 }
 

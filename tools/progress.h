@@ -1,5 +1,5 @@
-// How long work tells about itself: a bar on a terminal, a plain line now and then elsewhere, one JSON object a frame for
-// scripts, or nothing. Everything goes to stderr but the JSON, which is the result of a run that asked for it.
+// How long work tells about itself: a bar on a terminal, a plain line now and then elsewhere, one JSON object a frame
+// for scripts, or nothing. Everything goes to stderr but the JSON, which is the result of a run that asked for it.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace tools {
 enum class Talk { normal, quiet, json };
 
 class Progress {
-   public:
+ public:
     /// total: how many frames will be done.
     Progress(std::string title, int total, Talk talk);
     Progress(const Progress&) = delete;
@@ -20,7 +20,7 @@ class Progress {
     /// One more frame is done; its number is for the reader.
     void frameDone(int frame, double sceneTime);
 
-   private:
+ private:
     void drawBar(double elapsed) const;
     void printLine(double elapsed);
 
@@ -30,7 +30,7 @@ class Progress {
     Talk talk_;
     bool terminal_ = false;
     std::chrono::steady_clock::time_point start_;
-    double lastLine_ = 0.0;     ///< s after the start
+    double lastLine_ = 0.0;  ///< s after the start
 };
 
 }  // namespace tools

@@ -25,7 +25,8 @@ struct RenderOptions {
 
 void printSummary(const RenderOptions& options, const fs::path& folder, const nlohmann::ordered_json& json) {
     if (options.run.json) {
-        fmt::print("{}\n", nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
+        fmt::print("{}\n",
+                   nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
     } else if (!options.run.quiet) {
         fmt::print("{} frames in {}{}\n", json["frames"].get<int>(), folder.string(),
                    options.video.empty() ? "" : ", video " + options.video);
@@ -69,7 +70,8 @@ void addRenderCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("render", "simulate and draw a scene: PNG frames, run.json, a video");
     const auto options = std::make_shared<RenderOptions>();
     addTo(*command, options->scene);
-    command->add_option("-o,--output", options->folder, "folder for frames and run.json (default: out/NAME)")->type_name("DIR");
+    command->add_option("-o,--output", options->folder, "folder for frames and run.json (default: out/NAME)")
+        ->type_name("DIR");
     command->add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
     command->add_option("--frames", options->frames, "draw only these frames")->type_name("A-B");
     addTo(*command, options->draw);

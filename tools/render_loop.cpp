@@ -27,35 +27,38 @@ constexpr int kErrorSamples = 16;
 
 /// Adds the life time of the object to a sum of seconds.
 class Stopwatch {
-   public:
+ public:
     explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
     ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
-   private:
+ private:
     double& sum_;
     std::chrono::steady_clock::time_point start_;
 };
 
 struct FramePlan {
     int number = 0;
-    double time = 0.0;      ///< s
+    double time = 0.0;  ///< s
     render::View view;
 };
 
 struct FramePicture {
     int number = 0;
-    double time = 0.0;      ///< s
+    double time = 0.0;  ///< s
     render::Image image;
 };
 
 /// The four calls between a scene and its files, one method a stage.
 class Run {
-   public:
+ public:
     explicit Run(const RenderJob& job)
-        : job_(job), context_(openContext(job)), renderer_(context_, job.scene->size, job.quality),
-          next_(job.frames.first), progress_(job.title, job.frames.last - job.frames.first + 1, job.talk) {
+        : job_(job),
+          context_(openContext(job)),
+          renderer_(context_, job.scene->size, job.quality),
+          next_(job.frames.first),
+          progress_(job.title, job.frames.last - job.frames.first + 1, job.talk) {
         result_.simulation = engine::start(job.scene->setup);
         result_.report.threads = job.threads;
         result_.report.glRenderer = context_.rendererName();
@@ -72,7 +75,7 @@ class Run {
         return std::move(result_);
     }
 
-   private:
+ private:
     static render::Context openContext(const RenderJob& job) {
         // llvmpipe reads its share of the machine from here; a user's own setting wins.
         ::setenv("LP_NUM_THREADS", std::to_string(job.threads).c_str(), 0);
@@ -89,15 +92,17 @@ class Run {
     }
 
     void runPipeline() {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(job_.threads));
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(job_.threads));
         constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
         using PlanPointer = std::shared_ptr<FramePlan>;
         using PicturePointer = std::shared_ptr<FramePicture>;
-        tbb::parallel_pipeline(
-            kTokens,
-            tbb::make_filter<void, PlanPointer>(kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); }) &
-                tbb::make_filter<PlanPointer, PicturePointer>(kInOrder, [this](const PlanPointer& plan) { return draw(*plan); }) &
-                tbb::make_filter<PicturePointer, void>(kInOrder, [this](const PicturePointer& picture) { encode(*picture); }));
+        tbb::parallel_pipeline(kTokens, tbb::make_filter<void, PlanPointer>(
+                                            kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); }) &
+                                            tbb::make_filter<PlanPointer, PicturePointer>(
+                                                kInOrder, [this](const PlanPointer& plan) { return draw(*plan); }) &
+                                            tbb::make_filter<PicturePointer, void>(
+                                                kInOrder, [this](const PicturePointer& picture) { encode(*picture); }));
     }
 
     std::shared_ptr<FramePlan> simulate(tbb::flow_control& flow) {
@@ -118,7 +123,8 @@ class Run {
             return nullptr;
         }
         const int count = job_.frames.last - job_.frames.first + 1;
-        if (plan->number % std::max(1, count / kErrorSamples) == 0) addSample(result_.report.errors, result_.simulation);
+        if (plan->number % std::max(1, count / kErrorSamples) == 0)
+            addSample(result_.report.errors, result_.simulation);
         plan->view = scenes::frameView(*job_.scene, result_.simulation);
         return plan;
     }
@@ -147,6 +153,8 @@ class Run {
 
 }  // namespace
 
-RenderResult renderFrames(const RenderJob& job) { return Run(job).all(); }
+RenderResult renderFrames(const RenderJob& job) {
+    return Run(job).all();
+}
 
 }  // namespace tools

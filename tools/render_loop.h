@@ -18,23 +18,23 @@ namespace tools {
 struct RenderJob {
     const scenes::Scene* scene = nullptr;
     FrameRange frames;
-    std::function<std::optional<std::string>(int)> pngPath;     ///< where a frame goes, if it is wanted as a file
-    std::string videoPath;                                      ///< empty: no video
+    std::function<std::optional<std::string>(int)> pngPath;  ///< where a frame goes, if it is wanted as a file
+    std::string videoPath;                                   ///< empty: no video
     render::Quality quality = render::Quality::normal;
     render::Backend backend = render::Backend::osmesa;
     int threads = 1;
     Talk talk = Talk::normal;
-    std::string title;                                          ///< in the progress
+    std::string title;  ///< in the progress
 };
 
 /// What a job leaves behind.
 struct RenderResult {
-    engine::Simulation simulation;      ///< at the last frame
+    engine::Simulation simulation;  ///< at the last frame
     RunReport report;
 };
 
-/// Draws the frames of a job. A simulation that becomes unstable ends the run after the frames before that moment, with the
-/// reason in the report; the outside world's failures are thrown.
+/// Draws the frames of a job. A simulation that becomes unstable ends the run after the frames before that moment, with
+/// the reason in the report; the outside world's failures are thrown.
 RenderResult renderFrames(const RenderJob& job);
 
 }  // namespace tools

@@ -14,7 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json vectorJson(const engine::Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+Json vectorJson(const engine::Vec3& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
 
 Json stepsJson(const engine::StepStatistics& steps) {
     return {{"count", steps.count},
@@ -34,8 +36,11 @@ Json errorJson(const ErrorSamples& errors) {
 }
 
 Json energyJson(const engine::Energy& energy) {
-    return {{"kinetic", energy.kinetic}, {"pairs", energy.pairs}, {"contacts", energy.contacts},
-            {"gravity", energy.gravity}, {"total", energy.total()}};
+    return {{"kinetic", energy.kinetic},
+            {"pairs", energy.pairs},
+            {"contacts", energy.contacts},
+            {"gravity", energy.gravity},
+            {"total", energy.total()}};
 }
 
 }  // namespace
@@ -64,8 +69,10 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
     json["fps"] = scene.fps;
     json["stepper"] = engine::nameOf(scene.setup.stepper);
     json["steps"] = stepsJson(simulation.steps);
-    json["seconds"] = {{"simulating", report.seconds.simulating}, {"drawing", report.seconds.drawing},
-                       {"encoding", report.seconds.encoding}, {"all", report.seconds.all}};
+    json["seconds"] = {{"simulating", report.seconds.simulating},
+                       {"drawing", report.seconds.drawing},
+                       {"encoding", report.seconds.encoding},
+                       {"all", report.seconds.all}};
     json["error_estimate"] = errorJson(report.errors);
     if (report.unstable.empty()) {
         json["energy"] = energyJson(engine::energy(simulation.evaluator, simulation.particles));

@@ -13,7 +13,7 @@ namespace tools {
 struct StageSeconds {
     double simulating = 0.0;
     double drawing = 0.0;
-    double encoding = 0.0;      ///< PNG, PLY and video
+    double encoding = 0.0;  ///< PNG, PLY and video
     double all = 0.0;
 };
 
@@ -30,11 +30,11 @@ void addSample(ErrorSamples& samples, const engine::Simulation& simulation);
 struct RunReport {
     StageSeconds seconds;
     ErrorSamples errors;
-    int frames = 0;                 ///< written
+    int frames = 0;  ///< written
     int threads = 1;
-    std::string glRenderer;         ///< empty where nothing was drawn
-    std::string stateHash;          ///< of the last frame
-    std::string unstable;           ///< why the run ended early; empty for a whole one
+    std::string glRenderer;  ///< empty where nothing was drawn
+    std::string stateHash;   ///< of the last frame
+    std::string unstable;    ///< why the run ended early; empty for a whole one
 };
 
 /// The content of run.json for a run that has come to the given state.

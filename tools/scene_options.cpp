@@ -39,9 +39,11 @@ void addTo(CLI::App& command, RunOptions& options) {
 }
 
 void addTo(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, "a scene file, or the name of a built-in scene (see globular scenes)")->required();
+    command.add_option("SCENE", options.scene, "a scene file, or the name of a built-in scene (see globular scenes)")
+        ->required();
     command.add_option("--set", options.overrides, "change a key of the scene, e.g. --set physics.step=0.005")
-        ->type_name("KEY=VALUE")->allow_extra_args(false);
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
 }
 
 void addTo(CLI::App& command, DrawOptions& options) {
@@ -83,8 +85,8 @@ render::Quality qualityOf(const DrawOptions& options) {
 render::Backend backendOf(const DrawOptions& options) {
     const auto backend = render::backendNamed(options.backend);
     if (!backend)
-        throw render::SystemError(
-            fmt::format("there is no OpenGL backend \"{}\"; choose one of: {}", options.backend, render::kBackendNames));
+        throw render::SystemError(fmt::format("there is no OpenGL backend \"{}\"; choose one of: {}", options.backend,
+                                              render::kBackendNames));
     return *backend;
 }
 

@@ -17,21 +17,21 @@ namespace tools {
 struct RunOptions {
     bool quiet = false;
     bool json = false;
-    int threads = 0;        ///< 0: as many as the machine has
+    int threads = 0;  ///< 0: as many as the machine has
 
     Talk talk() const { return json ? Talk::json : quiet ? Talk::quiet : Talk::normal; }
 };
 
 /// Which scene, with what changed.
 struct SceneOptions {
-    std::string scene;                      ///< path or built-in name
-    std::vector<std::string> overrides;     ///< key=value
+    std::string scene;                   ///< path or built-in name
+    std::vector<std::string> overrides;  ///< key=value
 };
 
 /// How frames are drawn.
 struct DrawOptions {
-    std::string size;                       ///< WxH; empty: the scene's
-    std::string style;                      ///< empty: the scene's
+    std::string size;   ///< WxH; empty: the scene's
+    std::string style;  ///< empty: the scene's
     std::string quality = "normal";
     std::string backend = "osmesa";
 };

@@ -22,7 +22,9 @@ void addScenesCommand(CLI::App& program) {
         for (const auto& scene : list) width = std::max(width, scene.name.size());
         for (const auto& scene : list) {
             if (*json)
-                fmt::print("{}\n", nlohmann::ordered_json{{"name", scene.name}, {"title", scene.title}, {"path", scene.path}}.dump());
+                fmt::print(
+                    "{}\n",
+                    nlohmann::ordered_json{{"name", scene.name}, {"title", scene.title}, {"path", scene.path}}.dump());
             else
                 fmt::print("{:<{}}  {}\n", scene.name, width, scene.title);
         }

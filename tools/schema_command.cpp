@@ -10,7 +10,8 @@
 namespace tools {
 
 void addSchemaCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("schema", "every key of a scene file with type, unit, default, range, help");
+    CLI::App* command =
+        program.add_subcommand("schema", "every key of a scene file with type, unit, default, range, help");
     const auto json = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "one JSON object a line");
     command->footer("Example: globular schema");
@@ -20,9 +21,14 @@ void addSchemaCommand(CLI::App& program) {
             return;
         }
         for (const scenes::SchemaRow& row : scenes::schemaRows())
-            fmt::print("{}\n", nlohmann::ordered_json{{"key", row.key}, {"type", row.type}, {"unit", row.unit},
-                                                      {"default", row.fallback}, {"range", row.range},
-                                                      {"applies_to", row.appliesTo}, {"help", row.help}}.dump());
+            fmt::print("{}\n", nlohmann::ordered_json{{"key", row.key},
+                                                      {"type", row.type},
+                                                      {"unit", row.unit},
+                                                      {"default", row.fallback},
+                                                      {"range", row.range},
+                                                      {"applies_to", row.appliesTo},
+                                                      {"help", row.help}}
+                                   .dump());
     });
 }
 

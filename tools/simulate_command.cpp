@@ -37,7 +37,8 @@ struct SimulatedRun {
     RunReport report;
 };
 
-SimulatedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const fs::path& folder, Progress& progress) {
+SimulatedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const fs::path& folder,
+                            Progress& progress) {
     SimulatedRun run{engine::start(scene.setup), {}};
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         const auto begin = std::chrono::steady_clock::now();
@@ -50,7 +51,8 @@ SimulatedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames
         }
         run.report.seconds.simulating += secondsSince(begin);
         const auto written = std::chrono::steady_clock::now();
-        writeFile(folder / fmt::format("particles-{:05}.ply", frame), scenes::encodeParticles(run.simulation.particles));
+        writeFile(folder / fmt::format("particles-{:05}.ply", frame),
+                  scenes::encodeParticles(run.simulation.particles));
         run.report.seconds.encoding += secondsSince(written);
         ++run.report.frames;
         progress.frameDone(frame, time);
@@ -77,10 +79,12 @@ void simulate(const SimulateOptions& options) {
     writeFile(folder / "run.json", json.dump(2) + "\n");
     if (!run.report.unstable.empty()) throw engine::InstabilityError(run.report.unstable);
     if (options.run.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
+        fmt::print("{}\n",
+                   nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
     else if (!options.run.quiet)
         fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", run.report.frames, folder.string(),
-                   run.simulation.particles.count(), run.simulation.steps.count, run.report.seconds.all, run.report.stateHash);
+                   run.simulation.particles.count(), run.simulation.steps.count, run.report.seconds.all,
+                   run.report.stateHash);
 }
 
 }  // namespace

@@ -28,7 +28,9 @@ struct VideoCommandOptions {
     int fps = 0;
 };
 
-std::string frameName(int number) { return fmt::format("frame-{:05}.png", number); }
+std::string frameName(int number) {
+    return fmt::format("frame-{:05}.png", number);
+}
 
 /// The numbers of the frames in a folder, in order.
 std::vector<int> frameNumbers(const fs::path& folder) {
@@ -50,8 +52,9 @@ void refuseGaps(const fs::path& folder, const std::vector<int>& numbers) {
         throw render::SystemError(fmt::format("{} holds no frames (frame-00000.png, ...)", folder.string()));
     for (std::size_t k = 1; k < numbers.size(); ++k)
         if (numbers[k] != numbers[k - 1] + 1)
-            throw render::SystemError(fmt::format("{} is missing; frames {} and {} exist", (folder / frameName(numbers[k - 1] + 1)).string(),
-                                                  numbers[k - 1], numbers[k]));
+            throw render::SystemError(fmt::format("{} is missing; frames {} and {} exist",
+                                                  (folder / frameName(numbers[k - 1] + 1)).string(), numbers[k - 1],
+                                                  numbers[k]));
 }
 
 /// The rate of the run that wrote the frames, or 30 where nothing says.
@@ -87,14 +90,17 @@ void encode(const VideoCommandOptions& options) {
     for (const int number : numbers) {
         const render::Image image = read(number);
         if (image.width != first.width || image.height != first.height)
-            throw render::SystemError(fmt::format("{} is {}x{}, the frames before it are {}x{}", (folder / frameName(number)).string(),
-                                                  image.width, image.height, first.width, first.height));
+            throw render::SystemError(fmt::format("{} is {}x{}, the frames before it are {}x{}",
+                                                  (folder / frameName(number)).string(), image.width, image.height,
+                                                  first.width, first.height));
         writer.add(image);
         progress.frameDone(number, static_cast<double>(number) / video.fps);
     }
     writer.finish();
     if (options.run.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}}.dump());
+        fmt::print(
+            "{}\n",
+            nlohmann::ordered_json{{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}}.dump());
     else if (!options.run.quiet)
         fmt::print("{} frames in {}\n", numbers.size(), options.output);
 }
@@ -106,7 +112,8 @@ void addVideoCommand(CLI::App& program) {
     const auto options = std::make_shared<VideoCommandOptions>();
     command->add_option("DIR", options->folder, "folder with frame-00000.png, ...")->required();
     command->add_option("-o,--output", options->output, "the video to write")->required()->type_name("FILE.mp4");
-    command->add_option("--fps", options->fps, "frames per second (default: that of run.json, else 30)")->check(CLI::Range(1, 240));
+    command->add_option("--fps", options->fps, "frames per second (default: that of run.json, else 30)")
+        ->check(CLI::Range(1, 240));
     addTo(*command, options->run);
     command->footer("Example: globular video out/liquid -o out/liquid.mp4");
     command->callback([options] { encode(*options); });

@@ -1,8 +1,8 @@
 // Packings: counts, spacing, containment, jitter.
 #include "engine/bodies.h"
 
-#include "tests/catch.h"
 #include <cmath>
+#include "tests/catch.h"
 
 using namespace engine;
 
@@ -40,7 +40,7 @@ TEST_CASE("A grid has the counts asked for and is centred", "[bodies]") {
     CHECK(positions.size() == 20);
     Vec3 mean = Vec3::Zero();
     for (const Vec3& position : positions) mean += position / 20.0;
-    CHECK((mean - Vec3(0, 1, 0)).norm() < 1e-14);  // rounding of twenty terms
+    CHECK((mean - Vec3(0, 1, 0)).norm() < 1e-14);                     // rounding of twenty terms
     CHECK(nearestDistance(positions) == Approx(0.5).epsilon(1e-14));  // rounding
 }
 

@@ -10,7 +10,8 @@
 namespace clouds {
 
 inline engine::Vec3 randomVector(std::uint64_t seed, std::uint64_t index) {
-    return {engine::symmetricUnit(engine::randomBits(seed, index, 0)), engine::symmetricUnit(engine::randomBits(seed, index, 1)),
+    return {engine::symmetricUnit(engine::randomBits(seed, index, 0)),
+            engine::symmetricUnit(engine::randomBits(seed, index, 1)),
             engine::symmetricUnit(engine::randomBits(seed, index, 2))};
 }
 
@@ -43,6 +44,8 @@ inline engine::ForceLaw lawOf(const engine::Material& material) {
     return law;
 }
 
-inline engine::ForceLaw lawOf(const char* preset) { return lawOf(*engine::materialPreset(preset)); }
+inline engine::ForceLaw lawOf(const char* preset) {
+    return lawOf(*engine::materialPreset(preset));
+}
 
 }  // namespace clouds

@@ -1,9 +1,9 @@
 // Obstacles of section 3.2 against hand-worked contacts.
 #include "engine/colliders.h"
 
-#include "tests/catch.h"
 #include <cmath>
 #include <limits>
+#include "tests/catch.h"
 
 #include "engine/pair_law.h"
 
@@ -52,7 +52,8 @@ TEST_CASE("A plane pushes out however deep a particle is", "[colliders]") {
     for (const double depth : {0.3, 0.5, 2.0, 100.0}) {
         const Vec3 force = forceAt(floor, Vec3(0, 1.0 + depth, 0));
         const double distance = std::max(0.5 - depth, core);
-        CHECK(force.y() == Approx(-repulsion(distance, 0.5)).epsilon(64 * kEps));  // a dozen roundings, some cancellation
+        CHECK(force.y() ==
+              Approx(-repulsion(distance, 0.5)).epsilon(64 * kEps));  // a dozen roundings, some cancellation
     }
 }
 
@@ -61,7 +62,8 @@ TEST_CASE("A contact damps with 5 c_d and only along the normal", "[colliders]")
     const Vec3 still = forceAt(floor, Vec3(0, 0.1, 0));
     const Vec3 falling = forceAt(floor, Vec3(0, 0.1, 0), Vec3(3, -2, 1));
     const double sd = 1.0 - 0.36 / (0.65 * 0.65);  // D = 0.6
-    CHECK((falling - still).y() == Approx(2.0 * 5.0 * 2.0 * sd).epsilon(1e3 * kEps));  // difference of 60 times larger sums
+    CHECK((falling - still).y() ==
+          Approx(2.0 * 5.0 * 2.0 * sd).epsilon(1e3 * kEps));  // difference of 60 times larger sums
     CHECK(falling.x() == 0.0);
     CHECK(falling.z() == 0.0);
 }
@@ -102,7 +104,8 @@ TEST_CASE("A sphere answers under its surface, or literally with its own radius"
     const Scenery surface = only(Sphere{Vec3(1, 0, 0), 2.0, false});
     const Scenery literal = only(Sphere{Vec3(1, 0, 0), 2.0, true});
     CHECK(forceAt(surface, Vec3(3.16, 0, 0)) == Vec3::Zero());
-    CHECK(forceAt(surface, Vec3(3.1, 0, 0)).x() == Approx(repulsion(0.6, 0.5)).epsilon(1e3 * kEps));  // rounding of 2.1 - 2
+    CHECK(forceAt(surface, Vec3(3.1, 0, 0)).x() ==
+          Approx(repulsion(0.6, 0.5)).epsilon(1e3 * kEps));  // rounding of 2.1 - 2
     CHECK(forceAt(literal, Vec3(3.1, 0, 0)).x() == Approx(repulsion(2.1, 2.0)).epsilon(1e4 * kEps));  // same, softer
     CHECK(forceAt(surface, Vec3(1, 0, 0)).y() > 0.0);  // at the very centre: some direction, finite
     const Scenery published = only(Sphere{Vec3::Zero(), 0.5, true});
@@ -113,8 +116,8 @@ TEST_CASE("A sphere answers under its surface, or literally with its own radius"
 TEST_CASE("Contact forces are minus the gradient of the contact energy", "[colliders]") {
     const std::vector<Collider> all = {Plane{}, Container{Vec3(-1, -1, -1), Vec3(1, 1, 1)},
                                        Box{Vec3(-1, -1, -1), Vec3(0, 0, 0)}, Sphere{Vec3(0, -0.5, 0), 0.5, false}};
-    const std::vector<Vec3> points = {{0.2, 0.06, 0.1}, {0.92, 0.93, -0.3}, {-0.3, -0.07, -0.4}, {0.06, 0.05, 0.08},
-                                      {0.1, -0.7, 0.2}};
+    const std::vector<Vec3> points = {
+        {0.2, 0.06, 0.1}, {0.92, 0.93, -0.3}, {-0.3, -0.07, -0.4}, {0.06, 0.05, 0.08}, {0.1, -0.7, 0.2}};
     for (const Collider& collider : all)
         for (const Vec3& point : points) {
             const Scenery scenery = only(collider);

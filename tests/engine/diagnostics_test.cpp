@@ -1,12 +1,12 @@
 // Energy, momenta, hash, and the exponential of the drag.
 #include "engine/diagnostics.h"
 
-#include "tests/catch.h"
 #include <cmath>
 #include <limits>
+#include "tests/catch.h"
 
-#include "tests/engine/clouds.h"
 #include "engine/decay.h"
+#include "tests/engine/clouds.h"
 
 using namespace engine;
 

@@ -1,9 +1,9 @@
 // Births: on time, where they should be, never on top of another unless the scene wants it.
 #include "engine/emitters.h"
 
-#include "tests/catch.h"
 #include <cmath>
 #include <set>
+#include "tests/catch.h"
 
 using namespace engine;
 
@@ -62,8 +62,8 @@ TEST_CASE("A birth without room waits and is counted once", "[emitters]") {
     run.until(2.0, 0.01);
     for (std::size_t p = 1; p < run.particles.count(); ++p)
         CHECK((run.particles.position[p] - run.particles.position[p - 1]).norm() >= 0.3 - 1e-12);  // rounding of sums
-    CHECK(run.particles.count() == 7);      // every 0.3 s
-    CHECK(run.state.refusals == 7);         // all but the first had to wait, and the eighth still does
+    CHECK(run.particles.count() == 7);                                                             // every 0.3 s
+    CHECK(run.state.refusals == 7);  // all but the first had to wait, and the eighth still does
     CHECK(run.state.births == 7);
 }
 

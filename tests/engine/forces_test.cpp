@@ -3,8 +3,8 @@
 
 #include <tbb/global_control.h>
 
-#include "tests/catch.h"
 #include <limits>
+#include "tests/catch.h"
 
 #include "tests/engine/clouds.h"
 
@@ -49,7 +49,8 @@ void checkGridAgainstReference(const ForceLaw& law, const Particles& particles) 
     const auto actual = onGrid(law, particles);
     REQUIRE(actual.size() == expected.size());
     for (std::size_t p = 0; p < expected.size(); ++p) {
-        // Pairs have equal bits; two orders of summation differ by at most one rounding per term of the running sum, twice.
+        // Pairs have equal bits; two orders of summation differ by at most one rounding per term of the running sum,
+        // twice.
         const double tolerance = 2.0 * static_cast<double>(particles.count()) * kEps * forceScale(law, particles, p);
         const double difference = (actual[p] - expected[p]).cwiseAbs().maxCoeff();
         INFO("particle " << p << ": " << actual[p].transpose() << " against " << expected[p].transpose());

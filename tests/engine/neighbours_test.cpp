@@ -2,8 +2,8 @@
 #include "engine/neighbours.h"
 
 #include <algorithm>
-#include "tests/catch.h"
 #include <set>
+#include "tests/catch.h"
 
 #include "tests/engine/clouds.h"
 
@@ -39,10 +39,10 @@ void checkComplete(const std::vector<Vec3>& positions, double width) {
 }  // namespace
 
 TEST_CASE("Every pair within the width is found once", "[neighbours]") {
-    checkComplete(clouds::strewn(300, 1.5).position, 0.6);      // dense
-    checkComplete(clouds::strewn(300, 6.0).position, 0.6);      // more cells wanted than allowed
-    checkComplete(clouds::strewn(50, 0.2).position, 0.6);       // all in one or two cells
-    checkComplete(clouds::strewn(200, 40.0).position, 0.6);     // thin
+    checkComplete(clouds::strewn(300, 1.5).position, 0.6);   // dense
+    checkComplete(clouds::strewn(300, 6.0).position, 0.6);   // more cells wanted than allowed
+    checkComplete(clouds::strewn(50, 0.2).position, 0.6);    // all in one or two cells
+    checkComplete(clouds::strewn(200, 40.0).position, 0.6);  // thin
 }
 
 TEST_CASE("Flat and linear arrangements have fewer than three cells across", "[neighbours]") {

@@ -1,9 +1,9 @@
 // Laws of the pair force against closed forms, the printed equation and central differences.
 #include "engine/pair_law.h"
 
-#include "tests/catch.h"
 #include <cmath>
 #include <limits>
+#include "tests/catch.h"
 
 #include "tests/engine/clouds.h"
 
@@ -22,7 +22,9 @@ double printedCoefficient(double d, double approach, const Material& m, double r
     return sr * (m.repulsion / std::pow(d, 5) - b2 / std::pow(d, 3)) - sd * m.damping * approach / (d * d);
 }
 
-double radialForce(double d, const PairConstants<double>& c) { return d * pairCoefficient<kAll>(d * d, 0.0, c); }
+double radialForce(double d, const PairConstants<double>& c) {
+    return d * pairCoefficient<kAll>(d * d, 0.0, c);
+}
 
 }  // namespace
 
@@ -73,7 +75,8 @@ TEST_CASE("The force is minus the derivative of the energy", "[pair_law]") {
             const double h = 1e-5 * d;
             const double slope = (pairEnergy(d + h, c) - pairEnergy(d - h, c)) / (2 * h);
             const double scale = material.repulsion / std::pow(std::max(d, 0.075), 4);
-            // Truncation h^2 F''/6 < 20 (h/d)^2 scale = 2e-9 scale, rounding eps U/h < 2e-11 scale; a straddled core adds little.
+            // Truncation h^2 F''/6 < 20 (h/d)^2 scale = 2e-9 scale, rounding eps U/h < 2e-11 scale; a straddled core
+            // adds little.
             INFO("c_r = " << reach << ", D = " << d);
             CHECK(std::abs(radialForce(d, c) + slope) <= 4e-9 * scale);
         }
@@ -92,7 +95,7 @@ TEST_CASE("The stiffness is minus the derivative of the force", "[pair_law]") {
 
 TEST_CASE("Known values of Table 1", "[pair_law]") {
     const auto solid = pairConstants<double>(*materialPreset("solid"), 0.3);
-    const double closed = 2.0 * (1.0 - 0.25) * 0.8 / std::pow(0.3, 5);  // 2 (1 - 1/c_r^2) b1 / D0^5
+    const double closed = 2.0 * (1.0 - 0.25) * 0.8 / std::pow(0.3, 5);      // 2 (1 - 1/c_r^2) b1 / D0^5
     CHECK(pairStiffness(0.3, solid) == Approx(closed).epsilon(16 * kEps));  // a handful of roundings
     CHECK(closed == Approx(493.8).epsilon(1e-4));                           // the figure quoted, to its digits
     // Depth of the well at D0: b1 / (12 D0^3) for c_r = 2.

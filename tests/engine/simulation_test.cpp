@@ -5,9 +5,9 @@
 
 #include "tests/catch.h"
 
-#include "tests/engine/clouds.h"
 #include "engine/bodies.h"
 #include "engine/diagnostics.h"
+#include "tests/engine/clouds.h"
 
 using namespace engine;
 

@@ -1,15 +1,15 @@
 // Order of convergence, closed forms, and what must be kept or may only fall.
 #include "engine/steppers.h"
 
-#include "tests/catch.h"
 #include <cmath>
+#include "tests/catch.h"
 
-#include "tests/engine/clouds.h"
 #include "engine/bodies.h"
 #include "engine/decay.h"
 #include "engine/diagnostics.h"
 #include "engine/local_error.h"
 #include "engine/step_bound.h"
+#include "tests/engine/clouds.h"
 
 using namespace engine;
 
@@ -80,14 +80,15 @@ TEST_CASE("One step of symplectic Euler is equations 7 and 8", "[steppers]") {
 }
 
 TEST_CASE("Two bodies oscillate with the closed-form period", "[steppers]") {
-    // Reduced mass 1/2, k = 2 (1 - 1/c_r^2) b1 / D0^5: omega = sqrt(2 k). Phase after five periods measured by position.
+    // Reduced mass 1/2, k = 2 (1 - 1/c_r^2) b1 / D0^5: omega = sqrt(2 k). Phase after five periods measured by
+    // position.
     const double omega = std::sqrt(2.0 * 2.0 * 0.75 * 0.8 / std::pow(0.3, 5));
     const double amplitude = 1e-5;
     Simulation simulation = start(oscillator(StepperKind::velocityVerlet, 1e-5, amplitude));
     advance(simulation, 5.25 * 2.0 * M_PI / omega);
     const double gap = simulation.particles.position[0].x() - simulation.particles.position[1].x() - 0.3;
-    // A quarter period past a crest: zero, up to the phase error omega^3 dt^2 t/24 = 1.3e-6 and anharmonic shift of about
-    // (amplitude/D0)^2 and offset of order (F''/2k) amplitude^2 = 10 amplitude^2/D0.
+    // A quarter period past a crest: zero, up to the phase error omega^3 dt^2 t/24 = 1.3e-6 and anharmonic shift of
+    // about (amplitude/D0)^2 and offset of order (F''/2k) amplitude^2 = 10 amplitude^2/D0.
     CHECK(std::abs(gap) <= amplitude * (1e-5 + 15 * amplitude / 0.3));
 }
 
@@ -120,7 +121,8 @@ TEST_CASE("Damping and drag only remove energy, momentum is kept without drag", 
         before = now;
     }
     double scale = 0.0;
-    for (std::size_t p = 0; p < 100; ++p) scale += simulation.particles.mass[p] * simulation.particles.velocity[p].norm();
+    for (std::size_t p = 0; p < 100; ++p)
+        scale += simulation.particles.mass[p] * simulation.particles.velocity[p].norm();
     CHECK((linearMomentum(simulation.particles) - momentum).norm() <= 1e-13 * scale);  // a rounding a step and particle
     CHECK((angularMomentum(simulation.particles) - spin).norm() <= 1e-13 * scale * 3.0);  // arms of up to 3 m
 }
@@ -160,14 +162,16 @@ TEST_CASE("The step bound of two bodies is the closed form, and it is the limit"
     REQUIRE(bound);
     // w^2 = 2 k / m without damping: dt = 2 / w.
     const double stiffness = 2.0 * 0.75 * 0.8 / std::pow(0.3, 5);
-    CHECK(bound->seconds == Approx(2.0 / std::sqrt(2.0 * stiffness)).epsilon(1e-12));  // roundings of a root and an eigenvalue
+    CHECK(bound->seconds ==
+          Approx(2.0 / std::sqrt(2.0 * stiffness)).epsilon(1e-12));  // roundings of a root and an eigenvalue
     CHECK_FALSE(bound->byDamping);
     const auto largestGap = [](double step) {
         Simulation simulation = start(oscillator(StepperKind::symplecticEuler, step, 1e-7));
         double largest = 0.0;
         for (int k = 1; k <= 200; ++k) {
             takeStep(simulation, step);
-            largest = std::max(largest, std::abs(simulation.particles.position[0].x() - simulation.particles.position[1].x() - 0.3));
+            largest = std::max(
+                largest, std::abs(simulation.particles.position[0].x() - simulation.particles.position[1].x() - 0.3));
         }
         return largest;
     };

@@ -11,7 +11,8 @@ namespace golden {
 
 Difference differenceOf(const render::Image& actual, const render::Image& expected) {
     if (actual.width != expected.width || actual.height != expected.height)
-        throw std::invalid_argument(fmt::format("{}x{} against {}x{}", actual.width, actual.height, expected.width, expected.height));
+        throw std::invalid_argument(
+            fmt::format("{}x{} against {}x{}", actual.width, actual.height, expected.width, expected.height));
     Difference difference;
     std::size_t noticeable = 0;
     double sum = 0.0;
@@ -36,9 +37,11 @@ Difference differenceOf(const render::Image& actual, const render::Image& expect
 
 std::string verdict(const Difference& d) {
     std::string reasons;
-    if (d.largest > kLargest) reasons += fmt::format("largest difference {} at ({}, {}) > {}; ", d.largest, d.worstX, d.worstY, kLargest);
+    if (d.largest > kLargest)
+        reasons += fmt::format("largest difference {} at ({}, {}) > {}; ", d.largest, d.worstX, d.worstY, kLargest);
     if (d.mean > kMean) reasons += fmt::format("mean difference {:.4f} > {}; ", d.mean, kMean);
-    if (d.share > kShare) reasons += fmt::format("{:.3f} % of pixels off by more than {}; ", 100 * d.share, kNoticeable);
+    if (d.share > kShare)
+        reasons += fmt::format("{:.3f} % of pixels off by more than {}; ", 100 * d.share, kNoticeable);
     return reasons;
 }
 

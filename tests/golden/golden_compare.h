@@ -10,8 +10,8 @@ namespace golden {
 /// What two pictures of one size differ by, in 8-bit steps of a channel.
 struct Difference {
     int largest = 0;
-    double mean = 0.0;          ///< over all channels of all pixels
-    double share = 0.0;         ///< of pixels with a channel off by more than kNoticeable
+    double mean = 0.0;   ///< over all channels of all pixels
+    double share = 0.0;  ///< of pixels with a channel off by more than kNoticeable
     int worstX = 0, worstY = 0;
 };
 

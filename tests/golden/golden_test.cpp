@@ -1,5 +1,6 @@
-// A golden frame for each of the paper's figures: the whole way from scene file to pixels. On failure the actual picture, the
-// expected one and their difference are left in the build folder; tests/golden/approve.sh makes the actuals the new goldens.
+// A golden frame for each of the paper's figures: the whole way from scene file to pixels. On failure the actual
+// picture, the expected one and their difference are left in the build folder; tests/golden/approve.sh makes the
+// actuals the new goldens.
 #include <filesystem>
 
 #include "render/png.h"
@@ -19,7 +20,8 @@ render::Image drawStill(const std::string& name) {
     // Half size: every particle is still a dozen pixels wide, and the goldens stay small.
     scene.size = {scene.size.width / 2, scene.size.height / 2};
     engine::Simulation simulation = engine::start(scene.setup);
-    for (int frame = 0; frame <= scenes::stillFrame(scene); ++frame) engine::advance(simulation, scenes::frameTime(scene, frame));
+    for (int frame = 0; frame <= scenes::stillFrame(scene); ++frame)
+        engine::advance(simulation, scenes::frameTime(scene, frame));
     render::Context context(render::Backend::osmesa);
     render::Renderer renderer(context, scene.size, render::Quality::normal);
     return renderer.draw(scenes::frameView(scene, simulation));
@@ -47,10 +49,18 @@ void checkGolden(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("Figure 1 looks as it did", "[golden]") { checkGolden("figure-1"); }
-TEST_CASE("Figure 2 looks as it did", "[golden]") { checkGolden("figure-2"); }
-TEST_CASE("Figure 3 looks as it did", "[golden]") { checkGolden("figure-3"); }
-TEST_CASE("Figure 4 looks as it did", "[golden]") { checkGolden("figure-4"); }
+TEST_CASE("Figure 1 looks as it did", "[golden]") {
+    checkGolden("figure-1");
+}
+TEST_CASE("Figure 2 looks as it did", "[golden]") {
+    checkGolden("figure-2");
+}
+TEST_CASE("Figure 3 looks as it did", "[golden]") {
+    checkGolden("figure-3");
+}
+TEST_CASE("Figure 4 looks as it did", "[golden]") {
+    checkGolden("figure-4");
+}
 
 TEST_CASE("Known-bad pictures are noticed", "[golden]") {
     const fs::path path = fs::path(GLOBULAR_SOURCE) / "tests" / "golden" / "figure-2.png";
@@ -74,7 +84,8 @@ TEST_CASE("Known-bad pictures are noticed", "[golden]") {
     CHECK(golden::verdict(golden::differenceOf(blank, good)) != "");
 
     render::Image rounding = good;  // the last bit of one channel in fifty
-    for (std::size_t k = 0; k < rounding.rgb.size(); k += 50) rounding.rgb[k] = static_cast<std::uint8_t>(rounding.rgb[k] ^ 1);
+    for (std::size_t k = 0; k < rounding.rgb.size(); k += 50)
+        rounding.rgb[k] = static_cast<std::uint8_t>(rounding.rgb[k] ^ 1);
     CHECK(golden::verdict(golden::differenceOf(rounding, good)) == "");
 
     CHECK_THROWS_AS(golden::differenceOf(render::Image{1, 1, {0, 0, 0}}, good), std::invalid_argument);

@@ -1,5 +1,5 @@
-// The arrows between folders: every #include line of the sources is read, and one that points the wrong way fails by name.
-#include "tests/catch.h"
+// The arrows between folders: every #include line of the sources is read, and one that points the wrong way fails by
+// name.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <vector>
+#include "tests/catch.h"
 
 namespace {
 
@@ -15,21 +16,24 @@ namespace fs = std::filesystem;
 const std::set<std::string> kFolders = {"engine", "render", "scenes", "tools", "tests"};
 
 /// Which of our folders a folder may include, itself left out.
-const std::map<std::string, std::set<std::string>> kAllowed = {
-    {"engine", {}}, {"render", {}}, {"scenes", {"engine"}}, {"tools", {"engine", "render", "scenes"}},
-    {"tests", {"engine", "render", "scenes", "tools"}}};
+const std::map<std::string, std::set<std::string>> kAllowed = {{"engine", {}},
+                                                               {"render", {}},
+                                                               {"scenes", {"engine"}},
+                                                               {"tools", {"engine", "render", "scenes"}},
+                                                               {"tests", {"engine", "render", "scenes", "tools"}}};
 
 /// The one header of another folder that is allowed by name.
 const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", "render/view.h"}};
 
 /// What the engine and the scenes must never see: files, clocks, environment, output, GL.
 const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
-    {"engine", {"fstream", "iostream", "filesystem", "chrono", "cstdio", "cstdlib", "random", "GL/osmesa.h", "GL/glcorearb.h"}},
+    {"engine",
+     {"fstream", "iostream", "filesystem", "chrono", "cstdio", "cstdlib", "random", "GL/osmesa.h", "GL/glcorearb.h"}},
     {"scenes", {"iostream", "chrono", "GL/osmesa.h", "GL/glcorearb.h"}},
     {"render", {"iostream"}}};
 
 struct Include {
-    std::string folder;     ///< of the file that includes
+    std::string folder;  ///< of the file that includes
     std::string file;
     int line = 0;
     std::string target;

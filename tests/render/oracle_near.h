@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/catch.h"
 #include <glm/glm.hpp>
+#include "tests/catch.h"
 
 namespace oracle {
 

@@ -42,10 +42,10 @@ TEST_CASE("A scene with ten mistakes prints ten messages and exits with 2", "[to
 }
 
 TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant", "[tools]") {
-    for (const char* arguments : {"paint", "render", "render liquid --frames 9-3", "render liquid --frames 0-100000",
-                                  "render liquid --size 12", "render liquid --size 8x64", "render liquid --style blobs",
-                                  "render liquid --set physics.stp=1", "render no-such-scene", "check no-such-file.toml",
-                                  "figures 5", "--nonsense"}) {
+    for (const char* arguments :
+         {"paint", "render", "render liquid --frames 9-3", "render liquid --frames 0-100000", "render liquid --size 12",
+          "render liquid --size 8x64", "render liquid --style blobs", "render liquid --set physics.stp=1",
+          "render no-such-scene", "check no-such-file.toml", "figures 5", "--nonsense"}) {
         const auto outcome = run(arguments);
         INFO(arguments << ": " << outcome.err);
         CHECK(outcome.code == 2);
@@ -71,7 +71,8 @@ TEST_CASE("The outside world's failures exit with 1 and one line", "[tools]") {
     CHECK(program::lineCount(unwritable.err) == 1);
     CHECK(unwritable.err.find("Not a directory") != std::string::npos);
 
-    const auto noFfmpeg = run("render " + scene + output + " --video " + (folder / "a.mp4").string(), "PATH=/nonexistent");
+    const auto noFfmpeg =
+        run("render " + scene + output + " --video " + (folder / "a.mp4").string(), "PATH=/nonexistent");
     INFO(noFfmpeg.err);
     CHECK(noFfmpeg.code == 1);
     CHECK(program::lineCount(noFfmpeg.err) == 1);

@@ -27,7 +27,7 @@ inline std::string textOf(const fs::path& path) {
 
 /// A fresh folder that goes away with the object.
 class Folder {
-   public:
+ public:
     Folder() {
         std::string pattern = (fs::temp_directory_path() / "globular-test-XXXXXX").string();
         path_ = ::mkdtemp(pattern.data());
@@ -38,19 +38,21 @@ class Folder {
 
     fs::path operator/(const std::string& name) const { return path_ / name; }
 
-   private:
+ private:
     fs::path path_;
 };
 
 /// arguments: as typed in a shell. environment: assignments put before the program's name.
 inline Outcome run(const std::string& arguments, const std::string& environment = "") {
     const Folder folder;
-    const std::string command = environment + " " GLOBULAR_PROGRAM " " + arguments + " >" + (folder / "out").string() + " 2>" +
-                                (folder / "err").string();
+    const std::string command = environment + " " GLOBULAR_PROGRAM " " + arguments + " >" + (folder / "out").string() +
+                                " 2>" + (folder / "err").string();
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
 }
 
-inline long lineCount(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+inline long lineCount(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+}
 
 }  // namespace program

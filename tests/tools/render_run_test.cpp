@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 /// A short, small run of a scene of metaballs with shadows, births and obstacles.
 std::string fountainRun(const fs::path& folder, const std::string& more) {
-    return "render fountain --size 160x90 --frames 0-9 --quiet -o " + folder.string() + " --video " + folder.string() + ".mp4 " + more;
+    return "render fountain --size 160x90 --frames 0-9 --quiet -o " + folder.string() + " --video " + folder.string() +
+           ".mp4 " + more;
 }
 
 std::vector<std::string> frameBytes(const fs::path& folder) {
@@ -72,8 +73,9 @@ TEST_CASE("globular simulate writes states that a scene can start from", "[tools
     const program::Folder folder;
     REQUIRE(run("simulate powder --frames 0-3 --quiet -o " + (folder / "states").string()).code == 0);
     CHECK(fs::exists(folder / "states/particles-00003.ply"));
-    std::ofstream(folder / "again.toml") << "title = \"again\"\nduration = 0.1\n[material]\npreset = \"powder\"\nmass = 0.1\n"
-                                            "[[body]]\nshape = \"file\"\nfile = \"states/particles-00003.ply\"\nmaterial = \"powder\"\n";
+    std::ofstream(folder / "again.toml")
+        << "title = \"again\"\nduration = 0.1\n[material]\npreset = \"powder\"\nmass = 0.1\n"
+           "[[body]]\nshape = \"file\"\nfile = \"states/particles-00003.ply\"\nmaterial = \"powder\"\n";
     const auto check = run("check --json " + (folder / "again.toml").string());
     INFO(check.err);
     CHECK(check.code == 0);
