@@ -7,10 +7,9 @@
 
 namespace engine {
 
-double localError(const Simulation& simulation) {
+double localError(const Simulation& simulation, double h) {
     const std::size_t count = simulation.particles.count();
     if (count == 0) return 0.0;
-    const double h = simulation.setup.step;
     Simulation whole = simulation;
     takeStep(whole, h);
     Simulation halves = simulation;

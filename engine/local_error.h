@@ -6,9 +6,9 @@
 
 namespace engine {
 
-/// Local position error of one step of the set-up's size at the current state.
+/// Local position error of one step of h seconds at the current state.
 /// Shape:  rms over the particles, in radii per second of motion; 0 without particles.
 /// Source: Richardson: with order p, one step errs by the difference to two half steps divided by 1 - 2^-p.
-double localError(const Simulation& simulation);
+double localError(const Simulation& simulation, double h);
 
 }  // namespace engine

@@ -25,12 +25,16 @@ std::array<std::int64_t, 3> chooseDimensions(const std::vector<Vec3>& positions,
     const std::int64_t limit = cellLimit(positions.size());
     std::array<std::int64_t, 3> dimensions{};
     for (int axis = 0; axis < 3; ++axis) {
-        const double cells = std::floor((high[axis] - low[axis]) / width) + 2.0;
+        const double along = std::floor((high[axis] - low[axis]) / width) + 2.0;
         dimensions[static_cast<std::size_t>(axis)] =
-            static_cast<std::int64_t>(std::min(cells, static_cast<double>(limit)));
+            static_cast<std::int64_t>(std::min(along, static_cast<double>(limit)));
     }
     // Any size is correct; halving the longest axis keeps cells that share storage far apart.
-    while (dimensions[0] * dimensions[1] * dimensions[2] > limit) {
+    const auto cells = [&] {
+        return static_cast<double>(dimensions[0]) * static_cast<double>(dimensions[1]) *
+               static_cast<double>(dimensions[2]);
+    };
+    while (cells() > static_cast<double>(limit)) {
         std::int64_t& longest = *std::max_element(dimensions.begin(), dimensions.end());
         longest = (longest + 1) / 2;
     }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "engine/soundness.h"
 #include "engine/steppers.h"
 
 namespace engine {
@@ -20,28 +20,6 @@ void giveBirth(Simulation& simulation) {
                      simulation.particles);
     }
     if (born > 0) simulation.forcesCurrent = false;
-}
-
-bool isSound(const Vec3& position) {
-    // Written so that a NaN fails.
-    return std::abs(position.x()) < kWorldLimit && std::abs(position.y()) < kWorldLimit &&
-           std::abs(position.z()) < kWorldLimit;
-}
-
-[[noreturn]] void reportInstability(const Simulation& simulation, std::size_t p, double h) {
-    const Vec3& x = simulation.particles.position[p];
-    std::ostringstream text;
-    text << "the simulation became unstable: particle " << simulation.particles.id[p] << " is at (" << x.x() << ", "
-         << x.y() << ", " << x.z() << ") m with speed " << std::sqrt(squaredLength(simulation.particles.velocity[p]))
-         << " m/s at time " << simulation.time << " s, step " << simulation.steps.count << " of " << h
-         << " s; lower physics.step, or raise material.mass";
-    throw InstabilityError(text.str());
-}
-
-void checkSound(const Simulation& simulation, double h) {
-    const auto& positions = simulation.particles.position;
-    const auto lost = std::find_if_not(positions.begin(), positions.end(), isSound);
-    if (lost != positions.end()) reportInstability(simulation, static_cast<std::size_t>(lost - positions.begin()), h);
 }
 
 void record(StepStatistics& steps, double h) {
@@ -73,7 +51,7 @@ void advance(Simulation& simulation, double time) {
         giveBirth(simulation);
         takeStep(simulation, h);
         record(simulation.steps, h);
-        checkSound(simulation, h);
+        requireSound(simulation, h);
     }
     simulation.time = time;
     giveBirth(simulation);

@@ -47,7 +47,7 @@ struct Simulation {
     Particles particles;
     std::vector<EmitterState> emitters;
     double time = 0.0;         ///< s
-    std::vector<Vec3> forces;  ///< on each particle, N; of this very state while forcesCurrent
+    std::vector<Vec3> forces;  ///< on each particle, N; while forcesCurrent those that the next step starts with
     bool forcesCurrent = false;
     std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
     StepStatistics steps;

@@ -40,9 +40,16 @@ double largestEigenvalue(const Matrix3& matrix) {
     return Eigen::SelfAdjointEigenSolver<Matrix3>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
+/// The step at which a mode with this squared frequency (1/s^2) and decay (1/s) stops being damped; infinite without
+/// either.
+double longestStep(StepperKind stepper, double frequencySq, double decay) {
+    if (stepper == StepperKind::symplecticEuler) return 4.0 / (decay + std::sqrt(decay * decay + 4.0 * frequencySq));
+    return 2.0 / (decay + std::sqrt(decay * decay + frequencySq));
+}
+
 }  // namespace
 
-std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles) {
+std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles, StepperKind stepper) {
     if (particles.count() < 2) return std::nullopt;
     PairTraversal pairs(law);
     pairs.prepare(law, particles, particles.velocity);
@@ -52,8 +59,8 @@ std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particl
         const OwnSums sums = sumsOf(pairs, around, self);
         const double frequencySq = 2.0 * largestEigenvalue(sums.stiffness) / particles.mass[p];
         const double decay = 2.0 * largestEigenvalue(sums.damping) / particles.mass[p];
-        const double rate = decay + std::sqrt(decay * decay + 4.0 * frequencySq);
-        if (rate > 0.0) bounds[p] = {4.0 / rate, p, decay * decay > 4.0 * frequencySq};
+        const double seconds = longestStep(stepper, frequencySq, decay);
+        if (std::isfinite(seconds)) bounds[p] = {seconds, p, decay * decay > 4.0 * frequencySq};
     });
     const auto tightest = std::min_element(
         bounds.begin(), bounds.end(), [](const StepBound& a, const StepBound& b) { return a.seconds < b.seconds; });

@@ -6,8 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "engine/force_law.h"
-#include "engine/particles.h"
+#include "engine/simulation.h"
 
 namespace engine {
 
@@ -17,11 +16,14 @@ struct StepBound {
     bool byDamping = false;    ///< damping, not stiffness, limits it
 };
 
-/// Bound for symplectic Euler and velocity Verlet; nothing where no particle touches another or an obstacle's pair law.
-/// Source: with K_p and C_p a particle's own 3x3 sums of stiffness and damping over its pairs, w^2 = 2 max eig(K_p)/m
+/// Bound of the pair forces; obstacles are not counted. Nothing where no particle acts on another.
+/// Source: a particle's own 3x3 sums K_p and C_p of stiffness and damping over its pairs estimate the spectra of K/M
 /// and
-///         g = 2 max eig(C_p)/m bound the spectra of K/M and C/M, and dt = 4 / (g + sqrt(g^2 + 4 w^2)).
-/// Error:  0.9 to 1.8 times the measured limit on settled states; blind to contacts that are about to form.
-std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles);
+///         C/M by w^2 = 2 max eig(K_p)/m and g = 2 max eig(C_p)/m. A step h multiplies such a mode by -1 at
+///           symplectic Euler:  h^2 w^2 + 2 h g = 4,  h = 4 / (g + sqrt(g^2 + 4 w^2))
+///           velocity Verlet:   h^2 w^2 + 4 h g = 4,  h = 2 / (g + sqrt(g^2 + w^2)),
+///         the second because its damping sees the predicted velocity.
+/// Holds:  exact for two particles; blind to contacts that are about to form.
+std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles, StepperKind stepper);
 
 }  // namespace engine

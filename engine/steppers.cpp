@@ -2,11 +2,14 @@
 #include "engine/steppers.h"
 
 #include "engine/decay.h"
+#include "engine/soundness.h"
 
 namespace engine {
 namespace {
 
-void evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities) {
+/// The cells of the grid need positions that are numbers, hence the check.
+void evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities, double h) {
+    requireSound(simulation, h);
     simulation.evaluator.evaluate(simulation.particles, velocities, simulation.forces);
     ++simulation.steps.forceEvaluations;
 }
@@ -15,7 +18,7 @@ void evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities)
 /// published.
 void symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
-    evaluateForces(simulation, particles.velocity);
+    evaluateForces(simulation, particles.velocity, h);
     const double decay = decayFactor(simulation.setup.drag, h);
     for (std::size_t p = 0; p < particles.count(); ++p) {
         particles.velocity[p] = decay * (particles.velocity[p] + h / particles.mass[p] * simulation.forces[p]);
@@ -28,7 +31,7 @@ void symplecticEulerStep(Simulation& simulation, double h) {
 /// which keeps the order at 2 with one evaluation a step. The drag in the middle keeps the step symmetric.
 void velocityVerletStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
-    if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity);
+    if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity, h);
     const double decay = decayFactor(simulation.setup.drag, h);
     std::vector<Vec3>& predicted = simulation.predictedVelocities;
     predicted.resize(particles.count());
@@ -40,7 +43,7 @@ void velocityVerletStep(Simulation& simulation, double h) {
         particles.velocity[p] = late;
         predicted[p] = late + halfKick;
     }
-    evaluateForces(simulation, predicted);
+    evaluateForces(simulation, predicted, h);
     for (std::size_t p = 0; p < particles.count(); ++p)
         particles.velocity[p] += 0.5 * h / particles.mass[p] * simulation.forces[p];
     simulation.forcesCurrent = true;

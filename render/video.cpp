@@ -44,18 +44,18 @@ void requireX264(const VideoOptions& options) {
     }
 }
 
-// Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes for any number of threads and any
-// processor. Without the BT.709 conversion and tags ffmpeg assumes BT.601 and colours shift. An even size is what
-// yuv420p takes.
+// Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes on any processor. The encoder's
+// threads are fixed, because its bytes depend on their number. Without the BT.709 conversion and tags ffmpeg assumes
+// BT.601 and colours shift. An even size is what yuv420p takes.
 std::vector<std::string> commandLine(const VideoOptions& options) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt",
             "rgb24", "-video_size", fmt::format("{}x{}", even(options.size.width), even(options.size.height)),
             "-framerate", fmt::format("{}", options.fps), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset",
-            "veryfast", "-crf", "18", "-pix_fmt", "yuv420p", "-threads", fmt::format("{}", options.threads),
-            "-sws_flags", "+accurate_rnd+bitexact", "-color_range", "tv", "-colorspace", "bt709", "-color_primaries",
-            "bt709", "-color_trc", "bt709", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
-            "-bsf:v", "filter_units=remove_types=6", "-movflags", "+faststart", "-f", "mp4",
+            "veryfast", "-crf", "18", "-pix_fmt", "yuv420p", "-threads", "2", "-sws_flags", "+accurate_rnd+bitexact",
+            "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-fflags",
+            "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v", "filter_units=remove_types=6",
+            "-movflags", "+faststart", "-f", "mp4",
             // A path that begins with a dash or looks like a protocol is still a file.
             "file:" + partialPath(options)};
 }

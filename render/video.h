@@ -14,12 +14,11 @@ struct VideoOptions {
     std::string path;  ///< the finished film; written to path + ".partial" and renamed when whole
     PictureSize size;
     int fps = 30;
-    int threads = 2;                ///< of the encoder; the file's bytes do not depend on it
     std::string ffmpeg = "ffmpeg";  ///< the program, looked up on PATH
 };
 
 /// Writes one film: H.264, yuv420p, BT.709. Odd sizes are padded to even by repeating the last column or row.
-/// Holds:  the same frames give the same bytes for any number of threads.
+/// Holds:  the same frames give the same bytes on any machine: the encoder always has two threads.
 class VideoWriter {
  public:
     /// Throws SystemError: ffmpeg cannot be started, or has no libx264.

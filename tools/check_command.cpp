@@ -1,6 +1,5 @@
 // globular check: validates a scene and says what would run, what it would need, and how long it would take.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +13,7 @@
 #include "engine/steppers.h"
 #include "tools/commands.h"
 #include "tools/scene_options.h"
+#include "tools/threads.h"
 
 namespace tools {
 namespace {
@@ -25,11 +25,14 @@ struct CheckOptions {
     SceneOptions scene;
 };
 
-/// Births that the schedules allow within the scene's duration, if none has to wait.
+/// Births that the schedules allow up to the last frame, if none has to wait.
 std::uint64_t plannedBirths(const scenes::Scene& scene) {
+    constexpr double kOnTime = 1e-9;  // as for the births themselves, s
     std::uint64_t sum = 0;
     for (const engine::Emitter& emitter : scene.setup.emitters) {
-        const double end = std::min(emitter.until, scene.duration);
+        const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
+        // Due at `until` is too late, due at the last frame is not.
+        const double end = std::min(lastFrame + kOnTime, emitter.until - 2.0 * kOnTime);
         if (end < emitter.start) continue;
         const double events = std::floor((end - emitter.start) / emitter.interval) + 1.0;
         const double schedules = emitter.pick == engine::Pick::all ? static_cast<double>(emitter.sites.size()) : 1.0;
@@ -80,8 +83,8 @@ double secondsPerParticle(const scenes::Scene& scene, std::uint64_t particleCoun
 }
 
 Json boundJson(const scenes::Scene& scene) {
-    const auto bound =
-        engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.scenery}, scene.setup.initial);
+    const auto bound = engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.scenery},
+                                         scene.setup.initial, scene.setup.stepper);
     if (!bound) return nullptr;
     return {{"seconds", bound->seconds},
             {"limited_by", bound->byDamping ? "damping" : "stiffness"},
@@ -125,10 +128,10 @@ Json checkJson(const scenes::Scene& scene) {
 
 std::string boundText(const Json& json) {
     const Json& bound = json["step_bound_at_start"];
-    if (bound.is_null()) return "none: no two particles act on each other at the start";
+    if (bound.is_null()) return "none: no two particles act on each other at the start (obstacles are not counted)";
     const double seconds = bound["seconds"].get<double>();
     const char* verdict = json["step"].get<double>() > seconds ? " -- the step is longer: expect instability" : "";
-    return fmt::format("{:.4g} s at the start, limited by the {} of particle {}{}", seconds,
+    return fmt::format("{:.4g} s for the pairs at the start, limited by the {} of particle {}{}", seconds,
                        bound["limited_by"].get<std::string>(), bound["particle"].get<std::size_t>(), verdict);
 }
 
@@ -154,9 +157,8 @@ void printCheck(const Json& json) {
 
 void check(const CheckOptions& options) {
     const scenes::Scene scene = load(options.scene);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threadCount(options.run)));
-    const Json json = checkJson(scene);
+    Json json;
+    onThreads(threadCount(options.run), [&] { json = checkJson(scene); });
     if (options.run.json)
         fmt::print("{}\n", json.dump());
     else if (!options.run.quiet)

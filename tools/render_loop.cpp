@@ -1,8 +1,8 @@
 // An oneTBB pipeline of in-order stages. With one thread its stages take turns.
 #include "tools/render_loop.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -13,8 +13,10 @@
 #include "render/png.h"
 #include "render/renderer.h"
 #include "render/video.h"
+#include "scenes/frame_steps.h"
 #include "scenes/frame_view.h"
 #include "tools/output_file.h"
+#include "tools/threads.h"
 
 namespace tools {
 namespace {
@@ -22,7 +24,7 @@ namespace {
 /// Frames in flight: one a stage, and one to even out their times.
 constexpr std::size_t kTokens = 4;
 
-/// Chosen: the local error is sampled on this many frames of a run, which costs three steps each.
+/// Chosen: the local error is sampled on at most this many frames of a run, which costs three steps each.
 constexpr int kErrorSamples = 16;
 
 /// Adds the life time of the object to a sum of seconds.
@@ -68,7 +70,7 @@ class Run {
     RenderResult all() {
         {
             const Stopwatch watch(result_.report.seconds.all);
-            runPipeline();
+            onThreads(job_.threads, [this] { runPipeline(); });
             if (video_ && result_.report.frames > 0) video_->finish();
         }
         result_.report.stateHash = engine::stateHash(result_.simulation.particles);
@@ -87,13 +89,10 @@ class Run {
         options.path = job.videoPath;
         options.size = job.scene->size;
         options.fps = job.scene->fps;
-        options.threads = job.threads;
         return options;
     }
 
     void runPipeline() {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<std::size_t>(job_.threads));
         constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
         using PlanPointer = std::shared_ptr<FramePlan>;
         using PicturePointer = std::shared_ptr<FramePicture>;
@@ -115,23 +114,31 @@ class Run {
         plan->number = next_++;
         plan->time = scenes::frameTime(*job_.scene, plan->number);
         try {
-            engine::advance(result_.simulation, plan->time);
+            scenes::advanceToFrame(*job_.scene, result_.simulation, plan->number);
+            if ((plan->number - job_.frames.first) % sampleStride() == 0)
+                addSample(result_.report.errors, result_.simulation);
         } catch (const engine::InstabilityError& error) {
             // The frames before it are still on their way to their files.
             result_.report.unstable = error.what();
             flow.stop();
             return nullptr;
         }
-        const int count = job_.frames.last - job_.frames.first + 1;
-        if (plan->number % std::max(1, count / kErrorSamples) == 0)
-            addSample(result_.report.errors, result_.simulation);
         plan->view = scenes::frameView(*job_.scene, result_.simulation);
         return plan;
     }
 
+    int sampleStride() const {
+        const int count = job_.frames.last - job_.frames.first + 1;
+        return (count + kErrorSamples - 1) / kErrorSamples;
+    }
+
     std::shared_ptr<FramePicture> draw(const FramePlan& plan) {
         const Stopwatch watch(result_.report.seconds.drawing);
-        return std::make_shared<FramePicture>(FramePicture{plan.number, plan.time, renderer_.draw(plan.view)});
+        auto picture = std::make_shared<FramePicture>(FramePicture{plan.number, plan.time, {}});
+        // Isolated: a thread that waits for others here must not take up a frame's simulation and hold the context
+        // meanwhile.
+        tbb::this_task_arena::isolate([&] { picture->image = renderer_.draw(plan.view); });
+        return picture;
     }
 
     void encode(const FramePicture& picture) {

@@ -46,7 +46,8 @@ Json energyJson(const engine::Energy& energy) {
 }  // namespace
 
 void addSample(ErrorSamples& samples, const engine::Simulation& simulation) {
-    const double error = engine::localError(simulation);
+    if (simulation.steps.count == 0) return;
+    const double error = engine::localError(simulation, simulation.steps.longest);
     ++samples.count;
     samples.sum += error;
     samples.largest = std::max(samples.largest, error);

@@ -24,7 +24,7 @@ struct ErrorSamples {
     double largest = 0.0;
 };
 
-/// Measures the local error at the current state and adds it.
+/// Measures the local error at the current state, for the step that the run takes, and adds it.
 void addSample(ErrorSamples& samples, const engine::Simulation& simulation);
 
 struct RunReport {

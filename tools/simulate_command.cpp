@@ -1,6 +1,5 @@
 // globular simulate: particle states only, one PLY file a frame.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <chrono>
 #include <filesystem>
@@ -8,12 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/diagnostics.h"
+#include "scenes/frame_steps.h"
 #include "scenes/particle_file.h"
 #include "tools/commands.h"
 #include "tools/output_file.h"
 #include "tools/progress.h"
 #include "tools/run_report.h"
 #include "tools/scene_options.h"
+#include "tools/threads.h"
 
 namespace tools {
 namespace {
@@ -44,7 +45,7 @@ SimulatedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames
         const auto begin = std::chrono::steady_clock::now();
         const double time = scenes::frameTime(scene, frame);
         try {
-            engine::advance(run.simulation, time);
+            scenes::advanceToFrame(scene, run.simulation, frame);
         } catch (const engine::InstabilityError& error) {
             run.report.unstable = error.what();
             break;
@@ -67,12 +68,12 @@ void simulate(const SimulateOptions& options) {
     const std::string name = fs::path(scene.sourceName).stem().string();
     const fs::path folder = options.folder.empty() ? fs::path("out") / name : fs::path(options.folder);
     const int threads = threadCount(options.run);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
 
     createFolder(folder);
     Progress progress(name, frames.last - frames.first + 1, options.run.talk());
     const auto begin = std::chrono::steady_clock::now();
-    SimulatedRun run = simulateFrames(scene, frames, folder, progress);
+    SimulatedRun run;
+    onThreads(threads, [&] { run = simulateFrames(scene, frames, folder, progress); });
     run.report.seconds.all = secondsSince(begin);
     run.report.threads = threads;
     const auto json = runJson(scene, run.simulation, run.report);

@@ -6,6 +6,6 @@ cd "$(dirname "$0")/.."
 
 preset=${1:-release}
 tools/setup.sh
-cmake --preset "$preset" -DGLOBULAR_WERROR=ON
+cmake --preset "$preset" -DGLOBULAR_TESTS=ON -DGLOBULAR_WERROR=ON
 cmake --build --preset "$preset"
 ctest --preset "$preset"

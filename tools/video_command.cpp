@@ -64,7 +64,8 @@ int rateOf(const VideoCommandOptions& options) {
     if (!fs::exists(run)) return 30;
     const auto bytes = readFile(run);
     const auto json = nlohmann::json::parse(bytes, nullptr, false);
-    if (!json.is_object() || !json.contains("fps") || !json["fps"].is_number_integer())
+    if (!json.is_object() || !json.contains("fps") || !json["fps"].is_number_integer() || json["fps"] < 1 ||
+        json["fps"] > 240)
         throw render::SystemError(fmt::format("{} names no frame rate; give one with --fps", run.string()));
     return json["fps"].get<int>();
 }
@@ -84,7 +85,6 @@ void encode(const VideoCommandOptions& options) {
     video.path = options.output;
     video.size = {first.width, first.height};
     video.fps = rateOf(options);
-    video.threads = threadCount(options.run);
     render::VideoWriter writer(video);
     Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.talk());
     for (const int number : numbers) {

@@ -1,6 +1,9 @@
 // Particle sets that the suites of the engine share.
 #pragma once
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <cstdint>
 
 #include "engine/forces.h"
@@ -36,6 +39,14 @@ inline engine::Particles strewnUnequal(std::size_t count, double halfEdge, std::
         particles.mass[p] = 1.0 + 0.9 * random.y();
     }
     return particles;
+}
+
+/// Runs work on exactly so many threads, even where the machine has fewer cores.
+template <class Work>
+void onThreads(std::size_t threads, const Work& work) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute(work);
 }
 
 inline engine::ForceLaw lawOf(const engine::Material& material) {

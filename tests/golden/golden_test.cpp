@@ -5,6 +5,7 @@
 
 #include "render/png.h"
 #include "render/renderer.h"
+#include "scenes/frame_steps.h"
 #include "scenes/frame_view.h"
 #include "tests/catch.h"
 #include "tests/golden/golden_compare.h"
@@ -17,11 +18,10 @@ namespace fs = std::filesystem;
 render::Image drawStill(const std::string& name) {
     const std::string path = std::string(GLOBULAR_SOURCE) + "/scenes/paper/" + name + ".toml";
     scenes::Scene scene = scenes::loadScene(path, {});
-    // Half size: every particle is still a dozen pixels wide, and the goldens stay small.
+    // Half size: particles are still seven to ten pixels wide, and the goldens stay small.
     scene.size = {scene.size.width / 2, scene.size.height / 2};
     engine::Simulation simulation = engine::start(scene.setup);
-    for (int frame = 0; frame <= scenes::stillFrame(scene); ++frame)
-        engine::advance(simulation, scenes::frameTime(scene, frame));
+    scenes::advanceToFrame(scene, simulation, scenes::stillFrame(scene));
     render::Context context(render::Backend::osmesa);
     render::Renderer renderer(context, scene.size, render::Quality::normal);
     return renderer.draw(scenes::frameView(scene, simulation));

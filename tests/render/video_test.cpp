@@ -1,4 +1,6 @@
-// Films: what ffprobe reads back, identical bytes for any number of threads, and every way in which ffmpeg fails.
+// Films: what ffprobe reads back, identical bytes on one core and on several, and every way in which ffmpeg fails.
+#include <sched.h>
+
 #include "tests/catch.h"
 
 #include <unistd.h>
@@ -69,7 +71,7 @@ std::string fakeFfmpeg(const Folder& folder, const std::string& action) {
 TEST_CASE("A film has its frames, rate, size and colour tags") {
     const Folder folder;
     const std::string path = folder.file("film.mp4");
-    writeFilm({path, {64, 48}, 25, 2}, 7);
+    writeFilm({path, {64, 48}, 25}, 7);
     const std::string found = probe(path);
     INFO(found);
     for (const char* expected :
@@ -82,19 +84,28 @@ TEST_CASE("A film has its frames, rate, size and colour tags") {
 
 TEST_CASE("Odd sizes are padded to even") {
     const Folder folder;
-    writeFilm({folder.file("odd.mp4"), {33, 17}, 30, 1}, 3);
+    writeFilm({folder.file("odd.mp4"), {33, 17}, 30}, 3);
     const std::string found = probe(folder.file("odd.mp4"));
     CHECK_THAT(found, Catch::Contains("width=34"));
     CHECK_THAT(found, Catch::Contains("height=18"));
     CHECK_THAT(found, Catch::Contains("nb_read_frames=3"));
 }
 
-TEST_CASE("The number of threads does not change a byte") {
+TEST_CASE("The number of cores does not change a byte") {
     const Folder folder;
-    for (const int threads : {1, 2, 3}) writeFilm({folder.file(std::to_string(threads)), {320, 180}, 30, threads}, 12);
-    CHECK(bytesOf(folder.file("1")).size() > 1000);
-    CHECK(bytesOf(folder.file("1")) == bytesOf(folder.file("2")));
-    CHECK(bytesOf(folder.file("1")) == bytesOf(folder.file("3")));
+    cpu_set_t all;
+    REQUIRE(sched_getaffinity(0, sizeof all, &all) == 0);
+    int first = 0;
+    while (!CPU_ISSET(first, &all)) ++first;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(first, &one);
+    writeFilm({folder.file("all"), {640, 360}, 30}, 24);
+    REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);  // ffmpeg inherits it
+    writeFilm({folder.file("one"), {640, 360}, 30}, 24);
+    REQUIRE(sched_setaffinity(0, sizeof all, &all) == 0);
+    CHECK(bytesOf(folder.file("all")).size() > 1000);
+    CHECK(bytesOf(folder.file("one")) == bytesOf(folder.file("all")));
 }
 
 TEST_CASE("Colours survive: a red film is red") {
@@ -102,7 +113,7 @@ TEST_CASE("Colours survive: a red film is red") {
     render::Image red{64, 64, {}};
     for (int k = 0; k < 64 * 64; ++k) red.rgb.insert(red.rgb.end(), {220, 40, 30});
     {
-        render::VideoWriter writer({folder.file("red.mp4"), {64, 64}, 30, 1});
+        render::VideoWriter writer({folder.file("red.mp4"), {64, 64}, 30});
         writer.add(red);
         writer.finish();
     }
@@ -163,7 +174,7 @@ TEST_CASE("A folder that does not exist is said by ffmpeg") {
 TEST_CASE("A film that is given up leaves nothing") {
     const Folder folder;
     {
-        render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30, 1});
+        render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30});
         for (int k = 0; k < 5; ++k) writer.add(frame({64, 64}, k));
     }
     CHECK(folder.empty());

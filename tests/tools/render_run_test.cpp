@@ -57,6 +57,19 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
     CHECK(single["scene_hash"] == json["scene_hash"]);
 }
 
+TEST_CASE("Leaving frames out changes none of those that are drawn", "[tools]") {
+    const program::Folder folder;
+    const std::string small = "render fountain --size 160x90 --quiet -o ";
+    REQUIRE(run(small + (folder / "all").string() + " --frames 0-9").code == 0);
+    REQUIRE(run(small + (folder / "last").string() + " --frames 9").code == 0);
+    CHECK(textOf(folder / "last/frame-00009.png") == textOf(folder / "all/frame-00009.png"));
+    CHECK(nlohmann::json::parse(textOf(folder / "last/run.json"))["state_hash"] ==
+          nlohmann::json::parse(textOf(folder / "all/run.json"))["state_hash"]);
+    REQUIRE(run("simulate fountain --frames 9 --quiet -o " + (folder / "states").string()).code == 0);
+    CHECK(nlohmann::json::parse(textOf(folder / "states/run.json"))["state_hash"] ==
+          nlohmann::json::parse(textOf(folder / "all/run.json"))["state_hash"]);
+}
+
 TEST_CASE("globular video makes the same film of the frames, and refuses a gap", "[tools]") {
     const program::Folder folder;
     REQUIRE(run(fountainRun(folder / "a", "")).code == 0);

@@ -1,0 +1,34 @@
+// Positions within the world, speeds that are numbers.
+#include "engine/soundness.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace engine {
+namespace {
+
+bool isSound(const Vec3& position, const Vec3& velocity) {
+    // Written so that a NaN fails.
+    return std::abs(position.x()) < kWorldLimit && std::abs(position.y()) < kWorldLimit &&
+           std::abs(position.z()) < kWorldLimit && std::isfinite(squaredLength(velocity));
+}
+
+[[noreturn]] void report(const Simulation& simulation, std::size_t p, double h) {
+    const Vec3& x = simulation.particles.position[p];
+    std::ostringstream text;
+    text << "the simulation became unstable: particle " << simulation.particles.id[p] << " is at (" << x.x() << ", "
+         << x.y() << ", " << x.z() << ") m with speed " << simulation.particles.velocity[p].stableNorm()
+         << " m/s at time " << simulation.time << " s, step " << simulation.steps.count << " of " << h
+         << " s; lower physics.step, or raise material.mass";
+    throw InstabilityError(text.str());
+}
+
+}  // namespace
+
+void requireSound(const Simulation& simulation, double h) {
+    const Particles& particles = simulation.particles;
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        if (!isSound(particles.position[p], particles.velocity[p])) report(simulation, p, h);
+}
+
+}  // namespace engine
