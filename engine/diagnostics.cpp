@@ -5,31 +5,9 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/fnv.h"
+
 namespace engine {
-namespace {
-
-class Fnv1a {
- public:
-    void add(std::uint64_t word) {
-        for (int byte = 0; byte < 8; ++byte) {
-            hash_ = (hash_ ^ ((word >> (8 * byte)) & 0xFF)) * 0x100000001B3ULL;
-        }
-    }
-    void add(const Vec3& vector) {
-        for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(vector[axis]));
-    }
-    std::string text() const {
-        std::string digits(16, '0');
-        for (std::size_t d = 0; d < 16; ++d) digits[d] = "0123456789abcdef"[(hash_ >> (60 - 4 * d)) & 0xF];
-        return digits;
-    }
-
- private:
-    std::uint64_t hash_ = 0xCBF29CE484222325ULL;
-};
-
-}  // namespace
-
 Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
     const ForceLaw& law = evaluator.law();
     Energy sum;
@@ -64,13 +42,16 @@ double largestSpeed(const Particles& particles) {
 }
 
 std::string stateHash(const Particles& particles) {
-    Fnv1a hash;
+    std::uint64_t hash = fnv1a({});
+    const auto add = [&](const Vec3& vector) {
+        for (int axis = 0; axis < 3; ++axis) hash = fnv1a(std::bit_cast<std::uint64_t>(vector[axis]), hash);
+    };
     for (std::size_t p = 0; p < particles.count(); ++p) {
-        hash.add(particles.id[p]);
-        hash.add(particles.position[p]);
-        hash.add(particles.velocity[p]);
+        hash = fnv1a(std::uint64_t{particles.id[p]}, hash);
+        add(particles.position[p]);
+        add(particles.velocity[p]);
     }
-    return hash.text();
+    return hexadecimal(hash);
 }
 
 }  // namespace engine

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "engine/bodies.h"
+#include "engine/fnv.h"
 #include "engine/random.h"
 #include "scenes/builders.h"
-#include "scenes/fnv.h"
 #include "scenes/particle_file.h"
 #include "scenes/read_file.h"
 
@@ -146,7 +146,7 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
     const std::string path = (std::filesystem::path(context.folder) / section.text("file")).string();
     try {
         const std::string bytes = readFile(path, kLargestParticleFile);
-        context.contentHash = fnv1a(bytes, context.contentHash);
+        context.contentHash = engine::fnv1a(bytes, context.contentHash);
         const ParticleFile file = decodeParticles(bytes, path);
         for (std::size_t index = 0; index < file.particles.count(); ++index) {
             if (file.hasMaterial && !section.has("material") &&

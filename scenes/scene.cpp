@@ -8,9 +8,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/fnv.h"
 #include "scenes/builders.h"
 #include "scenes/document.h"
-#include "scenes/fnv.h"
 #include "scenes/overrides.h"
 #include "scenes/read_file.h"
 #include "scenes/read_sections.h"
@@ -72,14 +72,15 @@ std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
 /// Equal for scenes that mean the same, however they are written.
 std::string hashOf(const std::vector<EffectiveValue>& values, std::uint64_t contentHash) {
     std::uint64_t hash = contentHash;
-    for (const EffectiveValue& value : values) hash = fnv1a(fmt::format("{} = {}\n", value.path, value.text), hash);
-    return hexadecimal(hash);
+    for (const EffectiveValue& value : values)
+        hash = engine::fnv1a(fmt::format("{} = {}\n", value.path, value.text), hash);
+    return engine::hexadecimal(hash);
 }
 
 BuildContext contextOf(const Sections& sections, const std::string& fileName, ProblemList& problems) {
     BuildContext context{.problems = problems,
                          .folder = std::filesystem::path(fileName).parent_path().string(),
-                         .contentHash = fnv1a({})};
+                         .contentHash = engine::fnv1a({})};
     // A duration that does not fit is reported; what is built with this one is thrown away.
     if (sections.top.has("duration")) context.duration = sections.top.number("duration");
     context.seed = static_cast<std::uint64_t>(sections.top.integer("seed"));

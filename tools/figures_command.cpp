@@ -35,8 +35,8 @@ RenderJob jobFor(const scenes::Scene& scene, const FiguresOptions& options) {
     return job;
 }
 
-RenderResult renderWhole(const RenderJob& job) {
-    RenderResult result = renderFrames(job);
+FinishedRun renderWhole(const RenderJob& job) {
+    FinishedRun result = renderFrames(job);
     if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
     return result;
 }
@@ -52,7 +52,7 @@ void renderStill(const scenes::Scene& scene, const FiguresOptions& options, cons
     renderWhole(job);
 }
 
-RenderResult renderVideo(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
+FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
     RenderJob job = jobFor(scene, options);
     job.frames = {0, scenes::frameCount(scene) - 1};
     job.videoPath = entry.videoPath;
@@ -88,7 +88,7 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
     entry.command = fmt::format("globular render {} -o out/{} --video out/{}.mp4", name, name, name);
 
     renderStill(scene, options, entry);
-    RenderResult result = renderVideo(scene, options, entry);
+    FinishedRun result = renderVideo(scene, options, entry);
     entry.stateHash = result.report.stateHash;
     entry.constants = constantsOf(scene, result.simulation.particles.count());
     writeFile(folder / (name + ".json"), runJson(scene, result.simulation, result.report).dump(2) + "\n");

@@ -57,7 +57,7 @@ void render(const RenderOptions& options) {
 
     createFolder(folder);
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
-    RenderResult result = renderFrames(job);
+    FinishedRun result = renderFrames(job);
     const auto json = runJson(scene, result.simulation, result.report);
     writeFile(folder / "run.json", json.dump(2) + "\n");
     if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);

@@ -4,7 +4,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <span>
@@ -16,6 +15,7 @@
 #include "scenes/frame_steps.h"
 #include "scenes/frame_view.h"
 #include "tools/output_file.h"
+#include "tools/stopwatch.h"
 #include "tools/threads.h"
 
 namespace tools {
@@ -26,19 +26,6 @@ constexpr std::size_t kTokens = 4;
 
 /// Chosen: the local error is sampled on at most this many frames of a run, which costs three steps each.
 constexpr int kErrorSamples = 16;
-
-/// Adds the life time of the object to a sum of seconds.
-class Stopwatch {
- public:
-    explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-    ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-    double& sum_;
-    std::chrono::steady_clock::time_point start_;
-};
 
 struct FramePlan {
     int number = 0;
@@ -67,7 +54,7 @@ class Run {
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
     }
 
-    RenderResult all() {
+    FinishedRun all() {
         {
             const Stopwatch watch(result_.report.seconds.all);
             onThreads(job_.threads, [this] { runPipeline(); });
@@ -153,14 +140,14 @@ class Run {
     render::Context context_;
     render::Renderer renderer_;
     std::unique_ptr<render::VideoWriter> video_;
-    RenderResult result_;
+    FinishedRun result_;
     int next_ = 0;
     Progress progress_;
 };
 
 }  // namespace
 
-RenderResult renderFrames(const RenderJob& job) {
+FinishedRun renderFrames(const RenderJob& job) {
     return Run(job).all();
 }
 

@@ -27,14 +27,8 @@ struct RenderJob {
     std::string title;  ///< in the progress
 };
 
-/// What a job leaves behind.
-struct RenderResult {
-    engine::Simulation simulation;  ///< at the last frame
-    RunReport report;
-};
-
 /// Draws the frames of a job. A simulation that becomes unstable ends the run after the frames before that moment, with
 /// the reason in the report; the outside world's failures are thrown.
-RenderResult renderFrames(const RenderJob& job);
+FinishedRun renderFrames(const RenderJob& job);
 
 }  // namespace tools

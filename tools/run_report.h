@@ -37,6 +37,12 @@ struct RunReport {
     std::string unstable;    ///< why the run ended early; empty for a whole one
 };
 
+/// What a run leaves behind besides its files.
+struct FinishedRun {
+    engine::Simulation simulation;  ///< at the last frame
+    RunReport report;
+};
+
 /// The content of run.json for a run that has come to the given state.
 nlohmann::ordered_json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report);
 

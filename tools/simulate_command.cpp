@@ -1,7 +1,6 @@
 // globular simulate: particle states only, one PLY file a frame.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "tools/progress.h"
 #include "tools/run_report.h"
 #include "tools/scene_options.h"
+#include "tools/stopwatch.h"
 #include "tools/threads.h"
 
 namespace tools {
@@ -29,32 +29,23 @@ struct SimulateOptions {
     std::string format = "ply";
 };
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-struct SimulatedRun {
-    engine::Simulation simulation;
-    RunReport report;
-};
-
-SimulatedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const fs::path& folder,
-                            Progress& progress) {
-    SimulatedRun run{engine::start(scene.setup), {}};
+FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const fs::path& folder,
+                           Progress& progress) {
+    FinishedRun run{engine::start(scene.setup), {}};
     for (int frame = frames.first; frame <= frames.last; ++frame) {
-        const auto begin = std::chrono::steady_clock::now();
         const double time = scenes::frameTime(scene, frame);
         try {
+            const Stopwatch watch(run.report.seconds.simulating);
             scenes::advanceToFrame(scene, run.simulation, frame);
         } catch (const engine::InstabilityError& error) {
             run.report.unstable = error.what();
             break;
         }
-        run.report.seconds.simulating += secondsSince(begin);
-        const auto written = std::chrono::steady_clock::now();
-        writeFile(folder / fmt::format("particles-{:05}.ply", frame),
-                  scenes::encodeParticles(run.simulation.particles));
-        run.report.seconds.encoding += secondsSince(written);
+        {
+            const Stopwatch watch(run.report.seconds.encoding);
+            writeFile(folder / fmt::format("particles-{:05}.ply", frame),
+                      scenes::encodeParticles(run.simulation.particles));
+        }
         ++run.report.frames;
         progress.frameDone(frame, time);
     }
@@ -71,10 +62,13 @@ void simulate(const SimulateOptions& options) {
 
     createFolder(folder);
     Progress progress(name, frames.last - frames.first + 1, options.run.talk());
-    const auto begin = std::chrono::steady_clock::now();
-    SimulatedRun run;
-    onThreads(threads, [&] { run = simulateFrames(scene, frames, folder, progress); });
-    run.report.seconds.all = secondsSince(begin);
+    FinishedRun run;
+    double seconds = 0.0;
+    {
+        const Stopwatch watch(seconds);
+        onThreads(threads, [&] { run = simulateFrames(scene, frames, folder, progress); });
+    }
+    run.report.seconds.all = seconds;
     run.report.threads = threads;
     const auto json = runJson(scene, run.simulation, run.report);
     writeFile(folder / "run.json", json.dump(2) + "\n");

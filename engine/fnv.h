@@ -1,11 +1,11 @@
-// The 64-bit FNV-1a hash, by which runs of the same scene are recognised.
+// The 64-bit FNV-1a hash, by which states and scenes are recognised.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace scenes {
+namespace engine {
 
 /// FNV-1a of the bytes; continues from an earlier hash if one is given.
 constexpr std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xCBF29CE484222325ULL) {
@@ -13,6 +13,12 @@ constexpr std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xCBF
         hash ^= static_cast<unsigned char>(byte);
         hash *= 0x100000001B3ULL;
     }
+    return hash;
+}
+
+/// Continues a hash with the eight bytes of a word, lowest first on every machine.
+constexpr std::uint64_t fnv1a(std::uint64_t word, std::uint64_t hash) {
+    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ ((word >> (8 * byte)) & 0xFF)) * 0x100000001B3ULL;
     return hash;
 }
 
@@ -24,4 +30,4 @@ inline std::string hexadecimal(std::uint64_t hash) {
     return text;
 }
 
-}  // namespace scenes
+}  // namespace engine
