@@ -15,8 +15,11 @@
 namespace engine {
 
 enum class StepperKind {
-    symplecticEuler,  ///< equations 7 and 8 as printed
-    velocityVerlet    ///< second order; damping from the predicted velocity
+    symplecticEuler,   ///< equations 7 and 8 as printed
+    velocityVerlet,    ///< second order; damping from the predicted velocity
+    implicitDamping,   ///< second order; damping by the implicit midpoint rule
+    linearlyImplicit,  ///< second order; damping and stiffness by the linearised implicit midpoint rule
+    automatic          ///< whichever of the second-order ones is cheapest at the wanted error
 };
 
 /// Everything the scene says about the motion.
@@ -28,7 +31,9 @@ struct Setup {
     std::vector<Emitter> emitters;
     Particles initial;  ///< at time zero
     StepperKind stepper = StepperKind::velocityVerlet;
-    double step = 0.01;  ///< longest step, s; a frame is divided evenly
+    double step = 0.01;   ///< longest step, s; a frame is divided evenly; not used by the automatic stepper
+    double error = 1e-2;  ///< wanted position error of the automatic stepper, radii per second of motion
+    double solverTolerance = 1e-4;  ///< of the implicit steppers: residual over right-hand side
     ForceMethod forces = ForceMethod::grid;
     std::uint64_t seed = 1;
 };
@@ -38,7 +43,9 @@ struct StepStatistics {
     std::uint64_t count = 0;
     double shortest = 0.0;  ///< s
     double longest = 0.0;   ///< s
-    std::uint64_t forceEvaluations = 0;
+    std::uint64_t forceEvaluations = 0;  ///< passes over all pairs
+    std::uint64_t products = 0;          ///< of the implicit steppers' matrix with a vector
+    std::uint64_t rejected = 0;          ///< steps taken back and retried at half the length
 };
 
 struct Simulation {

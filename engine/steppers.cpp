@@ -57,13 +57,28 @@ void takeStep(Simulation& simulation, double h) {
             symplecticEulerStep(simulation, h);
             break;
         case StepperKind::velocityVerlet:
+        case StepperKind::implicitDamping:
+        case StepperKind::linearlyImplicit:
+        case StepperKind::automatic:
             velocityVerletStep(simulation, h);
             break;
     }
 }
 
 std::string_view nameOf(StepperKind stepper) {
-    return stepper == StepperKind::symplecticEuler ? "symplectic-euler" : "velocity-verlet";
+    switch (stepper) {
+        case StepperKind::symplecticEuler:
+            return "symplectic-euler";
+        case StepperKind::velocityVerlet:
+            return "velocity-verlet";
+        case StepperKind::implicitDamping:
+            return "implicit-damping";
+        case StepperKind::linearlyImplicit:
+            return "linearly-implicit";
+        case StepperKind::automatic:
+            return "auto";
+    }
+    return {};
 }
 
 int orderOf(StepperKind stepper) {

@@ -2,6 +2,7 @@
 // checks are the caller's.
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include "engine/simulation.h"
@@ -11,7 +12,13 @@ namespace engine {
 /// Moves particles, velocities and time by one step of the set-up's stepper, h in seconds.
 void takeStep(Simulation& simulation, double h);
 
-/// "symplectic-euler", "velocity-verlet": the name in scene files and reports.
+/// All of them, the automatic one last.
+inline constexpr std::array kSteppers = {StepperKind::symplecticEuler, StepperKind::velocityVerlet,
+                                         StepperKind::implicitDamping, StepperKind::linearlyImplicit,
+                                         StepperKind::automatic};
+
+/// "symplectic-euler", "velocity-verlet", "implicit-damping", "linearly-implicit", "auto": the name in scene files and
+/// reports.
 std::string_view nameOf(StepperKind stepper);
 
 /// Order of convergence of the positions.

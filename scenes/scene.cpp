@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "engine/fnv.h"
+#include "engine/steppers.h"
 #include "scenes/builders.h"
 #include "scenes/document.h"
 #include "scenes/overrides.h"
@@ -30,8 +31,9 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     setup.gravity = physics.vector("gravity");
     setup.drag = physics.number("drag");
     setup.step = physics.number("step");
-    setup.stepper = physics.text("stepper") == "symplectic-euler" ? engine::StepperKind::symplecticEuler
-                                                                  : engine::StepperKind::velocityVerlet;
+    for (const engine::StepperKind stepper : engine::kSteppers)
+        if (engine::nameOf(stepper) == physics.text("stepper")) setup.stepper = stepper;
+    setup.error = physics.number("error");
     setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 
