@@ -1,13 +1,9 @@
 // The total force: pairs, gravity, obstacles.
 #include "engine/forces.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <utility>
 
-#include "engine/forces_grid.h"
+#include "engine/pair_sums.h"
 
 namespace engine {
 
@@ -20,19 +16,52 @@ void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3
         pairForcesReference(law_, particles, velocities, forces);
     else
         pairForcesGrid(particles, velocities, forces);
+    addGravity(particles, forces);
+    addContacts(particles, velocities, forces);
+}
 
-    const auto addExternal = [&](std::size_t p) {
-        forces[p] += particles.mass[p] * law_.gravity;
-        if (law_.scenery.colliders.empty()) return;
+double ForceEvaluator::evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities,
+                                    std::vector<Vec3>& forces) {
+    double energy = 0.0;
+    if (method_ == ForceMethod::reference) {
+        pairForcesReference(law_, particles, velocities, forces);
+        energy = pairEnergyReference(law_, particles);
+    } else {
+        forces.resize(particles.count());
+        pairs_.prepare(law_, particles, velocities);
+        addUpPairs(pairs_, {.forces = forces, .energy = &energy});
+    }
+    addGravity(particles, forces);
+    return energy;
+}
+
+double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights& weights, std::vector<Vec3>& forces,
+                                PairMatrix& matrix) {
+    double energy = 0.0;
+    forces.resize(particles.count());
+    pairs_.prepare(law_, particles, particles.velocity);
+    addUpPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
+    // The matrix has no slow twin: products of the reference's pairs would be the same sums.
+    if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
+    matrix.mass.resize(particles.count());
+    for (std::size_t place = 0; place < matrix.mass.size(); ++place)
+        matrix.mass[place] = particles.mass[pairs_.list.order[place]];
+    addGravity(particles, forces);
+    return energy;
+}
+
+void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
+    inParallel(particles.count(), kParticleGrain,
+               [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
+}
+
+void ForceEvaluator::addContacts(const Particles& particles, const std::vector<Vec3>& velocities,
+                                 std::vector<Vec3>& forces) const {
+    if (law_.scenery.colliders.empty()) return;
+    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
         const double dampingReach = law_.materials[particles.material[p]].dampingReach;
         forces[p] +=
             contactForce(law_.scenery, {particles.position[p], velocities[p], particles.radius[p], dampingReach});
-    };
-    constexpr std::size_t kGrain = 512;  // chosen: a chunk is some tens of microseconds
-    tbb::this_task_arena::isolate([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, particles.count(), kGrain), [&](const auto& range) {
-            for (std::size_t p = range.begin(); p < range.end(); ++p) addExternal(p);
-        });
     });
 }
 
@@ -41,7 +70,7 @@ void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vecto
     forces.assign(particles.count(), Vec3::Zero());
     if (particles.count() < 2) return;
     pairs_.prepare(law_, particles, velocities);
-    pairForces(pairs_, forces);
+    addUpPairs(pairs_, {.forces = forces});
 }
 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {

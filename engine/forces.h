@@ -1,11 +1,12 @@
 // Forces on all particles: equation 1 over the pair law, plus gravity and obstacles. Two ways to the same sum: the
-// O(n^2) reference, which is the paper's own way, and a cell grid, O(n), threaded, that compiles in only the terms the
-// materials need.
+// O(n^2) reference, which is the paper's own way, and a neighbour list, O(n), threaded, that compiles in only the terms
+// the materials need.
 #pragma once
 
 #include <vector>
 
 #include "engine/force_law.h"
+#include "engine/pair_matrix.h"
 #include "engine/pair_traversal.h"
 #include "engine/particles.h"
 
@@ -30,19 +31,32 @@ class ForceEvaluator {
     ForceEvaluator() = default;
     ForceEvaluator(ForceLaw law, ForceMethod method);
 
-    /// Total force on every particle, in newtons, with the given velocities (m/s) in the damping.
+    /// Total force on every particle, in newtons, with the given velocities (m/s) in the damping; obstacles included.
     /// Holds:  the same bits for any number of threads.
     void evaluate(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
 
-    /// The pair forces of equation 1 alone, over the cell grid.
+    /// The same without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
+    double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
+
+    /// evaluateFree, and the matrix of the implicit steppers at the particles' positions, in the order of order().
+    double assemble(const Particles& particles, const MatrixWeights& weights, std::vector<Vec3>& forces,
+                    PairMatrix& matrix);
+
+    /// Particle index at each place of the matrix that was assembled last.
+    const std::vector<std::uint32_t>& order() const { return pairs_.list.order; }
+
+    /// The pair forces of equation 1 alone, over the neighbour list.
     void pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
 
-    /// Pair energy of the conservative part, in joules, over the cell grid.
+    /// Pair energy of the conservative part, in joules, over the neighbour list.
     double pairEnergyGrid(const Particles& particles);
 
     const ForceLaw& law() const { return law_; }
 
  private:
+    void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
+    void addContacts(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces) const;
+
     ForceLaw law_;
     ForceMethod method_ = ForceMethod::grid;
     PairTraversal pairs_;

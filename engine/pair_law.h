@@ -59,6 +59,15 @@ PairConstants<Scalar> pairConstants(const Material& material, double restLength)
     return c;
 }
 
+/// Damping of a pair along the line between the two, over D^2: b_d s_d / D^2, in kg/(s m^2). Times P P^T it is the
+/// pair's damping matrix, times V.P the coefficient of P that damps. Zero at and beyond the damping's reach.
+template <class Scalar>
+Scalar pairDampingOverSq(Scalar distanceSq, const PairConstants<Scalar>& c) {
+    const Scalar guardedSq = std::max(distanceSq, c.coreSq);
+    if (guardedSq >= c.dampingSq) return Scalar(0);
+    return c.bd * (Scalar(1) - guardedSq * c.inverseDampingSq) / guardedSq;
+}
+
 /// Coefficient of P in equation 2, in N/m; exactly zero at and beyond the cutoff.
 /// Shape:  distanceSq = P.P (m^2), approach = V.P (m^2/s), P = x_p - x_i, V = v_p - v_i.
 /// Holds:  unchanged when p and i are swapped, so that the force negates bit for bit.
@@ -75,7 +84,7 @@ Scalar pairCoefficient(Scalar distanceSq, Scalar approach, const PairConstants<S
     }
     if constexpr (terms.damping) {
         if (guardedSq < c.dampingSq)
-            coefficient -= c.bd * (Scalar(1) - guardedSq * c.inverseDampingSq) * (approach * inverseSq);
+            coefficient -= c.bd * (Scalar(1) - guardedSq * c.inverseDampingSq) * inverseSq * approach;
     }
     return coefficient;
 }

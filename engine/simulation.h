@@ -31,8 +31,8 @@ struct Setup {
     std::vector<Emitter> emitters;
     Particles initial;  ///< at time zero
     StepperKind stepper = StepperKind::velocityVerlet;
-    double step = 0.01;   ///< longest step, s; a frame is divided evenly; not used by the automatic stepper
-    double error = 1e-2;  ///< wanted position error of the automatic stepper, radii per second of motion
+    double step = 0.01;             ///< longest step, s; a frame is divided evenly; not used by the automatic stepper
+    double error = 1e-2;            ///< wanted position error of the automatic stepper, radii per second of motion
     double solverTolerance = 1e-4;  ///< of the implicit steppers: residual over right-hand side
     ForceMethod forces = ForceMethod::grid;
     std::uint64_t seed = 1;
@@ -41,8 +41,8 @@ struct Setup {
 /// What the steps of a run looked like.
 struct StepStatistics {
     std::uint64_t count = 0;
-    double shortest = 0.0;  ///< s
-    double longest = 0.0;   ///< s
+    double shortest = 0.0;               ///< s
+    double longest = 0.0;                ///< s
     std::uint64_t forceEvaluations = 0;  ///< passes over all pairs
     std::uint64_t products = 0;          ///< of the implicit steppers' matrix with a vector
     std::uint64_t rejected = 0;          ///< steps taken back and retried at half the length

@@ -20,18 +20,18 @@ struct OwnSums {
     Matrix3 damping = Matrix3::Zero();    ///< kg/s
 };
 
-OwnSums sumsOf(const PairTraversal& pairs, const Neighbourhood& around, std::uint32_t self) {
+OwnSums sumsOf(const PairTraversal& pairs, std::uint32_t self) {
     OwnSums sums;
     const PairRecord& p = pairs.records[self];
-    pairs.forEachNeighbour(around, self, [&](const PairRecord& i, const Vec3& separation, double distanceSq) {
-        const auto c = pairs.constants<false>(p, i);
+    pairs.forEachNeighbour(self, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+        const auto c = pairs.constants<false>(p, pairs.records[other]);
         const double distance = std::sqrt(distanceSq);
         const Vec3 normal = separation / distance;
         const Matrix3 along = normal * normal.transpose();
         const double across = -pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, c);
         sums.stiffness +=
             std::max(0.0, pairStiffness(distance, c)) * along + std::max(0.0, across) * (Matrix3::Identity() - along);
-        if (distanceSq < c.dampingSq) sums.damping += c.bd * (1.0 - distanceSq * c.inverseDampingSq) * along;
+        sums.damping += pairDampingOverSq(distanceSq, c) * distanceSq * along;
     });
     return sums;
 }
@@ -54,9 +54,9 @@ std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particl
     PairTraversal pairs(law);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<StepBound> bounds(particles.count());
-    pairs.forEachParticle([&](const Neighbourhood& around, std::uint32_t self) {
-        const std::size_t p = pairs.grid.order[self];
-        const OwnSums sums = sumsOf(pairs, around, self);
+    pairs.forEachParticle([&](std::uint32_t self) {
+        const std::size_t p = pairs.list.order[self];
+        const OwnSums sums = sumsOf(pairs, self);
         const double frequencySq = 2.0 * largestEigenvalue(sums.stiffness) / particles.mass[p];
         const double decay = 2.0 * largestEigenvalue(sums.damping) / particles.mass[p];
         const double seconds = longestStep(stepper, frequencySq, decay);

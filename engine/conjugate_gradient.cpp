@@ -1,0 +1,48 @@
+// Textbook conjugate gradients (Hestenes and Stiefel 1952); sums in fixed chunks.
+#include "engine/conjugate_gradient.h"
+
+#include "engine/parallel.h"
+
+namespace engine {
+namespace {
+
+/// Chosen: far beyond what a step that is worth taking needs; the audit judges what comes out.
+constexpr int kMostIterations = 500;
+
+double weightedDot(const PairMatrix& matrix, const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return sumOver(matrix.count(), [&](std::size_t p) { return dot(a[p], b[p]) / matrix.mass[p]; });
+}
+
+}  // namespace
+
+int solve(const PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
+          SolverScratch& scratch) {
+    const std::size_t count = matrix.count();
+    auto& [residual, direction, product] = scratch;
+    x.assign(count, Vec3::Zero());
+    residual = b;
+    direction.resize(count);
+    inParallel(count, kParticleGrain, [&](std::size_t p) { direction[p] = residual[p] / matrix.mass[p]; });
+    double norm = weightedDot(matrix, residual, residual);
+    const double target = tolerance * tolerance * norm;
+    int iteration = 0;
+    while (norm > target && iteration < kMostIterations) {
+        multiply(matrix, direction, product);
+        ++iteration;
+        const double curvature = sumOver(count, [&](std::size_t p) { return dot(direction[p], product[p]); });
+        if (!(curvature > 0.0)) break;  // rounding alone is left, or numbers that are none: the audit decides
+        const double length = norm / curvature;
+        inParallel(count, kParticleGrain, [&](std::size_t p) {
+            x[p] += length * direction[p];
+            residual[p] -= length * product[p];
+        });
+        const double before = norm;
+        norm = weightedDot(matrix, residual, residual);
+        const double share = norm / before;
+        inParallel(count, kParticleGrain,
+                   [&](std::size_t p) { direction[p] = residual[p] / matrix.mass[p] + share * direction[p]; });
+    }
+    return iteration;
+}
+
+}  // namespace engine

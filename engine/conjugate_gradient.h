@@ -1,0 +1,25 @@
+// Solves A x = b for the matrix of the implicit steppers.
+#pragma once
+
+#include <vector>
+
+#include "engine/pair_matrix.h"
+
+namespace engine {
+
+/// Vectors that a solve needs, kept for their memory.
+struct SolverScratch {
+    std::vector<Vec3> residual;
+    std::vector<Vec3> direction;
+    std::vector<Vec3> product;
+};
+
+/// Conjugate gradients from x = 0, preconditioned with the mass, until the residual has fallen to `tolerance` times the
+/// right-hand side (both in the norm of the inverse mass). Returns the number of products with A.
+/// Holds:  x keeps the linear and the angular momentum of M^-1 b to rounding, at any tolerance: every vector of the
+///         iteration is M^-1 b plus pair impulses, each of which has neither. Any other preconditioner but the mass
+///         would lose that.
+int solve(const PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
+          SolverScratch& scratch);
+
+}  // namespace engine

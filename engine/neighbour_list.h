@@ -1,0 +1,32 @@
+// Who is near whom: for every particle the places of all others within the cutoff and a skin around it. The list serves
+// as long as no particle has moved by half the skin, so that most steps need no search. Kept by PairTraversal.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/neighbours.h"
+
+namespace engine {
+
+/// Rows of places in the order of the cell grid that they were built with.
+struct NeighbourList {
+    std::vector<std::uint32_t> order;     ///< particle index at each place
+    std::vector<std::uint32_t> rowStart;  ///< of each place, and one past the last; at most 2^32 entries
+    std::vector<std::uint32_t> places;    ///< neighbours, row by row
+    std::vector<Vec3> builtAt;            ///< positions by particle index when the list was built, m
+    double reach = 0.0;                   ///< cutoff and skin together, m
+    CellGrid grid;                        ///< scratch of the build
+    std::vector<Vec3> sorted;             ///< scratch of the build: positions by place, m
+
+    std::size_t count() const { return order.size(); }
+};
+
+/// Builds the list for positions in metres. Holds: the same rows for any number of threads.
+/// Shape:  cutoff and skin in metres, at least 0.
+void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutoff, double skin);
+
+/// Whether every pair closer than the cutoff (m) is certainly in the list.
+bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff);
+
+}  // namespace engine

@@ -1,0 +1,119 @@
+// Equation 1 over the neighbour list, with only the terms that the materials need and the sums that the caller wants
+// compiled into the kernel that runs.
+#include "engine/pair_sums.h"
+
+namespace engine {
+namespace {
+
+/// What a kernel is compiled for.
+struct Variant {
+    PairTerms terms;
+    bool uniform = true;
+    bool energy = false;
+    bool matrix = false;
+};
+
+/// The pass over one particle's neighbours.
+template <Variant variant>
+struct Kernel {
+    const PairTraversal& pairs;
+    const PairSums& sums;
+    std::vector<double>& energies;  ///< half of the energy of every pair of a particle, J
+
+    void operator()(std::uint32_t self) const {
+        const PairRecord& p = pairs.records[self];
+        Vec3 force = Vec3::Zero();
+        double energy = 0.0;
+        std::uint32_t entry = variant.matrix ? sums.matrix->rowStart[self] : 0;
+        pairs.forEachNeighbour(self, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+            const PairRecord& i = pairs.records[other];
+            const auto constants = pairs.constants<variant.uniform>(p, i);
+            double approach = 0.0;
+            if constexpr (variant.terms.damping)
+                approach = dot(Vec3(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz), separation);
+            force += pairCoefficient<variant.terms>(distanceSq, approach, constants) * separation;
+            if constexpr (variant.energy)
+                if (distanceSq < constants.reachSq) energy += 0.5 * pairEnergy(std::sqrt(distanceSq), constants);
+            if constexpr (variant.matrix) addEntry(entry, other, separation, distanceSq, constants);
+        });
+        sums.forces[pairs.list.order[self]] = force;
+        if constexpr (variant.energy) energies[self] = energy;
+        if constexpr (variant.matrix) sums.matrix->rowEnd[self] = entry;
+    }
+
+    /// q q^T = (damping b_d s_d + stiffness max(k, 0)), each times its weight, along P.
+    void addEntry(std::uint32_t& entry, std::uint32_t other, const Vec3& separation, double distanceSq,
+                  const PairConstants<double>& constants) const {
+        double overSq = 0.0;
+        if constexpr (variant.terms.damping) overSq = sums.weights.damping * pairDampingOverSq(distanceSq, constants);
+        if (sums.weights.stiffness > 0.0 && distanceSq < constants.reachSq) {
+            const double stiffness = pairStiffness(std::sqrt(distanceSq), constants);
+            overSq += sums.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
+        }
+        if (overSq == 0.0) return;
+        sums.matrix->other[entry] = other;
+        sums.matrix->along[entry++] = std::sqrt(overSq) * separation;
+    }
+};
+
+template <Variant variant>
+void run(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies) {
+    pairs.forEachParticle(Kernel<variant>{pairs, sums, energies});
+}
+
+using Pass = void (*)(const PairTraversal&, const PairSums&, std::vector<double>&);
+
+template <PairTerms terms, bool isUniform>
+Pass passFor(const PairSums& sums) {
+    if (sums.matrix != nullptr) return run<Variant{terms, isUniform, true, true}>;
+    return sums.energy != nullptr ? run<Variant{terms, isUniform, true, false}>
+                                  : run<Variant{terms, isUniform, false, false}>;
+}
+
+template <bool isUniform>
+Pass passFor(PairTerms terms, const PairSums& sums) {
+    if (terms.attraction)
+        return terms.damping ? passFor<PairTerms{true, true}, isUniform>(sums)
+                             : passFor<PairTerms{true, false}, isUniform>(sums);
+    return terms.damping ? passFor<PairTerms{false, true}, isUniform>(sums)
+                         : passFor<PairTerms{false, false}, isUniform>(sums);
+}
+
+void makeRoom(const PairTraversal& pairs, PairMatrix& matrix) {
+    matrix.rowStart = pairs.list.rowStart;
+    matrix.rowEnd.resize(pairs.records.size());
+    matrix.other.resize(pairs.list.places.size());
+    matrix.along.resize(pairs.list.places.size());
+}
+
+/// In order: the order of the sum is part of the result.
+double total(const std::vector<double>& energies) {
+    double sum = 0.0;
+    for (const double energy : energies) sum += energy;
+    return sum;
+}
+
+}  // namespace
+
+void addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
+    if (sums.matrix != nullptr) makeRoom(pairs, *sums.matrix);
+    std::vector<double> energies(sums.energy != nullptr || sums.matrix != nullptr ? pairs.records.size() : 0);
+    const PairTerms terms = pairs.terms.pair;
+    (pairs.terms.uniform ? passFor<true>(terms, sums) : passFor<false>(terms, sums))(pairs, sums, energies);
+    if (sums.energy != nullptr) *sums.energy = total(energies);
+}
+
+double pairEnergySum(const PairTraversal& pairs) {
+    std::vector<double> energies(pairs.records.size());
+    pairs.forEachParticle([&](std::uint32_t self) {
+        double energy = 0.0;
+        pairs.forEachNeighbour(self, [&](std::uint32_t other, const Vec3&, double distanceSq) {
+            const auto constants = pairs.constants<false>(pairs.records[self], pairs.records[other]);
+            energy += 0.5 * pairEnergy(std::sqrt(distanceSq), constants);
+        });
+        energies[self] = energy;
+    });
+    return total(energies);
+}
+
+}  // namespace engine
