@@ -22,7 +22,7 @@ double localError(const Simulation& simulation, double h) {
         sumSq += squaredLength(whole.particles.position[p] - halves.particles.position[p]) / (radius * radius);
     }
     const double difference = std::sqrt(sumSq / static_cast<double>(count));
-    return difference / (1.0 - std::exp2(-orderOf(simulation.setup.stepper))) / h;
+    return difference / (1.0 - std::exp2(-orderOf(simulation.stepper))) / h;
 }
 
 }  // namespace engine

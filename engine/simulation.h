@@ -1,12 +1,17 @@
 // The simulation: a set-up (what the scene says), a state, and the step between. Callers ask for a point in time and
-// get there exactly; everything the step does can be read in simulation.cpp on one screen.
+// get there exactly; how it gets there is advance() in simulation.cpp and, step by step, audited_steps.cpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "engine/colliders.h"
+#include "engine/conjugate_gradient.h"
 #include "engine/emitters.h"
 #include "engine/forces.h"
 #include "engine/material.h"
@@ -38,14 +43,40 @@ struct Setup {
     std::uint64_t seed = 1;
 };
 
+/// What kept a step from being longer.
+enum class StepLimit {
+    given,         ///< the scene's fixed step
+    error,         ///< the wanted error
+    stability,     ///< the step bound of the stiffest or most damped particle
+    displacement,  ///< a particle may not move further than its radius in one step
+    audit,         ///< a longer step gained energy
+    frame          ///< the interval that was asked for, e.g. one frame
+};
+inline constexpr std::size_t kStepLimits = 6;
+
 /// What the steps of a run looked like.
 struct StepStatistics {
     std::uint64_t count = 0;
-    double shortest = 0.0;               ///< s
-    double longest = 0.0;                ///< s
-    std::uint64_t forceEvaluations = 0;  ///< passes over all pairs
-    std::uint64_t products = 0;          ///< of the implicit steppers' matrix with a vector
-    std::uint64_t rejected = 0;          ///< steps taken back and retried at half the length
+    double shortest = 0.0;                               ///< s
+    double longest = 0.0;                                ///< s
+    std::uint64_t forceEvaluations = 0;                  ///< passes over all pairs
+    std::uint64_t products = 0;                          ///< of the implicit steppers' matrix with a vector
+    std::uint64_t rejected = 0;                          ///< steps taken back and retried at half the length
+    std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< steps by StepLimit
+};
+
+/// A step length that the audit has taught the run to keep to for a while.
+struct StepRestriction {
+    double seconds = std::numeric_limits<double>::infinity();
+    StepLimit reason = StepLimit::audit;
+};
+
+/// Memory of the implicit steppers, kept between steps.
+struct ImplicitScratch {
+    PairMatrix matrix;
+    SolverScratch solver;
+    std::vector<Vec3> rightHandSide;  ///< N s, in the matrix's order
+    std::vector<Vec3> change;         ///< half the change of velocity, m/s, in the matrix's order
 };
 
 struct Simulation {
@@ -53,10 +84,15 @@ struct Simulation {
     ForceEvaluator evaluator;
     Particles particles;
     std::vector<EmitterState> emitters;
-    double time = 0.0;         ///< s
+    double time = 0.0;                                  ///< s
+    StepperKind stepper = StepperKind::velocityVerlet;  ///< in use; the automatic one is never
     std::vector<Vec3> forces;  ///< on each particle, N; while forcesCurrent those that the next step starts with
     bool forcesCurrent = false;
+    std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
+    double kinetic = 0.0;          ///< the kinetic share of it, J
+    StepRestriction restriction;
     std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
+    ImplicitScratch implicit;
     StepStatistics steps;
 };
 
@@ -71,9 +107,13 @@ inline constexpr double kWorldLimit = 1e8;
 /// A simulation at time zero, with the births that are due then.
 Simulation start(const Setup& setup);
 
-/// Brings the simulation to the given time, which is hit exactly, in equal steps no longer than the set-up's.
+/// Brings the simulation to the given time, which is hit exactly. The paper's stepper takes equal steps no longer than
+/// the set-up's; the others also take back and retry what the audit does not let pass.
 /// Throws InstabilityError when a particle is no longer finite or has left the world.
 void advance(Simulation& simulation, double time);
+
+/// The births that are due at the simulation's time.
+void giveBirth(Simulation& simulation);
 
 /// Births that have happened and births that had to wait, over all emitters.
 std::uint64_t birthCount(const Simulation& simulation);

@@ -7,7 +7,7 @@
 namespace engine {
 namespace {
 
-bool isSound(const Vec3& position, const Vec3& velocity) {
+bool isSoundAt(const Vec3& position, const Vec3& velocity) {
     // Written so that a NaN fails.
     return std::abs(position.x()) < kWorldLimit && std::abs(position.y()) < kWorldLimit &&
            std::abs(position.z()) < kWorldLimit && std::isfinite(squaredLength(velocity));
@@ -25,10 +25,25 @@ bool isSound(const Vec3& position, const Vec3& velocity) {
 
 }  // namespace
 
+bool isSound(const Particles& particles) {
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        if (!isSoundAt(particles.position[p], particles.velocity[p])) return false;
+    return true;
+}
+
+void reportInstability(const Simulation& simulation, double h) {
+    requireSound(simulation, h);
+    std::size_t fastest = 0;
+    const Particles& particles = simulation.particles;
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        if (squaredLength(particles.velocity[p]) > squaredLength(particles.velocity[fastest])) fastest = p;
+    report(simulation, fastest, h);
+}
+
 void requireSound(const Simulation& simulation, double h) {
     const Particles& particles = simulation.particles;
     for (std::size_t p = 0; p < particles.count(); ++p)
-        if (!isSound(particles.position[p], particles.velocity[p])) report(simulation, p, h);
+        if (!isSoundAt(particles.position[p], particles.velocity[p])) report(simulation, p, h);
 }
 
 }  // namespace engine

@@ -1,0 +1,13 @@
+// Steps that may be taken back: what advance() does for every stepper but the paper's.
+#pragma once
+
+#include "engine/simulation.h"
+
+namespace engine {
+
+/// Brings the simulation to the given time (s) by its stepper in use, in steps no longer than `longest` (s), which
+/// `why` is the reason for. A step that the audit objects to is retried at half the length; after a few good ones the
+/// length is doubled again. Throws: InstabilityError when even the shortest steps do not pass.
+void advanceAudited(Simulation& simulation, double time, double longest, StepLimit why);
+
+}  // namespace engine

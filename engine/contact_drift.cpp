@@ -1,0 +1,118 @@
+// Small steps near obstacles, one leap elsewhere.
+//
+// A leap is safe as long as it is no longer than the distance to the nearest surface. Near one, a step covers at most a
+// fraction of the way to the barrier and to the repulsor (the force goes like D^-4), and lasts at most a fraction of
+// the contact's own oscillation. Each is half a drift, the implicit midpoint of m dv/dt = F - C v, half a drift.
+#include "engine/contact_drift.h"
+
+#include <Eigen/LU>
+
+#include "engine/surfaces.h"
+
+namespace engine {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+
+/// Fraction of the distances above that a small step may cover, and of the contact's 1/frequency that it may last.
+/// Measured: rebounds of 0.01 to 1 kg at 1 to 1000 m/s are within 0.5 % of those at a tenth of it.
+constexpr double kFraction = 0.1;
+
+/// Chosen: nothing sane needs as many; a particle caught between obstacles waits there for its next step.
+constexpr int kMostSteps = 20000;
+
+/// How deep a particle may come, as a positive depth under the face, m.
+double barrierDepth(const Surface& surface, const RepulsorLaw& law, double radius) {
+    const double core = law.coreFraction * (radius + surface.repulsorRadius);
+    return std::min(std::max(0.0, surface.repulsorRadius - core), 0.9 * surface.halfThickness);
+}
+
+Probe probeOf(const Flight& flight) {
+    return {flight.position, flight.velocity, flight.radius, flight.dampingReach};
+}
+
+/// What lies ahead of a particle.
+struct Outlook {
+    double gap = std::numeric_limits<double>::infinity();    ///< to the nearest surface, m; negative in contact
+    double scale = std::numeric_limits<double>::infinity();  ///< length over which contact forces change, m
+    double frequency = 0.0;                                  ///< the largest of the contacts', 1/s
+};
+
+Outlook lookAhead(const Scenery& scenery, const Flight& flight) {
+    Outlook ahead;
+    forEachSurface(scenery, flight.position, [&](const Surface& surface) {
+        const double gap = surface.height - flight.radius;
+        ahead.gap = std::min(ahead.gap, gap);
+        const double depth = barrierDepth(surface, scenery.law, flight.radius);
+        // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
+        const double least = 0.5 * std::min(flight.radius + surface.repulsorRadius, surface.halfThickness);
+        ahead.scale = std::min(ahead.scale, std::max(least, std::min(surface.height, flight.radius) + depth));
+        if (gap >= 0.0) return;
+        const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
+        const double stiffness = std::max(0.0, pairStiffness(contact.distance, contact.constants));
+        ahead.scale = std::min(ahead.scale, contact.distance);
+        ahead.frequency = std::max(ahead.frequency, std::sqrt(stiffness / flight.mass));
+    });
+    return ahead;
+}
+
+/// The longest step that lookAhead allows, s.
+double stepFor(const Outlook& ahead, double speed, double remaining) {
+    const double leap = std::max(0.0, ahead.gap) + kFraction * ahead.scale;
+    double step = remaining;
+    if (speed * step > leap) step = leap / speed;
+    if (ahead.frequency * step > kFraction) step = kFraction / ahead.frequency;
+    return remaining / std::ceil(remaining / step);
+}
+
+/// The implicit midpoint kick of the contacts at the flight's position.
+void kick(const Scenery& scenery, Flight& flight, double step) {
+    Vec3 force = Vec3::Zero();
+    Matrix3 damping = Matrix3::Zero();
+    const Probe probe = probeOf(flight);
+    bool touched = false;
+    forEachSurface(scenery, flight.position, [&](const Surface& surface) {
+        if (surface.height >= flight.radius) return;
+        const Contact contact = contactWith(surface, scenery.law, probe);
+        const double distanceSq = contact.distance * contact.distance;
+        force += normalForce(contact, 0.0) * surface.normal;
+        damping +=
+            pairDampingOverSq(distanceSq, contact.constants) * distanceSq * surface.normal * surface.normal.transpose();
+        touched = true;
+    });
+    if (!touched) return;
+    const Matrix3 matrix = flight.mass * Matrix3::Identity() + 0.5 * step * damping;
+    const Vec3 middle = matrix.inverse() * Vec3(flight.mass * flight.velocity + 0.5 * step * force);
+    flight.velocity = 2.0 * middle - flight.velocity;
+}
+
+void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
+    forEachSurface(scenery, flight.position, [&](const Surface& surface) {
+        if (surface.height >= -barrierDepth(surface, scenery.law, flight.radius)) return;
+        const double inwards = dot(flight.velocity, surface.normal);
+        if (inwards < 0.0) flight.velocity -= 2.0 * inwards * surface.normal;
+    });
+}
+
+}  // namespace
+
+void fly(const Scenery& scenery, Flight& flight, double duration) {
+    double remaining = duration;
+    for (int count = 0; remaining > 0.0 && count < kMostSteps; ++count) {
+        const double speed = std::sqrt(squaredLength(flight.velocity));
+        const Outlook ahead = lookAhead(scenery, flight);
+        // Written so that a speed that is not a number ends the flight; the check after the step reports it.
+        if (!(speed * remaining > ahead.gap) && (ahead.gap > 0.0 || !(speed >= 0.0))) {
+            flight.position += remaining * flight.velocity;
+            return;
+        }
+        const double step = stepFor(ahead, speed, remaining);
+        flight.position += 0.5 * step * flight.velocity;
+        kick(scenery, flight, step);
+        flight.position += 0.5 * step * flight.velocity;
+        reflectAtBarriers(scenery, flight);
+        remaining = step >= remaining ? 0.0 : remaining - step;
+    }
+}
+
+}  // namespace engine

@@ -1,0 +1,26 @@
+// Swept contacts: a drift that obstacles take part in. Between two kicks of a stepper each particle flies on its own,
+// so its meeting with an obstacle can be followed in as many small steps as it needs, at no cost to the others. Used by
+// every stepper but the paper's.
+#pragma once
+
+#include "engine/colliders.h"
+
+namespace engine {
+
+/// A particle in flight.
+struct Flight {
+    Vec3 position = Vec3::Zero();  ///< m
+    Vec3 velocity = Vec3::Zero();  ///< m/s
+    double mass = 1.0;             ///< kg
+    double radius = 0.15;          ///< m
+    double dampingReach = 1.0;     ///< c_d of its material
+};
+
+/// Flies on for a duration (s) under the forces of the obstacles alone, those of section 3.2.
+/// Holds:  at any finite speed the centre stays on the side of a plane, of a box's face and of a sphere that it came
+///         from. Where the repulsor cannot stop it, it is reflected at a depth that is the law's core distance from the
+///         repulsor, or 0.9 of half the obstacle's thickness if that is less: the barrier, a departure from the paper.
+///         Order 2 in the duration of the stepper's step.
+void fly(const Scenery& scenery, Flight& flight, double duration);
+
+}  // namespace engine

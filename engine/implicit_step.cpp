@@ -1,0 +1,49 @@
+// Assemble, solve, kick.
+#include "engine/implicit_step.h"
+
+#include "engine/drift.h"
+#include "engine/parallel.h"
+#include "engine/soundness.h"
+#include "engine/step_audit.h"
+
+namespace engine {
+namespace {
+
+/// Solves for d, in the matrix's order.
+void solveForChange(Simulation& simulation, double h) {
+    ImplicitScratch& scratch = simulation.implicit;
+    const std::vector<std::uint32_t>& order = simulation.evaluator.order();
+    scratch.rightHandSide.resize(order.size());
+    for (std::size_t place = 0; place < order.size(); ++place)
+        scratch.rightHandSide[place] = 0.5 * h * simulation.forces[order[place]];
+    const int products =
+        solve(scratch.matrix, scratch.rightHandSide, simulation.setup.solverTolerance, scratch.change, scratch.solver);
+    simulation.steps.products += static_cast<std::uint64_t>(products);
+}
+
+void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
+    Particles& particles = simulation.particles;
+    const double pairEnergy =
+        simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix);
+    ++simulation.steps.forceEvaluations;
+    solveForChange(simulation, h);
+    const std::vector<std::uint32_t>& order = simulation.evaluator.order();
+    const std::vector<Vec3>& change = simulation.implicit.change;
+    for (std::size_t place = 0; place < order.size(); ++place) particles.velocity[order[place]] += change[place];
+    noteEnergy(simulation, particles.velocity, pairEnergy);  // of the middle: these are the mean velocities
+    for (std::size_t place = 0; place < order.size(); ++place) particles.velocity[order[place]] += change[place];
+}
+
+}  // namespace
+
+void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights) {
+    drift(simulation, 0.5 * h);
+    applyDrag(simulation, 0.5 * h);
+    if (!isSound(simulation.particles)) return noteUnsound(simulation);
+    kick(simulation, h, weights);
+    applyDrag(simulation, 0.5 * h);
+    drift(simulation, 0.5 * h);
+    simulation.forcesCurrent = false;
+}
+
+}  // namespace engine

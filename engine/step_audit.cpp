@@ -1,0 +1,111 @@
+// Energies as sums over the particles in chunks of fixed size, so that a verdict does not depend on threads.
+#include "engine/step_audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/diagnostics.h"
+#include "engine/parallel.h"
+
+namespace engine {
+namespace {
+
+/// Chosen: far below any motion that one sees, in radii per second.
+constexpr double kSlow = 0.1;
+
+/// A thousand roundings of the sums that the energy is the difference of.
+constexpr double kRounding = 1e-13;
+
+double ownEnergy(const Simulation& simulation, std::size_t p) {
+    const Particles& particles = simulation.particles;
+    const Vec3& x = particles.position[p];
+    const double contacts =
+        simulation.setup.scenery.colliders.empty()
+            ? 0.0
+            : contactEnergy(simulation.evaluator.law().scenery, {x, Vec3::Zero(), particles.radius[p], 1.0});
+    return contacts - particles.mass[p] * dot(simulation.setup.gravity, x);
+}
+
+double energyWithEarlier(const Simulation& simulation, std::size_t p) {
+    const Particles& particles = simulation.particles;
+    const std::vector<Material>& materials = simulation.setup.materials;
+    double energy = 0.0;
+    for (std::size_t i = 0; i < p; ++i) {
+        const double distance = std::sqrt(squaredLength(particles.position[p] - particles.position[i]));
+        const double restLength = particles.radius[p] + particles.radius[i];
+        const Material pair = mixed(materials[particles.material[p]], materials[particles.material[i]]);
+        energy += pairEnergy(distance, pairConstants<double>(pair, restLength));
+    }
+    return energy;
+}
+
+bool movedTooFar(const Simulation& simulation, const BeforeStep& kept) {
+    const Particles& particles = simulation.particles;
+    if (particles.count() < 2) return false;
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        const double radius = particles.radius[p];
+        if (!(squaredLength(particles.position[p] - kept.position[p]) <= radius * radius)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+double energyAllowance(const Simulation& simulation) {
+    const Particles& particles = simulation.particles;
+    const double slow = sumOver(particles.count(), [&](std::size_t p) {
+        const double speed = kSlow * particles.radius[p];
+        return 0.5 * particles.mass[p] * speed * speed;
+    });
+    return kEnergyAllowance * (simulation.kinetic + slow) + kRounding * std::abs(simulation.energy.value_or(0.0));
+}
+
+void noteEnergy(Simulation& simulation, const std::vector<Vec3>& velocities, double pairEnergy) {
+    const Particles& particles = simulation.particles;
+    simulation.kinetic = sumOver(particles.count(),
+                                 [&](std::size_t p) { return 0.5 * particles.mass[p] * squaredLength(velocities[p]); });
+    const double own = sumOver(particles.count(), [&](std::size_t p) { return ownEnergy(simulation, p); });
+    simulation.energy = simulation.kinetic + own + pairEnergy;
+}
+
+void noteUnsound(Simulation& simulation) {
+    simulation.energy = std::numeric_limits<double>::quiet_NaN();
+}
+
+void noteBirths(Simulation& simulation, std::size_t first) {
+    if (!simulation.energy) return;
+    const Particles& particles = simulation.particles;
+    for (std::size_t p = first; p < particles.count(); ++p) {
+        const double kinetic = 0.5 * particles.mass[p] * squaredLength(particles.velocity[p]);
+        simulation.kinetic += kinetic;
+        *simulation.energy += kinetic + ownEnergy(simulation, p) + energyWithEarlier(simulation, p);
+    }
+}
+
+void keep(const Simulation& simulation, BeforeStep& kept) {
+    kept.position = simulation.particles.position;
+    kept.velocity = simulation.particles.velocity;
+    kept.forcesCurrent = simulation.forcesCurrent;
+    if (kept.forcesCurrent) kept.forces = simulation.forces;
+    kept.energy = simulation.energy;
+    kept.kinetic = simulation.kinetic;
+    kept.allowance = energyAllowance(simulation);
+}
+
+void takeBack(Simulation& simulation, const BeforeStep& kept) {
+    simulation.particles.position = kept.position;
+    simulation.particles.velocity = kept.velocity;
+    simulation.forcesCurrent = kept.forcesCurrent;
+    if (kept.forcesCurrent) simulation.forces = kept.forces;
+    simulation.energy = kept.energy;
+    simulation.kinetic = kept.kinetic;
+}
+
+std::optional<StepLimit> objection(const Simulation& simulation, const BeforeStep& kept) {
+    if (movedTooFar(simulation, kept)) return StepLimit::displacement;
+    if (kept.energy && !(*simulation.energy <= *kept.energy + kept.allowance)) return StepLimit::audit;
+    return std::nullopt;
+}
+
+}  // namespace engine

@@ -1,0 +1,48 @@
+// The audit: no step may gain energy, and no step may carry a particle past what it is about to meet. A step that does
+// is taken back. Called after every step but the paper's.
+#pragma once
+
+#include <optional>
+
+#include "engine/simulation.h"
+
+namespace engine {
+
+/// A step may gain this share of the kinetic energy: rounding and truncation of a good step stay below it.
+inline constexpr double kEnergyAllowance = 1e-3;
+
+/// Energy that a step from this state may gain, J: the share above of the kinetic energy, and of that of a slow motion
+/// of a tenth of a radius per second, so that a scene can come to rest.
+double energyAllowance(const Simulation& simulation);
+
+/// Records energy and kinetic energy of the particles as they stand, moving with the given velocities (m/s).
+/// Shape:  pairEnergy in joules, at the present positions. Steppers call it where they know it.
+void noteEnergy(Simulation& simulation, const std::vector<Vec3>& velocities, double pairEnergy);
+
+/// Records that the state is not one to compute forces from; the step will be taken back.
+void noteUnsound(Simulation& simulation);
+
+/// Adds to the recorded energy what the particles from `first` on bring with them, J.
+void noteBirths(Simulation& simulation, std::size_t first);
+
+/// What a step has to be judged by.
+struct BeforeStep {
+    std::vector<Vec3> position;
+    std::vector<Vec3> velocity;
+    std::vector<Vec3> forces;
+    bool forcesCurrent = false;
+    std::optional<double> energy;
+    double kinetic = 0.0;
+    double allowance = 0.0;  ///< J
+};
+
+/// Keeps what a step may change; `kept` is reused for its memory.
+void keep(const Simulation& simulation, BeforeStep& kept);
+
+/// Undoes a step.
+void takeBack(Simulation& simulation, const BeforeStep& kept);
+
+/// Why the step since `kept` must be taken back; nothing if it may stay.
+std::optional<StepLimit> objection(const Simulation& simulation, const BeforeStep& kept);
+
+}  // namespace engine

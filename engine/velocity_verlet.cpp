@@ -1,0 +1,42 @@
+// One evaluation a step: the forces at its end are those that the next one starts with.
+#include "engine/velocity_verlet.h"
+
+#include "engine/drift.h"
+#include "engine/parallel.h"
+#include "engine/soundness.h"
+#include "engine/step_audit.h"
+
+namespace engine {
+namespace {
+
+/// Returns the pair energy, J.
+double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities) {
+    ++simulation.steps.forceEvaluations;
+    return simulation.evaluator.evaluateFree(simulation.particles, velocities, simulation.forces);
+}
+
+}  // namespace
+
+void velocityVerletStep(Simulation& simulation, double h) {
+    Particles& particles = simulation.particles;
+    if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity);
+    const auto halfKick = [&](std::size_t p) -> Vec3 { return 0.5 * h / particles.mass[p] * simulation.forces[p]; };
+    for (std::size_t p = 0; p < particles.count(); ++p) particles.velocity[p] += halfKick(p);
+    if (simulation.setup.drag == 0.0) {
+        drift(simulation, h);
+    } else {
+        drift(simulation, 0.5 * h);
+        applyDrag(simulation, h);
+        drift(simulation, 0.5 * h);
+    }
+    if (!isSound(particles)) return noteUnsound(simulation);
+    std::vector<Vec3>& predicted = simulation.predictedVelocities;
+    predicted.resize(particles.count());
+    for (std::size_t p = 0; p < particles.count(); ++p) predicted[p] = particles.velocity[p] + halfKick(p);
+    const double pairEnergy = evaluateForces(simulation, predicted);
+    for (std::size_t p = 0; p < particles.count(); ++p) particles.velocity[p] += halfKick(p);
+    simulation.forcesCurrent = true;
+    noteEnergy(simulation, particles.velocity, pairEnergy);
+}
+
+}  // namespace engine
