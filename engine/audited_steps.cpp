@@ -17,15 +17,25 @@ constexpr int kPatience = 8;
 /// Chosen: shorter than anything that a motion within the world's limits asks for, s.
 constexpr double kShortest = 1e-12;
 
-/// The energy that the first step is judged by; the forces come with it.
+/// Chosen: how many steps a run can go back. A step may leave a state that no further step from it can pass.
+constexpr std::size_t kHistory = 4;
+
+/// The energy of the state as it stands; the forces come with it.
 void establishEnergy(Simulation& simulation) {
-    if (simulation.energy) return;
     requireSound(simulation, 0.0);
     Particles& particles = simulation.particles;
     const double pairEnergy = simulation.evaluator.evaluateFree(particles, particles.velocity, simulation.forces);
     ++simulation.steps.forceEvaluations;
     simulation.forcesCurrent = true;
     noteEnergy(simulation, particles.velocity, pairEnergy);
+}
+
+/// The implicit steppers know the energy in the middle of a step only. What ends an interval can be seen and is never
+/// taken back, so its last step is judged by its end too.
+void lookAtEnd(Simulation& simulation) {
+    if (simulation.stepper == StepperKind::velocityVerlet || std::isnan(*simulation.energy)) return;
+    if (!isSound(simulation.particles)) return noteUnsound(simulation);
+    establishEnergy(simulation);
 }
 
 void record(StepStatistics& steps, double h, StepLimit limit) {
@@ -35,34 +45,60 @@ void record(StepStatistics& steps, double h, StepLimit limit) {
     ++steps.limitedBy[static_cast<std::size_t>(limit)];
 }
 
+/// The states of the last few steps, the latest at the end.
+class History {
+ public:
+    void add(const Simulation& simulation) {
+        if (states_.size() == kHistory) std::rotate(states_.begin(), states_.begin() + 1, states_.end());
+        if (states_.size() < kHistory) states_.emplace_back();
+        keep(simulation, states_.back());
+    }
+
+    const BeforeStep& latest() const { return states_.back(); }
+
+    /// Back to the latest state, or, where that has just been tried, to the one before.
+    void goBack(Simulation& simulation, bool further) {
+        if (further && states_.size() > 1) states_.pop_back();
+        takeBack(simulation, states_.back());
+        states_.pop_back();
+    }
+
+ private:
+    std::vector<BeforeStep> states_;
+};
+
 }  // namespace
 
 void advanceAudited(Simulation& simulation, double time, double longest, StepLimit why) {
-    BeforeStep before;
+    History history;
     int accepted = 0;
+    int refused = 0;
     giveBirth(simulation);
-    establishEnergy(simulation);
+    if (!simulation.energy) establishEnergy(simulation);
     while (simulation.time < time) {
-        const StepRestriction& restriction = simulation.restriction;
+        StepRestriction& restriction = simulation.restriction;
         const double remaining = time - simulation.time;
         const double allowed = std::min(longest, restriction.seconds);
         // The smallest whole number of steps; the slack keeps 0.02 s at steps of 0.01 s from becoming three.
         const double count = std::max(1.0, std::ceil(remaining / allowed * (1.0 - 1e-9)));
         const double h = remaining / count;
-        keep(simulation, before);
+        history.add(simulation);
         takeStep(simulation, h);
-        if (const auto reason = objection(simulation, before)) {
+        if (count == 1.0) lookAtEnd(simulation);
+        if (const auto reason = objection(simulation, history.latest())) {
             if (h < kShortest) reportInstability(simulation, h);
-            takeBack(simulation, before);
+            // Two refusals in a row speak against the step that led here.
+            history.goBack(simulation, ++refused % 2 == 0);
             ++simulation.steps.rejected;
-            simulation.restriction = {0.5 * h, *reason};
+            restriction = {0.5 * h, *reason};
             accepted = 0;
             continue;
         }
+        refused = 0;
         record(simulation.steps, h, restriction.seconds < longest ? restriction.reason : why);
         simulation.time = count == 1.0 ? time : simulation.time + h;
         giveBirth(simulation);
-        if (++accepted % kPatience == 0) simulation.restriction.seconds *= 2.0;
+        if (++accepted % kPatience == 0) restriction.seconds *= 2.0;
     }
 }
 

@@ -12,11 +12,16 @@
 namespace engine {
 namespace {
 
-using Matrix3 = Eigen::Matrix3d;
-
 /// Fraction of the distances above that a small step may cover, and of the contact's 1/frequency that it may last.
 /// Measured: rebounds of 0.01 to 1 kg at 1 to 1000 m/s are within 0.5 % of those at a tenth of it.
 constexpr double kFraction = 0.1;
+
+/// A step that covers less of a contact's depth needs no sweep. Measured on drops and dams: half or twice as much
+/// changes errors by less than the stepper's own.
+constexpr double kResolved = 0.2;
+
+/// Share of the limits of stability up to which contacts act as forces. Chosen.
+constexpr double kStable = 0.5;
 
 /// Chosen: nothing sane needs as many; a particle caught between obstacles waits there for its next step.
 constexpr int kMostSteps = 20000;
@@ -36,6 +41,7 @@ struct Outlook {
     double gap = std::numeric_limits<double>::infinity();    ///< to the nearest surface, m; negative in contact
     double scale = std::numeric_limits<double>::infinity();  ///< length over which contact forces change, m
     double frequency = 0.0;                                  ///< the largest of the contacts', 1/s
+    double decay = 0.0;                                      ///< the largest of their dampings over the mass, 1/s
 };
 
 Outlook lookAhead(const Scenery& scenery, const Flight& flight) {
@@ -49,9 +55,9 @@ Outlook lookAhead(const Scenery& scenery, const Flight& flight) {
         ahead.scale = std::min(ahead.scale, std::max(least, std::min(surface.height, flight.radius) + depth));
         if (gap >= 0.0) return;
         const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
-        const double stiffness = std::max(0.0, pairStiffness(contact.distance, contact.constants));
         ahead.scale = std::min(ahead.scale, contact.distance);
-        ahead.frequency = std::max(ahead.frequency, std::sqrt(stiffness / flight.mass));
+        ahead.frequency = std::max(ahead.frequency, std::sqrt(stiffnessAlong(contact) / flight.mass));
+        ahead.decay = std::max(ahead.decay, dampingAlong(contact) / flight.mass);
     });
     return ahead;
 }
@@ -74,10 +80,8 @@ void kick(const Scenery& scenery, Flight& flight, double step) {
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {
         if (surface.height >= flight.radius) return;
         const Contact contact = contactWith(surface, scenery.law, probe);
-        const double distanceSq = contact.distance * contact.distance;
         force += normalForce(contact, 0.0) * surface.normal;
-        damping +=
-            pairDampingOverSq(distanceSq, contact.constants) * distanceSq * surface.normal * surface.normal.transpose();
+        damping += dampingAlong(contact) * surface.normal * surface.normal.transpose();
         touched = true;
     });
     if (!touched) return;
@@ -95,6 +99,17 @@ void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
 }
 
 }  // namespace
+
+bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, ContactTreatment treatment) {
+    const Outlook ahead = lookAhead(scenery, flight);
+    const double way = duration * std::sqrt(squaredLength(flight.velocity));
+    if (!(way > ahead.gap)) return false;
+    if (way > kResolved * ahead.scale) return true;
+    // The limits are h^2 w^2 + 2 h g = 4 with explicit damping, h^2 w^2 = 4 with implicit damping.
+    const double phase = duration * ahead.frequency;
+    const double decay = treatment == ContactTreatment::explicitly ? 2.0 * duration * ahead.decay : 0.0;
+    return treatment != ContactTreatment::implicitly && phase * phase + decay > kStable * 4.0;
+}
 
 void fly(const Scenery& scenery, Flight& flight, double duration) {
     double remaining = duration;

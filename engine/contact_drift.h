@@ -1,6 +1,6 @@
-// Swept contacts: a drift that obstacles take part in. Between two kicks of a stepper each particle flies on its own,
-// so its meeting with an obstacle can be followed in as many small steps as it needs, at no cost to the others. Used by
-// every stepper but the paper's.
+// Swept contacts: a drift that obstacles take part in. A particle that meets an obstacle too fast or too stiffly for
+// the step is followed through the meeting in as many small steps as it needs, at no cost to the others; slow contacts
+// act as forces, together with those of the pairs. Used by every stepper but the paper's.
 #pragma once
 
 #include "engine/colliders.h"
@@ -15,6 +15,13 @@ struct Flight {
     double radius = 0.15;          ///< m
     double dampingReach = 1.0;     ///< c_d of its material
 };
+
+/// How a stepper treats the contacts that it does not sweep.
+enum class ContactTreatment { explicitly, dampingImplicitly, implicitly };
+
+/// Whether the contacts of the coming step (s) are more than a step of that length bears: the particle may cover more
+/// than a fraction of a contact's depth in it, or comes near the limit of stability of a lone particle on the contact.
+bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, ContactTreatment treatment);
 
 /// Flies on for a duration (s) under the forces of the obstacles alone, those of section 3.2.
 /// Holds:  at any finite speed the centre stays on the side of a plane, of a box's face and of a sphere that it came

@@ -4,21 +4,59 @@
 #include "engine/contact_drift.h"
 #include "engine/decay.h"
 #include "engine/parallel.h"
+#include "engine/surfaces.h"
 
 namespace engine {
+namespace {
+
+constexpr std::size_t kContactGrain = 128;  // chosen: a contact takes some microseconds
+
+double dampingReachOf(const Simulation& simulation, std::size_t p) {
+    return simulation.setup.materials[simulation.particles.material[p]].dampingReach;
+}
+
+Flight flightOf(const Simulation& simulation, std::size_t p) {
+    const Particles& particles = simulation.particles;
+    return {particles.position[p], particles.velocity[p], particles.mass[p], particles.radius[p],
+            dampingReachOf(simulation, p)};
+}
+
+ContactTreatment treatmentBy(StepperKind stepper) {
+    if (stepper == StepperKind::linearlyImplicit) return ContactTreatment::implicitly;
+    return stepper == StepperKind::implicitDamping ? ContactTreatment::dampingImplicitly : ContactTreatment::explicitly;
+}
+
+/// Calls body(p) for every particle that is not swept, if there is anything to touch.
+template <class Body>
+void forEachUnswept(const Simulation& simulation, const Body& body) {
+    if (simulation.setup.scenery.colliders.empty()) return;
+    inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
+        if (!simulation.swept[p]) body(p);
+    });
+}
+
+}  // namespace
+
+void chooseSwept(Simulation& simulation, double h) {
+    const Scenery& scenery = simulation.setup.scenery;
+    if (scenery.colliders.empty()) return;
+    const ContactTreatment treatment = treatmentBy(simulation.stepper);
+    simulation.swept.resize(simulation.particles.count());
+    inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
+        simulation.swept[p] = needsSweep(scenery, flightOf(simulation, p), h, treatment) ? 1 : 0;
+    });
+}
 
 void drift(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
     const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty()) {
-        inParallel(particles.count(), kParticleGrain,
-                   [&](std::size_t p) { particles.position[p] += h * particles.velocity[p]; });
-        return;
-    }
-    constexpr std::size_t kGrain = 128;  // chosen: a contact takes some microseconds
-    inParallel(particles.count(), kGrain, [&](std::size_t p) {
-        Flight flight{particles.position[p], particles.velocity[p], particles.mass[p], particles.radius[p],
-                      simulation.setup.materials[particles.material[p]].dampingReach};
+    const bool canMeet = !scenery.colliders.empty();
+    inParallel(particles.count(), kContactGrain, [&](std::size_t p) {
+        if (!canMeet || !simulation.swept[p]) {
+            particles.position[p] += h * particles.velocity[p];
+            return;
+        }
+        Flight flight = flightOf(simulation, p);
         fly(scenery, flight, h);
         particles.position[p] = flight.position;
         particles.velocity[p] = flight.velocity;
@@ -29,6 +67,34 @@ void applyDrag(Simulation& simulation, double h) {
     if (simulation.setup.drag == 0.0) return;
     const double decay = decayFactor(simulation.setup.drag, h);
     for (Vec3& velocity : simulation.particles.velocity) velocity *= decay;
+}
+
+void addContacts(const Simulation& simulation, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces) {
+    const Particles& particles = simulation.particles;
+    forEachUnswept(simulation, [&](std::size_t p) {
+        forces[p] += contactForce(simulation.setup.scenery, {particles.position[p], velocities[p], particles.radius[p],
+                                                             dampingReachOf(simulation, p)});
+    });
+}
+
+void addContacts(const Simulation& simulation, const MatrixWeights& weights, PairMatrix& matrix) {
+    const Particles& particles = simulation.particles;
+    const Scenery& scenery = simulation.setup.scenery;
+    matrix.own.clear();
+    if (scenery.colliders.empty()) return;
+    matrix.own.assign(particles.count(), Matrix3::Zero());
+    const std::vector<std::uint32_t>& order = simulation.evaluator.order();
+    inParallel(order.size(), kContactGrain, [&](std::size_t place) {
+        const std::size_t p = order[place];
+        if (simulation.swept[p]) return;
+        const Probe probe{particles.position[p], Vec3::Zero(), particles.radius[p], dampingReachOf(simulation, p)};
+        forEachSurface(scenery, probe.position, [&](const Surface& surface) {
+            if (surface.height >= probe.radius) return;
+            const Contact contact = contactWith(surface, scenery.law, probe);
+            const double along = weights.damping * dampingAlong(contact) + weights.stiffness * stiffnessAlong(contact);
+            matrix.own[place] += along * surface.normal * surface.normal.transpose();
+        });
+    });
 }
 
 }  // namespace engine

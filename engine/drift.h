@@ -1,15 +1,23 @@
-// The drift: half of what every stepper but the paper's does. Particles fly on with their velocities; obstacles take
-// part in it (contact_drift.h).
+// Drift, drag and contacts: what the steppers other than the paper's do besides the pairs.
 #pragma once
 
 #include "engine/simulation.h"
 
 namespace engine {
 
-/// Moves all particles for h seconds; velocities change where a particle meets an obstacle.
+/// Decides which particles are swept past the obstacles in a step of h seconds; at its start, before anything moves.
+void chooseSwept(Simulation& simulation, double h);
+
+/// Moves all particles for h seconds; the velocities of swept ones change where they meet an obstacle.
 void drift(Simulation& simulation, double h);
 
 /// What drag leaves of all velocities after h seconds; nothing happens without drag.
 void applyDrag(Simulation& simulation, double h);
+
+/// Adds the obstacles' forces on particles that are not swept, with the given velocities (m/s) in the damping, N.
+void addContacts(const Simulation& simulation, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
+
+/// Adds the obstacles' damping and stiffness on particles that are not swept to a matrix, with its weights.
+void addContacts(const Simulation& simulation, const MatrixWeights& weights, PairMatrix& matrix);
 
 }  // namespace engine

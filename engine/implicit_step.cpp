@@ -26,6 +26,8 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const double pairEnergy =
         simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix);
     ++simulation.steps.forceEvaluations;
+    addContacts(simulation, particles.velocity, simulation.forces);
+    addContacts(simulation, weights, simulation.implicit.matrix);
     solveForChange(simulation, h);
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
     const std::vector<Vec3>& change = simulation.implicit.change;
@@ -37,6 +39,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
 }  // namespace
 
 void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights) {
+    chooseSwept(simulation, h);
     drift(simulation, 0.5 * h);
     applyDrag(simulation, 0.5 * h);
     if (!isSound(simulation.particles)) return noteUnsound(simulation);

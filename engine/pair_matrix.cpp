@@ -11,6 +11,7 @@ void multiply(const PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<
     inParallel(matrix.count(), kGrain, [&](std::size_t p) {
         const Vec3 own = x[p];
         Vec3 sum = matrix.mass[p] * own;
+        if (!matrix.own.empty()) sum += matrix.own[p] * own;
         for (std::uint32_t entry = matrix.rowStart[p]; entry < matrix.rowEnd[p]; ++entry) {
             const Vec3& q = matrix.along[entry];
             const Vec3 difference = own - x[matrix.other[entry]];

@@ -22,6 +22,7 @@ struct PairMatrix {
     std::vector<std::uint32_t> rowStart;  ///< first entry of each row, and one past the last row's room
     std::vector<std::uint32_t> rowEnd;    ///< one past the last entry of each row
     std::vector<std::uint32_t> other;     ///< place of the other particle of each entry
+    std::vector<Matrix3> own;             ///< what obstacles add to each particle's own block, kg; empty without any
     std::vector<Vec3> along;              ///< q, kg^(1/2); q of (p, i) is minus that of (i, p), bit for bit
 
     std::size_t count() const { return mass.size(); }

@@ -13,4 +13,14 @@ void append(Particles& particles, const NewParticle& particle) {
     particles.id.push_back(static_cast<std::uint32_t>(particles.id.size()));
 }
 
+void truncate(Particles& particles, std::size_t count) {
+    particles.position.resize(count);
+    particles.velocity.resize(count);
+    particles.radius.resize(count);
+    particles.mass.resize(count);
+    particles.birthTime.resize(count);
+    particles.material.resize(count);
+    particles.id.resize(count);
+}
+
 }  // namespace engine

@@ -35,4 +35,7 @@ struct NewParticle {
 /// Appends a particle with the next id.
 void append(Particles& particles, const NewParticle& particle);
 
+/// Keeps the first `count` particles.
+void truncate(Particles& particles, std::size_t count);
+
 }  // namespace engine

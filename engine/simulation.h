@@ -86,12 +86,14 @@ struct Simulation {
     std::vector<EmitterState> emitters;
     double time = 0.0;                                  ///< s
     StepperKind stepper = StepperKind::velocityVerlet;  ///< in use; the automatic one is never
-    std::vector<Vec3> forces;  ///< on each particle, N; while forcesCurrent those that the next step starts with
+    std::vector<Vec3> forces;  ///< pairs and gravity, N; while forcesCurrent those that the next step starts with
+    std::vector<std::uint8_t> swept;  ///< whether obstacles meet a particle along its way in this step, 0 or 1
     bool forcesCurrent = false;
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J
     StepRestriction restriction;
     std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
+    std::vector<Vec3> kickForces;           ///< scratch of velocity Verlet, N: forces with the slow contacts
     ImplicitScratch implicit;
     StepStatistics steps;
 };

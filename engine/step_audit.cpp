@@ -84,6 +84,8 @@ void noteBirths(Simulation& simulation, std::size_t first) {
 }
 
 void keep(const Simulation& simulation, BeforeStep& kept) {
+    kept.time = simulation.time;
+    kept.emitters = simulation.emitters;
     kept.position = simulation.particles.position;
     kept.velocity = simulation.particles.velocity;
     kept.forcesCurrent = simulation.forcesCurrent;
@@ -94,6 +96,9 @@ void keep(const Simulation& simulation, BeforeStep& kept) {
 }
 
 void takeBack(Simulation& simulation, const BeforeStep& kept) {
+    truncate(simulation.particles, kept.position.size());
+    simulation.time = kept.time;
+    simulation.emitters = kept.emitters;
     simulation.particles.position = kept.position;
     simulation.particles.velocity = kept.velocity;
     simulation.forcesCurrent = kept.forcesCurrent;

@@ -25,21 +25,23 @@ void noteUnsound(Simulation& simulation);
 /// Adds to the recorded energy what the particles from `first` on bring with them, J.
 void noteBirths(Simulation& simulation, std::size_t first);
 
-/// What a step has to be judged by.
+/// A state that a run can be taken back to, and what the step from it is judged by.
 struct BeforeStep {
+    double time = 0.0;  ///< s
     std::vector<Vec3> position;
     std::vector<Vec3> velocity;
     std::vector<Vec3> forces;
+    std::vector<EmitterState> emitters;
     bool forcesCurrent = false;
     std::optional<double> energy;
     double kinetic = 0.0;
     double allowance = 0.0;  ///< J
 };
 
-/// Keeps what a step may change; `kept` is reused for its memory.
+/// Keeps the state; `kept` is reused for its memory.
 void keep(const Simulation& simulation, BeforeStep& kept);
 
-/// Undoes a step.
+/// Goes back to a state; particles born since then are gone.
 void takeBack(Simulation& simulation, const BeforeStep& kept);
 
 /// Why the step since `kept` must be taken back; nothing if it may stay.

@@ -13,8 +13,6 @@
 namespace engine {
 namespace {
 
-using Matrix3 = Eigen::Matrix3d;
-
 struct OwnSums {
     Matrix3 stiffness = Matrix3::Zero();  ///< N/m
     Matrix3 damping = Matrix3::Zero();    ///< kg/s

@@ -100,4 +100,15 @@ inline double normalForce(const Contact& contact, double normalSpeed) {
            pairCoefficient<kRepulsorTerms>(distanceSq, contact.distance * normalSpeed, contact.constants);
 }
 
+/// Damping of the normal motion, kg/s.
+inline double dampingAlong(const Contact& contact) {
+    const double distanceSq = contact.distance * contact.distance;
+    return pairDampingOverSq(distanceSq, contact.constants) * distanceSq;
+}
+
+/// Stiffness of the normal motion, N/m; 0 deeper than the core, where the force is constant.
+inline double stiffnessAlong(const Contact& contact) {
+    return contact.beyondCore > 0.0 ? 0.0 : std::max(0.0, pairStiffness(contact.distance, contact.constants));
+}
+
 }  // namespace engine

@@ -7,6 +7,7 @@
 namespace engine {
 
 using Vec3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
 
 /// Dot product, summed x, y, z in that order on every target.
 inline double dot(const Vec3& a, const Vec3& b) {
