@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/audited_steps.h"
+#include "engine/auto_stepper.h"
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
 #include "engine/steppers.h"
@@ -53,6 +54,8 @@ void advance(Simulation& simulation, double time) {
     if (time <= simulation.time) return;
     if (simulation.stepper == StepperKind::symplecticEuler)
         advanceAsPrinted(simulation, time);
+    else if (simulation.setup.stepper == StepperKind::automatic)
+        advanceAutomatically(simulation, time);
     else
         advanceAudited(simulation, time, simulation.setup.step, StepLimit::given);
 }

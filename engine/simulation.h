@@ -79,6 +79,24 @@ struct ImplicitScratch {
     std::vector<Vec3> change;         ///< half the change of velocity, m/s, in the matrix's order
 };
 
+/// What the automatic stepper knows of one candidate.
+struct AutoChoice {
+    double step = 0.0;  ///< that just meets the wanted error, s; 0 before the first look
+    double cost =
+        std::numeric_limits<double>::infinity();  ///< at that step, passes over all pairs for a second of motion
+    StepLimit reason = StepLimit::error;          ///< what keeps the step from being longer
+};
+
+struct AutoState {
+    std::array<AutoChoice, 4> choices;  ///< by StepperKind
+    std::uint64_t intervals = 0;        ///< so far
+    std::uint64_t nextLook = 0;         ///< interval that is to be measured
+    std::uint64_t looks = 0;
+    double errorSum = 0.0;      ///< over the looks, radii per second
+    double largestError = 0.0;  ///< radii per second
+    double trials = 0.0;        ///< passes over all pairs that looks have cost
+};
+
 struct Simulation {
     Setup setup;
     ForceEvaluator evaluator;
@@ -92,6 +110,7 @@ struct Simulation {
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J
     StepRestriction restriction;
+    AutoState automatic;
     std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
     std::vector<Vec3> kickForces;           ///< scratch of velocity Verlet, N: forces with the slow contacts
     ImplicitScratch implicit;

@@ -1,0 +1,132 @@
+// Looking, choosing, going on.
+#include "engine/auto_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/audited_steps.h"
+#include "engine/error_look.h"
+#include "engine/steppers.h"
+
+namespace engine {
+namespace {
+
+constexpr std::array kCandidates = {StepperKind::velocityVerlet, StepperKind::implicitDamping,
+                                    StepperKind::linearlyImplicit};
+
+/// Chosen: a look costs two intervals more than none, a comparison of all candidates eight. Looks are close together at
+/// the start and spread out to every so many intervals.
+constexpr std::uint64_t kLongestPause = 16;
+constexpr std::uint64_t kLooksPerComparison = 5;
+
+/// One look changes the step by at most this factor; further away the error no longer goes like its square.
+constexpr double kMostChange = 3.0;
+
+/// A change of less is not worth a different rounding of the interval; hunting is.
+constexpr double kGoodEnough = 1.5;
+
+/// Looks at the first choice until it has settled.
+constexpr int kMostFirstLooks = 6;
+
+AutoChoice& choiceOf(Simulation& simulation, StepperKind stepper) {
+    return simulation.automatic.choices[static_cast<std::size_t>(stepper)];
+}
+
+/// The step at which the measured error would be the wanted one, as far as the measurement reaches.
+double wantedStep(const Trial& trial, double wanted) {
+    const double change = trial.error > 0.0 ? std::sqrt(wanted / trial.error) : kMostChange;
+    // A step that the audit did not let grow will not grow for a better error either.
+    const double most = trial.restricted ? 1.0 : kMostChange;
+    return trial.step * std::clamp(change, 1.0 / kMostChange, most);
+}
+
+/// Measures a candidate and updates what is known of it. The first time, it goes on until the step has settled.
+Trial look(Simulation& simulation, double time, StepperKind stepper, Simulation* finer) {
+    AutoChoice& choice = choiceOf(simulation, stepper);
+    const double interval = time - simulation.time;
+    const bool first = choice.step == 0.0;
+    if (first) choice.step = 0.25 * interval;
+    Trial trial;
+    for (int round = 0; round < (first ? kMostFirstLooks : 1); ++round) {
+        trial = measure(simulation, time, stepper, choice.step, finer);
+        simulation.automatic.trials += trial.cost * interval;
+        const double wanted = wantedStep(trial, simulation.setup.error);
+        choice.step = std::min(wanted, interval);
+        choice.cost = trial.cost * trial.step / choice.step;
+        choice.reason = trial.restricted && wanted >= trial.step ? *trial.reason
+                        : wanted >= interval                     ? StepLimit::frame
+                                                                 : StepLimit::error;
+        if (std::max(wanted / trial.step, trial.step / wanted) < kGoodEnough || choice.step == interval) break;
+    }
+    return trial;
+}
+
+StepperKind cheapest(Simulation& simulation) {
+    return *std::min_element(kCandidates.begin(), kCandidates.end(), [&](StepperKind a, StepperKind b) {
+        return choiceOf(simulation, a).cost < choiceOf(simulation, b).cost;
+    });
+}
+
+void note(AutoState& state, const Trial& trial, double step) {
+    const double share = step / trial.step;
+    const double error = trial.error * share * share;
+    ++state.looks;
+    state.errorSum += error;
+    state.largestError = std::max(state.largestError, error);
+}
+
+/// Replaces the simulation by the finer run of a look; what the look learned stays.
+void goOnFrom(Simulation& simulation, Simulation&& finer) {
+    StepStatistics steps = simulation.steps;
+    steps.shortest = steps.count == 0 ? finer.steps.shortest : std::min(steps.shortest, finer.steps.shortest);
+    steps.longest = std::max(steps.longest, finer.steps.longest);
+    steps.count += finer.steps.count;
+    for (std::size_t limit = 0; limit < kStepLimits; ++limit) steps.limitedBy[limit] += finer.steps.limitedBy[limit];
+    steps.forceEvaluations += finer.steps.forceEvaluations;
+    steps.products += finer.steps.products;
+    steps.rejected += finer.steps.rejected;
+    const AutoState automatic = simulation.automatic;
+    simulation = std::move(finer);
+    simulation.automatic = automatic;
+    simulation.steps = steps;
+}
+
+void lookAround(Simulation& simulation, double time) {
+    AutoState& state = simulation.automatic;
+    const bool compare = state.looks % kLooksPerComparison == 0;
+    Simulation finer;
+    Trial chosen;
+    if (compare) {
+        Simulation candidate;
+        for (const StepperKind stepper : kCandidates) {
+            const Trial trial = look(simulation, time, stepper, &candidate);
+            if (cheapest(simulation) != stepper) continue;
+            chosen = trial;
+            finer = std::move(candidate);
+        }
+    } else {
+        chosen = look(simulation, time, simulation.stepper, &finer);
+    }
+    note(state, chosen, choiceOf(simulation, chosen.stepper).step);
+    const std::uint64_t pause = std::min(kLongestPause, 2 * state.looks);
+    state.nextLook = state.intervals + pause;
+    goOnFrom(simulation, std::move(finer));
+}
+
+}  // namespace
+
+void advanceAutomatically(Simulation& simulation, double time) {
+    giveBirth(simulation);
+    AutoState& state = simulation.automatic;
+    if (simulation.particles.count() == 0)
+        return advanceAudited(simulation, time, time - simulation.time, StepLimit::frame);
+    if (state.intervals >= state.nextLook) {
+        lookAround(simulation, time);
+    } else {
+        const AutoChoice& choice = choiceOf(simulation, simulation.stepper);
+        advanceAudited(simulation, time, choice.step, choice.reason);
+    }
+    ++simulation.automatic.intervals;
+}
+
+}  // namespace engine

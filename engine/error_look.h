@@ -1,0 +1,30 @@
+// How far off a run is, measured instead of promised: the same interval is run with its step and with half of it.
+// Called by the automatic stepper to choose, and by the loops over frames to report.
+#pragma once
+
+#include <optional>
+
+#include "engine/simulation.h"
+
+namespace engine {
+
+/// One way over an interval, with what it cost.
+struct Trial {
+    StepperKind stepper = StepperKind::velocityVerlet;
+    double step = 0.0;                ///< mean length of the steps it took, s
+    double error = 0.0;               ///< of these steps, radii per second of motion
+    double cost = 0.0;                ///< of these steps, passes over all pairs for a second of motion
+    bool restricted = false;          ///< the audit kept it from the step it was asked for
+    std::optional<StepLimit> reason;  ///< why
+};
+
+/// Measures a stepper on the way from the present state to a time (s).
+/// Shape:  the error is the rms over the particles of dx + T dv, in radii, divided by the interval: dx and dv are what
+///         half the step changes at the end, T is kErrorHorizon.
+/// Source: Richardson: with order p, a run of steps h errs by the difference to one of steps h' divided by
+///         1 - (h'/h)^p.
+/// `finer`, if given, receives the simulation at the end as the finer of the two runs left it.
+/// Throws: InstabilityError.
+Trial measure(const Simulation& simulation, double time, StepperKind stepper, double step, Simulation* finer = nullptr);
+
+}  // namespace engine
