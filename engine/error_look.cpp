@@ -12,7 +12,7 @@ namespace {
 /// A wrong velocity goes on to move a particle wrongly until damping or a collision has eaten it. Measured: with this
 /// time the estimate is within a factor of two of the error against a reference on liquid, solid, fountain and honey
 /// (`globular study accuracy`).
-constexpr double kErrorHorizon = 0.05;  // s
+constexpr double kErrorHorizon = 0.015;  // s
 
 /// A product with the implicit steppers' matrix, in passes over all pairs. Measured on liquid and honey.
 constexpr double kProductCost = 0.12;
