@@ -38,11 +38,13 @@ void lookAtEnd(Simulation& simulation) {
     establishEnergy(simulation);
 }
 
-void record(StepStatistics& steps, double h, StepLimit limit) {
+void record(Simulation& simulation, double h, StepLimit limit) {
+    StepStatistics& steps = simulation.steps;
     steps.shortest = steps.count == 0 ? h : std::min(steps.shortest, h);
     steps.longest = std::max(steps.longest, h);
     ++steps.count;
     ++steps.limitedBy[static_cast<std::size_t>(limit)];
+    ++steps.takenBy[static_cast<std::size_t>(simulation.stepper)];
 }
 
 /// The states of the last few steps, the latest at the end.
@@ -95,7 +97,7 @@ void advanceAudited(Simulation& simulation, double time, double longest, StepLim
             continue;
         }
         refused = 0;
-        record(simulation.steps, h, restriction.seconds < longest ? restriction.reason : why);
+        record(simulation, h, restriction.seconds < longest ? restriction.reason : why);
         simulation.time = count == 1.0 ? time : simulation.time + h;
         giveBirth(simulation);
         if (++accepted % kPatience == 0) restriction.seconds *= 2.0;

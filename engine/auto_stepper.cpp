@@ -82,6 +82,7 @@ void goOnFrom(Simulation& simulation, Simulation&& finer) {
     steps.longest = std::max(steps.longest, finer.steps.longest);
     steps.count += finer.steps.count;
     for (std::size_t limit = 0; limit < kStepLimits; ++limit) steps.limitedBy[limit] += finer.steps.limitedBy[limit];
+    for (std::size_t s = 0; s < steps.takenBy.size(); ++s) steps.takenBy[s] += finer.steps.takenBy[s];
     steps.forceEvaluations += finer.steps.forceEvaluations;
     steps.products += finer.steps.products;
     steps.rejected += finer.steps.rejected;

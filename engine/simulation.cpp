@@ -13,11 +13,13 @@
 namespace engine {
 namespace {
 
-void record(StepStatistics& steps, double h) {
+void record(Simulation& simulation, double h) {
+    StepStatistics& steps = simulation.steps;
     steps.shortest = steps.count == 0 ? h : std::min(steps.shortest, h);
     steps.longest = std::max(steps.longest, h);
     ++steps.count;
     ++steps.limitedBy[static_cast<std::size_t>(StepLimit::given)];
+    ++steps.takenBy[static_cast<std::size_t>(simulation.stepper)];
 }
 
 /// The paper's way: equal steps, and what comes of them.
@@ -30,7 +32,7 @@ void advanceAsPrinted(Simulation& simulation, double time) {
         simulation.time = from + step * h;
         giveBirth(simulation);
         takeStep(simulation, h);
-        record(simulation.steps, h);
+        record(simulation, h);
         requireSound(simulation, h);
     }
     simulation.time = time;

@@ -47,12 +47,11 @@ struct Setup {
 enum class StepLimit {
     given,         ///< the scene's fixed step
     error,         ///< the wanted error
-    stability,     ///< the step bound of the stiffest or most damped particle
     displacement,  ///< a particle may not move further than its radius in one step
     audit,         ///< a longer step gained energy
     frame          ///< the interval that was asked for, e.g. one frame
 };
-inline constexpr std::size_t kStepLimits = 6;
+inline constexpr std::size_t kStepLimits = 5;
 
 /// What the steps of a run looked like.
 struct StepStatistics {
@@ -63,6 +62,7 @@ struct StepStatistics {
     std::uint64_t products = 0;                          ///< of the implicit steppers' matrix with a vector
     std::uint64_t rejected = 0;                          ///< steps taken back and retried at half the length
     std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< steps by StepLimit
+    std::array<std::uint64_t, 4> takenBy{};              ///< steps by StepperKind
 };
 
 /// A step length that the audit has taught the run to keep to for a while.

@@ -56,6 +56,22 @@ std::string_view nameOf(StepperKind stepper) {
     return {};
 }
 
+std::string_view nameOf(StepLimit limit) {
+    switch (limit) {
+        case StepLimit::given:
+            return "given step";
+        case StepLimit::error:
+            return "wanted error";
+        case StepLimit::displacement:
+            return "displacement limit";
+        case StepLimit::audit:
+            return "energy audit";
+        case StepLimit::frame:
+            return "frame";
+    }
+    return {};
+}
+
 int orderOf(StepperKind stepper) {
     return stepper == StepperKind::symplecticEuler ? 1 : 2;
 }

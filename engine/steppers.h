@@ -21,6 +21,9 @@ inline constexpr std::array kSteppers = {StepperKind::symplecticEuler, StepperKi
 /// reports.
 std::string_view nameOf(StepperKind stepper);
 
+/// "given", "error", "stability", ...: what limited a step, in reports.
+std::string_view nameOf(StepLimit limit);
+
 /// Order of convergence of the positions.
 int orderOf(StepperKind stepper);
 

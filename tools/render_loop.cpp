@@ -24,8 +24,8 @@ namespace {
 /// Frames in flight: one a stage, and one to even out their times.
 constexpr std::size_t kTokens = 4;
 
-/// Chosen: the local error is sampled on at most this many frames of a run, which costs three steps each.
-constexpr int kErrorSamples = 16;
+/// Chosen: the error of a fixed step is sampled on at most this many frames of a run, which costs three frames each.
+constexpr int kErrorSamples = 8;
 
 struct FramePlan {
     int number = 0;
@@ -103,7 +103,7 @@ class Run {
         try {
             scenes::advanceToFrame(*job_.scene, result_.simulation, plan->number);
             if ((plan->number - job_.frames.first) % sampleStride() == 0)
-                addSample(result_.report.errors, result_.simulation);
+                addSample(result_.report.errors, *job_.scene, result_.simulation);
         } catch (const engine::InstabilityError& error) {
             // The frames before it are still on their way to their files.
             result_.report.unstable = error.what();

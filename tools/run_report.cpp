@@ -2,10 +2,11 @@
 #include "tools/run_report.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "engine/diagnostics.h"
-#include "engine/local_error.h"
+#include "engine/error_look.h"
 #include "engine/steppers.h"
 #include "render/metaball_cast.h"
 
@@ -18,21 +19,51 @@ Json vectorJson(const engine::Vec3& vector) {
     return {vector.x(), vector.y(), vector.z()};
 }
 
+/// Counts under their names, those that are not zero, the largest first.
+template <class Names, std::size_t size>
+Json sharesJson(const std::array<std::uint64_t, size>& counts, const Names& nameOfIndex) {
+    std::vector<std::size_t> indices;
+    for (std::size_t index = 0; index < size; ++index)
+        if (counts[index] > 0) indices.push_back(index);
+    std::stable_sort(indices.begin(), indices.end(), [&](auto a, auto b) { return counts[a] > counts[b]; });
+    Json json = Json::object();
+    for (const std::size_t index : indices) json[std::string(nameOfIndex(index))] = counts[index];
+    return json;
+}
+
 Json stepsJson(const engine::StepStatistics& steps) {
     return {{"count", steps.count},
             {"shortest", steps.shortest},
             {"longest", steps.longest},
+            {"limited_by", sharesJson(steps.limitedBy,
+                                      [](std::size_t i) { return engine::nameOf(static_cast<engine::StepLimit>(i)); })},
+            {"taken_by", sharesJson(steps.takenBy,
+                                    [](std::size_t i) { return engine::nameOf(static_cast<engine::StepperKind>(i)); })},
+            {"rejected", steps.rejected},
             {"force_evaluations", steps.forceEvaluations},
-            {"limited_by", "the scene's fixed step, shortened to divide a frame evenly"}};
+            {"matrix_products", steps.products}};
 }
 
-Json errorJson(const ErrorSamples& errors) {
+/// What the automatic stepper measured itself, else what the run's sampled frames say.
+ErrorSamples errorsOf(const engine::Simulation& simulation, const ErrorSamples& samples) {
+    if (simulation.setup.stepper != engine::StepperKind::automatic) return samples;
+    const engine::AutoState& state = simulation.automatic;
+    return {static_cast<int>(state.looks), state.errorSum, state.largestError};
+}
+
+Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples) {
+    const ErrorSamples errors = errorsOf(simulation, samples);
     if (errors.count == 0) return nullptr;
-    return {{"position", errors.sum / errors.count},
-            {"largest", errors.largest},
-            {"unit", "radii per second of motion, rms over the particles"},
-            {"obtained", "local error by step doubling, mean and largest over sampled frames"},
-            {"samples", errors.count}};
+    Json json = {{"position", errors.sum / errors.count},
+                 {"largest", errors.largest},
+                 {"unit", "radii per second of motion, rms over the particles"},
+                 {"obtained", "frames run again at half the step: mean and largest over the samples"},
+                 {"samples", errors.count}};
+    if (simulation.setup.stepper == engine::StepperKind::automatic) {
+        json["wanted"] = simulation.setup.error;
+        json["force_evaluations_spent"] = simulation.automatic.trials;
+    }
+    return json;
 }
 
 Json energyJson(const engine::Energy& energy) {
@@ -45,12 +76,17 @@ Json energyJson(const engine::Energy& energy) {
 
 }  // namespace
 
-void addSample(ErrorSamples& samples, const engine::Simulation& simulation) {
-    if (simulation.steps.count == 0) return;
-    const double error = engine::localError(simulation, simulation.steps.longest);
-    ++samples.count;
-    samples.sum += error;
-    samples.largest = std::max(samples.largest, error);
+void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation) {
+    if (simulation.setup.stepper == engine::StepperKind::automatic) return;
+    try {
+        const double next = simulation.time + 1.0 / scene.fps;
+        const double error = engine::measure(simulation, next, simulation.stepper, simulation.setup.step).error;
+        ++samples.count;
+        samples.sum += error;
+        samples.largest = std::max(samples.largest, error);
+    } catch (const engine::InstabilityError&) {
+        // The run itself will say so when it gets there.
+    }
 }
 
 Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report) {
@@ -74,7 +110,7 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
                        {"drawing", report.seconds.drawing},
                        {"encoding", report.seconds.encoding},
                        {"all", report.seconds.all}};
-    json["error_estimate"] = errorJson(report.errors);
+    json["error_estimate"] = errorJson(simulation, report.errors);
     if (report.unstable.empty()) {
         json["energy"] = energyJson(engine::energy(simulation.evaluator, simulation.particles));
         json["linear_momentum"] = vectorJson(engine::linearMomentum(simulation.particles));

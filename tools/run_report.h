@@ -17,15 +17,16 @@ struct StageSeconds {
     double all = 0.0;
 };
 
-/// Local errors of sampled steps, in radii per second of motion.
+/// Errors of sampled frames, in radii per second of motion.
 struct ErrorSamples {
     int count = 0;
     double sum = 0.0;
     double largest = 0.0;
 };
 
-/// Measures the local error at the current state, for the step that the run takes, and adds it.
-void addSample(ErrorSamples& samples, const engine::Simulation& simulation);
+/// Measures the error of the frame to come, at the step that the run takes, and adds it. Nothing for the automatic
+/// stepper, which measures itself, and for a run that is about to become unstable.
+void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation);
 
 struct RunReport {
     StageSeconds seconds;

@@ -7,7 +7,7 @@
 #include "engine/bodies.h"
 #include "engine/decay.h"
 #include "engine/diagnostics.h"
-#include "engine/local_error.h"
+#include "engine/error_look.h"
 #include "engine/step_bound.h"
 #include "tests/engine/clouds.h"
 
@@ -137,23 +137,6 @@ TEST_CASE("Drag does not depend on the step", "[steppers]") {
             advance(simulation, 1.0);
             CHECK(simulation.particles.velocity[0].x() == Approx(2 * std::exp(-1.005)).epsilon(1e-13));  // 334 products
         }
-}
-
-TEST_CASE("The local error of a step is what the stepper really errs by", "[steppers]") {
-    Setup setup = freeSetup(*materialPreset("solid"), StepperKind::velocityVerlet, 1e-3);
-    setup.initial = clouds::strewn(40, 0.5);
-    Simulation simulation = start(setup);
-    advance(simulation, 0.01);
-    const std::string before = stateHash(simulation.particles);
-    const double estimate = localError(simulation, 1e-3);
-    CHECK(stateHash(simulation.particles) == before);
-
-    Simulation coarse = simulation;
-    takeStep(coarse, 1e-3);
-    Simulation exact = simulation;
-    for (int k = 0; k < 256; ++k) takeStep(exact, 1e-3 / 256);
-    const double real = distanceBetween(coarse.particles.position, exact.particles.position) / 0.15 / 1e-3;
-    CHECK(estimate == Approx(real).epsilon(0.25));  // the next order's share at this step
 }
 
 TEST_CASE("The step bound of two bodies is the closed form, and it is the limit", "[steppers]") {
