@@ -95,23 +95,18 @@ void goOnFrom(Simulation& simulation, Simulation&& finer) {
 void lookAround(Simulation& simulation, double time) {
     AutoState& state = simulation.automatic;
     const bool compare = state.looks % kLooksPerComparison == 0;
-    Simulation finer;
-    Trial chosen;
-    if (compare) {
-        Simulation candidate;
-        for (const StepperKind stepper : kCandidates) {
-            const Trial trial = look(simulation, time, stepper, &candidate);
-            if (cheapest(simulation) != stepper) continue;
-            chosen = trial;
-            finer = std::move(candidate);
-        }
-    } else {
-        chosen = look(simulation, time, simulation.stepper, &finer);
-    }
-    note(state, chosen, choiceOf(simulation, chosen.stepper).step);
+    std::array<Simulation, kCandidates.size()> finer;
+    std::array<Trial, kCandidates.size()> trials;
+    for (std::size_t c = 0; c < kCandidates.size(); ++c)
+        if (compare || kCandidates[c] == simulation.stepper)
+            trials[c] = look(simulation, time, kCandidates[c], &finer[c]);
+    const StepperKind best = compare ? cheapest(simulation) : simulation.stepper;
+    const auto chosen =
+        static_cast<std::size_t>(std::find(kCandidates.begin(), kCandidates.end(), best) - kCandidates.begin());
+    note(state, trials[chosen], choiceOf(simulation, best).step);
     const std::uint64_t pause = std::min(kLongestPause, 2 * state.looks);
     state.nextLook = state.intervals + pause;
-    goOnFrom(simulation, std::move(finer));
+    goOnFrom(simulation, std::move(finer[chosen]));
 }
 
 }  // namespace

@@ -23,8 +23,12 @@ void forEachTouched(const Scenery& scenery, const Probe& probe, const Visit& vis
 Vec3 contactForce(const Scenery& scenery, const Probe& probe) {
     Vec3 force = Vec3::Zero();
     forEachTouched(scenery, probe, [&](const Surface& surface) {
-        force +=
-            normalForce(contactWith(surface, scenery.law, probe), dot(probe.velocity, surface.normal)) * surface.normal;
+        const Contact contact = contactWith(surface, scenery.law, probe);
+        const double normalSpeed = dot(probe.velocity, surface.normal);
+        force += normalForce(contact, normalSpeed) * surface.normal;
+        if (probe.friction == 0.0) return;
+        const Vec3 slip = probe.velocity - normalSpeed * surface.normal;
+        force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
     });
     return force;
 }

@@ -55,6 +55,7 @@ struct Probe {
     Vec3 velocity = Vec3::Zero();  ///< m/s
     double radius = 0.15;          ///< m
     double dampingReach = 1.0;     ///< c_d of its material
+    double friction = 0.0;         ///< mu of its material
 };
 
 /// Force of all obstacles on a particle, in newtons; zero where it touches none.

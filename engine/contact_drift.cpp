@@ -71,6 +71,13 @@ double stepFor(const Outlook& ahead, double speed, double remaining) {
     return remaining / std::ceil(remaining / step);
 }
 
+/// Coulomb friction: an impulse (N s) against the slip, at most what stops it.
+void brake(Flight& flight, const Vec3& normal, double impulse) {
+    const Vec3 slip = flight.velocity - dot(flight.velocity, normal) * normal;
+    const double speed = std::sqrt(squaredLength(slip));
+    if (speed > 0.0) flight.velocity -= std::min(1.0, impulse / (flight.mass * speed)) * slip;
+}
+
 /// The implicit midpoint kick of the contacts at the flight's position.
 void kick(const Scenery& scenery, Flight& flight, double step) {
     Vec3 force = Vec3::Zero();
@@ -82,6 +89,7 @@ void kick(const Scenery& scenery, Flight& flight, double step) {
         const Contact contact = contactWith(surface, scenery.law, probe);
         force += normalForce(contact, 0.0) * surface.normal;
         damping += dampingAlong(contact) * surface.normal * surface.normal.transpose();
+        if (flight.friction > 0.0) brake(flight, surface.normal, flight.friction * normalForce(contact, 0.0) * step);
         touched = true;
     });
     if (!touched) return;

@@ -14,6 +14,7 @@ struct Flight {
     double mass = 1.0;             ///< kg
     double radius = 0.15;          ///< m
     double dampingReach = 1.0;     ///< c_d of its material
+    double friction = 0.0;         ///< mu of its material
 };
 
 /// How a stepper treats the contacts that it does not sweep.

@@ -11,14 +11,24 @@ namespace {
 
 constexpr std::size_t kContactGrain = 128;  // chosen: a contact takes some microseconds
 
-double dampingReachOf(const Simulation& simulation, std::size_t p) {
-    return simulation.setup.materials[simulation.particles.material[p]].dampingReach;
+const Material& materialOf(const Simulation& simulation, std::size_t p) {
+    return simulation.setup.materials[simulation.particles.material[p]];
+}
+
+Probe probeOf(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
+    const Material& material = materialOf(simulation, p);
+    return {simulation.particles.position[p], velocity, simulation.particles.radius[p], material.dampingReach,
+            material.friction};
 }
 
 Flight flightOf(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
-    return {particles.position[p], particles.velocity[p], particles.mass[p], particles.radius[p],
-            dampingReachOf(simulation, p)};
+    return {particles.position[p],
+            particles.velocity[p],
+            particles.mass[p],
+            particles.radius[p],
+            materialOf(simulation, p).dampingReach,
+            materialOf(simulation, p).friction};
 }
 
 ContactTreatment treatmentBy(StepperKind stepper) {
@@ -70,10 +80,8 @@ void applyDrag(Simulation& simulation, double h) {
 }
 
 void addContacts(const Simulation& simulation, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces) {
-    const Particles& particles = simulation.particles;
     forEachUnswept(simulation, [&](std::size_t p) {
-        forces[p] += contactForce(simulation.setup.scenery, {particles.position[p], velocities[p], particles.radius[p],
-                                                             dampingReachOf(simulation, p)});
+        forces[p] += contactForce(simulation.setup.scenery, probeOf(simulation, p, velocities[p]));
     });
 }
 
@@ -87,12 +95,17 @@ void addContacts(const Simulation& simulation, const MatrixWeights& weights, Pai
     inParallel(order.size(), kContactGrain, [&](std::size_t place) {
         const std::size_t p = order[place];
         if (simulation.swept[p]) return;
-        const Probe probe{particles.position[p], Vec3::Zero(), particles.radius[p], dampingReachOf(simulation, p)};
+        const Probe probe = probeOf(simulation, p, particles.velocity[p]);
         forEachSurface(scenery, probe.position, [&](const Surface& surface) {
             if (surface.height >= probe.radius) return;
             const Contact contact = contactWith(surface, scenery.law, probe);
             const double along = weights.damping * dampingAlong(contact) + weights.stiffness * stiffnessAlong(contact);
-            matrix.own[place] += along * surface.normal * surface.normal.transpose();
+            const Matrix3 projection = surface.normal * surface.normal.transpose();
+            matrix.own[place] += along * projection;
+            if (probe.friction == 0.0) return;
+            const Vec3 slip = probe.velocity - dot(probe.velocity, surface.normal) * surface.normal;
+            const double across = slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip));
+            matrix.own[place] += weights.damping * across * (Matrix3::Identity() - projection);
         });
     });
 }

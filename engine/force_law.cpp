@@ -8,7 +8,7 @@ namespace {
 
 bool sameLaw(const Material& a, const Material& b) {
     return a.repulsion == b.repulsion && a.damping == b.damping && a.repulsionReach == b.repulsionReach &&
-           a.dampingReach == b.dampingReach && a.coreFraction == b.coreFraction;
+           a.dampingReach == b.dampingReach && a.friction == b.friction && a.coreFraction == b.coreFraction;
 }
 
 }  // namespace
@@ -26,6 +26,7 @@ ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
     for (const Material& material : law.materials) {
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;
+        terms.pair.friction |= material.friction > 0.0;
         terms.uniform &= sameLaw(material, law.materials.front());
         // The mix's reaches lie between those of its parts.
         reach = std::max(reach, material.repulsionReach);

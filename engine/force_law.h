@@ -19,7 +19,7 @@ struct ForceLaw {
 
 /// What some pair of the particles needs; the rest is not compiled into their kernel.
 struct ForceTerms {
-    PairTerms pair{.attraction = false, .damping = false};
+    PairTerms pair{.attraction = false, .damping = false, .friction = false};
     bool uniform = true;  ///< one law and one radius: constants are not looked up per pair
     double cutoff = 0.0;  ///< no pair acts at or beyond it, m
 };

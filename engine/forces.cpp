@@ -59,9 +59,9 @@ void ForceEvaluator::addContacts(const Particles& particles, const std::vector<V
                                  std::vector<Vec3>& forces) const {
     if (law_.scenery.colliders.empty()) return;
     inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
-        const double dampingReach = law_.materials[particles.material[p]].dampingReach;
-        forces[p] +=
-            contactForce(law_.scenery, {particles.position[p], velocities[p], particles.radius[p], dampingReach});
+        const Material& material = law_.materials[particles.material[p]];
+        forces[p] += contactForce(law_.scenery, {particles.position[p], velocities[p], particles.radius[p],
+                                                 material.dampingReach, material.friction});
     });
 }
 

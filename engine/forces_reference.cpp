@@ -21,6 +21,15 @@ Pair pairOf(const ForceLaw& law, const Particles& particles, std::size_t p, std:
     return pair;
 }
 
+/// Against the slip, in newtons.
+Vec3 frictionOf(const Pair& pair, const Vec3& velocity) {
+    const double distance = pair.separation.norm();
+    const Vec3 normal = pair.separation / distance;
+    const Vec3 slip = velocity - velocity.dot(normal) * normal;
+    const double push = distance * pairCoefficient<PairTerms{true, false}>(distance * distance, 0.0, pair.constants);
+    return -slipDamping(pair.constants.friction, push, slip.squaredNorm()) * slip;
+}
+
 }  // namespace
 
 void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
@@ -33,6 +42,7 @@ void pairForcesReference(const ForceLaw& law, const Particles& particles, const 
             const double distanceSq = squaredLength(pair.separation);
             const double approach = dot(velocities[p] - velocities[i], pair.separation);
             forces[p] += pairCoefficient<PairTerms{}>(distanceSq, approach, pair.constants) * pair.separation;
+            if (pair.constants.friction > 0.0) forces[p] += frictionOf(pair, velocities[p] - velocities[i]);
         }
     }
 }

@@ -52,6 +52,7 @@ Material mixed(const Material& a, const Material& b) {
     mix.damping = std::sqrt(a.damping * b.damping);
     mix.repulsionReach = 0.5 * (a.repulsionReach + b.repulsionReach);
     mix.dampingReach = 0.5 * (a.dampingReach + b.dampingReach);
+    mix.friction = std::sqrt(a.friction * b.friction);
     mix.coreFraction = 0.5 * (a.coreFraction + b.coreFraction);
     return mix;
 }

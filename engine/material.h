@@ -18,6 +18,7 @@ struct Material {
     double damping = 1.0;         ///< b_d, kg/s
     double repulsionReach = 1.0;  ///< c_r, multiples of the rest length; above 1 particles attract
     double dampingReach = 2.0;    ///< c_d, multiples of the rest length
+    double friction = 0.0;        ///< mu, tangential over normal force; 0: none, as in the paper
     double coreFraction = 0.25;  ///< the guard near D = 0: below this share of the rest length the force is linear in D
 };
 
@@ -28,8 +29,8 @@ std::optional<Material> materialPreset(std::string_view name);
 const std::vector<std::string>& materialPresetNames();
 
 /// The material that governs a pair of unlike particles. Symmetric in its arguments, so that a mixed pair keeps
-/// momentum: geometric means of b1 and b_d, arithmetic means of the reaches and of the core. Radius and mass are per
-/// particle and left out.
+/// momentum: geometric means of b1, b_d and mu, arithmetic means of the reaches and of the core. Radius and mass are
+/// per particle and left out.
 Material mixed(const Material& a, const Material& b);
 
 }  // namespace engine

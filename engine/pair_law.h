@@ -20,6 +20,9 @@
 
 namespace engine {
 
+/// Chosen: a heap of twenty layers that creeps at this speed everywhere moves a centimetre in ten seconds, m/s.
+inline constexpr double kStickingSpeed = 1e-3;
+
 /// The constants of one pair, worked out once from its material and its rest length.
 template <class Scalar>
 struct PairConstants {
@@ -31,6 +34,7 @@ struct PairConstants {
     Scalar inverseDampingSq{};  ///< 1/S^2
     Scalar dampingSq{};         ///< S^2, damping ends here; 0 when b_d is 0
     Scalar coreSq{};            ///< square of the guard's distance
+    Scalar friction{};          ///< mu
     Scalar cutoffSq{};          ///< nothing acts at or beyond it
 };
 
@@ -38,6 +42,7 @@ struct PairConstants {
 struct PairTerms {
     bool attraction = true;  ///< c_r above 1
     bool damping = true;     ///< b_d above 0
+    bool friction = false;   ///< mu above 0
 };
 
 /// Constants of a pair of the given material (see mixed() for unlike ones) and rest length D0 = r_i + r_p, in metres.
@@ -55,6 +60,7 @@ PairConstants<Scalar> pairConstants(const Material& material, double restLength)
     c.inverseDampingSq = static_cast<Scalar>(1.0 / (damping * damping));
     c.dampingSq = material.damping > 0.0 ? static_cast<Scalar>(damping * damping) : Scalar(0);
     c.coreSq = static_cast<Scalar>(core * core);
+    c.friction = static_cast<Scalar>(material.friction);
     c.cutoffSq = std::max(c.reachSq, c.dampingSq);
     return c;
 }
@@ -120,6 +126,17 @@ Scalar pairStiffness(Scalar distance, const PairConstants<Scalar>& c) {
     const Scalar inverseCubed = inverse * inverse * inverse;
     const Scalar a = c.inverseRestSq + c.inverseReachSq;
     return c.b1 * (Scalar(4) * inverseCubed * inverse * inverse - Scalar(2) * a * inverseCubed);
+}
+
+/// Friction, a departure from the paper, whose law has nothing tangential: the coefficient c_t of -V_t, in kg/s.
+///   c_t = mu N / max(|V_t|, kStickingSpeed),   N = max(0, conservative force),   V_t = V - (V.n) n
+/// So the friction is Coulomb's mu N against the slip, and below the sticking speed a viscous creep that takes its
+/// place: what would stick creeps, at most at that speed. It only removes energy, since F.V = -c_t V_t^2. It keeps
+/// linear momentum; angular momentum it does not keep, since particles have no spin to take it up. Shape:  normalForce
+/// N, newtons; slipSq |V_t|^2, m^2/s^2.
+template <class Scalar>
+Scalar slipDamping(Scalar friction, Scalar normalForce, Scalar slipSq) {
+    return friction * std::max(Scalar(0), normalForce) / std::max(std::sqrt(slipSq), Scalar(kStickingSpeed));
 }
 
 /// A stand-in for P when two particles coincide exactly and P has no direction: a short vector drawn from their ids.

@@ -1,6 +1,7 @@
 // The matrix of the implicit steppers, never formed: A = M + C' + K', where M is the mass, C' the weighted damping and
-// K' the weighted stiffness of all pairs at one configuration, both acting along the line between the two. Each pair is
-// kept as one vector q with A_pi = -q q^T, so that a product is two dot products a pair.
+// K' the weighted stiffness of all pairs at one configuration, both acting along the line between the two; friction
+// adds weighted damping across it. Each pair is kept as one vector q with A_pi = -q q^T, so that a product is two dot
+// products a pair.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,8 @@ struct PairMatrix {
     std::vector<std::uint32_t> rowEnd;    ///< one past the last entry of each row
     std::vector<std::uint32_t> other;     ///< place of the other particle of each entry
     std::vector<Matrix3> own;             ///< what obstacles add to each particle's own block, kg; empty without any
+    std::vector<double> across;           ///< with friction: weight times c_t of each entry, kg; empty without
+    std::vector<Vec3> normal;             ///< with friction: direction of each entry
     std::vector<Vec3> along;              ///< q, kg^(1/2); q of (p, i) is minus that of (i, p), bit for bit
 
     std::size_t count() const { return mass.size(); }

@@ -13,6 +13,30 @@ struct Variant {
     bool matrix = false;
 };
 
+/// Friction of a pair.
+struct Slip {
+    Vec3 velocity = Vec3::Zero();  ///< V_t, m/s
+    double damping = 0.0;          ///< c_t, kg/s
+};
+
+Slip slipOf(const PairRecord& p, const PairRecord& i, const Vec3& separation, double distanceSq,
+            const PairConstants<double>& constants) {
+    const double coefficient = pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, constants);
+    if (!(coefficient > 0.0)) return {};
+    const Vec3 velocity(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz);
+    Slip slip;
+    slip.velocity = velocity - dot(velocity, separation) / distanceSq * separation;
+    slip.damping = slipDamping(constants.friction, coefficient * std::sqrt(distanceSq), squaredLength(slip.velocity));
+    return slip;
+}
+
+/// A pair as the matrix needs it.
+struct Neighbour {
+    const Vec3& separation;
+    double distanceSq;
+    const Slip& slip;
+};
+
 /// The pass over one particle's neighbours.
 template <Variant variant>
 struct Kernel {
@@ -32,9 +56,14 @@ struct Kernel {
             if constexpr (variant.terms.damping)
                 approach = dot(Vec3(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz), separation);
             force += pairCoefficient<variant.terms>(distanceSq, approach, constants) * separation;
+            Slip slip;
+            if constexpr (variant.terms.friction) {
+                slip = slipOf(p, i, separation, distanceSq, constants);
+                force -= slip.damping * slip.velocity;
+            }
             if constexpr (variant.energy)
                 if (distanceSq < constants.reachSq) energy += 0.5 * pairEnergy(std::sqrt(distanceSq), constants);
-            if constexpr (variant.matrix) addEntry(entry, other, separation, distanceSq, constants);
+            if constexpr (variant.matrix) addEntry(entry, other, {separation, distanceSq, slip}, constants);
         });
         sums.forces[pairs.list.order[self]] = force;
         if constexpr (variant.energy) energies[self] = energy;
@@ -42,17 +71,22 @@ struct Kernel {
     }
 
     /// q q^T = (damping b_d s_d + stiffness max(k, 0)), each times its weight, along P.
-    void addEntry(std::uint32_t& entry, std::uint32_t other, const Vec3& separation, double distanceSq,
+    void addEntry(std::uint32_t& entry, std::uint32_t other, const Neighbour& neighbour,
                   const PairConstants<double>& constants) const {
+        const double distanceSq = neighbour.distanceSq;
         double overSq = 0.0;
         if constexpr (variant.terms.damping) overSq = sums.weights.damping * pairDampingOverSq(distanceSq, constants);
         if (sums.weights.stiffness > 0.0 && distanceSq < constants.reachSq) {
             const double stiffness = pairStiffness(std::sqrt(distanceSq), constants);
             overSq += sums.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
         }
-        if (overSq == 0.0) return;
+        if (overSq == 0.0 && neighbour.slip.damping == 0.0) return;
+        if constexpr (variant.terms.friction) {
+            sums.matrix->across[entry] = sums.weights.damping * neighbour.slip.damping;
+            sums.matrix->normal[entry] = neighbour.separation / std::sqrt(distanceSq);
+        }
         sums.matrix->other[entry] = other;
-        sums.matrix->along[entry++] = std::sqrt(overSq) * separation;
+        sums.matrix->along[entry++] = std::sqrt(overSq) * neighbour.separation;
     }
 };
 
@@ -72,6 +106,8 @@ Pass passFor(const PairSums& sums) {
 
 template <bool isUniform>
 Pass passFor(PairTerms terms, const PairSums& sums) {
+    // Friction is for few scenes: it shares one kernel that has everything.
+    if (terms.friction) return passFor<PairTerms{true, true, true}, isUniform>(sums);
     if (terms.attraction)
         return terms.damping ? passFor<PairTerms{true, true}, isUniform>(sums)
                              : passFor<PairTerms{true, false}, isUniform>(sums);
@@ -84,6 +120,8 @@ void makeRoom(const PairTraversal& pairs, PairMatrix& matrix) {
     matrix.rowEnd.resize(pairs.records.size());
     matrix.other.resize(pairs.list.places.size());
     matrix.along.resize(pairs.list.places.size());
+    matrix.across.resize(pairs.terms.pair.friction ? pairs.list.places.size() : 0);
+    matrix.normal.resize(matrix.across.size());
 }
 
 /// In order: the order of the sum is part of the result.

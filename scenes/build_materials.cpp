@@ -26,6 +26,7 @@ void completeMaterial(Section& section) {
     section.deriveNumber("bd", preset.damping);
     section.deriveNumber("cr", preset.repulsionReach);
     section.deriveNumber("cd", preset.dampingReach);
+    section.deriveNumber("friction", preset.friction);
     section.deriveNumber("core", preset.coreFraction);
     section.deriveVector("color", presetColor(preset.name));
 }
@@ -39,6 +40,7 @@ engine::Material materialFrom(const Section& section) {
     material.damping = section.number("bd");
     material.repulsionReach = section.number("cr");
     material.dampingReach = section.number("cd");
+    material.friction = section.number("friction");
     material.coreFraction = section.number("core");
     return material;
 }
