@@ -13,5 +13,9 @@ void addVideoCommand(CLI::App& program);
 void addCheckCommand(CLI::App& program);
 void addScenesCommand(CLI::App& program);
 void addSchemaCommand(CLI::App& program);
+void addStudyCommand(CLI::App& program);
+
+/// Subcommands of `globular study`.
+void addStudyAccuracy(CLI::App& study);
 
 }  // namespace tools

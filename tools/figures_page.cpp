@@ -1,10 +1,9 @@
-// HTML by hand: two templates and an escape function.
+// HTML by hand: two templates.
 #include "tools/figures_page.h"
 
 #include <fmt/format.h>
 
-#include <cstdint>
-
+#include "tools/html.h"
 #include "tools/output_file.h"
 
 namespace tools {
@@ -27,23 +26,6 @@ code { background: #f0f0ec; padding: 0 0.2rem; }
 <h1>Globular dynamics: the figures</h1>
 <p>The figures of &ldquo;Exploration of Globular Dynamic Particle Systems&rdquo; (J. Cote), simulated and drawn anew by globular.</p>
 )";
-
-std::string escaped(const std::string& text) {
-    std::string html;
-    for (const char c : text) {
-        if (c == '&')
-            html += "&amp;";
-        else if (c == '<')
-            html += "&lt;";
-        else if (c == '>')
-            html += "&gt;";
-        else if (c == '"')
-            html += "&quot;";
-        else
-            html += c;
-    }
-    return html;
-}
 
 std::string dataUri(const std::string& type, const std::string& path) {
     return "data:" + type + ";base64," + base64(readFile(path));
@@ -69,20 +51,6 @@ std::string section(const FigureEntry& figure) {
 }
 
 }  // namespace
-
-std::string base64(const std::vector<unsigned char>& bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t k = 0; k < bytes.size(); k += 3) {
-        const std::size_t present = std::min<std::size_t>(3, bytes.size() - k);
-        std::uint32_t group = 0;
-        for (std::size_t b = 0; b < 3; ++b) group = (group << 8) | (b < present ? bytes[k + b] : 0U);
-        for (std::size_t digit = 0; digit < 4; ++digit)
-            text += digit <= present ? kDigits[(group >> (18 - 6 * digit)) & 63U] : '=';
-    }
-    return text;
-}
 
 std::string figuresPage(const std::vector<FigureEntry>& figures) {
     std::string html = kHead;

@@ -24,7 +24,4 @@ struct FigureEntry {
 /// The page as HTML, stills and videos embedded. Reads the files; throws render::SystemError.
 std::string figuresPage(const std::vector<FigureEntry>& figures);
 
-/// Standard base64 (RFC 4648) with padding.
-std::string base64(const std::vector<unsigned char>& bytes);
-
 }  // namespace tools

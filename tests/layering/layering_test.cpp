@@ -13,14 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> kFolders = {"engine", "render", "scenes", "tools", "tests"};
+const std::set<std::string> kFolders = {"engine", "render", "scenes", "studies", "tools", "tests"};
 
 /// Which of our folders a folder may include, itself left out.
-const std::map<std::string, std::set<std::string>> kAllowed = {{"engine", {}},
-                                                               {"render", {}},
-                                                               {"scenes", {"engine"}},
-                                                               {"tools", {"engine", "render", "scenes"}},
-                                                               {"tests", {"engine", "render", "scenes", "tools"}}};
+const std::map<std::string, std::set<std::string>> kAllowed = {
+    {"engine", {}},
+    {"render", {}},
+    {"scenes", {"engine"}},
+    {"studies", {"engine", "scenes"}},
+    {"tools", {"engine", "render", "scenes", "studies"}},
+    {"tests", {"engine", "render", "scenes", "studies", "tools"}}};
 
 /// The one header of another folder that is allowed by name.
 const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", "render/view.h"}};
@@ -29,12 +31,14 @@ const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", 
 const std::map<std::string, std::set<std::string>> kLibraries = {
     {"engine", {"Eigen", "hwy", "tbb"}},
     {"scenes", {"Eigen", "glm", "fmt", "toml++"}},
+    {"studies", {"Eigen", "fmt", "tbb"}},
 };
 
 /// Standard headers that a folder must not use: files, clocks, environment, output.
 const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
     {"engine", {"fstream", "iostream", "filesystem", "chrono", "ctime", "cstdio", "cstdlib", "random", "thread"}},
     {"scenes", {"iostream", "chrono", "ctime", "cstdio", "thread"}},
+    {"studies", {"fstream", "iostream", "filesystem", "cstdio", "cstdlib", "random", "thread"}},
     {"render", {"iostream"}}};
 
 struct Include {
@@ -109,5 +113,9 @@ TEST_CASE("A wrong arrow is noticed", "[layering]") {
     CHECK(verdict({"engine", "engine/x.cpp", 1, "glm/vec3.hpp"}) != "");
     CHECK(verdict({"engine", "engine/x.cpp", 1, "Eigen/Geometry"}) == "");
     CHECK(verdict({"render", "render/x.cpp", 1, "../scenes/scene.h"}) != "");
+    CHECK(verdict({"studies", "studies/x.cpp", 1, "render/child_process.h"}) != "");
+    CHECK(verdict({"studies", "studies/x.cpp", 1, "fstream"}) != "");
+    CHECK(verdict({"studies", "studies/x.cpp", 1, "chrono"}) == "");
+    CHECK(verdict({"scenes", "scenes/x.cpp", 1, "studies/accuracy.h"}) != "");
     CHECK(verdict({"tools", "tools/x.cpp", 1, "tests/engine/clouds.h"}) != "");
 }

@@ -4,7 +4,7 @@
 #include "render/system_error.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
-#include "tools/figures_page.h"
+#include "tools/html.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
 

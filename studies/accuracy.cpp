@@ -1,0 +1,64 @@
+// All runs of a scene, then the reference, then what they amount to.
+#include "studies/accuracy.h"
+
+#include <algorithm>
+
+#include "engine/steppers.h"
+
+namespace studies {
+namespace {
+
+/// A run this long is timed well enough once, s.
+constexpr double kLongRun = 5.0;
+
+std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettings& settings) {
+    std::vector<Variant> variants;
+    for (const engine::StepperKind stepper : engine::kSteppers) {
+        if (stepper == engine::StepperKind::automatic)
+            for (const double error : settings.errors) variants.push_back({stepper, error, {}});
+        else
+            for (const int count : settings.stepsPerFrame) variants.push_back({stepper, 1.0 / (scene.fps * count), {}});
+    }
+    return variants;
+}
+
+/// Every run once, then the short ones again. Rounds over all of them, because other programs of the machine come and
+/// go; the least seconds of a run, because they only ever add.
+std::vector<WindowRun> timedRuns(const Window& window, const AccuracySettings& settings, const RunListener& listener) {
+    std::vector<WindowRun> runs;
+    for (const Variant& variant : variantsOf(window.scene, settings)) {
+        runs.push_back(runWindow(window, variant, settings.runLimit));
+        listener(runs.back(), "run");
+    }
+    for (int round = 1; round < settings.rounds; ++round)
+        for (WindowRun& run : runs) {
+            if (run.ending != Ending::finished || run.seconds >= kLongRun) continue;
+            const WindowRun again = runWindow(window, run.variant, settings.runLimit);
+            run.seconds = std::min(run.seconds, again.seconds);
+            listener(again, "again");
+        }
+    return runs;
+}
+
+}  // namespace
+
+SceneAccuracy measureAccuracy(const std::string& name, const scenes::Scene& scene, const AccuracySettings& settings,
+                              const RunListener& listener) {
+    const Window window = openWindow(scene, settings.firstFrame, settings.frameCount);
+    const std::vector<WindowRun> runs = timedRuns(window, settings, listener);
+    const Reference reference = findReference(window, runs, {settings.referenceBudget, listener});
+
+    SceneAccuracy accuracy;
+    accuracy.name = name;
+    accuracy.title = scene.title;
+    accuracy.particleCount = window.start.particles.count();
+    accuracy.from = scenes::frameTime(scene, window.firstFrame);
+    accuracy.window = window.seconds();
+    accuracy.reference = reference.facts;
+    for (const WindowRun& run : runs) accuracy.rows.push_back(rowOf(window, run, reference));
+    accuracy.orders = ordersOf(accuracy.rows);
+    accuracy.autos = autosOf(accuracy.rows, accuracy.window);
+    return accuracy;
+}
+
+}  // namespace studies

@@ -1,0 +1,73 @@
+// Copy the state, change the set-up, advance frame by frame against the clock.
+#include "studies/window_run.h"
+
+#include <chrono>
+
+#include "scenes/frame_steps.h"
+
+namespace studies {
+namespace {
+
+engine::Simulation begin(const Window& window, const Variant& variant) {
+    engine::Simulation simulation = window.start;
+    simulation.setup.stepper = variant.stepper;
+    if (variant.stepper == engine::StepperKind::automatic)
+        simulation.setup.error = variant.asked;
+    else
+        simulation.setup.step = variant.asked;
+    if (variant.solverTolerance) simulation.setup.solverTolerance = *variant.solverTolerance;
+    simulation.forcesCurrent = false;
+    simulation.steps = {};
+    return simulation;
+}
+
+}  // namespace
+
+double Window::seconds() const {
+    return scenes::frameTime(scene, lastFrame) - scenes::frameTime(scene, firstFrame);
+}
+
+std::string nameOf(Ending ending) {
+    switch (ending) {
+        case Ending::finished:
+            return "finished";
+        case Ending::unstable:
+            return "unstable";
+        case Ending::tooSlow:
+            return "too slow";
+    }
+    return {};
+}
+
+Window openWindow(const scenes::Scene& scene, int firstFrame, int frameCount) {
+    Window window{scene, engine::start(scene.setup), firstFrame, firstFrame + frameCount};
+    scenes::advanceToFrame(scene, window.start, firstFrame);
+    return window;
+}
+
+WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit) {
+    using Clock = std::chrono::steady_clock;
+    engine::Simulation simulation = begin(window, variant);
+    WindowRun run;
+    run.variant = variant;
+    const Clock::time_point start = Clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    try {
+        for (int frame = window.firstFrame + 1; frame <= window.lastFrame; ++frame) {
+            scenes::advanceToFrame(window.scene, simulation, frame);
+            if (frame == window.lastFrame || elapsed() <= secondsLimit) continue;
+            run.ending = Ending::tooSlow;
+            break;
+        }
+    } catch (const engine::InstabilityError& error) {
+        run.ending = Ending::unstable;
+        run.words = error.what();
+    }
+    run.seconds = elapsed();
+    run.steps = simulation.steps;
+    if (run.ending == Ending::finished) run.energy = engine::energy(simulation.evaluator, simulation.particles);
+    run.particles = std::move(simulation.particles);
+    return run;
+}
+
+}  // namespace studies

@@ -1,0 +1,217 @@
+// The study itself on a dozen particles: what it reports must be what is known of the steppers.
+#include "tests/catch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "engine/steppers.h"
+#include "studies/accuracy.h"
+#include "studies/accuracy_csv.h"
+#include "studies/accuracy_plot.h"
+
+using engine::StepperKind;
+using studies::AccuracyRow;
+using studies::SceneAccuracy;
+
+namespace {
+
+/// Twelve particles closer than their rest length, that fly apart.
+const char* const kDozen = R"(
+title = "it's a dozen"
+duration = 1
+fps = 30
+[physics]
+gravity = [0, 0, 0]
+step = 0.002
+[material]
+preset = "liquid"
+[[body]]
+shape = "grid"
+center = [0, 0, 0]
+counts = [3, 2, 2]
+spacing = 0.2
+jitter = 0.2
+)";
+
+scenes::Scene dozen(const std::vector<std::string>& overrides = {}) {
+    return scenes::readScene(kDozen, "dozen.toml", overrides);
+}
+
+studies::AccuracySettings shortSettings() {
+    studies::AccuracySettings settings;
+    settings.firstFrame = 1;
+    settings.frameCount = 3;
+    settings.stepsPerFrame = {4, 8, 16, 32};
+    settings.errors = {1e-1, 1e-2};
+    settings.rounds = 1;
+    return settings;
+}
+
+SceneAccuracy studied(const scenes::Scene& scene, const studies::AccuracySettings& settings = shortSettings()) {
+    return studies::measureAccuracy("dozen", scene, settings, [](const studies::WindowRun&, std::string_view) {});
+}
+
+/// Once for all test cases.
+const SceneAccuracy& dozenStudied() {
+    static const SceneAccuracy accuracy = studied(dozen());
+    return accuracy;
+}
+
+std::vector<AccuracyRow> rowsOf(const SceneAccuracy& accuracy, StepperKind stepper) {
+    std::vector<AccuracyRow> rows;
+    for (const AccuracyRow& row : accuracy.rows)
+        if (row.run.variant.stepper == stepper) rows.push_back(row);
+    return rows;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+}  // namespace
+
+TEST_CASE("Halving the step of velocity Verlet quarters its error, that of symplectic Euler halves it", "[studies]") {
+    for (const auto& [stepper, factor] :
+         {std::pair{StepperKind::velocityVerlet, 4.0}, std::pair{StepperKind::symplecticEuler, 2.0}}) {
+        const auto rows = rowsOf(dozenStudied(), stepper);
+        REQUIRE(rows.size() == 4);
+        for (std::size_t k = 1; k < rows.size(); ++k) {
+            INFO(engine::nameOf(stepper) << " " << rows[k].run.variant.asked << " s: " << rows[k].rms << " radii");
+            CHECK(rows[k].run.steps.count == 2 * rows[k - 1].run.steps.count);
+            CHECK(rows[k].resolved);
+            // The next order's share at these steps.
+            CHECK(rows[k - 1].rms / rows[k].rms == Approx(factor).epsilon(0.25));
+            CHECK(rows[k].errorPerSecond == Approx(rows[k].rms / 0.1).epsilon(1e-12));  // 3 frames at 30 a second
+        }
+    }
+}
+
+TEST_CASE("The study's reference is fine enough, and the orders are those of the steppers", "[studies]") {
+    const SceneAccuracy& accuracy = dozenStudied();
+    double smallest = 1.0;
+    for (const AccuracyRow& row : accuracy.rows) smallest = std::min(smallest, row.rms);
+    CHECK(accuracy.reference.settled);
+    CHECK(accuracy.reference.change <= 0.05 * smallest);
+    CHECK(accuracy.reference.measure == studies::Measure::positions);
+    CHECK(accuracy.particleCount == 12);
+    REQUIRE(accuracy.orders.size() == engine::kSteppers.size() - 1);
+    for (const studies::OrderRow& row : accuracy.orders) {
+        INFO(engine::nameOf(row.stepper));
+        REQUIRE(row.order);
+        // The next order's share, as above.
+        CHECK(*row.order == Approx(engine::orderOf(row.stepper)).margin(0.3));
+    }
+}
+
+TEST_CASE("A closed scene keeps its momenta", "[studies]") {
+    for (const AccuracyRow& row : dozenStudied().rows) {
+        INFO(engine::nameOf(row.run.variant.stepper) << " " << row.run.variant.asked);
+        CHECK(row.compared == 12);
+        CHECK(row.linearDrift <= 1e-13);  // some hundred steps of a rounding each
+        CHECK(row.angularDrift <= 1e-13);
+        CHECK(std::abs(row.energyDrift) <= 0.2);  // half of that error is the damping's, seen too late by a step
+    }
+}
+
+TEST_CASE("The automatic stepper is compared with the best of the others", "[studies]") {
+    const SceneAccuracy& accuracy = dozenStudied();
+    REQUIRE(accuracy.autos.size() == 2);
+    for (const studies::AutoRow& row : accuracy.autos) {
+        if (!row.resolved) continue;
+        const auto& best = row.passesAtObtained;
+        if (!best) continue;
+        for (const AccuracyRow& other : accuracy.rows)
+            if (other.run.variant.stepper != StepperKind::automatic && other.resolved &&
+                other.rms <= row.obtained * accuracy.window)
+                CHECK(best->cost <= other.run.passes() * (1 + 1e-12));  // interpolation
+    }
+    // The coarsest error that was asked is met by some fixed run.
+    CHECK(accuracy.autos[0].passesAtAsked);
+}
+
+TEST_CASE("A run that blows up is said to be unstable", "[studies]") {
+    // Damped this strongly, one step of the paper's stepper throws a particle out of the world.
+    const studies::Window window = studies::openWindow(dozen({"material.bd=1e16"}), 0, 2);
+    const auto run = studies::runWindow(window, {StepperKind::symplecticEuler, 0.01, {}}, 60.0);
+    REQUIRE(run.ending == studies::Ending::unstable);
+    CHECK(run.words.find("unstable") != std::string::npos);
+    SceneAccuracy accuracy;
+    accuracy.name = "dozen";
+    accuracy.rows = {studies::rowOf(window, run, {})};
+    CHECK_FALSE(accuracy.rows[0].resolved);
+    CHECK(studies::accuracyCsv({accuracy}).find("dozen,symplectic-euler,0.01,,unstable,,,,,positions,,no,") !=
+          std::string::npos);
+    accuracy.rows.push_back(accuracy.rows[0]);
+    accuracy.rows[1].resolved = true;  // a curve, so that there is a key to say it in
+    CHECK(studies::plotScript(accuracy, studies::CostAxis::passes).find("symplectic-euler (2 did not finish)") !=
+          std::string::npos);
+}
+
+TEST_CASE("A study shows which runs of a stiff scene failed", "[studies]") {
+    // At b_d = 1000 kg/s and 1 kg the fastest mode of the twelve loses some thousand times its speed a second: far
+    // too much for steps of 2 ms, slow for those of 1/61440 s.
+    auto settings = shortSettings();
+    settings.firstFrame = 0;
+    settings.stepsPerFrame = {16, 1024, 2048};
+    settings.referenceBudget = 0.0;
+    const SceneAccuracy accuracy = studied(dozen({"material.bd=1000"}), settings);
+    const auto rows = rowsOf(accuracy, StepperKind::symplecticEuler);
+    REQUIRE(rows.size() == 3);
+    INFO(studies::accuracyCsv({accuracy}));
+    CHECK((rows[0].run.ending == studies::Ending::unstable || rows[0].rms > 1.0));
+    CHECK(rows[2].run.ending == studies::Ending::finished);
+    CHECK(rows[2].rms < 0.01);
+}
+
+TEST_CASE("A scene in which nothing finishes has no reference, and says why", "[studies]") {
+    auto settings = shortSettings();
+    settings.runLimit = 0.0;
+    CHECK_THROWS_WITH(studied(dozen(), settings),
+                      Catch::Matchers::Contains("there is no reference") && Catch::Matchers::Contains("too slow"));
+}
+
+TEST_CASE("A run that takes too long is given up and said so", "[studies]") {
+    const scenes::Scene scene = dozen();
+    const studies::Window window = studies::openWindow(scene, 0, 2);
+    const auto run = studies::runWindow(window, {StepperKind::velocityVerlet, 1e-3, {}}, 0.0);
+    CHECK(run.ending == studies::Ending::tooSlow);
+    CHECK(studies::nameOf(run.ending) == "too slow");
+    CHECK(run.steps.count == 34);  // one frame of two
+}
+
+TEST_CASE("The tables have a line for each row and a cell for each column", "[studies]") {
+    const std::vector<SceneAccuracy> scenes = {dozenStudied()};
+    const std::size_t fixed = engine::kSteppers.size() - 1;
+    const std::vector<std::pair<std::string, std::size_t>> tables = {{studies::accuracyCsv(scenes), fixed * 4 + 2},
+                                                                     {studies::ordersCsv(scenes), fixed},
+                                                                     {studies::autosCsv(scenes), 2},
+                                                                     {studies::referencesCsv(scenes), 1}};
+    for (const auto& [text, rowCount] : tables) {
+        const auto lines = linesOf(text);
+        INFO(text);
+        REQUIRE(lines.size() == rowCount + 1);
+        const auto commas = std::count(lines[0].begin(), lines[0].end(), ',');
+        for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == commas);
+        CHECK(lines[1].rfind("dozen,", 0) == 0);
+    }
+    CHECK(tables[0].first.find("nan") == std::string::npos);
+    CHECK(tables[0].first.find("inf") == std::string::npos);
+}
+
+TEST_CASE("A plot has a curve for each stepper with resolved runs, and its title quoted", "[studies]") {
+    SceneAccuracy accuracy = dozenStudied();
+    const std::string script = studies::plotScript(accuracy, studies::CostAxis::passes);
+    INFO(script);
+    CHECK(script.find("it''s a dozen") != std::string::npos);
+    CHECK(script.find("title \"velocity-verlet\"") != std::string::npos);
+    for (AccuracyRow& row : accuracy.rows)
+        if (row.run.variant.stepper == StepperKind::velocityVerlet) {
+            row.resolved = false;
+            row.run.ending = studies::Ending::unstable;
+        }
+    CHECK(studies::plotScript(accuracy, studies::CostAxis::seconds).find("velocity-verlet") == std::string::npos);
+}

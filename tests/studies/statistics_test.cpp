@@ -1,0 +1,105 @@
+// Statistics and position errors of clouds small enough to work out by hand.
+#include "tests/catch.h"
+
+#include <cmath>
+
+#include "studies/cloud_statistics.h"
+#include "studies/position_error.h"
+
+using engine::Vec3;
+
+namespace {
+
+/// Particles of 0.15 m and 1 kg on the x axis at 0, 1, 2, ... m.
+engine::Particles row(int count) {
+    engine::Particles particles;
+    for (int k = 0; k < count; ++k) engine::append(particles, {.position = Vec3(k, 0, 0)});
+    return particles;
+}
+
+constexpr double kRounding = 1e-14;  // a few sums of at most ten numbers below ten
+
+}  // namespace
+
+TEST_CASE("Centre and radius of gyration weigh by mass", "[studies]") {
+    engine::Particles pair;
+    engine::append(pair, {.position = Vec3(0, 0, 0), .mass = 3.0});
+    engine::append(pair, {.position = Vec3(4, 0, 0), .mass = 1.0});
+    const auto statistics = studies::statisticsOf(pair);
+    CHECK((statistics.center - Vec3(1, 0, 0)).norm() <= kRounding);
+    // (3 * 1^2 + 1 * 3^2) / 4 = 3
+    CHECK(std::abs(statistics.gyration - std::sqrt(3.0)) <= kRounding);
+}
+
+TEST_CASE("R90 and z90 hold nine of ten particles, and all of fewer than ten", "[studies]") {
+    engine::Particles ten = row(10);
+    for (int k = 0; k < 10; ++k) ten.position[static_cast<std::size_t>(k)].y() = 9.0 - k;
+    const auto statistics = studies::statisticsOf(ten);
+    // Centre (4.5, 4.5, 0); distances sqrt(2) times 4.5 twice, 3.5 twice, ...: the ninth of them is one of the largest.
+    CHECK(std::abs(statistics.r90 - 4.5 * std::sqrt(2.0)) <= kRounding);
+    CHECK(statistics.z90 == 8.0);
+    // The second of two.
+    CHECK(std::abs(studies::statisticsOf(row(2)).r90 - 0.5) <= kRounding);
+    // The 18th of twenty on a line: centre 9.5, distances .5 .5 1.5 1.5 ... 9.5 9.5.
+    CHECK(std::abs(studies::statisticsOf(row(20)).r90 - 8.5) <= kRounding);
+}
+
+TEST_CASE("The statistics of nothing are zero", "[studies]") {
+    const auto statistics = studies::statisticsOf({});
+    CHECK(statistics.gyration == 0.0);
+    CHECK(statistics.r90 == 0.0);
+    CHECK(statistics.z90 == 0.0);
+}
+
+TEST_CASE("The largest difference is that of the quantity that differs most", "[studies]") {
+    studies::CloudStatistics a;
+    studies::CloudStatistics b;
+    CHECK(studies::largestDifference(a, b) == 0.0);
+    b.center = Vec3(3, 4, 0);
+    b.gyration = -4.0;
+    CHECK(studies::largestDifference(a, b) == 5.0);
+    b.z90 = 6.0;
+    CHECK(studies::largestDifference(a, b) == 6.0);
+    b.r90 = 7.0;
+    CHECK(studies::largestDifference(a, b) == 7.0);
+    b.gyration = 8.0;
+    CHECK(studies::largestDifference(b, a) == 8.0);
+}
+
+TEST_CASE("Position errors are in each particle's own radius", "[studies]") {
+    const engine::Particles reference = row(2);
+    engine::Particles moved = reference;
+    moved.position[0].y() += 0.15;
+    moved.position[1].z() += 0.45;
+    const auto error = studies::positionError(moved, reference, 2);
+    CHECK(error.compared == 2);
+    CHECK(error.largest == Approx(3.0).epsilon(kRounding));
+    CHECK(error.rms == Approx(std::sqrt(5.0)).epsilon(kRounding));  // (1 + 9) / 2
+    engine::Particles larger = reference;
+    larger.radius[1] = 0.45;
+    CHECK(studies::positionError(moved, larger, 2).rms == Approx(1.0).epsilon(kRounding));
+}
+
+TEST_CASE("Births that differ are not compared", "[studies]") {
+    engine::Particles a = row(3);
+    engine::Particles b = row(3);
+    a.position[2].y() += 1.5;
+    CHECK(studies::positionError(a, b, 2).compared == 3);  // the third was born in both at the same time
+    a.birthTime[2] = 0.1;
+    CHECK(studies::positionError(a, b, 2).compared == 2);
+    CHECK(studies::positionError(a, b, 2).largest == 0.0);
+    a.birthTime[2] = 0.0;
+    a.material[2] = 1;
+    CHECK(studies::positionError(a, b, 2).compared == 2);
+    CHECK(studies::positionError(row(4), b, 2).compared == 2);
+    CHECK(studies::positionError({}, {}, 0).compared == 0);
+}
+
+TEST_CASE("A displaced twin is within the distance, and the same every time", "[studies]") {
+    const engine::Particles cloud = row(100);
+    const engine::Particles twin = studies::displaced(cloud, 1e-6);
+    const auto error = studies::positionError(twin, cloud, 100);
+    CHECK(error.largest <= std::sqrt(3.0) * 1e-6 * (1 + 1e-6));  // a unit along each axis; positions to 1e-14 m
+    CHECK(error.rms == Approx(1e-6).epsilon(0.2));               // three axes of 1/3 each; 100 samples
+    CHECK(studies::positionError(twin, studies::displaced(cloud, 1e-6), 100).largest == 0.0);
+}

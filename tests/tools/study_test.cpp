@@ -1,0 +1,61 @@
+// The study as a user runs it, on a scene of two particles.
+#include <fstream>
+
+#include "tests/catch.h"
+#include "tests/tools/program.h"
+
+using program::run;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string commandOn(const program::Folder& folder) {
+    std::ofstream(folder / "pair.toml") << "title = \"two <particles>\"\nduration = 1\nfps = 30\n"
+                                           "[material]\npreset = \"liquid\"\n"
+                                           "[[body]]\nshape = \"grid\"\ncenter = [0, 0, 0]\ncounts = [2, 1, 1]\n"
+                                           "spacing = 0.2\n";
+    return "study accuracy " + (folder / "pair.toml").string() + " --quick --threads 1 -o " +
+           (folder / "study").string();
+}
+
+}  // namespace
+
+TEST_CASE("A study writes tables, plots and a page that stands alone", "[tools]") {
+    const program::Folder folder;
+    const auto outcome = run(commandOn(folder));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out.find("pair: reference ") != std::string::npos);
+    for (const char* name : {"accuracy.csv", "orders.csv", "auto.csv", "references.csv"})
+        CHECK(program::lineCount(program::textOf(folder / "study" / name)) >= 2);
+    for (const char* name : {"pair-seconds.svg", "pair-evaluations.svg"}) {
+        const std::string svg = program::textOf(folder / "study" / name);
+        CHECK(svg.rfind("<?xml", 0) == 0);
+        CHECK(svg.find("velocity-verlet") != std::string::npos);
+    }
+    const std::string page = program::textOf(folder / "study" / "index.html");
+    CHECK(page.find("two &lt;particles&gt;") != std::string::npos);
+    CHECK(page.find("src=\"data:image/svg+xml;base64,") != std::string::npos);
+    CHECK(page.find("pair.toml --quick --threads 1") != std::string::npos);
+}
+
+TEST_CASE("Without gnuplot the tables are there and the message names the package", "[tools]") {
+    const program::Folder folder;
+    const auto outcome = run(commandOn(folder) + " --quiet", "PATH=/nonexistent");
+    CHECK(outcome.code == 1);
+    CHECK(outcome.out == "");
+    CHECK(program::lineCount(outcome.err) == 1);
+    CHECK(outcome.err.find("gnuplot-nox") != std::string::npos);
+    CHECK(fs::exists(folder / "study" / "accuracy.csv"));
+    CHECK_FALSE(fs::exists(folder / "study" / "index.html"));
+}
+
+TEST_CASE("A study of two scenes of one name is refused", "[tools]") {
+    const auto outcome = run("study accuracy liquid liquid -o /nonexistent/study");
+    CHECK(outcome.code != 0);
+    const program::Folder folder;
+    const auto twice = run("study accuracy liquid liquid -o " + (folder / "study").string());
+    CHECK(twice.code == 2);
+    CHECK(twice.err.find("two scenes would share its files") != std::string::npos);
+}

@@ -1,0 +1,185 @@
+// globular study accuracy: every stepper over a range of steps against a reference; tables, plots and a page.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "engine/steppers.h"
+#include "scenes/input_error.h"
+#include "studies/accuracy.h"
+#include "studies/accuracy_csv.h"
+#include "studies/accuracy_plot.h"
+#include "tools/accuracy_page.h"
+#include "tools/commands.h"
+#include "tools/gnuplot.h"
+#include "tools/output_file.h"
+#include "tools/scene_options.h"
+#include "tools/threads.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct StudyAccuracyOptions {
+    RunOptions run;
+    std::vector<std::string> scenes;
+    std::vector<std::string> overrides;
+    std::string folder = "out/study-accuracy";
+    double from = -1.0;   ///< s; negative: of each scene
+    double window = 0.0;  ///< s; 0: kWindow, or less for a quick study
+    bool quick = false;
+};
+
+/// Long enough for a splash or a bounce, short enough that most scenes are not chaotic in it, s.
+constexpr double kWindow = 0.5;
+constexpr double kQuickWindow = 0.2;
+
+/// Where a scene is on its way to what its still shows, as a share of the still's time.
+constexpr double kFromShare = 0.4;
+
+/// The name of a scene in tables and file names: "liquid", "hard-honey".
+std::string nameOf(const std::string& scene) {
+    std::string name = scene.ends_with(".toml") ? fs::path(scene).stem().string() : scene;
+    std::replace(name.begin(), name.end(), '/', '-');
+    return name;
+}
+
+studies::AccuracySettings settingsFor(const scenes::Scene& scene, const StudyAccuracyOptions& options) {
+    const double window = options.window > 0.0 ? options.window : options.quick ? kQuickWindow : kWindow;
+    const double from = options.from >= 0.0 ? options.from : kFromShare * scene.stillTime;
+    studies::AccuracySettings settings;
+    settings.firstFrame = static_cast<int>(std::lround(from * scene.fps));
+    settings.frameCount = std::max(1, static_cast<int>(std::lround(window * scene.fps)));
+    if (options.quick) {
+        settings.stepsPerFrame = {4, 8, 16, 32};
+        settings.errors = {1e-1, 1e-2};
+        settings.rounds = 1;
+        settings.runLimit = 20.0;
+        settings.referenceBudget = 20.0;
+    }
+    return settings;
+}
+
+/// A line for each run that is done.
+studies::RunListener reporter(const std::string& name, Talk talk) {
+    return [name, talk](const studies::WindowRun& run, std::string_view purpose) {
+        const auto stepper = engine::nameOf(run.variant.stepper);
+        if (talk == Talk::json)
+            fmt::print("{}\n", Json{{"event", purpose},
+                                    {"scene", name},
+                                    {"stepper", stepper},
+                                    {"asked", run.variant.asked},
+                                    {"ending", studies::nameOf(run.ending)},
+                                    {"seconds", run.seconds}}
+                                   .dump());
+        else if (talk == Talk::normal)
+            fmt::print(stderr, "{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper, run.variant.asked,
+                       run.steps.count, run.seconds, studies::nameOf(run.ending));
+    };
+}
+
+std::vector<studies::SceneAccuracy> measure(const StudyAccuracyOptions& options) {
+    std::vector<std::pair<std::string, scenes::Scene>> scenes;
+    std::set<std::string> names;
+    for (const std::string& scene : options.scenes) {
+        const std::string name = nameOf(scene);
+        if (!names.insert(name).second) throw scenes::InputError({{scene, 0, 0, "two scenes would share its files"}});
+        scenes.emplace_back(name, load({scene, options.overrides}));
+    }
+    std::vector<studies::SceneAccuracy> results;
+    for (const auto& [name, scene] : scenes)
+        onThreads(threadCount(options.run), [&, &name = name, &scene = scene] {
+            results.push_back(
+                studies::measureAccuracy(name, scene, settingsFor(scene, options), reporter(name, options.run.talk())));
+        });
+    return results;
+}
+
+std::string commandOf(const StudyAccuracyOptions& options) {
+    std::string command = "globular study accuracy";
+    for (const std::string& scene : options.scenes) command += " " + scene;
+    for (const std::string& text : options.overrides) command += " --set " + text;
+    if (options.from >= 0.0) command += fmt::format(" --from {:g}", options.from);
+    if (options.window > 0.0) command += fmt::format(" --window {:g}", options.window);
+    if (options.quick) command += " --quick";
+    return command + fmt::format(" --threads {}", threadCount(options.run));
+}
+
+void writeTables(const fs::path& folder, const std::vector<studies::SceneAccuracy>& results) {
+    writeFile(folder / "accuracy.csv", studies::accuracyCsv(results));
+    writeFile(folder / "orders.csv", studies::ordersCsv(results));
+    writeFile(folder / "auto.csv", studies::autosCsv(results));
+    writeFile(folder / "references.csv", studies::referencesCsv(results));
+}
+
+AccuracySection plotted(const fs::path& folder, const studies::SceneAccuracy& accuracy) {
+    AccuracySection section{accuracy, drawPlot(studies::plotScript(accuracy, studies::CostAxis::seconds)),
+                            drawPlot(studies::plotScript(accuracy, studies::CostAxis::passes))};
+    writeFile(folder / (accuracy.name + "-seconds.svg"), section.secondsPlot);
+    writeFile(folder / (accuracy.name + "-evaluations.svg"), section.passesPlot);
+    return section;
+}
+
+std::string ratio(const std::optional<studies::HandPicked>& picked, double cost) {
+    return picked ? fmt::format("{:.2f}", cost / picked->cost) : "-";
+}
+
+/// The verdict on the automatic stepper, for the terminal.
+void print(const studies::SceneAccuracy& accuracy) {
+    fmt::print("{}: reference {} at {:.3g} s, resolves {:.1e} radii\n", accuracy.name,
+               engine::nameOf(accuracy.reference.variant.stepper), accuracy.reference.variant.asked,
+               accuracy.reference.resolution);
+    for (const studies::OrderRow& row : accuracy.orders)
+        if (row.order) fmt::print("  {:17} order {:.2f}\n", engine::nameOf(row.stepper), *row.order);
+    fmt::print("  auto: asked  obtained  seconds  over best hand-picked at the error obtained, asked; in passes\n");
+    for (const studies::AutoRow& row : accuracy.autos)
+        fmt::print("      {:7g}  {:8.1e}  {:7.3g}  {:>5} {:>5}  {:>5} {:>5}\n", row.asked, row.obtained, row.seconds,
+                   ratio(row.secondsAtObtained, row.seconds), ratio(row.secondsAtAsked, row.seconds),
+                   ratio(row.passesAtObtained, row.passes), ratio(row.passesAtAsked, row.passes));
+}
+
+void study(const StudyAccuracyOptions& options) {
+    const fs::path folder = options.folder;
+    createFolder(folder);
+    const std::vector<studies::SceneAccuracy> results = measure(options);
+    writeTables(folder, results);
+    std::vector<AccuracySection> sections;
+    for (const studies::SceneAccuracy& accuracy : results) sections.push_back(plotted(folder, accuracy));
+    const fs::path page = folder / "index.html";
+    writeFile(page, accuracyPage(sections, {commandOf(options), threadCount(options.run)}));
+    if (options.run.json) fmt::print("{}\n", Json{{"event", "done"}, {"page", page.string()}}.dump());
+    if (options.run.talk() != Talk::normal) return;
+    for (const studies::SceneAccuracy& accuracy : results) print(accuracy);
+    fmt::print("all of it: {}\n", page.string());
+}
+
+}  // namespace
+
+void addStudyAccuracy(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("accuracy", "speed against error: every stepper against a reference");
+    const auto options = std::make_shared<StudyAccuracyOptions>();
+    command->add_option("SCENE", options->scenes, "scene files or names (default: liquid solid powder fountain honey)");
+    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-accuracy)")
+        ->type_name("DIR");
+    command->add_option("--set", options->overrides, "change a key of every scene")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--window", options->window, "how long they run, s (default: 0.5)")->check(CLI::PositiveNumber);
+    command->add_flag("--quick", options->quick, "a coarse look: fewer runs, timed once, over 0.2 s");
+    addTo(*command, options->run);
+    command->footer("Example: globular study accuracy liquid powder -o out/accuracy --threads 2");
+    command->callback([options] {
+        if (options->scenes.empty()) options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
+        study(*options);
+    });
+}
+
+}  // namespace tools
