@@ -29,12 +29,15 @@ constexpr std::array kMarks = {Mark{engine::StepperKind::symplecticEuler, "#7f7f
                                Mark{engine::StepperKind::linearlyImplicit, "#e69f00", 11, 1.0, 1.8},
                                Mark{engine::StepperKind::automatic, "#d62728", 13, 1.2, 2.6}};
 
+/// Beyond it nothing is left to tell apart, radii; lines lead out of the frame towards such runs.
+constexpr double kMeaningless = 10.0;
+
 constexpr const char* kFrame = R"(set terminal svg size 860,600 enhanced font "DejaVu Sans,15" background "white"
 set logscale xy
 set format y "10^{%L}"
 set grid xtics ytics mxtics mytics linewidth 1 linecolor rgb "#d9d9d9", linewidth 0.5 linecolor rgb "#eeeeee"
 set border linecolor rgb "#444444"
-set key outside below center horizontal samplen 2.5 spacing 1.2 maxcols 3
+set key outside below center horizontal maxrows 2 samplen 2 width -2 font ",13"
 set lmargin 11
 )";
 
@@ -56,7 +59,7 @@ std::string keyOf(const SceneAccuracy& scene, engine::StepperKind stepper) {
         return row.run.variant.stepper == stepper && row.run.ending != Ending::finished;
     });
     return unfinished == 0 ? std::string(engine::nameOf(stepper))
-                           : fmt::format("{} ({} did not finish)", engine::nameOf(stepper), unfinished);
+                           : fmt::format("{} ({} failed)", engine::nameOf(stepper), unfinished);
 }
 
 /// Inside gnuplot's single quotes a quote is doubled and everything else stands for itself, but the line must not end.
@@ -103,15 +106,14 @@ std::string ranges(const SceneAccuracy& scene, CostAxis axis) {
     Span costs;
     Span errors;
     for (const AccuracyRow& row : scene.rows) {
-        if (!row.resolved) continue;
+        if (!row.resolved || row.error > kMeaningless) continue;
         costs.hold(costOf(row, axis));
         errors.hold(row.error);
     }
     if (costs.most == 0.0) costs = errors = {1.0, 1.0};
-    constexpr double kMeaningless = 10.0;  // radii; beyond it nothing is left to tell apart
     const Span wide{costs.least / 1.3, costs.most * 1.5};
     return fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xtics ({})\n", wide.least,
-                       wide.most, errors.least / 1.5, std::min(errors.most * 1.5, kMeaningless), ticks(wide));
+                       wide.most, errors.least / 1.5, errors.most * 1.5, ticks(wide));
 }
 
 std::string plotCommand(const std::vector<std::string>& curves) {

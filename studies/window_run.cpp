@@ -8,16 +8,20 @@
 namespace studies {
 namespace {
 
+/// A fresh simulation that takes over the state alone, not what another stepper remembered of its way there.
 engine::Simulation begin(const Window& window, const Variant& variant) {
-    engine::Simulation simulation = window.start;
-    simulation.setup.stepper = variant.stepper;
+    engine::Setup setup = window.start.setup;
+    setup.initial = {};
+    setup.stepper = variant.stepper;
     if (variant.stepper == engine::StepperKind::automatic)
-        simulation.setup.error = variant.asked;
+        setup.error = variant.asked;
     else
-        simulation.setup.step = variant.asked;
-    if (variant.solverTolerance) simulation.setup.solverTolerance = *variant.solverTolerance;
-    simulation.forcesCurrent = false;
-    simulation.steps = {};
+        setup.step = variant.asked;
+    if (variant.solverTolerance) setup.solverTolerance = *variant.solverTolerance;
+    engine::Simulation simulation = engine::start(setup);
+    simulation.particles = window.start.particles;
+    simulation.emitters = window.start.emitters;
+    simulation.time = window.start.time;
     return simulation;
 }
 

@@ -147,7 +147,7 @@ TEST_CASE("A run that blows up is said to be unstable", "[studies]") {
           std::string::npos);
     accuracy.rows.push_back(accuracy.rows[0]);
     accuracy.rows[1].resolved = true;  // a curve, so that there is a key to say it in
-    CHECK(studies::plotScript(accuracy, studies::CostAxis::passes).find("symplectic-euler (2 did not finish)") !=
+    CHECK(studies::plotScript(accuracy, studies::CostAxis::passes).find("symplectic-euler (2 failed)") !=
           std::string::npos);
 }
 
