@@ -14,9 +14,7 @@ namespace {
 constexpr std::array kCandidates = {StepperKind::velocityVerlet, StepperKind::implicitDamping,
                                     StepperKind::linearlyImplicit};
 
-/// Chosen: a look costs two intervals more than none, a comparison of all candidates eight. Looks are close together at
-/// the start and spread out to every so many intervals.
-constexpr std::uint64_t kLongestPause = 16;
+/// Chosen: every so many looks all candidates are compared.
 constexpr std::uint64_t kLooksPerComparison = 5;
 
 /// One look changes the step by at most this factor; further away the error no longer goes like its square.

@@ -6,6 +6,10 @@
 
 namespace engine {
 
+/// Chosen: a look costs two intervals more than none, a comparison of all candidates eight. Looks are close together at
+/// the start and spread out to every so many intervals.
+inline constexpr std::uint64_t kLongestPause = 16;
+
 /// Brings the simulation to the given time (s); one call is one interval, e.g. a frame.
 /// Holds:  what it chooses depends on the states alone, never on a clock.
 void advanceAutomatically(Simulation& simulation, double time);

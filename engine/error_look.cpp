@@ -15,7 +15,7 @@ namespace {
 constexpr double kErrorHorizon = 0.015;  // s
 
 /// A product with the implicit steppers' matrix, in passes over all pairs. Measured on liquid and honey.
-constexpr double kProductCost = 0.12;
+constexpr double kProductCost = 0.05;
 
 /// Two runs whose mean steps differ by less tell nothing about the order; the audit shortened both.
 constexpr double kLeastContrast = 0.3;

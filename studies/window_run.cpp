@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "engine/auto_stepper.h"
 #include "scenes/frame_steps.h"
 
 namespace studies {
@@ -23,6 +24,16 @@ engine::Simulation begin(const Window& window, const Variant& variant) {
     simulation.emitters = window.start.emitters;
     simulation.time = window.start.time;
     return simulation;
+}
+
+/// The automatic stepper as in the middle of a run: it has made its choice, and looks again half a pause later.
+void settle(const Window& window, engine::Simulation& simulation) {
+    engine::Simulation scout = simulation;
+    scenes::advanceToFrame(window.scene, scout, window.firstFrame + 1);
+    simulation.automatic = scout.automatic;
+    simulation.automatic.nextLook = simulation.automatic.intervals + engine::kLongestPause / 2;
+    simulation.automatic.looks = engine::kLongestPause;
+    simulation.stepper = scout.stepper;
 }
 
 }  // namespace
@@ -54,9 +65,11 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
     engine::Simulation simulation = begin(window, variant);
     WindowRun run;
     run.variant = variant;
-    const Clock::time_point start = Clock::now();
+    Clock::time_point start = Clock::now();
     const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     try {
+        if (variant.stepper == engine::StepperKind::automatic) settle(window, simulation);
+        start = Clock::now();
         for (int frame = window.firstFrame + 1; frame <= window.lastFrame; ++frame) {
             scenes::advanceToFrame(window.scene, simulation, frame);
             if (frame == window.lastFrame || elapsed() <= secondsLimit) continue;

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/bodies.h"
 #include "engine/step_bound.h"
 #include "engine/steppers.h"
+#include "scenes/frame_steps.h"
 #include "tools/commands.h"
 #include "tools/scene_options.h"
 #include "tools/threads.h"
@@ -60,31 +59,55 @@ std::size_t bytesPerParticle() {
     return state + scratch + kFramesInFlight * sizeof(render::Sphere);
 }
 
-/// Seconds of one force evaluation per particle, measured on a packing at rest length of the scene's first material.
-double secondsPerParticle(const scenes::Scene& scene, std::uint64_t particleCount) {
-    constexpr std::uint64_t kLargest = 20000;  // chosen: some milliseconds
-    const engine::Material& material = scene.setup.materials.front();
-    const double spacing = 2.0 * material.radius;
-    const double edge = spacing * std::cbrt(static_cast<double>(std::min(particleCount, kLargest)) / std::sqrt(2.0));
-    engine::Particles particles;
-    for (const engine::Vec3& position :
-         engine::boxPositions(engine::Vec3::Zero(), engine::Vec3::Constant(edge), {.spacing = spacing}))
-        engine::append(particles, {.position = position, .radius = material.radius, .mass = material.mass});
-    engine::ForceEvaluator evaluator({scene.setup.materials, scene.setup.gravity, scene.setup.scenery},
-                                     scene.setup.forces);
-    std::vector<engine::Vec3> forces;
-    double fastest = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < 3; ++round) {
-        const auto start = std::chrono::steady_clock::now();
-        evaluator.evaluate(particles, particles.velocity, forces);
-        fastest = std::min(fastest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+/// How the beginning of the run went.
+struct Preview {
+    engine::Simulation simulation;
+    int frames = 0;        ///< that were simulated
+    double seconds = 0.0;  ///< of wall clock, births and looks included
+    double particleFrames = 0.0;
+};
+
+/// Simulates until a share of the work of a short run is done: what is predicted is what happened so far.
+Preview simulateBeginning(const scenes::Scene& scene) {
+    constexpr double kSecondsEnough = 2.0;  // chosen: as long as one likes to wait for a check
+    Preview preview{engine::start(scene.setup)};
+    const auto start = std::chrono::steady_clock::now();
+    while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
+        scenes::advanceToFrame(scene, preview.simulation, ++preview.frames);
+        preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
     }
-    return fastest / static_cast<double>(particles.count());
+    return preview;
 }
 
-Json boundJson(const scenes::Scene& scene) {
+/// Steps, stepper, error and time, extrapolated from the beginning.
+Json predictionJson(const scenes::Scene& scene, double meanParticles) {
+    const Preview preview = simulateBeginning(scene);
+    const engine::Simulation& simulation = preview.simulation;
+    const double framesLeft = scenes::frameCount(scene) - 1 - preview.frames;
+    const double perFrame = static_cast<double>(simulation.steps.count) / std::max(1, preview.frames);
+    Json json;
+    json["from_frames"] = preview.frames;
+    json["stepper"] = engine::nameOf(simulation.stepper);
+    json["step"] = perFrame > 0.0 ? 1.0 / scene.fps / perFrame : 0.0;
+    json["steps"] = static_cast<std::int64_t>(static_cast<double>(simulation.steps.count) + framesLeft * perFrame);
+    const auto& limits = simulation.steps.limitedBy;
+    json["limited_by"] =
+        engine::nameOf(static_cast<engine::StepLimit>(std::max_element(limits.begin(), limits.end()) - limits.begin()));
+    const engine::AutoState& automatic = simulation.automatic;
+    json["error"] =
+        automatic.looks > 0 ? Json(automatic.errorSum / static_cast<double>(automatic.looks)) : Json(nullptr);
+    json["seconds_simulating"] =
+        preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
+    return json;
+}
+
+Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
+    engine::StepperKind stepper = scene.setup.stepper;
+    for (const engine::StepperKind kind : engine::kSteppers)
+        if (engine::nameOf(kind) == stepperName) stepper = kind;
     const auto bound = engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.scenery},
-                                         scene.setup.initial, scene.setup.stepper);
+                                         scene.setup.initial, stepper);
     if (!bound) return nullptr;
     return {{"seconds", bound->seconds},
             {"limited_by", bound->byDamping ? "damping" : "stiffness"},
@@ -97,8 +120,6 @@ Json checkJson(const scenes::Scene& scene) {
     const std::uint64_t births = plannedBirths(scene);
     const std::uint64_t most = scene.setup.initial.count() + births;
     const int frames = scenes::frameCount(scene);
-    const double stepsPerFrame = std::max(1.0, std::ceil(1.0 / scene.fps / scene.setup.step * (1.0 - 1e-9)));
-    const double steps = stepsPerFrame * (frames - 1);
     // Births come evenly, so that half of them are there on average.
     const double meanParticles = static_cast<double>(scene.setup.initial.count()) + 0.5 * static_cast<double>(births);
 
@@ -117,12 +138,12 @@ Json checkJson(const scenes::Scene& scene) {
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.scenery.colliders.size();
     json["stepper"] = engine::nameOf(scene.setup.stepper);
-    json["step"] = 1.0 / scene.fps / stepsPerFrame;
-    json["steps"] = static_cast<std::int64_t>(steps);
-    json["step_bound_at_start"] = boundJson(scene);
+    json["wanted_error"] =
+        scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);
+    json["predicted"] = predictionJson(scene, meanParticles);
+    json["step_bound_at_start"] = boundJson(scene, json["predicted"]["stepper"].get<std::string>());
     json["bytes_per_particle"] = bytesPerParticle();
     json["memory_bytes"] = most * bytesPerParticle();
-    json["seconds_simulating"] = steps * meanParticles * secondsPerParticle(scene, most);
     return json;
 }
 
@@ -130,7 +151,11 @@ std::string boundText(const Json& json) {
     const Json& bound = json["step_bound_at_start"];
     if (bound.is_null()) return "none: no two particles act on each other at the start (obstacles are not counted)";
     const double seconds = bound["seconds"].get<double>();
-    const char* verdict = json["step"].get<double>() > seconds ? " -- the step is longer: expect instability" : "";
+    const bool isLonger = json["predicted"]["step"].get<double>() > seconds;
+    const bool rescued = json["stepper"].get<std::string>() != "symplectic-euler";
+    const char* verdict = !isLonger ? ""
+                          : rescued ? " -- the step is longer: expect steps that are taken back"
+                                    : " -- the step is longer: expect instability";
     return fmt::format("{:.4g} s for the pairs at the start, limited by the {} of particle {}{}", seconds,
                        bound["limited_by"].get<std::string>(), bound["particle"].get<std::size_t>(), verdict);
 }
@@ -146,13 +171,19 @@ void printCheck(const Json& json) {
                json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair",
                json["cutoff"].get<double>());
     fmt::print("obstacles  {}\n", json["obstacles"].get<std::size_t>());
-    fmt::print("stepper    {}, {} steps of {:.4g} s\n", json["stepper"].get<std::string>(),
-               json["steps"].get<std::int64_t>(), json["step"].get<double>());
+    const Json& predicted = json["predicted"];
+    fmt::print("stepper    {}; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}\n",
+               json["stepper"].get<std::string>(), predicted["from_frames"].get<int>(),
+               predicted["stepper"].get<std::string>(), predicted["steps"].get<std::int64_t>(),
+               predicted["step"].get<double>(), predicted["limited_by"].get<std::string>());
+    if (!predicted["error"].is_null())
+        fmt::print("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
+                   json["wanted_error"].get<double>(), predicted["error"].get<double>());
     fmt::print("step bound {}\n", boundText(json));
     fmt::print("memory     {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
                json["bytes_per_particle"].get<std::size_t>());
     fmt::print("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
-               std::ceil(json["seconds_simulating"].get<double>()));
+               std::ceil(json["predicted"]["seconds_simulating"].get<double>()));
 }
 
 void check(const CheckOptions& options) {
