@@ -73,7 +73,6 @@ class History {
 
 void advanceAudited(Simulation& simulation, double time, double longest, StepLimit why) {
     History history;
-    int accepted = 0;
     int refused = 0;
     giveBirth(simulation);
     if (!simulation.energy) establishEnergy(simulation);
@@ -92,15 +91,15 @@ void advanceAudited(Simulation& simulation, double time, double longest, StepLim
             // Two refusals in a row speak against the step that led here.
             history.goBack(simulation, ++refused % 2 == 0);
             ++simulation.steps.rejected;
-            restriction = {0.5 * h, *reason};
-            accepted = 0;
+            restriction = {0.5 * h, *reason, 0};
+            if (simulation.stepper != StepperKind::velocityVerlet) establishEnergy(simulation);
             continue;
         }
         refused = 0;
         record(simulation, h, restriction.seconds < longest ? restriction.reason : why);
         simulation.time = count == 1.0 ? time : simulation.time + h;
         giveBirth(simulation);
-        if (++accepted % kPatience == 0) restriction.seconds *= 2.0;
+        if (++restriction.passed % kPatience == 0) restriction.seconds *= 2.0;
     }
 }
 

@@ -64,7 +64,8 @@ Outlook lookAhead(const Scenery& scenery, const Flight& flight) {
 
 /// The longest step that lookAhead allows, s.
 double stepFor(const Outlook& ahead, double speed, double remaining) {
-    const double leap = std::max(0.0, ahead.gap) + kFraction * ahead.scale;
+    const double leap =
+        std::max(ahead.gap, kFraction * std::min(ahead.scale, 0.1 * ahead.scale + std::max(0.0, -ahead.gap)));
     double step = remaining;
     if (speed * step > leap) step = leap / speed;
     if (ahead.frequency * step > kFraction) step = kFraction / ahead.frequency;

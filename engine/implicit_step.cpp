@@ -14,10 +14,14 @@ void solveForChange(Simulation& simulation, double h) {
     ImplicitScratch& scratch = simulation.implicit;
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
     scratch.rightHandSide.resize(order.size());
-    for (std::size_t place = 0; place < order.size(); ++place)
-        scratch.rightHandSide[place] = 0.5 * h * simulation.forces[order[place]];
+    const Vec3 fall = 0.5 * h * simulation.setup.gravity;
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        scratch.rightHandSide[place] = 0.5 * h * simulation.forces[order[place]] - scratch.matrix.mass[place] * fall;
+        if (!scratch.matrix.own.empty()) scratch.rightHandSide[place] -= scratch.matrix.own[place] * fall;
+    }
     const int products =
         solve(scratch.matrix, scratch.rightHandSide, simulation.setup.solverTolerance, scratch.change, scratch.solver);
+    for (Vec3& change : scratch.change) change += fall;
     simulation.steps.products += static_cast<std::uint64_t>(products);
 }
 

@@ -69,6 +69,7 @@ struct StepStatistics {
 struct StepRestriction {
     double seconds = std::numeric_limits<double>::infinity();
     StepLimit reason = StepLimit::audit;
+    int passed = 0;  ///< good steps since it was set
 };
 
 /// Memory of the implicit steppers, kept between steps.

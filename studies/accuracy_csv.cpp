@@ -28,11 +28,11 @@ std::string lineOf(const SceneAccuracy& scene, const AccuracyRow& row) {
     const WindowRun& run = row.run;
     const bool automatic = run.variant.stepper == engine::StepperKind::automatic;
     const engine::StepStatistics& steps = run.steps;
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, engine::nameOf(run.variant.stepper),
-                       automatic ? "" : number(run.variant.asked), automatic ? number(run.variant.asked) : "",
-                       nameOf(run.ending), errorsOf(scene, row), number(run.seconds), steps.count,
-                       number(steps.shortest), number(steps.longest), steps.forceEvaluations, steps.products,
-                       steps.rejected, driftsOf(row));
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name,
+                       engine::nameOf(run.variant.stepper), automatic ? "" : number(run.variant.asked),
+                       automatic ? number(run.variant.asked) : "", nameOf(run.ending), errorsOf(scene, row),
+                       number(run.seconds), steps.count, number(steps.shortest), number(steps.longest),
+                       steps.forceEvaluations, steps.products, number(run.lookPasses), steps.rejected, driftsOf(row));
 }
 
 /// Stepper, its cost, and the automatic stepper's as a multiple of it.
@@ -47,7 +47,7 @@ std::string accuracyCsv(const std::vector<SceneAccuracy>& scenes) {
     std::string csv =
         "scene,stepper,step_s,asked_radii_per_s,ending,rms_error_radii,largest_error_radii,particles_compared,"
         "statistics_error_radii,measure,error_radii_per_s,resolved,seconds,steps,shortest_step_s,longest_step_s,"
-        "force_evaluations,products,rejected,energy_drift,linear_momentum_drift,angular_momentum_drift\n";
+        "force_evaluations,products,look_passes,rejected,energy_drift,linear_momentum_drift,angular_momentum_drift\n";
     for (const SceneAccuracy& scene : scenes)
         for (const AccuracyRow& row : scene.rows) csv += lineOf(scene, row);
     return csv;

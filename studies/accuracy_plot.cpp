@@ -77,7 +77,9 @@ std::string axes(const SceneAccuracy& scene, CostAxis axis) {
     return fmt::format(
         "set title {} . \"\\n\" . {} noenhanced\nset xlabel \"{}\"\nset ylabel \"{}\"\n", quoted(scene.title),
         quoted(what),
-        axis == CostAxis::seconds ? "wall-clock seconds" : "passes over all pairs (force evaluations and products)",
+        axis == CostAxis::seconds
+            ? std::string("wall-clock seconds")
+            : fmt::format("force evaluations (a product of the implicit steppers counts {})", kProductCost),
         positions ? "rms position error at the end (radii)"
                   : "largest error of centre, gyration, R90, z90 at the end (radii)");
 }

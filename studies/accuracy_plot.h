@@ -9,7 +9,7 @@ namespace studies {
 
 enum class CostAxis {
     seconds,  ///< wall clock
-    passes    ///< force evaluations, and products of the implicit steppers' matrix
+    passes    ///< over all pairs: force evaluations, and products of the implicit steppers' matrix at their share
 };
 
 /// A script that makes gnuplot write an SVG to its standard output.

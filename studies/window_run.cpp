@@ -42,6 +42,11 @@ double Window::seconds() const {
     return scenes::frameTime(scene, lastFrame) - scenes::frameTime(scene, firstFrame);
 }
 
+double WindowRun::passes() const {
+    return static_cast<double>(steps.forceEvaluations) + kProductCost * static_cast<double>(steps.products) +
+           lookPasses;
+}
+
 std::string nameOf(Ending ending) {
     switch (ending) {
         case Ending::finished:
@@ -82,6 +87,7 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
     }
     run.seconds = elapsed();
     run.steps = simulation.steps;
+    run.lookPasses = simulation.automatic.trials;
     if (run.ending == Ending::finished) run.energy = engine::energy(simulation.evaluator, simulation.particles);
     run.particles = std::move(simulation.particles);
     return run;

@@ -65,7 +65,7 @@ Cells cellsOf(const studies::AccuracyRow& row) {
         cells.insert(cells.end(), {"", "", "", "", studies::nameOf(run.ending)});
     cells.insert(cells.end(), {fmt::format("{:.3g}", run.seconds), fmt::format("{}", steps.count),
                                fmt::format("{}", steps.forceEvaluations), fmt::format("{}", steps.products),
-                               fmt::format("{}", steps.rejected)});
+                               fmt::format("{:.0f}", run.lookPasses), fmt::format("{}", steps.rejected)});
     if (run.ending == Ending::finished)
         cells.insert(cells.end(), {small(row.energyDrift), small(row.linearDrift), small(row.angularDrift)});
     return cells;
@@ -75,7 +75,7 @@ std::string runTable(const studies::SceneAccuracy& accuracy) {
     std::vector<Cells> rows;
     for (const studies::AccuracyRow& row : accuracy.rows) rows.push_back(cellsOf(row));
     return table({"stepper", "asked", "rms error (radii)", "largest (radii)", "statistics (radii)", "error per second",
-                  "", "seconds", "steps", "force evaluations", "products", "taken back", "energy drift",
+                  "", "seconds", "steps", "force evaluations", "products", "looks", "taken back", "energy drift",
                   "momentum drift", "angular drift"},
                  rows);
 }
@@ -142,14 +142,14 @@ std::string section(const AccuracySection& section) {
 std::string introduction(const StudyFacts& facts) {
     return fmt::format(
         "<p><code>{}</code>, {} thread{}. Seconds are wall clock, the least of three rounds for runs below 5 s. A pass "
-        "goes once "
-        "over all pairs: a force evaluation, or a product of the implicit steppers' matrix with a vector. The cost of "
-        "a hand-picked stepper at an error is read off its line in the plot, log-linear between its points; the best "
-        "is the cheapest of all fixed steppers. Drifts are differences from the reference at the end: of the energy, "
-        "over the reference's kinetic energy and the sizes of its pair and contact energies; of the momenta, over its "
-        "sum of |p| and of |x &times; p|. The same numbers are in accuracy.csv, orders.csv, auto.csv and "
+        "is a force evaluation over all pairs; a product of the implicit steppers' matrix with a vector counts {} of "
+        "one, and the looks that the automatic stepper takes at its candidates are included. The cost of a hand-picked "
+        "stepper at an error is read off its line in the plot, log-linear between its points; the best is the cheapest "
+        "of all fixed steppers. Drifts are differences from the reference at the end: of the energy, over the "
+        "reference's kinetic energy and the sizes of its pair and contact energies; of the momenta, over its sum of "
+        "|p| and of |x &times; p|. The same numbers are in accuracy.csv, orders.csv, auto.csv and "
         "references.csv.</p>\n",
-        escaped(facts.command), facts.threads, facts.threads == 1 ? "" : "s");
+        escaped(facts.command), facts.threads, facts.threads == 1 ? "" : "s", studies::kProductCost);
 }
 
 }  // namespace
