@@ -47,7 +47,7 @@ Trial look(Simulation& simulation, double time, StepperKind stepper, Simulation*
     Trial trial;
     for (int round = 0; round < (first ? kMostFirstLooks : 1); ++round) {
         trial = measure(simulation, time, stepper, choice.step, finer);
-        simulation.automatic.trials += trial.cost * interval;
+        simulation.automatic.trials += trial.spent;
         const double wanted = wantedStep(trial, simulation.setup.error);
         choice.step = std::min(wanted, interval);
         choice.cost = trial.cost * trial.step / choice.step;
@@ -101,6 +101,7 @@ void lookAround(Simulation& simulation, double time) {
     const StepperKind best = compare ? cheapest(simulation) : simulation.stepper;
     const auto chosen =
         static_cast<std::size_t>(std::find(kCandidates.begin(), kCandidates.end(), best) - kCandidates.begin());
+    state.trials -= passesOf(finer[chosen].steps);  // the run goes on with these; they are not lost
     note(state, trials[chosen], choiceOf(simulation, best).step);
     const std::uint64_t pause = std::min(kLongestPause, 2 * state.looks);
     state.nextLook = state.intervals + pause;

@@ -14,9 +14,6 @@ namespace {
 /// (`globular study accuracy`).
 constexpr double kErrorHorizon = 0.015;  // s
 
-/// A product with the implicit steppers' matrix, in passes over all pairs. Measured on liquid and honey.
-constexpr double kProductCost = 0.05;
-
 /// Two runs whose mean steps differ by less tell nothing about the order; the audit shortened both.
 constexpr double kLeastContrast = 0.3;
 
@@ -50,6 +47,10 @@ double difference(const Simulation& a, const Simulation& b, std::size_t count) {
 
 }  // namespace
 
+double passesOf(const StepStatistics& steps) {
+    return static_cast<double>(steps.forceEvaluations) + kProductCost * static_cast<double>(steps.products);
+}
+
 Trial measure(const Simulation& simulation, double time, StepperKind stepper, double step, Simulation* finer) {
     const double interval = time - simulation.time;
     const Simulation whole = run(simulation, time, stepper, step);
@@ -61,9 +62,8 @@ Trial measure(const Simulation& simulation, double time, StepperKind stepper, do
     trial.stepper = stepper;
     trial.step = meanStep(whole);
     trial.error = difference(whole, halves, simulation.particles.count()) / contrast / interval;
-    trial.cost =
-        (static_cast<double>(whole.steps.forceEvaluations) + kProductCost * static_cast<double>(whole.steps.products)) /
-        interval;
+    trial.cost = passesOf(whole.steps) / interval;
+    trial.spent = passesOf(whole.steps) + passesOf(halves.steps);
     trial.restricted = whole.steps.rejected > 0 || whole.restriction.seconds < step;
     if (trial.restricted) trial.reason = whole.restriction.reason;
     if (finer != nullptr) *finer = std::move(halves);

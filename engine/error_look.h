@@ -8,12 +8,20 @@
 
 namespace engine {
 
+/// A product with the implicit steppers' matrix, in passes over all pairs. Measured: the seconds of implicit-damping
+/// runs of liquid and honey against their counts in `globular study accuracy`.
+inline constexpr double kProductCost = 0.05;
+
+/// What steps cost, in passes over all pairs.
+double passesOf(const StepStatistics& steps);
+
 /// One way over an interval, with what it cost.
 struct Trial {
     StepperKind stepper = StepperKind::velocityVerlet;
     double step = 0.0;                ///< mean length of the steps it took, s
     double error = 0.0;               ///< of these steps, radii per second of motion
     double cost = 0.0;                ///< of these steps, passes over all pairs for a second of motion
+    double spent = 0.0;               ///< on both runs of the measurement, passes over all pairs
     bool restricted = false;          ///< the audit kept it from the step it was asked for
     std::optional<StepLimit> reason;  ///< why
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/error_look.h"
 #include "engine/steppers.h"
 
 namespace studies {
@@ -79,7 +80,7 @@ std::string axes(const SceneAccuracy& scene, CostAxis axis) {
         quoted(what),
         axis == CostAxis::seconds
             ? std::string("wall-clock seconds")
-            : fmt::format("force evaluations (a product of the implicit steppers counts {})", kProductCost),
+            : fmt::format("force evaluations (a product of the implicit steppers counts {})", engine::kProductCost),
         positions ? "rms position error at the end (radii)"
                   : "largest error of centre, gyration, R90, z90 at the end (radii)");
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "engine/auto_stepper.h"
+#include "engine/error_look.h"
 #include "scenes/frame_steps.h"
 
 namespace studies {
@@ -33,6 +34,7 @@ void settle(const Window& window, engine::Simulation& simulation) {
     simulation.automatic = scout.automatic;
     simulation.automatic.nextLook = simulation.automatic.intervals + engine::kLongestPause / 2;
     simulation.automatic.looks = engine::kLongestPause;
+    simulation.automatic.trials = 0.0;
     simulation.stepper = scout.stepper;
 }
 
@@ -43,8 +45,7 @@ double Window::seconds() const {
 }
 
 double WindowRun::passes() const {
-    return static_cast<double>(steps.forceEvaluations) + kProductCost * static_cast<double>(steps.products) +
-           lookPasses;
+    return engine::passesOf(steps) + lookPasses;
 }
 
 std::string nameOf(Ending ending) {

@@ -36,10 +36,6 @@ enum class Ending { finished, unstable, tooSlow };
 
 std::string nameOf(Ending ending);
 
-/// Time of a product with the matrix of the implicit steppers over that of a force evaluation: the share that the
-/// automatic stepper reckons with when it compares candidates.
-inline constexpr double kProductCost = 0.12;
-
 struct WindowRun {
     Variant variant;
     Ending ending = Ending::finished;
@@ -51,7 +47,7 @@ struct WindowRun {
 
     double lookPasses = 0.0;  ///< what the automatic stepper's looks at its candidates cost besides the steps
 
-    /// Work in passes over all pairs: a force evaluation is one, a product kProductCost of one.
+    /// Work in passes over all pairs: a force evaluation is one, a product engine::kProductCost of one.
     double passes() const;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/error_look.h"
 #include "engine/steppers.h"
 #include "tools/html.h"
 
@@ -149,7 +150,7 @@ std::string introduction(const StudyFacts& facts) {
         "reference's kinetic energy and the sizes of its pair and contact energies; of the momenta, over its sum of "
         "|p| and of |x &times; p|. The same numbers are in accuracy.csv, orders.csv, auto.csv and "
         "references.csv.</p>\n",
-        escaped(facts.command), facts.threads, facts.threads == 1 ? "" : "s", studies::kProductCost);
+        escaped(facts.command), facts.threads, facts.threads == 1 ? "" : "s", engine::kProductCost);
 }
 
 }  // namespace
