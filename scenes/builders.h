@@ -10,6 +10,7 @@
 #include "engine/simulation.h"
 #include "scenes/look.h"
 #include "scenes/read_sections.h"
+#include "scenes/study.h"
 
 namespace scenes {
 
@@ -45,6 +46,7 @@ struct Obstacles {
 Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, BuildContext& context);
 CameraPlacement buildCamera(Section& section, BuildContext& context);
 Look buildLook(Section& section, BuildContext& context);
+Study buildStudy(Section& section, BuildContext& context);
 
 // What several builders need.
 

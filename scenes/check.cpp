@@ -209,6 +209,26 @@ std::optional<Typed> textOf(const Check& check, const Value& value) {
     return typed;
 }
 
+std::optional<Typed> textListOf(const Check& check, const Value& value) {
+    if (value.kind != Kind::array) {
+        reportType(check, value);
+        return std::nullopt;
+    }
+    Typed typed;
+    std::vector<std::string> quoted;
+    for (std::size_t index = 0; index < value.items.size(); ++index) {
+        const Value& item = value.items[index];
+        if (item.kind != Kind::text)
+            check.problems.add(item.at,
+                               fmt::format("{}[{}] is {}, must be a string", nameOf(check.key), index, describe(item)));
+        typed.texts.push_back(item.text);
+        quoted.push_back(inQuotes(item.text));
+        if (item.kind != Kind::text) return std::nullopt;
+    }
+    typed.canonical = fmt::format("[{}]", fmt::join(quoted, ", "));
+    return typed;
+}
+
 std::optional<Typed> booleanOf(const Check& check, const Value& value) {
     if (value.kind != Kind::boolean) {
         reportType(check, value);
@@ -233,6 +253,8 @@ std::optional<Typed> checkValue(const Key& key, const Value& value, ProblemList&
         case Type::number:
         case Type::integer:
             return numberOf(check, value);
+        case Type::textList:
+            return textListOf(check, value);
         case Type::boolean:
             return booleanOf(check, value);
         case Type::text:

@@ -19,6 +19,7 @@ struct Typed {
     std::int64_t integer = 0;           ///< integer
     bool flag = false;                  ///< boolean
     std::string text;                   ///< text, choice
+    std::vector<std::string> texts;     ///< textList
     std::vector<engine::Vec3> vectors;  ///< vec3 and color: one; vec3List and colorList: all; counts: one
     std::vector<double> numbers;        ///< interval, size: two
     std::string canonical;              ///< TOML text; equal for values that mean the same

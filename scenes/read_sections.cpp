@@ -39,6 +39,12 @@ Section readSingle(Reader& reader, const char* name) {
     return hasTable ? readOne(reader, info, name, entry->value.items[0]) : absent(reader, info);
 }
 
+/// A table that a scene may do without.
+std::optional<Section> readOptional(Reader& reader, const char* name) {
+    if (findEntry(reader.document.root, name) == nullptr) return std::nullopt;
+    return readSingle(reader, name);
+}
+
 void readItems(Reader& reader, const TableInfo& info, const Value& list, std::vector<Section>& sections) {
     for (std::size_t index = 0; index < list.items.size(); ++index) {
         const Value& item = list.items[index];
@@ -96,6 +102,7 @@ std::vector<const Section*> Sections::all() const {
     for (const std::vector<Section>* group : {&materials, &bodies, &emitters, &obstacles})
         for (const Section& section : *group) list.push_back(&section);
     for (const Section* section : {&camera, &look, &still}) list.push_back(section);
+    if (study) list.push_back(&*study);
     return list;
 }
 
@@ -112,6 +119,7 @@ Sections readSections(const Document& document, ProblemList& problems) {
         .bodies = readList(reader, "body"),
         .emitters = readList(reader, "emitter"),
         .obstacles = readList(reader, "obstacle"),
+        .study = readOptional(reader, "study"),
     };
     // Without a [material] everything is made of the first preset.
     if (sections.materials.empty()) sections.materials.push_back(absent(reader, *findTable("material")));

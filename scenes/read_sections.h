@@ -1,6 +1,7 @@
 // Located values to sections: every table and key of a scene held against the schema. Called by scene.cpp.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scenes/document.h"
@@ -19,7 +20,8 @@ struct Sections {
     std::vector<Section> bodies;
     std::vector<Section> emitters;
     std::vector<Section> obstacles;
-    bool doubtful = false;  ///< some table could not be read, so what is missing may be in it
+    std::optional<Section> study;  ///< only if it was written
+    bool doubtful = false;         ///< some table could not be read, so what is missing may be in it
 
     /// All of them in the order of the schema.
     std::vector<const Section*> all() const;

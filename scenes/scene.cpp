@@ -34,6 +34,7 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     for (const engine::StepperKind stepper : engine::kSteppers)
         if (engine::nameOf(stepper) == physics.text("stepper")) setup.stepper = stepper;
     setup.error = physics.number("error");
+    setup.solverTolerance = physics.number("solver_tolerance");
     setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 
@@ -97,6 +98,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.camera = buildCamera(sections.camera, context);
     scene.look = buildLook(sections.look, context);
     readStill(sections, context, scene);
+    if (sections.study) scene.study = buildStudy(*sections.study, context);
     checkPopulation(sections, scene.setup, context);
     scene.setup.materials = std::move(materials.list);
     scene.materialColors = std::move(materials.colors);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "scenes/input_error.h"
 #include "scenes/look.h"
 #include "scenes/section.h"
+#include "scenes/study.h"
 
 namespace scenes {
 
@@ -34,9 +36,10 @@ struct Scene {
     CameraPlacement camera;
     Look look;
     render::PictureSize size;
-    double stillTime = 0.5;  ///< s
-    std::string sourceName;  ///< the file it was read from
-    std::string sceneHash;   ///< 16 hexadecimal digits over all effective values and the files they name
+    double stillTime = 0.5;      ///< s
+    std::optional<Study> study;  ///< of the hard cases
+    std::string sourceName;      ///< the file it was read from
+    std::string sceneHash;       ///< 16 hexadecimal digits over all effective values and the files they name
     std::vector<EffectiveValue> values;
 };
 

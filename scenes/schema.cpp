@@ -39,6 +39,9 @@ const std::vector<TableInfo>& tables() {
         {.name = "camera", .discriminator = "projection", .article = "[camera]", .help = "from where it is seen"},
         {.name = "look", .discriminator = "color_by", .article = "[look]", .help = "how it is drawn"},
         {.name = "still", .article = "[still]", .help = "the single picture of the scene"},
+        {.name = "study",
+         .article = "[study]",
+         .help = "a hard case of `globular study stability`: what is measured of it and how far that may go"},
     };
     return kTables;
 }
@@ -46,7 +49,7 @@ const std::vector<TableInfo>& tables() {
 const std::vector<Key>& schema() {
     static const std::vector<Key> kRows = [] {
         std::vector<Key> rows = worldRows();
-        for (const std::vector<Key>& part : {contentRows(), pictureRows()})
+        for (const std::vector<Key>& part : {contentRows(), pictureRows(), studyRows()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();
@@ -104,6 +107,8 @@ std::string expectedText(const Key& key) {
             return "true or false";
         case Type::text:
             return "a string";
+        case Type::textList:
+            return "a list of strings";
         case Type::vec3:
             return "three numbers [x, y, z]";
         case Type::vec3List:

@@ -15,6 +15,7 @@ enum class Type {
     integer,
     boolean,
     text,
+    textList,
     choice,
     vec3,  ///< [x, y, z]
     vec3List,

@@ -19,4 +19,7 @@ std::vector<Key> contentRows();
 /// Camera, look and still.
 std::vector<Key> pictureRows();
 
+/// The hard cases' own table.
+std::vector<Key> studyRows();
+
 }  // namespace scenes

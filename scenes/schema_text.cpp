@@ -18,6 +18,8 @@ std::string typeText(Type type) {
             return "boolean";
         case Type::text:
             return "string";
+        case Type::textList:
+            return "list of strings";
         case Type::choice:
             return "choice";
         case Type::vec3:

@@ -44,6 +44,7 @@ class Section {
     std::int64_t integer(std::string_view name) const { return slot(name).value.integer; }
     bool flag(std::string_view name) const { return slot(name).value.flag; }
     const std::string& text(std::string_view name) const { return slot(name).value.text; }
+    const std::vector<std::string>& texts(std::string_view name) const { return slot(name).value.texts; }
     const engine::Vec3& vector(std::string_view name) const { return slot(name).value.vectors.at(0); }
     const std::vector<engine::Vec3>& vectors(std::string_view name) const { return slot(name).value.vectors; }
     const std::vector<double>& numbers(std::string_view name) const { return slot(name).value.numbers; }

@@ -17,5 +17,6 @@ void addStudyCommand(CLI::App& program);
 
 /// Subcommands of `globular study`.
 void addStudyAccuracy(CLI::App& study);
+void addStudyStability(CLI::App& study);
 
 }  // namespace tools

@@ -1,0 +1,147 @@
+// Observables against runs whose value is known: made by hand, or of two particles with a closed form.
+#include "studies/observables.h"
+
+#include <cmath>
+#include <limits>
+
+#include "studies/run.h"
+#include "tests/catch.h"
+#include "tests/studies/trials.h"
+
+using engine::Vec3;
+using studies::Run;
+using studies_test::frameOf;
+using studies_test::runOf;
+using studies_test::sceneWith;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double ofRun(double (*observable)(const studies::Trial&), const Run& run, const std::string& more = "") {
+    return observable({sceneWith(more), run});
+}
+
+double against(double (*observable)(const studies::Trial&), const Run& run, const Run& reference) {
+    return observable({sceneWith(""), run, &reference});
+}
+
+}  // namespace
+
+TEST_CASE("momentum drift is in units of what there was at the start") {
+    const Run run = runOf({frameOf({{{1, 0, 0}, {0, 2, 0}}, {{-1, 0, 0}, {0, -2, 0}}}),
+                           frameOf({{{1, 0, 0}, {0, 2.004, 0}}, {{-1, 0, 0}, {0, -2, 0}}})});
+    // Linear: 0.004 of 2 + 2; angular about z: 0.004 of 2 + 2.
+    CHECK(ofRun(studies::momentumDrift, run) == Approx(0.001).epsilon(1e-9));
+    CHECK(ofRun(studies::momentumDrift, runOf({run.frames[0], run.frames[0]})) == 0.0);
+}
+
+TEST_CASE("energy rises by the kinetic energy gained, for each step") {
+    Run run = runOf({frameOf({{{0, 0, 0}, {10, 0, 0}}}), frameOf({{{0, 0, 0}, {10.1, 0, 0}}})});
+    // (102.01 - 100)/2 J over 102.01/2 J and that of a tenth of a radius per second, 0.05^2/2 J.
+    const double expected = 2.01 / (102.01 + 0.0025);
+    CHECK(ofRun(studies::energyRise, run) == Approx(expected).epsilon(1e-9));
+    run.stepsUntil = {0, 4};
+    CHECK(ofRun(studies::energyRise, run) == Approx(expected / 4.0).epsilon(1e-9));
+    const Run braked = runOf({run.frames[1], run.frames[0]});
+    CHECK(ofRun(studies::energyRise, braked) == 0.0);
+}
+
+TEST_CASE("speeds: the largest of all frames, the median of the last") {
+    const Run run = runOf({frameOf({{{0, 0, 0}, {0, 9, 0}}, {{2, 0, 0}, {0, 0, 0}}, {{4, 0, 0}, {0, 0, 0}}}),
+                           frameOf({{{0, 0, 0}, {0, 1, 0}}, {{2, 0, 0}, {3, 0, 0}}, {{4, 0, 0}, {0, 0, 2}}})});
+    CHECK(ofRun(studies::largestSpeed, run) == 9.0);
+    CHECK(ofRun(studies::medianSpeed, run) == 2.0);
+}
+
+TEST_CASE("errors are in radii, over the frames or at the end, and infinite between runs that differ in number") {
+    const Run reference = runOf(
+        {frameOf({{{0, 0, 0}}, {{1, 3, 0}, {0, 0, 0}, 5.0}}), frameOf({{{0, 0, 0}}, {{1, 2, 0}, {0, 0, 0}, 5.0}})});
+    const Run run = runOf({frameOf({{{0, 0, 0}}, {{1.25, 3.5, 0}, {0, 0, 0}, 5.0}}),
+                           frameOf({{{0, 0, 0}}, {{1, 2.1, 0}, {0, 0, 0}, 5.0}})});
+    CHECK(against(studies::positionError, run, reference) == Approx(std::sqrt(0.5 * 0.2 * 0.2)));
+    CHECK(against(studies::heightError, run, reference) == Approx(1.0));  // of the heavier: 0.5 m in the first frame
+    CHECK(against(studies::frontError, run, reference) == Approx(0.5));   // 0.25 m in the first frame
+    const Run fewer = runOf({frameOf({{{0, 0, 0}}}), frameOf({{{0, 0, 0}}})});
+    CHECK(against(studies::positionError, fewer, reference) == kInfinity);
+    CHECK(studies::positionError({sceneWith(""), run}) == kInfinity);
+}
+
+TEST_CASE("spread and statistics are compared as shares") {
+    const auto pair = [](double half) { return runOf({frameOf({{{-half, 1, 0}}, {{half, 1, 0}}})}); };
+    // R90 of two is their distance from the middle: 0.1 m apart, 0.2 radii.
+    CHECK(against(studies::radiusError, pair(1.1), pair(1.0)) == Approx(0.2));
+    CHECK(against(studies::statisticsError, pair(1.1), pair(1.0)) == Approx(0.1));
+    const Run raised = runOf({frameOf({{{-1, 1.05, 0}}, {{1, 1.05, 0}}})});
+    CHECK(against(studies::statisticsError, raised, pair(1.0)) == Approx(0.05));
+}
+
+TEST_CASE("rebound and restitution are compared as shares of the reference") {
+    const auto speeds = [](double a, double b) {
+        return runOf({frameOf({{{0, 0, 0}, {0, -9, 0}}, {{3, 0, 0}, {0, -9, 0}, 3.0}}),
+                      frameOf({{{0, 0, 0}, {0, a, 0}}, {{3, 0, 0}, {0, b, 0}, 3.0}})});
+    };
+    // Centre of mass: (1 + 3 1)/4 against (1 + 3 2)/4.
+    CHECK(against(studies::reboundError, speeds(1, 1), speeds(1, 2)) == Approx(1.0 - 4.0 / 7.0));
+    CHECK(against(studies::restitutionError, speeds(1.1, 1.5), speeds(1, 2)) == Approx(0.25));
+}
+
+TEST_CASE("fragments are what no chain within reach of the attraction ties to the largest cluster") {
+    const std::string solid = "[material]\npreset = \"solid\"\n";
+    // Rest length 1, reach 2: three in a chain 1.9 apart, two in another 5 m away.
+    const Run run = runOf({frameOf({{{0, 0, 0}}, {{1.9, 0, 0}}, {{3.8, 0, 0}}, {{0, 5, 0}}, {{1.9, 5, 0}}})});
+    CHECK(ofRun(studies::fragments, run, solid) == 2.0);
+    CHECK(ofRun(studies::fragments, run, solid + "cr = 1.5\n") == 4.0);
+}
+
+TEST_CASE("spacing is 1 where the energy of a pair is least") {
+    const auto pair = [](double distance) { return runOf({frameOf({{{0, 0, 0}}, {{distance, 0, 0}}})}); };
+    const std::string solid = "[material]\npreset = \"solid\"\n";
+    // The energy of two is least at the rest length, 1 m; the places tried are 0.005 of it apart.
+    CHECK(ofRun(studies::spacing, pair(1.0), solid) == Approx(1.0).margin(0.005));
+    CHECK(ofRun(studies::spacing, pair(0.5), solid) == Approx(0.5).margin(0.005));
+}
+
+TEST_CASE("the pair law of every preset is the slope of its energy") {
+    const std::string presets =
+        "[[material]]\npreset = \"liquid\"\n[[material]]\npreset = \"solid\"\nradius = 0.4\n[[material]]\npreset = "
+        "\"powder\"\ncore = 0.5\n";
+    const double difference = ofRun(studies::pairLaw, {}, presets);
+    CHECK(difference < 1e-12);  // a few hundred roundings of sums of 300 terms
+    CHECK(difference > 0.0);
+}
+
+TEST_CASE("the step bound of two particles is the measured limit") {
+    // Bisection ends within 1 %, and a growth of less than 3.5 % a step passes for stable.
+    const std::string pair =
+        "[material]\npreset = \"solid\"\nbd = 0\n[[body]]\nshape = \"points\"\npositions = [[9, 0, 0], [9.3, 0, 0]]\n";
+    const scenes::Scene scene = sceneWith(pair, {"body[0].center=[90, 0, 0]", "body[0].radius=0.1"});
+    for (const char* stepper : {"symplectic-euler", "velocity-verlet"}) {
+        const scenes::Scene chosen = sceneWith(
+            pair, {"body[0].center=[90, 0, 0]", "body[0].radius=0.1", std::string("physics.stepper=") + stepper});
+        const Run run = studies::runScene(chosen);
+        CHECK(studies::stepBound({chosen, run}) == Approx(1.0).margin(0.05));
+    }
+}
+
+TEST_CASE("the order is that of the stepper") {
+    const auto orderOf = [](const std::string& stepper) {
+        // Two that swing about their rest length.
+        const scenes::Scene scene = sceneWith(
+            "[material]\npreset = \"solid\"\n[[body]]\nshape = \"points\"\npositions = [[9, 0, 0], [9.32, 0, 0]]\n",
+            {"body[0].center=[90, 0, 0]", "body[0].radius=0.1", "physics.step=0.004", "physics.stepper=" + stepper});
+        const Run run = studies::runScene(scene);
+        return studies::order({scene, run});
+    };
+    CHECK(orderOf("symplectic-euler") == Approx(1.0).margin(0.1));
+    CHECK(orderOf("velocity-verlet") == Approx(2.0).margin(0.1));
+    CHECK(orderOf("linearly-implicit") == Approx(2.0).margin(0.1));
+}
+
+TEST_CASE("refused births are counted") {
+    // Three nozzles in one place: the first is in the way of the others, once each; they wait and keep the delay.
+    const scenes::Scene scene = sceneWith(
+        "[[emitter]]\npositions = [[5, 0, 0], [5, 0, 0], [5, 0, 0]]\nvelocity = [8, 0, 0]\ninterval = 0.2\n");
+    const Run run = studies::runScene(scene);
+    CHECK(studies::refusals({scene, run}) == 2.0);
+}

@@ -1,0 +1,50 @@
+// The hard cases, their quick variants: ours passes each, and the paper's stepper fails where it must.
+#include <algorithm>
+#include <set>
+
+#include "scenes/library.h"
+#include "studies/stability.h"
+#include "studies/stability_text.h"
+#include "tests/catch.h"
+
+namespace {
+
+std::vector<scenes::LibraryEntry> hardCases() {
+    std::vector<scenes::LibraryEntry> cases;
+    for (const scenes::LibraryEntry& entry : scenes::listScenes({GLOBULAR_SCENES_DIR}))
+        if (entry.name.rfind("hard/", 0) == 0) cases.push_back(entry);
+    return cases;
+}
+
+}  // namespace
+
+TEST_CASE("there are twenty hard cases, each with its own number") {
+    std::set<int> numbers;
+    for (const scenes::LibraryEntry& entry : hardCases()) {
+        INFO(entry.name);
+        const scenes::Scene scene = scenes::loadScene(entry.path, {});
+        REQUIRE(scene.study.has_value());
+        numbers.insert(scene.study->number);
+    }
+    CHECK(numbers.size() == 20);
+    CHECK(*numbers.begin() == 1);
+    CHECK(*numbers.rbegin() == 20);
+}
+
+TEST_CASE("every variant of every hard case is a scene") {
+    for (const scenes::LibraryEntry& entry : hardCases()) {
+        const scenes::Study study = *scenes::loadScene(entry.path, {}).study;
+        for (const bool quick : {false, true})
+            for (const std::string& variant : scenes::variantsOf(study, quick)) {
+                INFO(entry.name << " " << variant);
+                CHECK_NOTHROW(scenes::loadScene(entry.path, scenes::overridesOf(variant)));
+            }
+    }
+}
+
+TEST_CASE("ours passes the quick hard cases and the paper's stepper fails where it must") {
+    for (const scenes::LibraryEntry& entry : hardCases()) {
+        const studies::CaseResult result = studies::runCase({entry.name, entry.path, true});
+        CHECK(studies::stabilityProblems({result}) == "");
+    }
+}

@@ -1,0 +1,131 @@
+// globular study stability: the hard cases of scenes/hard, each with the paper's stepper and with ours.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "scenes/library.h"
+#include "studies/stability.h"
+#include "studies/stability_text.h"
+#include "tools/commands.h"
+#include "tools/output_file.h"
+#include "tools/scene_options.h"
+#include "tools/stability_page.h"
+#include "tools/threads.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StabilityOptions {
+    std::vector<std::string> cases;
+    std::string folder = "out/study-stability";
+    bool quick = false;
+    RunOptions run;
+};
+
+constexpr std::string_view kHardFolder = "hard/";
+
+/// The built-in hard cases by their number.
+std::vector<studies::CaseOptions> allCases() {
+    std::vector<std::pair<int, studies::CaseOptions>> cases;
+    for (const scenes::LibraryEntry& entry : scenes::listScenes(sceneFolders())) {
+        if (entry.name.rfind(kHardFolder, 0) != 0) continue;
+        const scenes::Scene scene = scenes::loadScene(entry.path, {});
+        cases.push_back({scene.study ? scene.study->number : 0, {entry.name.substr(kHardFolder.size()), entry.path}});
+    }
+    std::stable_sort(cases.begin(), cases.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<studies::CaseOptions> sorted;
+    for (auto& [number, options] : cases) sorted.push_back(std::move(options));
+    return sorted;
+}
+
+/// A case by its name among the hard ones, else like any SCENE.
+studies::CaseOptions caseNamed(const std::string& name, const std::vector<studies::CaseOptions>& builtIn) {
+    for (const studies::CaseOptions& known : builtIn)
+        if (known.name == name) return known;
+    return {fs::path(name).stem().string(), scenes::resolveScene(name, sceneFolders())};
+}
+
+std::vector<studies::CaseOptions> chosenCases(const StabilityOptions& options) {
+    const std::vector<studies::CaseOptions> builtIn = allCases();
+    std::vector<studies::CaseOptions> chosen;
+    for (const std::string& name : options.cases) chosen.push_back(caseNamed(name, builtIn));
+    if (chosen.empty()) chosen = builtIn;
+    for (studies::CaseOptions& one : chosen) one.quick = options.quick;
+    return chosen;
+}
+
+void tellCase(const studies::CaseResult& result, Talk talk) {
+    const studies::VariantResult& worst = studies::worstOfOurs(result);
+    if (talk == Talk::normal)
+        fmt::print(stderr, "{}: {} variants, {:.1f} s\n", result.name, result.variants.size(), result.seconds);
+    if (talk != Talk::json) return;
+    const nlohmann::ordered_json line = {{"event", "case"},
+                                         {"case", result.name},
+                                         {"observable", scenes::infoOf(worst.study.observable).name},
+                                         {"value", worst.ours.value},
+                                         {"limit", worst.study.limit},
+                                         {"passes", studies::oursPasses(result)},
+                                         {"paper_as_expected", studies::paperIsAsExpected(result)},
+                                         {"seconds", result.seconds}};
+    fmt::print("{}\n", line.dump());
+}
+
+std::string commandText(const StabilityOptions& options) {
+    std::string text = "globular study stability";
+    for (const std::string& name : options.cases) text += " " + name;
+    return text + (options.quick ? " --quick" : "") + fmt::format(" --threads {}", threadCount(options.run));
+}
+
+void writeResults(const StabilityOptions& options, const std::vector<studies::CaseResult>& results) {
+    const fs::path folder = options.folder;
+    createFolder(folder);
+    writeFile(folder / "stability.csv", studies::stabilityCsv(results));
+    writeFile(folder / "index.html", stabilityPage(results, commandText(options)));
+    if (options.run.talk() != Talk::normal) return;
+    double seconds = 0.0;
+    for (const studies::CaseResult& result : results) seconds += result.seconds;
+    fmt::print("{}\n{} cases in {:.0f} s; all of it: {}\n", studies::stabilityTable(results), results.size(), seconds,
+               (folder / "index.html").string());
+}
+
+void study(const StabilityOptions& options) {
+    std::vector<studies::CaseResult> results;
+    for (const studies::CaseOptions& one : chosenCases(options)) {
+        onThreads(threadCount(options.run), [&] { results.push_back(studies::runCase(one)); });
+        tellCase(results.back(), options.run.talk());
+    }
+    writeResults(options, results);
+    const std::string problems = studies::stabilityProblems(results);
+    if (!problems.empty()) throw std::runtime_error(problems);
+}
+
+std::string footer() {
+    std::string text = "Observables:\n";
+    for (const scenes::ObservableInfo& info : scenes::observables())
+        text += fmt::format("  {:<18} {}\n", info.name, info.help);
+    return text + "\nExample: globular study stability honey rigid -o out/stability";
+}
+
+}  // namespace
+
+void addStudyStability(CLI::App& study) {
+    CLI::App* command = study.add_subcommand(
+        "stability", "the hard cases, with the paper's stepper and with ours; fails unless all come out as they must");
+    const auto options = std::make_shared<StabilityOptions>();
+    command->add_option("CASE", options->cases, "which hard cases (default: all)");
+    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-stability)")
+        ->type_name("DIR");
+    command->add_flag("--quick", options->quick, "fewer variants and particles");
+    addTo(*command, options->run);
+    command->footer(footer());
+    command->callback([options] { tools::study(*options); });
+}
+
+}  // namespace tools
