@@ -1,4 +1,4 @@
-// Table 1 of the paper and the symmetric mix of two materials.
+// Table 1 of the paper, the substances it names, and the symmetric mix of two materials.
 #include "engine/material.h"
 
 #include <array>
@@ -9,25 +9,34 @@ namespace {
 
 struct Row {
     std::string_view name;
-    double radius, b1, bd, cr, cd;
+    double radius, mass, b1, bd, cr, cd;
 };
 
-/// Table 1, row by row; masses are the published 1 kg.
-constexpr std::array<Row, 4> kTable1 = {{
-    {"liquid", 0.15, 0.01, 1.0, 1.0, 2.0},
-    {"solid", 0.15, 0.8, 4.0, 2.0, 2.0},
-    {"powder", 0.15, 0.8, 4.0, 1.0, 1.0},
-    {"fountain", 0.15, 0.01, 1.0, 1.0, 2.0},
+/// Table 1, row by row, with the published masses of 1 kg; then the substances that the paper names without constants.
+/// Those are chosen for looks at g = 9.81 m/s^2: b_d over the mass sets the viscosity, b1 over the mass how far a pile
+/// is squeezed by its own weight, c_r the cohesion; c_r stays below 1.8, where matter starts to fall in on itself.
+constexpr std::array<Row, 10> kPresets = {{
+    {"liquid", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
+    {"solid", 0.15, 1.0, 0.8, 4.0, 2.0, 2.0},
+    {"powder", 0.15, 1.0, 0.8, 4.0, 1.0, 1.0},
+    {"fountain", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
+    {"honey", 0.15, 0.1, 0.05, 100.0, 1.3, 2.0},
+    {"jam", 0.15, 0.1, 0.1, 12.0, 1.4, 2.0},
+    {"oil", 0.15, 0.1, 0.04, 0.3, 1.2, 2.0},
+    {"lava", 0.15, 0.3, 0.3, 40.0, 1.4, 2.0},
+    {"mud", 0.15, 0.2, 0.2, 10.0, 1.3, 2.0},
+    {"molten-metal", 0.15, 0.5, 0.8, 1.0, 1.4, 2.0},
 }};
 
 }  // namespace
 
 std::optional<Material> materialPreset(std::string_view name) {
-    for (const Row& row : kTable1) {
+    for (const Row& row : kPresets) {
         if (row.name != name) continue;
         Material material;
         material.name = row.name;
         material.radius = row.radius;
+        material.mass = row.mass;
         material.repulsion = row.b1;
         material.damping = row.bd;
         material.repulsionReach = row.cr;
@@ -40,7 +49,7 @@ std::optional<Material> materialPreset(std::string_view name) {
 const std::vector<std::string>& materialPresetNames() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;
-        for (const Row& row : kTable1) list.emplace_back(row.name);
+        for (const Row& row : kPresets) list.emplace_back(row.name);
         return list;
     }();
     return names;

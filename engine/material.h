@@ -1,5 +1,6 @@
-// Materials: Table 1 of the paper as data, and how two different materials act on each other.
-// Scenes start from a preset and override what they like; pair_law.h turns two materials into the constants of a pair.
+// Materials: Table 1 of the paper and the substances it names as data, and how two different materials act on each
+// other. Scenes start from a preset and override what they like; pair_law.h turns two materials into the constants of a
+// pair.
 #pragma once
 
 #include <optional>
@@ -22,10 +23,11 @@ struct Material {
     double coreFraction = 0.25;  ///< the guard near D = 0: below this share of the rest length the force is linear in D
 };
 
-/// A row of Table 1: liquid, solid, powder or fountain; nothing for any other name.
+/// A row of Table 1 (liquid, solid, powder, fountain) or a substance that the paper names (honey, jam, oil, lava, mud,
+/// molten-metal); nothing for any other name.
 std::optional<Material> materialPreset(std::string_view name);
 
-/// The names of Table 1, in its order.
+/// The names of all presets: those of Table 1 in its order, then the substances.
 const std::vector<std::string>& materialPresetNames();
 
 /// The material that governs a pair of unlike particles. Symmetric in its arguments, so that a mixed pair keeps

@@ -1,5 +1,9 @@
-// [material]: a row of Table 1, with what the scene changes of it.
+// [material]: a row of Table 1 or a substance, with what the scene changes of it.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "scenes/builders.h"
 #include "scenes/color.h"
@@ -7,13 +11,26 @@
 namespace scenes {
 namespace {
 
+struct PresetColor {
+    std::string_view preset, hex;
+};
+
 /// Told apart at a glance on a light and a dark background; chosen for looks.
+constexpr std::array<PresetColor, 10> kPresetColors = {{{"liquid", "#3f86c8"},
+                                                        {"solid", "#c8794a"},
+                                                        {"powder", "#d8b878"},
+                                                        {"fountain", "#58a8dc"},
+                                                        {"honey", "#d98a12"},
+                                                        {"jam", "#9c1430"},
+                                                        {"oil", "#d9b63a"},
+                                                        {"lava", "#ff5a14"},
+                                                        {"mud", "#6b4a2f"},
+                                                        {"molten-metal", "#ffb347"}}};
+
 engine::Vec3 presetColor(const std::string& preset) {
-    const std::string_view hex = preset == "solid"      ? "#c8794a"
-                                 : preset == "powder"   ? "#d8b878"
-                                 : preset == "fountain" ? "#58a8dc"
-                                                        : "#3f86c8";
-    return *colorFromHex(hex);
+    const auto* row = std::find_if(kPresetColors.begin(), kPresetColors.end(),
+                                   [&](const PresetColor& color) { return color.preset == preset; });
+    return *colorFromHex(row == kPresetColors.end() ? kPresetColors.front().hex : row->hex);
 }
 
 /// Gives the keys that the scene leaves out the values of the preset.

@@ -4,25 +4,17 @@
 #include <cmath>
 #include "tests/catch.h"
 
-#include "engine/bodies.h"
 #include "engine/decay.h"
 #include "engine/diagnostics.h"
 #include "engine/error_look.h"
 #include "engine/step_bound.h"
-#include "tests/engine/clouds.h"
+#include "tests/engine/runs.h"
 
 using namespace engine;
 
 namespace {
 
-Setup freeSetup(const Material& material, StepperKind stepper, double step) {
-    Setup setup;
-    setup.materials = {material};
-    setup.gravity = Vec3::Zero();
-    setup.stepper = stepper;
-    setup.step = step;
-    return setup;
-}
+using runs::freeSetup;
 
 /// Two solid particles about their rest length; amplitude in metres.
 Setup oscillator(StepperKind stepper, double step, double amplitude) {

@@ -1,0 +1,139 @@
+// The automatic stepper: what it measures is true, what it chooses fits the substance and the wanted error, and depends
+// on nothing but the states.
+#include "engine/auto_stepper.h"
+
+#include "tests/catch.h"
+
+#include "engine/diagnostics.h"
+#include "engine/error_look.h"
+#include "tests/engine/runs.h"
+
+using namespace engine;
+
+namespace {
+
+/// A block that falls on a floor.
+Setup fallingBlock(const Material& material, const std::array<std::uint32_t, 3>& counts = {4, 4, 4}) {
+    Setup setup = runs::freeSetup(material, StepperKind::automatic, 0.01);
+    setup.gravity = Vec3(0, -9.8, 0);
+    setup.scenery.colliders = {Plane{Vec3(0, -0.7, 0), Vec3::UnitY()}};
+    runs::addPacking(setup, counts);
+    return setup;
+}
+
+Simulation afterFrames(const Setup& setup, int frames) {
+    Simulation simulation = start(setup);
+    for (int frame = 1; frame <= frames; ++frame) advance(simulation, frame / 30.0);
+    return simulation;
+}
+
+/// rms over the particles of dx + T dv in radii, for a second of motion: what measure() estimates, with its T.
+double realError(const Simulation& run, const Simulation& reference, double interval) {
+    constexpr double kHorizon = 0.015;  // s, kErrorHorizon of error_look.cpp
+    double sumSq = 0.0;
+    for (std::size_t p = 0; p < run.particles.count(); ++p) {
+        const Vec3 apart = run.particles.position[p] - reference.particles.position[p] +
+                           kHorizon * (run.particles.velocity[p] - reference.particles.velocity[p]);
+        sumSq += squaredLength(apart) / (run.particles.radius[p] * run.particles.radius[p]);
+    }
+    return std::sqrt(sumSq / static_cast<double>(run.particles.count())) / interval;
+}
+
+Simulation fixedRun(const Simulation& from, StepperKind stepper, double step, double time) {
+    Setup setup = from.setup;
+    setup.initial = from.particles;
+    setup.stepper = stepper;
+    setup.step = step;
+    Simulation simulation = start(setup);
+    advance(simulation, time);
+    return simulation;
+}
+
+}  // namespace
+
+TEST_CASE("The measured error is what the stepper really errs by", "[auto-stepper]") {
+    const double interval = 1.0 / 30;
+    for (const Material& material : {*materialPreset("liquid"), *materialPreset("solid"), runs::honey()})
+        for (const StepperKind stepper :
+             {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::linearlyImplicit}) {
+            if (material.damping > 10.0 && stepper == StepperKind::velocityVerlet)
+                continue;  // the audit sets its steps
+            Setup setup = fallingBlock(material, {3, 3, 3});
+            setup.stepper = stepper;
+            setup.solverTolerance = 1e-8;
+            const Simulation simulation = start(setup);
+            const std::string before = stateHash(simulation.particles);
+            const Trial trial = measure(simulation, interval, stepper, interval / 32);
+            const Simulation coarse = fixedRun(simulation, stepper, interval / 32, interval);
+            const double real = realError(coarse, fixedRun(simulation, stepper, interval / 2048, interval), interval);
+            INFO(material.name << ", b_d = " << material.damping << ", " << nameOf(stepper) << ": measured "
+                               << trial.error << ", real " << real);
+            CHECK(stateHash(simulation.particles) == before);
+            CHECK(trial.step == Approx(interval / 32).epsilon(1e-12));  // rounding of the division
+            CHECK_FALSE(trial.restricted);
+            CHECK(trial.error < 1.5 * real);  // issued factor: Richardson's next order is a tenth or so here
+            CHECK(trial.error > real / 1.5);  // same
+        }
+}
+
+TEST_CASE("Honey is stepped implicitly, plain liquid is not", "[auto-stepper]") {
+    CHECK(afterFrames(fallingBlock(*materialPreset("liquid")), 6).stepper == StepperKind::velocityVerlet);
+    const StepperKind forHoney = afterFrames(fallingBlock(runs::honey()), 6).stepper;
+    CHECK((forHoney == StepperKind::implicitDamping || forHoney == StepperKind::linearlyImplicit));
+}
+
+TEST_CASE("A smaller error takes more and smaller steps", "[auto-stepper]") {
+    for (const char* preset : {"liquid", "solid"}) {
+        StepStatistics before;
+        before.longest = 1.0;
+        for (const double error : {1e-1, 1e-2, 1e-3}) {
+            Setup setup = fallingBlock(*materialPreset(preset));
+            setup.error = error;
+            const StepStatistics steps = afterFrames(setup, 6).steps;
+            INFO(preset << ", error " << error << ", " << steps.count << " steps of up to " << steps.longest << " s");
+            // Order 2: ten times less error is 3.2 times the steps, less where a frame is the longest.
+            CHECK(steps.count > before.count + before.count / 2);
+            CHECK(steps.longest < 0.7 * before.longest);  // same
+            before = steps;
+        }
+    }
+}
+
+TEST_CASE("The choice does not depend on threads", "[auto-stepper]") {
+    Setup setup = fallingBlock(*materialPreset("liquid"), {11, 10, 10});  // more than one chunk of a sum
+    setup.error = 1.0;
+    setup.solverTolerance = 1e-2;
+    const auto firstLook = [&] {
+        Simulation simulation = start(setup);
+        advance(simulation, 1.0 / 240);
+        return simulation;
+    };
+    const Simulation expected = firstLook();
+    CHECK(expected.automatic.looks == 1);
+    for (const std::size_t threads : {1U, 2U, 8U}) {
+        Simulation simulation;
+        clouds::onThreads(threads, [&] { simulation = firstLook(); });
+        CHECK(simulation.stepper == expected.stepper);
+        CHECK(stateHash(simulation.particles) == stateHash(expected.particles));
+        CHECK(simulation.automatic.largestError == expected.automatic.largestError);
+        for (std::size_t s = 0; s < expected.automatic.choices.size(); ++s) {
+            CHECK(simulation.automatic.choices[s].step == expected.automatic.choices[s].step);
+            CHECK(simulation.automatic.choices[s].cost == expected.automatic.choices[s].cost);
+        }
+    }
+}
+
+TEST_CASE("An empty scene and one that fills later run automatically", "[auto-stepper]") {
+    Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::automatic, 0.01);
+    CHECK(afterFrames(setup, 3).time == 3 / 30.0);
+    Emitter emitter;
+    emitter.sites = {Vec3::Zero()};
+    emitter.velocity = Vec3(0, 6, 0);
+    emitter.start = 0.11;
+    setup.emitters = {emitter};
+    const Simulation simulation = afterFrames(setup, 9);  // 0.3 s: births at 0.11 and 0.21 s
+    REQUIRE(simulation.particles.count() == 2);
+    // Nothing acts on them until they are 0.6 m apart, which they are.
+    CHECK(simulation.particles.position[0].y() == Approx(6 * 0.19).epsilon(1e-12));  // roundings of some dozen steps
+    CHECK(simulation.automatic.looks > 0);
+}

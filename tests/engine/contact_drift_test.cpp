@@ -1,0 +1,168 @@
+// Flights past obstacles: rebounds against an integrator of this file's own, what must not move, and what must end.
+#include "engine/contact_drift.h"
+
+#include <limits>
+#include "tests/catch.h"
+
+#include "engine/surfaces.h"
+#include "tests/engine/runs.h"
+
+using namespace engine;
+
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+Scenery only(const Collider& collider) {
+    Scenery scenery;
+    scenery.colliders = {collider};
+    return scenery;
+}
+
+/// Acceleration of a particle at a height (m) over the plane y = 0, m/s^2.
+double accelerationAt(double height, double speed, const Flight& flight, const RepulsorLaw& law) {
+    if (height >= flight.radius) return 0.0;
+    const Contact contact = contactWith({.height = height}, law, {{}, {}, flight.radius, flight.dampingReach});
+    return normalForce(contact, speed) / flight.mass;
+}
+
+/// Speed upwards (m/s) with which m y'' = F(y, y') and the barrier send back what meets the plane y = 0, by the
+/// explicit midpoint rule in steps that neither cover more than 10 micrometres nor last more than 1e-3 of a contact.
+double reboundOf(const Flight& flight, const RepulsorLaw& law) {
+    double y = flight.radius;
+    double v = flight.velocity.y();
+    const double barrier = law.radius - law.coreFraction * (law.radius + flight.radius);
+    for (int k = 0; k < 1000000 && (y < flight.radius || v < 0.0); ++k) {
+        const double h = std::min(2e-6, 1e-5 / std::abs(v));
+        const double middle = v + 0.5 * h * accelerationAt(y, v, flight, law);
+        v += h * accelerationAt(y + 0.5 * h * v, middle, flight, law);
+        y += h * middle;
+        if (y < -barrier && v < 0.0) v = -v;
+    }
+    return v;
+}
+
+/// The height (m) at which a particle rests on the plane y = 0.
+double restingHeight(const Scenery& scenery, double mass, double gravity) {
+    double low = -0.3, high = 0.15;
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        const double force = contactForce(scenery, {Vec3(0, middle, 0), Vec3::Zero(), 0.15, 2.0}).y();
+        (force > mass * gravity ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace
+
+TEST_CASE("Rebounds from a plane are those of a hundred times finer steps", "[contact-drift]") {
+    const Scenery floor = only(Plane{});
+    for (const double mass : {0.1, 1.0})
+        for (const double speed : {1.0, 5.0, 30.0, 100.0, 1000.0}) {
+            const double expected = reboundOf({Vec3::Zero(), Vec3(0, -speed, 0), mass, 0.15, 2.0}, floor.law);
+            for (const double start : {0.15, 0.16, 0.18, 0.2, 0.3, 1.1}) {
+                Flight flight{Vec3(0, start, 0), Vec3(2, -speed, 0), mass, 0.15, 2.0};
+                fly(floor, flight, 0.5 + 1.0 / speed);
+                INFO(mass << " kg at " << speed << " m/s from " << start << " m: " << flight.velocity.y() << " against "
+                          << expected);
+                CHECK(flight.velocity.y() == Approx(expected).epsilon(0.02));  // the wanted accuracy of a rebound
+                CHECK(std::abs(flight.velocity.x() - 2.0) < 2e-13);  // nothing is tangential: a rounding a small step
+            }
+        }
+}
+
+TEST_CASE("Free flight is one product and one sum", "[contact-drift]") {
+    Scenery scenery = only(Plane{});
+    scenery.colliders.emplace_back(Sphere{Vec3(50, 0, 0), 1.0, false});
+    scenery.colliders.emplace_back(Box{Vec3(-9, 0, 0), Vec3(-8, 1, 1)});
+    for (const double duration : {1e-3, 0.1, 0.9}) {
+        Flight flight{Vec3(0.1, 4.0, 0.2), Vec3(1.7, -2.9, 0.3), 0.1, 0.15, 2.0};
+        const Vec3 expected = flight.position + duration * flight.velocity;
+        CHECK_FALSE(needsSweep(scenery, flight, duration, ContactTreatment::explicitly));
+        fly(scenery, flight, duration);
+        CHECK(flight.position == expected);
+        CHECK(flight.velocity == Vec3(1.7, -2.9, 0.3));
+    }
+}
+
+TEST_CASE("What passes by an obstacle is only moved", "[contact-drift]") {
+    const Scenery scenery = only(Sphere{Vec3::Zero(), 1.0, false});
+    Flight flight{Vec3(-3, 1.16, 0), Vec3(40, 0, 0), 0.1, 0.15, 2.0};
+    fly(scenery, flight, 0.15);
+    CHECK(flight.velocity == Vec3(40, 0, 0));
+    CHECK((flight.position - Vec3(3, 1.16, 0)).norm() < 1e-13);  // a rounding of 3 m for each of some hundred leaps
+}
+
+TEST_CASE("Only what is too fast or too stiff for the step is swept", "[contact-drift]") {
+    const Scenery floor = only(Plane{});
+    const Flight fast{Vec3(0, 1, 0), Vec3(0, -100, 0), 0.1, 0.15, 2.0};
+    CHECK(needsSweep(floor, fast, 0.01, ContactTreatment::implicitly));
+    CHECK_FALSE(needsSweep(floor, fast, 0.008, ContactTreatment::implicitly));  // 0.8 of 0.85 m to the contact
+    const Flight slow{Vec3(0, 0.1, 0), Vec3(0, -0.1, 0), 0.1, 0.15, 2.0};
+    // D = 0.6: c = 10 (1 - 0.36/0.4225) = 1.48 kg/s and k = 10 (4/D^5 - 4/(0.65^2 D^3)) = 76 N/m; with 0.1 kg
+    // h^2 w^2 + 2 h g is 0.37 at 0.01 s, 2 at 0.037 s, 11 at 0.1 s.
+    CHECK_FALSE(needsSweep(floor, slow, 0.01, ContactTreatment::explicitly));
+    CHECK(needsSweep(floor, slow, 0.1, ContactTreatment::explicitly));
+    CHECK(needsSweep(floor, slow, 0.1, ContactTreatment::dampingImplicitly));          // h^2 w^2 = 7.6 above 2
+    CHECK_FALSE(needsSweep(floor, slow, 0.045, ContactTreatment::dampingImplicitly));  // 1.5
+    CHECK(needsSweep(floor, slow, 0.045, ContactTreatment::explicitly));               // 2.9
+    CHECK_FALSE(needsSweep(floor, slow, 0.1, ContactTreatment::implicitly));
+}
+
+TEST_CASE("What rests on a plane stays", "[contact-drift]") {
+    for (const StepperKind stepper :
+         {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::linearlyImplicit})
+        for (const double step : {1e-3, 1.0 / 60, 1.0 / 30}) {
+            Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, step);
+            setup.gravity = Vec3(0, -9.8, 0);
+            setup.scenery = only(Plane{});
+            const double height = restingHeight(setup.scenery, 0.1, 9.8);
+            append(setup.initial, {.position = Vec3(0, height, 0), .mass = 0.1});
+            Simulation simulation = start(setup);
+            double far = 0.0;
+            for (int frame = 1; frame <= 30; ++frame) {
+                advance(simulation, frame / 30.0);
+                far = std::max(far, std::abs(simulation.particles.position[0].y() - height));
+            }
+            INFO(nameOf(stepper) << " at " << step << " s moved by " << far << " m");
+            CHECK(far < 1e-3 * 0.15);
+        }
+}
+
+TEST_CASE("What starts deep inside an obstacle comes out", "[contact-drift]") {
+    struct Case {
+        Collider collider;
+        Vec3 position;
+        Vec3 out;  ///< from any point of the face, m
+    };
+    const std::vector<Case> cases = {
+        {Plane{}, Vec3(0, -0.9, 0), Vec3::UnitY()},
+        {Plane{}, Vec3(0, -20, 0), Vec3::UnitY()},
+        {Container{Vec3(-1, 0, -1), Vec3(1, 9, 1)}, Vec3(0, -0.9, 0), Vec3::UnitY()},
+        {Box{Vec3(-1, -2, -1), Vec3(1, 0, 1)}, Vec3(0.1, -0.7, 0.1), Vec3::UnitY()},
+        {Box{Vec3(-1, -0.02, -1), Vec3(1, 0, 1)}, Vec3(0, -0.009, 0), Vec3::UnitY()},
+        {Sphere{Vec3(0, -1, 0), 1.0, false}, Vec3(0, -1, 0), Vec3::UnitY()},
+    };
+    for (const Case& c : cases)
+        for (const double mass : {0.01, 0.1, 1.0}) {
+            Flight flight{c.position, Vec3::Zero(), mass, 0.15, 2.0};
+            const Scenery scenery = only(c.collider);
+            for (int call = 0; call < 200 && dot(flight.position, c.out) <= 0.0; ++call) fly(scenery, flight, 0.01);
+            INFO(mass << " kg from " << c.position.transpose() << " is at " << flight.position.transpose());
+            CHECK(dot(flight.position, c.out) > 0.0);
+        }
+}
+
+TEST_CASE("Flights of what is no number or too fast for one end", "[contact-drift]") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const Collider& collider : std::vector<Collider>{Plane{}, Box{Vec3(-1, -1, -1), Vec3(1, 1, 1)}, Sphere{}})
+        for (const double bad : {nan, infinity, 1e300, 1e160}) {
+            Flight flight{Vec3(0.2, 2, 0.1), Vec3(0, -bad, 0), 0.1, 0.15, 2.0};
+            fly(only(collider), flight, 0.01);
+            CHECK_FALSE(std::abs(flight.velocity.y()) < 1e100);
+            Flight nowhere{Vec3(0.2, bad, 0.1), Vec3(0, -1, 0), 0.1, 0.15, 2.0};
+            fly(only(collider), nowhere, 0.01);
+            CHECK_FALSE(std::abs(nowhere.position.y()) < 1e100);
+        }
+}

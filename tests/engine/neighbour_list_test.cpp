@@ -1,0 +1,121 @@
+// The neighbour list holds exactly the pairs within its reach, and knows how long it can be trusted.
+#include "engine/neighbour_list.h"
+
+#include <limits>
+#include <set>
+#include "tests/catch.h"
+
+#include "tests/engine/clouds.h"
+
+using namespace engine;
+
+namespace {
+
+constexpr double kCutoff = 0.6;  // m
+constexpr double kSkin = 0.06;   // m
+
+/// Particle indices in the row of a place; fails on one that occurs twice.
+std::set<std::uint32_t> rowOf(const NeighbourList& list, std::size_t place) {
+    std::set<std::uint32_t> row;
+    for (std::uint32_t entry = list.rowStart[place]; entry < list.rowStart[place + 1]; ++entry)
+        CHECK(row.insert(list.order[list.places[entry]]).second);
+    return row;
+}
+
+/// What the row has to be, by every pair. Distances are summed as the list sums them, so that no pair is in doubt.
+std::set<std::uint32_t> neighboursOf(const std::vector<Vec3>& positions, std::size_t p, double reach) {
+    std::set<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < positions.size(); ++i)
+        if (i != p && squaredLength(positions[p] - positions[i]) < reach * reach) near.insert(i);
+    return near;
+}
+
+void checkRows(const std::vector<Vec3>& positions) {
+    NeighbourList list;
+    build(list, positions, kCutoff, kSkin);
+    REQUIRE(list.count() == positions.size());
+    REQUIRE(list.rowStart.size() == positions.size() + 1);
+    CHECK(std::set<std::uint32_t>(list.order.begin(), list.order.end()).size() == positions.size());
+    for (std::size_t place = 0; place < list.count(); ++place) {
+        INFO("particle " << list.order[place]);
+        CHECK(rowOf(list, place) == neighboursOf(positions, list.order[place], kCutoff + kSkin));
+    }
+    CHECK(covers(list, positions, kCutoff));
+}
+
+/// A list over a cloud, one of whose particles is then moved this far (m) in some direction.
+bool coversAfterMove(double distance, std::size_t p) {
+    std::vector<Vec3> positions = clouds::strewn(50, 0.8).position;
+    NeighbourList list;
+    build(list, positions, kCutoff, kSkin);
+    positions[p] += distance * clouds::randomVector(11, p).normalized();
+    return covers(list, positions, kCutoff);
+}
+
+}  // namespace
+
+TEST_CASE("Rows hold every other particle within the reach once", "[neighbour-list]") {
+    for (const std::size_t count : {0U, 1U, 2U}) checkRows(clouds::strewn(count, 0.1).position);
+    checkRows(clouds::strewn(300, 1.5).position);   // dense
+    checkRows(clouds::strewn(400, 0.3).position);   // rows longer than the sieve
+    checkRows(clouds::strewn(100, 40.0).position);  // mostly alone
+}
+
+TEST_CASE("Rows hold coincident particles, those on cell faces and far outliers", "[neighbour-list]") {
+    std::vector<Vec3> positions = clouds::strewn(60, 0.8).position;
+    for (std::size_t p = 0; p < 20; ++p) positions[p] = Vec3(0.1, 0.1, 0.1);
+    for (int k = -3; k <= 3; ++k) positions.emplace_back((kCutoff + kSkin) * k, 0.0, 0.0);
+    positions.emplace_back(9e7, -9e7, 9e7);
+    positions.emplace_back(9e7, -9e7, 9e7 + 0.3);
+    positions.emplace_back(-9e7, 8e7, 0.0);
+    checkRows(positions);
+}
+
+TEST_CASE("A list covers until a particle has moved by half the skin", "[neighbour-list]") {
+    for (std::size_t p = 0; p < 50; p += 7) {
+        CHECK(
+            coversAfterMove(0.5 * kSkin * (1 - 1e-12), p));  // positions of 1 m round to 1e-16, 4e-15 of half the skin
+        CHECK_FALSE(coversAfterMove(0.5 * kSkin * (1 + 1e-12), p));  // same
+        CHECK_FALSE(coversAfterMove(std::numeric_limits<double>::quiet_NaN(), p));
+    }
+}
+
+TEST_CASE("A list covers neither a wider cutoff nor another number of particles", "[neighbour-list]") {
+    std::vector<Vec3> positions = clouds::strewn(10, 0.8).position;
+    NeighbourList list;
+    CHECK_FALSE(covers(list, positions, kCutoff));  // never built
+    build(list, positions, kCutoff, kSkin);
+    CHECK(covers(list, positions, kCutoff + kSkin));
+    CHECK_FALSE(covers(list, positions, (kCutoff + kSkin) * (1 + 1e-12)));  // far above the rounding of the sum
+    positions.pop_back();
+    CHECK_FALSE(covers(list, positions, kCutoff));
+}
+
+TEST_CASE("A list that covers holds every pair that has come within the cutoff", "[neighbour-list]") {
+    std::vector<Vec3> positions = clouds::strewn(300, 1.2).position;
+    NeighbourList list;
+    build(list, positions, kCutoff, kSkin);
+    for (std::size_t p = 0; p < positions.size(); ++p)
+        positions[p] += 0.499 * kSkin * clouds::randomVector(12, p).normalized();
+    REQUIRE(covers(list, positions, kCutoff));
+    for (std::size_t place = 0; place < list.count(); ++place) {
+        const auto row = rowOf(list, place);
+        for (const std::uint32_t i : neighboursOf(positions, list.order[place], kCutoff)) {
+            INFO("particles " << list.order[place] << " and " << i);
+            CHECK(row.count(i) == 1);
+        }
+    }
+}
+
+TEST_CASE("The same rows for any number of threads", "[neighbour-list]") {
+    const std::vector<Vec3> positions = clouds::strewn(3000, 2.5).position;
+    NeighbourList expected;
+    build(expected, positions, kCutoff, kSkin);
+    for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
+        NeighbourList list;
+        clouds::onThreads(threads, [&] { build(list, positions, kCutoff, kSkin); });
+        CHECK(list.order == expected.order);
+        CHECK(list.rowStart == expected.rowStart);
+        CHECK(list.places == expected.places);
+    }
+}

@@ -1,0 +1,254 @@
+// The implicit steppers' matrix against one that is written out, and what its solver promises at any tolerance.
+#include "engine/pair_matrix.h"
+
+#include <Eigen/Dense>
+#include <limits>
+#include "tests/catch.h"
+
+#include "engine/conjugate_gradient.h"
+#include "tests/engine/clouds.h"
+
+using namespace engine;
+
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+/// More than most steps would use: the pairs outweigh the mass by far.
+constexpr MatrixWeights kStrong{.damping = 0.3, .stiffness = 1e-3};
+
+/// A cloud with the matrix over it, and the same matrix written out in the order of particle indices.
+struct Case {
+    ForceLaw law;
+    Particles particles;
+    MatrixWeights weights;
+    PairMatrix matrix = {};
+    std::vector<std::uint32_t> order = {};
+    Eigen::MatrixXd dense = {};
+    Eigen::MatrixXd scale = {};  ///< the same sums over absolute values
+
+    Case(ForceLaw someLaw, Particles some, MatrixWeights someWeights)
+        : law(std::move(someLaw)), particles(std::move(some)), weights(someWeights) {
+        ForceEvaluator evaluator(law, ForceMethod::grid);
+        std::vector<Vec3> forces;
+        evaluator.assemble(particles, weights, forces, matrix);
+        order = evaluator.order();
+        writeOut();
+    }
+
+    std::size_t count() const { return particles.count(); }
+
+ private:
+    void writeOut() {
+        const auto size = static_cast<Eigen::Index>(3 * count());
+        dense = scale = Eigen::MatrixXd::Zero(size, size);
+        for (std::size_t p = 0; p < count(); ++p) {
+            add(p, p, particles.mass[p] * Matrix3::Identity());
+            for (std::size_t i = 0; i < p; ++i) {
+                const Matrix3 block = blockOf(p, i);
+                add(p, p, block);
+                add(i, i, block);
+                add(p, i, -block);
+                add(i, p, -block);
+            }
+        }
+    }
+
+    void add(std::size_t row, std::size_t column, const Matrix3& block) {
+        const auto r = static_cast<Eigen::Index>(3 * row);
+        const auto c = static_cast<Eigen::Index>(3 * column);
+        dense.block<3, 3>(r, c) += block;
+        scale.block<3, 3>(r, c) += block.cwiseAbs();
+    }
+
+    Matrix3 blockOf(std::size_t p, std::size_t i) const {
+        const Vec3 separation = particles.position[p] - particles.position[i];
+        const double distanceSq = squaredLength(separation);
+        const Material material = mixed(law.materials[particles.material[p]], law.materials[particles.material[i]]);
+        const auto constants = pairConstants<double>(material, particles.radius[p] + particles.radius[i]);
+        const double stiffness = std::max(0.0, pairStiffness(std::sqrt(distanceSq), constants));
+        return (weights.damping * pairDampingOverSq(distanceSq, constants) +
+                weights.stiffness * stiffness / distanceSq) *
+               separation * separation.transpose();
+    }
+};
+
+std::vector<Vec3> randomVectors(std::size_t count, std::uint64_t seed) {
+    std::vector<Vec3> vectors;
+    for (std::size_t p = 0; p < count; ++p) vectors.push_back(clouds::randomVector(seed, p));
+    return vectors;
+}
+
+/// From the order of the matrix to that of the particles, as one column.
+Eigen::VectorXd column(const Case& c, const std::vector<Vec3>& byPlace) {
+    Eigen::VectorXd all(static_cast<Eigen::Index>(3 * c.count()));
+    for (std::size_t place = 0; place < c.count(); ++place)
+        all.segment<3>(static_cast<Eigen::Index>(3 * c.order[place])) = byPlace[place];
+    return all;
+}
+
+/// Sum of a_p . b_p / m_p: the norm that the solver's tolerance is meant in.
+double inInverseMass(const Case& c, const std::vector<Vec3>& a) {
+    double sum = 0.0;
+    for (std::size_t place = 0; place < c.count(); ++place) sum += squaredLength(a[place]) / c.matrix.mass[place];
+    return std::sqrt(sum);
+}
+
+Case liquidAndSolid() {
+    ForceLaw law;
+    law.materials = {*materialPreset("liquid"), *materialPreset("solid")};
+    Particles particles = clouds::strewnUnequal(40, 0.5);
+    for (std::size_t p = 0; p < particles.count(); ++p) particles.material[p] = static_cast<std::uint32_t>(p % 2);
+    return {law, particles, kStrong};
+}
+
+std::vector<Case> smallClouds() {
+    std::vector<Case> cases = {liquidAndSolid()};
+    for (const char* preset : {"liquid", "solid", "powder"}) {
+        const MatrixWeights usual{.damping = 0.01, .stiffness = 0.0};
+        cases.emplace_back(clouds::lawOf(preset), clouds::strewn(40, 0.5), kStrong);
+        cases.emplace_back(clouds::lawOf(preset), clouds::strewnUnequal(40, 0.5), usual);
+    }
+    return cases;
+}
+
+}  // namespace
+
+TEST_CASE("A product is that of the matrix written out", "[pair-matrix]") {
+    for (const Case& c : smallClouds()) {
+        const auto x = randomVectors(c.count(), 21);
+        std::vector<Vec3> product;
+        multiply(c.matrix, x, product);
+        const Eigen::VectorXd actual = column(c, product);
+        const Eigen::VectorXd expected = c.dense * column(c, x);
+        const Eigen::VectorXd size = c.scale * column(c, x).cwiseAbs();
+        for (Eigen::Index k = 0; k < expected.size(); ++k) {
+            // Two orders of summing 120 products, each of a vector q and a difference with a dozen roundings.
+            INFO("component " << k << ": " << actual[k] << " against " << expected[k]);
+            CHECK(std::abs(actual[k] - expected[k]) <= (2 * 120 + 32) * kEps * size[k]);
+        }
+    }
+}
+
+TEST_CASE("The matrix is symmetric and at least the mass", "[pair-matrix]") {
+    for (const Case& c : smallClouds()) {
+        const auto x = randomVectors(c.count(), 22);
+        const auto y = randomVectors(c.count(), 23);
+        std::vector<Vec3> ax, ay;
+        multiply(c.matrix, x, ax);
+        multiply(c.matrix, y, ay);
+        const double xay = column(c, x).dot(column(c, ay));
+        const double size = column(c, x).cwiseAbs().dot(c.scale * column(c, y).cwiseAbs());
+        CHECK(std::abs(xay - column(c, y).dot(column(c, ax))) <=
+              500 * kEps * size);  // sums of 120 and 120 terms, twice
+        double mass = 0.0;
+        for (std::size_t place = 0; place < c.count(); ++place) mass += c.matrix.mass[place] * squaredLength(x[place]);
+        CHECK(column(c, x).dot(column(c, ax)) > mass);  // some pair of the cloud resists a random motion
+    }
+}
+
+TEST_CASE("The two entries of a pair are opposite bit for bit", "[pair-matrix]") {
+    const Case c = liquidAndSolid();
+    std::size_t pairs = 0;
+    for (std::uint32_t p = 0; p < c.count(); ++p)
+        for (std::uint32_t entry = c.matrix.rowStart[p]; entry < c.matrix.rowEnd[p]; ++entry) {
+            const std::uint32_t i = c.matrix.other[entry];
+            std::uint32_t twin = c.matrix.rowStart[i];
+            while (c.matrix.other[twin] != p) REQUIRE(++twin < c.matrix.rowEnd[i]);
+            CHECK(c.matrix.along[twin] == -c.matrix.along[entry]);
+            ++pairs;
+        }
+    CHECK(pairs > 2 * c.count());
+}
+
+TEST_CASE("A solution is off by no more than the tolerance", "[pair-matrix]") {
+    // A >= M, so the error x - x* = A^-1 r in the norm of M is at most r in the norm of M^-1, which the solver bounds
+    // by the tolerance. Its residual is a recurrence: at 1e-12 rounding has eaten half of it.
+    for (const Case& c : smallClouds()) {
+        const auto b = randomVectors(c.count(), 24);
+        const Eigen::VectorXd exact = c.dense.ldlt().solve(column(c, b));
+        for (const double tolerance : {1e-2, 1e-6, 1e-12}) {
+            std::vector<Vec3> x;
+            SolverScratch scratch;
+            CHECK(solve(c.matrix, b, tolerance, x, scratch) < 500);
+            Eigen::VectorXd error = column(c, x) - exact;
+            for (std::size_t p = 0; p < c.count(); ++p)
+                error.segment<3>(static_cast<Eigen::Index>(3 * p)) *= std::sqrt(c.particles.mass[p]);
+            CHECK(error.norm() <= 2.0 * tolerance * inInverseMass(c, b));  // derived above
+        }
+    }
+}
+
+TEST_CASE("What pairs push alone neither moves nor turns the whole, at any tolerance", "[pair-matrix]") {
+    for (const Case& c : smallClouds()) {
+        const auto y = randomVectors(c.count(), 25);
+        std::vector<Vec3> b;
+        multiply(c.matrix, y, b);
+        for (std::size_t place = 0; place < c.count(); ++place) b[place] -= c.matrix.mass[place] * y[place];
+        for (double tolerance = 0.1; tolerance > 0.5e-12; tolerance *= 0.1) {
+            std::vector<Vec3> x;
+            SolverScratch scratch;
+            solve(c.matrix, b, tolerance, x, scratch);
+            Vec3 momentum = Vec3::Zero();
+            Vec3 spin = Vec3::Zero();
+            double size = 0.0;
+            for (std::size_t place = 0; place < c.count(); ++place) {
+                const Vec3 impulse = c.matrix.mass[place] * x[place];
+                momentum += impulse;
+                spin += c.particles.position[c.order[place]].cross(impulse);
+                size += b[place].norm();
+            }
+            CHECK(size > 0.0);
+            CHECK(momentum.norm() <= 100 * kEps * size);  // a rounding of the impulses of 100 products, at random signs
+            CHECK(spin.norm() <= 100 * kEps * size);      // the same, at arms below 1 m
+        }
+    }
+}
+
+TEST_CASE("A smaller tolerance takes more products", "[pair-matrix]") {
+    for (const Case& c : smallClouds()) {
+        int before = 0;
+        for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9, 1e-12}) {
+            std::vector<Vec3> x;
+            SolverScratch scratch;
+            const int products = solve(c.matrix, randomVectors(c.count(), 26), tolerance, x, scratch);
+            CHECK(products > before);
+            before = products;
+        }
+    }
+}
+
+TEST_CASE("Nothing to solve, nobody to meet", "[pair-matrix]") {
+    SolverScratch scratch;
+    std::vector<Vec3> x;
+    const Case none(clouds::lawOf("solid"), {}, kStrong);
+    solve(none.matrix, {}, 1e-6, x, scratch);
+    CHECK(x.empty());
+    const Case one(clouds::lawOf("solid"), clouds::strewnUnequal(1, 1.0), kStrong);
+    CHECK(solve(one.matrix, {Vec3(1, -2, 3)}, 1e-6, x, scratch) == 1);
+    CHECK((x[0] - Vec3(1, -2, 3) / one.particles.mass[0]).norm() <=
+          4 * kEps * x[0].norm());  // two divisions, a product
+    const Case some = liquidAndSolid();
+    solve(some.matrix, std::vector<Vec3>(some.count(), Vec3::Zero()), 1e-6, x, scratch);
+    CHECK(x == std::vector<Vec3>(some.count(), Vec3::Zero()));
+}
+
+TEST_CASE("A solution has the same bits for any number of threads", "[pair-matrix]") {
+    const ForceLaw law = clouds::lawOf("liquid");
+    const Particles particles = clouds::strewnUnequal(3000, 2.2);
+    const auto solution = [&] {
+        ForceEvaluator evaluator(law, ForceMethod::grid);
+        PairMatrix matrix;
+        SolverScratch scratch;
+        std::vector<Vec3> forces, x;
+        evaluator.assemble(particles, {.damping = 0.01, .stiffness = 1e-4}, forces, matrix);
+        solve(matrix, forces, 1e-8, x, scratch);
+        return x;
+    };
+    const auto expected = solution();
+    for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
+        std::vector<Vec3> x;
+        clouds::onThreads(threads, [&] { x = solution(); });
+        CHECK(x == expected);
+    }
+}
