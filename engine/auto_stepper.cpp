@@ -6,6 +6,8 @@
 
 #include "engine/audited_steps.h"
 #include "engine/error_look.h"
+#include "engine/parallel.h"
+#include "engine/step_audit.h"
 #include "engine/steppers.h"
 
 namespace engine {
@@ -16,6 +18,9 @@ constexpr std::array kCandidates = {StepperKind::velocityVerlet, StepperKind::im
 
 /// Chosen: every so many looks all candidates are compared.
 constexpr std::uint64_t kLooksPerComparison = 5;
+
+/// Chosen: an interval in which the acceleration has grown by this factor since the last look is run again, as a look.
+constexpr double kSurprise = 2.0;
 
 /// One look changes the step by at most this factor; further away the error no longer goes like its square.
 constexpr double kMostChange = 3.0;
@@ -108,18 +113,43 @@ void lookAround(Simulation& simulation, double time) {
     goOnFrom(simulation, std::move(finer[chosen]));
 }
 
+/// rms over the particles of the mean acceleration since `before`, gravity left out, in m/s^2.
+double agitationSince(const Simulation& simulation, const BeforeStep& before) {
+    const std::size_t count = before.velocity.size();
+    const double duration = simulation.time - before.time;
+    const Vec3 fall = duration * simulation.setup.gravity;
+    const double sumSq = sumOver(count, [&](std::size_t p) {
+        return squaredLength(simulation.particles.velocity[p] - before.velocity[p] - fall);
+    });
+    return std::sqrt(sumSq / static_cast<double>(count)) / duration;
+}
+
+/// Whether something happened that the last look did not know of, such as an impact.
+bool isSurprised(const Simulation& simulation, const BeforeStep& before) {
+    // Changes of velocity below the wanted error matter to nobody.
+    const double least = simulation.setup.error * simulation.particles.radius[0] / (simulation.time - before.time);
+    return agitationSince(simulation, before) > kSurprise * std::max(simulation.automatic.agitation, least);
+}
+
 }  // namespace
 
 void advanceAutomatically(Simulation& simulation, double time) {
     giveBirth(simulation);
-    AutoState& state = simulation.automatic;
+    const AutoState& state = simulation.automatic;
     if (simulation.particles.count() == 0)
         return advanceAudited(simulation, time, time - simulation.time, StepLimit::frame);
-    if (state.intervals >= state.nextLook) {
-        lookAround(simulation, time);
-    } else {
+    BeforeStep before;
+    keep(simulation, before);
+    bool looks = state.intervals >= state.nextLook;
+    if (!looks) {
         const AutoChoice& choice = choiceOf(simulation, simulation.stepper);
         advanceAudited(simulation, time, choice.step, choice.reason);
+        looks = isSurprised(simulation, before);
+        if (looks) takeBack(simulation, before);
+    }
+    if (looks) {
+        lookAround(simulation, time);
+        simulation.automatic.agitation = agitationSince(simulation, before);
     }
     ++simulation.automatic.intervals;
 }

@@ -20,7 +20,7 @@ constexpr double kFraction = 0.1;
 /// changes errors by less than the stepper's own.
 constexpr double kResolved = 0.2;
 
-/// Share of the limits of stability up to which contacts act as forces. Chosen.
+/// Share of the limit of stability up to which contacts act as explicit forces. Chosen.
 constexpr double kStable = 0.5;
 
 /// Chosen: nothing sane needs as many; a particle caught between obstacles waits there for its next step.
@@ -109,15 +109,18 @@ void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
 
 }  // namespace
 
-bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, ContactTreatment treatment) {
+bool mayTouch(const Scenery& scenery, const Flight& flight, double duration) {
+    return duration * std::sqrt(squaredLength(flight.velocity)) > lookAhead(scenery, flight).gap;
+}
+
+bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit) {
     const Outlook ahead = lookAhead(scenery, flight);
     const double way = duration * std::sqrt(squaredLength(flight.velocity));
     if (!(way > ahead.gap)) return false;
     if (way > kResolved * ahead.scale) return true;
-    // The limits are h^2 w^2 + 2 h g = 4 with explicit damping, h^2 w^2 = 4 with implicit damping.
+    // The limit is h^2 w^2 + 2 h g = 4.
     const double phase = duration * ahead.frequency;
-    const double decay = treatment == ContactTreatment::explicitly ? 2.0 * duration * ahead.decay : 0.0;
-    return treatment != ContactTreatment::implicitly && phase * phase + decay > kStable * 4.0;
+    return isExplicit && phase * phase + 2.0 * duration * ahead.decay > kStable * 4.0;
 }
 
 void fly(const Scenery& scenery, Flight& flight, double duration) {

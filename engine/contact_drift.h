@@ -17,12 +17,12 @@ struct Flight {
     double friction = 0.0;         ///< mu of its material
 };
 
-/// How a stepper treats the contacts that it does not sweep.
-enum class ContactTreatment { explicitly, dampingImplicitly, implicitly };
-
 /// Whether the contacts of the coming step (s) are more than a step of that length bears: the particle may cover more
-/// than a fraction of a contact's depth in it, or comes near the limit of stability of a lone particle on the contact.
-bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, ContactTreatment treatment);
+/// than a fraction of a contact's depth in it, or, where contacts act explicitly, comes near the limit of stability.
+bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit);
+
+/// Whether the particle may touch something in the coming step (s).
+bool mayTouch(const Scenery& scenery, const Flight& flight, double duration);
 
 /// Flies on for a duration (s) under the forces of the obstacles alone, those of section 3.2.
 /// Holds:  at any finite speed the centre stays on the side of a plane, of a box's face and of a sphere that it came

@@ -31,11 +31,6 @@ Flight flightOf(const Simulation& simulation, std::size_t p) {
             materialOf(simulation, p).friction};
 }
 
-ContactTreatment treatmentBy(StepperKind stepper) {
-    if (stepper == StepperKind::linearlyImplicit) return ContactTreatment::implicitly;
-    return stepper == StepperKind::implicitDamping ? ContactTreatment::dampingImplicitly : ContactTreatment::explicitly;
-}
-
 /// Calls body(p) for every particle that is not swept, if there is anything to touch.
 template <class Body>
 void forEachUnswept(const Simulation& simulation, const Body& body) {
@@ -50,10 +45,15 @@ void forEachUnswept(const Simulation& simulation, const Body& body) {
 void chooseSwept(Simulation& simulation, double h) {
     const Scenery& scenery = simulation.setup.scenery;
     if (scenery.colliders.empty()) return;
-    const ContactTreatment treatment = treatmentBy(simulation.stepper);
+    const bool isExplicit = simulation.stepper == StepperKind::velocityVerlet;
     simulation.swept.resize(simulation.particles.count());
     inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
-        simulation.swept[p] = needsSweep(scenery, flightOf(simulation, p), h, treatment) ? 1 : 0;
+        // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part
+        // of what the whole heap does.
+        const Flight flight = flightOf(simulation, p);
+        const bool isSwept =
+            simulation.evaluator.isAlone(p) ? mayTouch(scenery, flight, h) : needsSweep(scenery, flight, h, isExplicit);
+        simulation.swept[p] = isSwept ? 1 : 0;
     });
 }
 
@@ -85,9 +85,10 @@ void addContacts(const Simulation& simulation, const std::vector<Vec3>& velociti
     });
 }
 
-void addContacts(const Simulation& simulation, const MatrixWeights& weights, PairMatrix& matrix) {
+void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     const Particles& particles = simulation.particles;
     const Scenery& scenery = simulation.setup.scenery;
+    const MatrixWeights weights{0.5 * h, 0.25 * h * h};
     matrix.own.clear();
     if (scenery.colliders.empty()) return;
     matrix.own.assign(particles.count(), Matrix3::Zero());

@@ -17,7 +17,8 @@ void applyDrag(Simulation& simulation, double h);
 /// Adds the obstacles' forces on particles that are not swept, with the given velocities (m/s) in the damping, N.
 void addContacts(const Simulation& simulation, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
 
-/// Adds the obstacles' damping and stiffness on particles that are not swept to a matrix, with its weights.
-void addContacts(const Simulation& simulation, const MatrixWeights& weights, PairMatrix& matrix);
+/// Adds the obstacles' damping and stiffness on particles that are not swept to the matrix of a step of h seconds.
+/// Both, whatever the matrix holds of the pairs: a heap's weight makes contacts stiffer than anything else.
+void addContacts(const Simulation& simulation, double h, PairMatrix& matrix);
 
 }  // namespace engine

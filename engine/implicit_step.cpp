@@ -31,7 +31,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
         simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix);
     ++simulation.steps.forceEvaluations;
     addContacts(simulation, particles.velocity, simulation.forces);
-    addContacts(simulation, weights, simulation.implicit.matrix);
+    addContacts(simulation, h, simulation.implicit.matrix);
     solveForChange(simulation, h);
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
     const std::vector<Vec3>& change = simulation.implicit.change;

@@ -10,12 +10,13 @@ namespace {
 struct Row {
     std::string_view name;
     double radius, mass, b1, bd, cr, cd;
+    double friction = 0.0;
 };
 
 /// Table 1, row by row, with the published masses of 1 kg; then the substances that the paper names without constants.
 /// Those are chosen for looks at g = 9.81 m/s^2: b_d over the mass sets the viscosity, b1 over the mass how far a pile
 /// is squeezed by its own weight, c_r the cohesion; c_r stays below 1.8, where matter starts to fall in on itself.
-constexpr std::array<Row, 10> kPresets = {{
+constexpr std::array<Row, 11> kPresets = {{
     {"liquid", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
     {"solid", 0.15, 1.0, 0.8, 4.0, 2.0, 2.0},
     {"powder", 0.15, 1.0, 0.8, 4.0, 1.0, 1.0},
@@ -26,6 +27,7 @@ constexpr std::array<Row, 10> kPresets = {{
     {"lava", 0.15, 0.3, 0.3, 40.0, 1.4, 2.0},
     {"mud", 0.15, 0.2, 0.2, 10.0, 1.3, 2.0},
     {"molten-metal", 0.15, 0.5, 0.8, 1.0, 1.4, 2.0},
+    {"sand", 0.15, 0.1, 0.8, 4.0, 1.0, 1.0, 0.6},
 }};
 
 }  // namespace
@@ -41,6 +43,7 @@ std::optional<Material> materialPreset(std::string_view name) {
         material.damping = row.bd;
         material.repulsionReach = row.cr;
         material.dampingReach = row.cd;
+        material.friction = row.friction;
         return material;
     }
     return std::nullopt;

@@ -24,7 +24,7 @@ struct Material {
 };
 
 /// A row of Table 1 (liquid, solid, powder, fountain) or a substance that the paper names (honey, jam, oil, lava, mud,
-/// molten-metal); nothing for any other name.
+/// molten-metal, sand); nothing for any other name.
 std::optional<Material> materialPreset(std::string_view name);
 
 /// The names of all presets: those of Table 1 in its order, then the substances.

@@ -57,6 +57,9 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
         forEachInReach(list, around, self, [&](std::uint32_t) { ++found; });
         list.rowStart[self + 1] = found;
     });
+    list.alone.resize(positions.size());
+    for (std::size_t place = 0; place < list.order.size(); ++place)
+        list.alone[list.order[place]] = list.rowStart[place + 1] == 0 ? 1 : 0;
     for (std::size_t place = 1; place < list.rowStart.size(); ++place) list.rowStart[place] += list.rowStart[place - 1];
     list.places.resize(list.rowStart.back());
     forEachPlace(list.grid, [&](const Neighbourhood& around, std::uint32_t self) {

@@ -30,6 +30,14 @@ Slip slipOf(const PairRecord& p, const PairRecord& i, const Vec3& separation, do
     return slip;
 }
 
+/// A coincident pair is parted by a force that its energy at D = 0 does not know: it counts as much above that energy
+/// as its stand-in lies below.
+double energyOf(const PairRecord& p, const PairRecord& i, double distance, const PairConstants<double>& constants) {
+    const double energy = pairEnergy(distance, constants);
+    if (p.x != i.x || p.y != i.y || p.z != i.z) return energy;
+    return 2.0 * pairEnergy(0.0, constants) - energy;
+}
+
 /// A pair as the matrix needs it.
 struct Neighbour {
     const Vec3& separation;
@@ -62,7 +70,7 @@ struct Kernel {
                 force -= slip.damping * slip.velocity;
             }
             if constexpr (variant.energy)
-                if (distanceSq < constants.reachSq) energy += 0.5 * pairEnergy(std::sqrt(distanceSq), constants);
+                if (distanceSq < constants.reachSq) energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), constants);
             if constexpr (variant.matrix) addEntry(entry, other, {separation, distanceSq, slip}, constants);
         });
         sums.forces[pairs.list.order[self]] = force;

@@ -16,7 +16,7 @@ struct PresetColor {
 };
 
 /// Told apart at a glance on a light and a dark background; chosen for looks.
-constexpr std::array<PresetColor, 10> kPresetColors = {{{"liquid", "#3f86c8"},
+constexpr std::array<PresetColor, 11> kPresetColors = {{{"liquid", "#3f86c8"},
                                                         {"solid", "#c8794a"},
                                                         {"powder", "#d8b878"},
                                                         {"fountain", "#58a8dc"},
@@ -25,7 +25,8 @@ constexpr std::array<PresetColor, 10> kPresetColors = {{{"liquid", "#3f86c8"},
                                                         {"oil", "#d9b63a"},
                                                         {"lava", "#ff5a14"},
                                                         {"mud", "#6b4a2f"},
-                                                        {"molten-metal", "#ffb347"}}};
+                                                        {"molten-metal", "#ffb347"},
+                                                        {"sand", "#d9b36c"}}};
 
 engine::Vec3 presetColor(const std::string& preset) {
     const auto* row = std::find_if(kPresetColors.begin(), kPresetColors.end(),

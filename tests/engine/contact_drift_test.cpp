@@ -78,7 +78,7 @@ TEST_CASE("Free flight is one product and one sum", "[contact-drift]") {
     for (const double duration : {1e-3, 0.1, 0.9}) {
         Flight flight{Vec3(0.1, 4.0, 0.2), Vec3(1.7, -2.9, 0.3), 0.1, 0.15, 2.0};
         const Vec3 expected = flight.position + duration * flight.velocity;
-        CHECK_FALSE(needsSweep(scenery, flight, duration, ContactTreatment::explicitly));
+        CHECK_FALSE(needsSweep(scenery, flight, duration, true));
         fly(scenery, flight, duration);
         CHECK(flight.position == expected);
         CHECK(flight.velocity == Vec3(1.7, -2.9, 0.3));
@@ -96,17 +96,15 @@ TEST_CASE("What passes by an obstacle is only moved", "[contact-drift]") {
 TEST_CASE("Only what is too fast or too stiff for the step is swept", "[contact-drift]") {
     const Scenery floor = only(Plane{});
     const Flight fast{Vec3(0, 1, 0), Vec3(0, -100, 0), 0.1, 0.15, 2.0};
-    CHECK(needsSweep(floor, fast, 0.01, ContactTreatment::implicitly));
-    CHECK_FALSE(needsSweep(floor, fast, 0.008, ContactTreatment::implicitly));  // 0.8 of 0.85 m to the contact
+    CHECK(needsSweep(floor, fast, 0.01, false));
+    CHECK_FALSE(needsSweep(floor, fast, 0.008, false));  // 0.8 of 0.85 m to the contact
     const Flight slow{Vec3(0, 0.1, 0), Vec3(0, -0.1, 0), 0.1, 0.15, 2.0};
     // D = 0.6: c = 10 (1 - 0.36/0.4225) = 1.48 kg/s and k = 10 (4/D^5 - 4/(0.65^2 D^3)) = 76 N/m; with 0.1 kg
     // h^2 w^2 + 2 h g is 0.37 at 0.01 s, 2 at 0.037 s, 11 at 0.1 s.
-    CHECK_FALSE(needsSweep(floor, slow, 0.01, ContactTreatment::explicitly));
-    CHECK(needsSweep(floor, slow, 0.1, ContactTreatment::explicitly));
-    CHECK(needsSweep(floor, slow, 0.1, ContactTreatment::dampingImplicitly));          // h^2 w^2 = 7.6 above 2
-    CHECK_FALSE(needsSweep(floor, slow, 0.045, ContactTreatment::dampingImplicitly));  // 1.5
-    CHECK(needsSweep(floor, slow, 0.045, ContactTreatment::explicitly));               // 2.9
-    CHECK_FALSE(needsSweep(floor, slow, 0.1, ContactTreatment::implicitly));
+    CHECK_FALSE(needsSweep(floor, slow, 0.01, true));
+    CHECK(needsSweep(floor, slow, 0.1, true));
+    CHECK(needsSweep(floor, slow, 0.045, true));               // 2.9
+    CHECK_FALSE(needsSweep(floor, slow, 0.1, false));
 }
 
 TEST_CASE("What rests on a plane stays", "[contact-drift]") {

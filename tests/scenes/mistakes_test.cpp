@@ -53,7 +53,8 @@ TEST_CASE("wrong types say what was found and what is expected") {
     CHECK(physics("gravity = [0, \"g\", 0]") ==
           Lines{"pile.toml:7:15: gravity[1] is \"g\" (a string), must be a number (m/s^2)"});
     CHECK(physics("stepper = 4") ==
-          Lines{"pile.toml:7:11: stepper is 4, must be \"symplectic-euler\" or \"velocity-verlet\""});
+          Lines{"pile.toml:7:11: stepper is 4, must be \"symplectic-euler\", \"velocity-verlet\", "
+                "\"implicit-damping\", \"linearly-implicit\" or \"auto\""});
     CHECK(problemsOf("fps = 29.97\n" + kBall) ==
           Lines{"pile.toml:1:7: fps is 29.97, must be a whole number (per second)"});
     CHECK(problemsOf("description = 1\n" + kBall) == Lines{"pile.toml:1:15: description is 1, must be a string"});
@@ -95,7 +96,8 @@ TEST_CASE("numbers that are not finite are refused") {
 
 TEST_CASE("choices are listed, with the nearest one") {
     CHECK(problemsOf(kBall + "[material]\npreset = \"liqid\"\n") ==
-          Lines{"pile.toml:7:10: preset is \"liqid\", must be \"liquid\", \"solid\", \"powder\" or \"fountain\", "
+          Lines{"pile.toml:7:10: preset is \"liqid\", must be \"liquid\", \"solid\", \"powder\", \"fountain\", "
+                "\"honey\", \"jam\", \"oil\", \"lava\", \"mud\", \"molten-metal\" or \"sand\", "
                 "did you mean \"liquid\"?"});
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"torus\"\n") ==
           Lines{"pile.toml:4:9: shape is \"torus\", must be \"box\", \"ball\", \"grid\", \"points\" or \"file\""});
@@ -222,18 +224,18 @@ TEST_CASE("ten different mistakes are ten problems, in order of position") {
         "material = \"sand\"\n"  // 9 undefined material
         "[camra]\n"              // 10 unknown table
         "eye = [0, 0, 0]\n";
-    const Lines expected = {
-        "pile.toml:1:9: title is 3, must be a string",
-        "pile.toml:2:12: duration is -1, must be > 0 and <= 1000000 (seconds)",
-        "pile.toml:4:1: unknown key \"physics.gravty\", did you mean \"gravity\"?",
-        "pile.toml:5:8: drag is nan, must be finite (per second)",
-        "pile.toml:6:11: stepper is \"symplectic-eular\", must be \"symplectic-euler\" or \"velocity-verlet\", "
-        "did you mean \"symplectic-euler\"?",
-        "pile.toml:7:10: syntax error: floating-point: expected decimal digit or exponent, saw '.'",
-        "pile.toml:8:1: key \"step\" is given twice, first in line 7",
-        "pile.toml:9:1: radius is missing, a body of shape \"ball\" needs it (metres)",
-        "pile.toml:11:12: material \"sand\" is not defined (defined: liquid)",
-        "pile.toml:12:1: unknown table \"camra\", did you mean \"camera\"?"};
+    const Lines expected = {"pile.toml:1:9: title is 3, must be a string",
+                            "pile.toml:2:12: duration is -1, must be > 0 and <= 1000000 (seconds)",
+                            "pile.toml:4:1: unknown key \"physics.gravty\", did you mean \"gravity\"?",
+                            "pile.toml:5:8: drag is nan, must be finite (per second)",
+                            "pile.toml:6:11: stepper is \"symplectic-eular\", must be \"symplectic-euler\", "
+                            "\"velocity-verlet\", \"implicit-damping\", \"linearly-implicit\" or \"auto\", "
+                            "did you mean \"symplectic-euler\"?",
+                            "pile.toml:7:10: syntax error: floating-point: expected decimal digit or exponent, saw '.'",
+                            "pile.toml:8:1: key \"step\" is given twice, first in line 7",
+                            "pile.toml:9:1: radius is missing, a body of shape \"ball\" needs it (metres)",
+                            "pile.toml:11:12: material \"sand\" is not defined (defined: liquid)",
+                            "pile.toml:12:1: unknown table \"camra\", did you mean \"camera\"?"};
     CHECK(problemsOf(text) == expected);
 }
 

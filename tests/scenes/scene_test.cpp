@@ -18,7 +18,7 @@ TEST_CASE("a scene that says little has the defaults of the schema") {
     CHECK(scene.seed == 1);
     CHECK(scene.setup.gravity == Vec3(0.0, -9.8, 0.0));
     CHECK(scene.setup.drag == 0.0);
-    CHECK(scene.setup.stepper == engine::StepperKind::velocityVerlet);
+    CHECK(scene.setup.stepper == engine::StepperKind::automatic);
     CHECK(scene.setup.step == 0.002);
     CHECK(scene.setup.forces == engine::ForceMethod::grid);
     CHECK(scene.stillTime == 1.0);
