@@ -129,7 +129,7 @@ TEST_CASE("the order is that of the stepper") {
         // Two that swing about their rest length.
         const scenes::Scene scene = sceneWith(
             "[material]\npreset = \"solid\"\n[[body]]\nshape = \"points\"\npositions = [[9, 0, 0], [9.32, 0, 0]]\n",
-            {"body[0].center=[90, 0, 0]", "body[0].radius=0.1", "physics.step=0.001", "physics.stepper=" + stepper});
+            {"body[0].center=[90, 0, 0]", "body[0].radius=0.1", "physics.step=0.0001", "physics.stepper=" + stepper});
         const Run run = studies::runScene(scene);
         return studies::order({scene, run});
     };
