@@ -6,11 +6,6 @@
 namespace engine {
 namespace {
 
-double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
-    const Contact contact = contactWith(surface, law, probe);
-    return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
-}
-
 template <class Visit>
 void forEachTouched(const Scenery& scenery, const Probe& probe, const Visit& visit) {
     forEachSurface(scenery, probe.position, [&](const Surface& surface) {

@@ -26,14 +26,41 @@ constexpr double kStable = 0.5;
 /// Chosen: nothing sane needs as many; a particle caught between obstacles waits there for its next step.
 constexpr int kMostSteps = 20000;
 
-/// How deep a particle may come, as a positive depth under the face, m.
-double barrierDepth(const Surface& surface, const RepulsorLaw& law, double radius) {
-    const double core = law.coreFraction * (radius + surface.repulsorRadius);
-    return std::min(std::max(0.0, surface.repulsorRadius - core), 0.9 * surface.halfThickness);
-}
+/// How deep, in radii or half thicknesses, a particle comes into a solid whose repulsor cannot stop it. Chosen: what
+/// grazes that deep goes on nearly straight, as off a hard surface.
+constexpr double kGraze = 0.1;
 
 Probe probeOf(const Flight& flight) {
     return {flight.position, flight.velocity, flight.radius, flight.dampingReach};
+}
+
+/// How deep the straight way ahead leads, m.
+double depthOfWay(const Surface& surface, const Vec3& velocity) {
+    if (surface.curvature == 0.0) return std::numeric_limits<double>::infinity();
+    const double radius = 1.0 / surface.curvature;
+    const double speedSq = squaredLength(velocity);
+    const double inwards = dot(velocity, surface.normal);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - inwards * inwards / speedSq));
+    return radius - (radius + surface.height) * sine;
+}
+
+/// Whether the particle has the energy to get to a depth (m) against the repulsor.
+bool canReach(double depth, const Surface& surface, const RepulsorLaw& law, const Flight& flight) {
+    Surface there = surface;
+    there.height = -depth;
+    const double kinetic = 0.5 * flight.mass * squaredLength(flight.velocity);
+    const Probe probe = probeOf(flight);
+    return kinetic + surfaceEnergy(surface, law, probe) > surfaceEnergy(there, law, probe);
+}
+
+/// How deep a particle may come, as a positive depth under the face, m. A solid has a far side, and a shot beside its
+/// middle may go by the repulsor's core: one that the repulsor cannot keep from its way meets the barrier at once.
+double barrierDepth(const Surface& surface, const RepulsorLaw& law, const Flight& flight) {
+    const double core = law.coreFraction * (flight.radius + surface.repulsorRadius);
+    const double depth = std::min(std::max(0.0, surface.repulsorRadius - core), 0.9 * surface.halfThickness);
+    if (std::isinf(surface.halfThickness)) return depth;
+    if (!canReach(std::min(depth, depthOfWay(surface, flight.velocity)), surface, law, flight)) return depth;
+    return std::min(depth, kGraze * std::min(flight.radius, surface.halfThickness));
 }
 
 /// What lies ahead of a particle.
@@ -49,7 +76,7 @@ Outlook lookAhead(const Scenery& scenery, const Flight& flight) {
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {
         const double gap = surface.height - flight.radius;
         ahead.gap = std::min(ahead.gap, gap);
-        const double depth = barrierDepth(surface, scenery.law, flight.radius);
+        const double depth = barrierDepth(surface, scenery.law, flight);
         // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
         const double least = 0.5 * std::min(flight.radius + surface.repulsorRadius, surface.halfThickness);
         ahead.scale = std::min(ahead.scale, std::max(least, std::min(surface.height, flight.radius) + depth));
@@ -101,7 +128,7 @@ void kick(const Scenery& scenery, Flight& flight, double step) {
 
 void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {
-        if (surface.height >= -barrierDepth(surface, scenery.law, flight.radius)) return;
+        if (surface.height >= -barrierDepth(surface, scenery.law, flight)) return;
         const double inwards = dot(flight.velocity, surface.normal);
         if (inwards < 0.0) flight.velocity -= 2.0 * inwards * surface.normal;
     });

@@ -16,6 +16,7 @@ struct Surface {
     Vec3 normal = Vec3::UnitY();                                     ///< away from the solid
     double repulsorRadius = 0.5;                                     ///< m
     double halfThickness = std::numeric_limits<double>::infinity();  ///< of the solid under the face, m
+    double curvature = 0.0;                                          ///< of a solid sphere, 1/m
 };
 
 template <class Visit>
@@ -58,7 +59,7 @@ void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadi
     const double distance = std::sqrt(squaredLength(away));
     const Vec3 normal = distance > 0.0 ? Vec3(away / distance) : Vec3(Vec3::UnitY());
     visit(Surface{distance - sphere.radius, normal, sphere.literalRepulsor ? sphere.radius : repulsorRadius,
-                  sphere.radius});
+                  sphere.radius, 1.0 / sphere.radius});
 }
 
 /// Every surface of the scenery, near or far.
@@ -98,6 +99,13 @@ inline double normalForce(const Contact& contact, double normalSpeed) {
     const double distanceSq = contact.distance * contact.distance;
     return contact.distance *
            pairCoefficient<kRepulsorTerms>(distanceSq, contact.distance * normalSpeed, contact.constants);
+}
+
+/// Energy of a particle at this surface, J; 0 where it does not touch.
+inline double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
+    if (surface.height >= probe.radius) return 0.0;
+    const Contact contact = contactWith(surface, law, probe);
+    return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
 }
 
 /// Damping of the normal motion, kg/s.

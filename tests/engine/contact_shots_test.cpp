@@ -127,12 +127,36 @@ TEST_CASE("No shot at a sphere's middle passes it", "[contact-shots]") {
     for (const double radius : {0.5, 0.05})
         for (const Vec3& out : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(-1, 2, 0.5)}) {
             const Vec3 outward = out.normalized();
-            // Aimed at the centre, within some degrees: still met head-on where the barrier is, 0.1 R from the centre.
             const Vec3 centre(0.3, 0.2, 0.1);
             shootFromAllSides({Sphere{centre, radius, false}, centre, outward, 0.7,
                                deeperThan(radius, centre + radius * outward, outward)},
                               6);
         }
+}
+
+TEST_CASE("What goes on nearly straight past a sphere has only grazed it", "[contact-shots]") {
+    for (const double radius : {0.05, 0.5, 3.0}) {
+        Scenery scenery;
+        scenery.colliders = {Sphere{Vec3::Zero(), radius, false}};
+        const double graze = 0.2 * std::min(radius, 0.15);  // twice the barrier's depth, for the step that meets it
+        for (const double mass : kMasses)
+            for (const double speed : kSpeeds)
+                for (int k = 0; k < 50; ++k) {
+                    const double beside = radius * (k + 0.5) / 50;
+                    Flight flight{Vec3(-radius - 0.5, beside, 0), Vec3(speed, 0, 0), mass, 0.15, 2.0};
+                    double least = radius;
+                    for (double way = 0.0; way < 4.0 * radius + 4.0; way += 0.02) {
+                        fly(scenery, flight, 0.02 / speed);
+                        least = std::min(least, flight.position.norm());
+                    }
+                    INFO(mass << " kg at " << speed << " m/s, " << beside << " m beside the middle of a sphere of "
+                              << radius << " m came to " << least << " m, leaves along "
+                              << flight.velocity.transpose());
+                    CHECK(flight.position.norm() > radius);
+                    const bool straight = flight.velocity.x() > 0.9 * speed;
+                    CHECK((!straight || radius - least < graze));
+                }
+    }
 }
 
 TEST_CASE("No shot leaves a container", "[contact-shots]") {
