@@ -38,6 +38,16 @@ void lookAtEnd(Simulation& simulation) {
     establishEnergy(simulation);
 }
 
+/// Where the steps have to end next: at the time (s) that was asked for or at a birth on the way, or a newborn would be
+/// felt by the others from the next step's start on only.
+double nextStop(const Simulation& simulation, double time) {
+    constexpr double kSame = 1e-9;  // s
+    double stop = time - kSame;
+    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
+        stop = std::min(stop, nextBirth(simulation.setup.emitters[e], simulation.emitters[e]));
+    return stop < time - kSame ? stop : time;
+}
+
 void record(Simulation& simulation, double h, StepLimit limit) {
     StepStatistics& steps = simulation.steps;
     steps.shortest = steps.count == 0 ? h : std::min(steps.shortest, h);
@@ -78,14 +88,15 @@ void advanceAudited(Simulation& simulation, double time, double longest, StepLim
     if (!simulation.energy) establishEnergy(simulation);
     while (simulation.time < time) {
         StepRestriction& restriction = simulation.restriction;
-        const double remaining = time - simulation.time;
+        const double stop = nextStop(simulation, time);
+        const double remaining = stop - simulation.time;
         const double allowed = std::min(longest, restriction.seconds);
         // The smallest whole number of steps; the slack keeps 0.02 s at steps of 0.01 s from becoming three.
         const double count = std::max(1.0, std::ceil(remaining / allowed * (1.0 - 1e-9)));
         const double h = remaining / count;
         history.add(simulation);
         takeStep(simulation, h);
-        if (count == 1.0) lookAtEnd(simulation);
+        if (count == 1.0 && stop == time) lookAtEnd(simulation);
         if (const auto reason = objection(simulation, history.latest())) {
             if (h < kShortest) reportInstability(simulation, h);
             // Two refusals in a row speak against the step that led here.
@@ -97,7 +108,7 @@ void advanceAudited(Simulation& simulation, double time, double longest, StepLim
         }
         refused = 0;
         record(simulation, h, restriction.seconds < longest ? restriction.reason : why);
-        simulation.time = count == 1.0 ? time : simulation.time + h;
+        simulation.time = count == 1.0 ? stop : simulation.time + h;
         giveBirth(simulation);
         if (++restriction.passed % kPatience == 0) restriction.seconds *= 2.0;
     }

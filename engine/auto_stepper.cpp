@@ -38,9 +38,14 @@ AutoChoice& choiceOf(Simulation& simulation, StepperKind stepper) {
 /// The step at which the measured error would be the wanted one, as far as the measurement reaches.
 double wantedStep(const Trial& trial, double wanted) {
     const double change = trial.error > 0.0 ? std::sqrt(wanted / trial.error) : kMostChange;
-    // A step that the audit did not let grow will not grow for a better error either.
-    const double most = trial.restricted ? 1.0 : kMostChange;
-    return trial.step * std::clamp(change, 1.0 / kMostChange, most);
+    // Steps that the audit did not let grow will not grow for a better error either; those that births ended may.
+    if (trial.restricted || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
+    return trial.asked * std::min(change, kMostChange);
+}
+
+/// What a step (s) of the candidate's is to those that were measured.
+double shareOf(const Trial& trial, double step) {
+    return step / (step > trial.step ? trial.asked : trial.step);
 }
 
 /// Measures a candidate and updates what is known of it. The first time, it goes on until the step has settled.
@@ -55,11 +60,12 @@ Trial look(Simulation& simulation, double time, StepperKind stepper, Simulation*
         simulation.automatic.trials += trial.spent;
         const double wanted = wantedStep(trial, simulation.setup.error);
         choice.step = std::min(wanted, interval);
-        choice.cost = trial.cost * trial.step / choice.step;
+        choice.cost = trial.cost / shareOf(trial, choice.step);
         choice.reason = trial.restricted && wanted >= trial.step ? *trial.reason
                         : wanted >= interval                     ? StepLimit::frame
                                                                  : StepLimit::error;
-        if (std::max(wanted / trial.step, trial.step / wanted) < kGoodEnough || choice.step == interval) break;
+        const double share = shareOf(trial, wanted);
+        if (std::max(share, 1.0 / share) < kGoodEnough || choice.step == interval) break;
     }
     return trial;
 }
@@ -71,7 +77,7 @@ StepperKind cheapest(Simulation& simulation) {
 }
 
 void note(AutoState& state, const Trial& trial, double step) {
-    const double share = step / trial.step;
+    const double share = shareOf(trial, step);
     const double error = trial.error * share * share;
     ++state.looks;
     state.errorSum += error;

@@ -12,6 +12,9 @@ namespace {
 /// Due times are sums of many intervals; a birth this much early is meant to be on time, s.
 constexpr double kOnTime = 1e-9;
 
+/// Chosen: tries in an interval of a birth that has to wait. Each ends a step.
+constexpr double kTries = 4.0;
+
 /// Relative slack so that sites exactly on the rim of a disc are inside it.
 constexpr double kRimSlack = 1.0 + 1e-9;
 
@@ -114,6 +117,14 @@ EmitterState initialState(const Emitter& emitter) {
     return state;
 }
 
+double nextBirth(const Emitter& emitter, const EmitterState& state) {
+    double next = std::numeric_limits<double>::infinity();
+    if (state.births >= emitter.limit) return next;
+    for (const Schedule& schedule : state.schedules)
+        if (schedule.due < emitter.until - kOnTime) next = std::min(next, schedule.due);
+    return next;
+}
+
 std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext& context, const Material& material,
                  Particles& particles) {
     std::size_t born = 0;
@@ -123,20 +134,19 @@ std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext
                state.births < emitter.limit) {
             const Birth birth{s, schedule.births};
             NewParticle newborn = newbornOf(emitter, context, material, birth);
-            // A delayed birth happens where it is clear now; one on time has been flying since it was due.
-            const double late = schedule.delayed ? 0.0 : std::max(0.0, context.time - schedule.due);
-            fly(newborn, context.gravity, late);
+            fly(newborn, context.gravity, std::max(0.0, context.time - schedule.due));
             if (!isClear(particles, newborn, emitter.clearance)) {
                 if (!schedule.delayed) ++state.refusals;
                 schedule.delayed = true;
-                break;
+                schedule.due += emitter.interval / kTries;
+                continue;
             }
             append(particles, newborn);
             // A delay shifts the schedule, or its births would come in a burst. Counting from the start keeps the
             // due times of an undisturbed schedule free of accumulated rounding.
             ++schedule.births;
             if (schedule.delayed)
-                schedule.origin = context.time - static_cast<double>(schedule.births - 1) * emitter.interval;
+                schedule.origin = schedule.due - static_cast<double>(schedule.births - 1) * emitter.interval;
             schedule.due = schedule.origin + static_cast<double>(schedule.births) * emitter.interval;
             schedule.delayed = false;
             ++state.births;

@@ -1,5 +1,6 @@
-// Emitters: nozzles that give birth to particles on a schedule. A birth that would overlap a particle waits until its
-// place is clear, and is counted. Called once a step by the simulation; the whole state is a few counters.
+// Emitters: nozzles that give birth to particles on a schedule. A birth that would overlap a particle waits a quarter of
+// an interval, and again until its place is clear, and is counted. When it happens does not depend on the steps. Called
+// once a step by the simulation; the whole state is a few counters.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,7 @@ struct Schedule {
     double origin = 0.0;  ///< birth number k is due at origin + k intervals, s; a delay moves it
     double due = 0.0;     ///< s
     std::uint64_t births = 0;
-    bool delayed = false;  ///< the birth that is due found its place taken
+    bool delayed = false;  ///< the birth that is due has found its place taken before
 };
 
 struct EmitterState {
@@ -50,6 +51,9 @@ std::vector<Vec3> discSites(const Vec3& center, const Vec3& direction, double ra
 
 /// Schedules at their first birth.
 EmitterState initialState(const Emitter& emitter);
+
+/// When the next birth is due or tried again, s; infinity when there will be none.
+double nextBirth(const Emitter& emitter, const EmitterState& state);
 
 /// What births need to know of the rest of the simulation.
 struct BirthContext {

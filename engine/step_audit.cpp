@@ -93,6 +93,7 @@ void keep(const Simulation& simulation, BeforeStep& kept) {
     kept.energy = simulation.energy;
     kept.kinetic = simulation.kinetic;
     kept.allowance = energyAllowance(simulation);
+    kept.steps = simulation.steps;
 }
 
 void takeBack(Simulation& simulation, const BeforeStep& kept) {
@@ -105,6 +106,11 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
     if (kept.forcesCurrent) simulation.forces = kept.forces;
     simulation.energy = kept.energy;
     simulation.kinetic = kept.kinetic;
+    const StepStatistics spent = simulation.steps;
+    simulation.steps = kept.steps;
+    simulation.steps.forceEvaluations = spent.forceEvaluations;
+    simulation.steps.products = spent.products;
+    simulation.steps.rejected = spent.rejected;
 }
 
 std::optional<StepLimit> objection(const Simulation& simulation, const BeforeStep& kept) {

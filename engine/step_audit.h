@@ -36,12 +36,13 @@ struct BeforeStep {
     std::optional<double> energy;
     double kinetic = 0.0;
     double allowance = 0.0;  ///< J
+    StepStatistics steps;
 };
 
 /// Keeps the state; `kept` is reused for its memory.
 void keep(const Simulation& simulation, BeforeStep& kept);
 
-/// Goes back to a state; particles born since then are gone.
+/// Goes back to a state; particles born since then are gone, and so are the steps since then, but not their cost.
 void takeBack(Simulation& simulation, const BeforeStep& kept);
 
 /// Why the step since `kept` must be taken back; nothing if it may stay.

@@ -27,13 +27,12 @@ Simulation afterFrames(const Setup& setup, int frames) {
     return simulation;
 }
 
-/// rms over the particles of dx + T dv in radii, for a second of motion: what measure() estimates, with its T.
+/// rms over the particles of dx + T dv in radii, for a second of motion: what measure() estimates.
 double realError(const Simulation& run, const Simulation& reference, double interval) {
-    constexpr double kHorizon = 0.015;  // s, kErrorHorizon of error_look.cpp
     double sumSq = 0.0;
     for (std::size_t p = 0; p < run.particles.count(); ++p) {
         const Vec3 apart = run.particles.position[p] - reference.particles.position[p] +
-                           kHorizon * (run.particles.velocity[p] - reference.particles.velocity[p]);
+                           kErrorHorizon * (run.particles.velocity[p] - reference.particles.velocity[p]);
         sumSq += squaredLength(apart) / (run.particles.radius[p] * run.particles.radius[p]);
     }
     return std::sqrt(sumSq / static_cast<double>(run.particles.count())) / interval;
