@@ -43,7 +43,12 @@ double difference(const Simulation& a, const Simulation& b, std::size_t count) {
 }  // namespace
 
 double passesOf(const StepStatistics& steps) {
-    return static_cast<double>(steps.forceEvaluations) + kProductCost * static_cast<double>(steps.products);
+    const auto takenBy = [&](StepperKind stepper) {
+        return static_cast<double>(steps.takenBy[static_cast<std::size_t>(stepper)]);
+    };
+    const double matrices = takenBy(StepperKind::implicitDamping) + takenBy(StepperKind::linearlyImplicit);
+    return static_cast<double>(steps.forceEvaluations) + kMatrixCost * matrices +
+           kProductCost * static_cast<double>(steps.products);
 }
 
 Trial measure(const Simulation& simulation, double time, StepperKind stepper, double step, Simulation* finer) {

@@ -95,6 +95,7 @@ struct AutoState {
     std::uint64_t looks = 0;
     double errorSum = 0.0;      ///< over the looks, radii per second
     double largestError = 0.0;  ///< radii per second
+    double growth = 1.0;        ///< of errors: rate over several intervals by that over one
     double agitation = 0.0;     ///< at the last look: rms of the acceleration beside gravity, m/s^2
     double trials = 0.0;        ///< passes over all pairs that looks have cost
 };

@@ -32,30 +32,48 @@ struct StudyAccuracyOptions {
     std::vector<std::string> overrides;
     std::string folder = "out/study-accuracy";
     double from = -1.0;   ///< s; negative: of each scene
-    double window = 0.0;  ///< s; 0: kWindow, or less for a quick study
+    double window = 0.0;  ///< s; 0: kWindow
     bool quick = false;
 };
 
-/// Long enough for a splash or a bounce, short enough that most scenes are not chaotic in it, s.
-constexpr double kWindow = 0.5;
-constexpr double kQuickWindow = 0.2;
+/// Long enough for an impact, short enough that collisions afterwards do not multiply its errors, s.
+constexpr double kWindow = 0.2;
 
 /// Where a scene is on its way to what its still shows, as a share of the still's time.
 constexpr double kFromShare = 0.4;
 
-/// The name of a scene in tables and file names: "liquid", "hard-honey".
-std::string nameOf(const std::string& scene) {
-    std::string name = scene.ends_with(".toml") ? fs::path(scene).stem().string() : scene;
-    std::replace(name.begin(), name.end(), '/', '-');
-    return name;
+/// One study: a scene over a window.
+struct Subject {
+    std::string name;  ///< in tables and file names: "liquid", "hard-honey", "powder-2s"
+    scenes::Scene scene;
+    double window = 0.0;  ///< s
+};
+
+/// Of "SCENE" or "SCENE:SECONDS".
+Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) {
+    Subject subject;
+    subject.window = options.window > 0.0 ? options.window : kWindow;
+    std::string scene = text;
+    std::string suffix;
+    if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
+        const std::string seconds = text.substr(colon + 1);
+        if (!CLI::detail::lexical_cast(seconds, subject.window) || !(subject.window > 0.0))
+            throw scenes::InputError({{text, 0, 0, "after the colon comes how long to run, in seconds: powder:2"}});
+        scene = text.substr(0, colon);
+        suffix = "-" + seconds + "s";
+    }
+    subject.name = (scene.ends_with(".toml") ? fs::path(scene).stem().string() : scene) + suffix;
+    std::replace(subject.name.begin(), subject.name.end(), '/', '-');
+    subject.scene = load({scene, options.overrides});
+    return subject;
 }
 
-studies::AccuracySettings settingsFor(const scenes::Scene& scene, const StudyAccuracyOptions& options) {
-    const double window = options.window > 0.0 ? options.window : options.quick ? kQuickWindow : kWindow;
+studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccuracyOptions& options) {
+    const scenes::Scene& scene = subject.scene;
     const double from = options.from >= 0.0 ? options.from : kFromShare * scene.stillTime;
     studies::AccuracySettings settings;
     settings.firstFrame = static_cast<int>(std::lround(from * scene.fps));
-    settings.frameCount = std::max(1, static_cast<int>(std::lround(window * scene.fps)));
+    settings.frameCount = std::max(1, static_cast<int>(std::lround(subject.window * scene.fps)));
     if (options.quick) {
         settings.stepsPerFrame = {4, 8, 16, 32};
         settings.errors = {1e-1, 1e-2};
@@ -85,18 +103,18 @@ studies::RunListener reporter(const std::string& name, Talk talk) {
 }
 
 std::vector<studies::SceneAccuracy> measure(const StudyAccuracyOptions& options) {
-    std::vector<std::pair<std::string, scenes::Scene>> scenes;
+    std::vector<Subject> subjects;
     std::set<std::string> names;
-    for (const std::string& scene : options.scenes) {
-        const std::string name = nameOf(scene);
-        if (!names.insert(name).second) throw scenes::InputError({{scene, 0, 0, "two scenes would share its files"}});
-        scenes.emplace_back(name, load({scene, options.overrides}));
+    for (const std::string& text : options.scenes) {
+        subjects.push_back(subjectOf(text, options));
+        if (!names.insert(subjects.back().name).second)
+            throw scenes::InputError({{text, 0, 0, "two scenes would share its files"}});
     }
     std::vector<studies::SceneAccuracy> results;
-    for (const auto& [name, scene] : scenes)
-        onThreads(threadCount(options.run), [&, &name = name, &scene = scene] {
-            results.push_back(
-                studies::measureAccuracy(name, scene, settingsFor(scene, options), reporter(name, options.run.talk())));
+    for (const Subject& subject : subjects)
+        onThreads(threadCount(options.run), [&] {
+            results.push_back(studies::measureAccuracy(subject.name, subject.scene, settingsFor(subject, options),
+                                                       reporter(subject.name, options.run.talk())));
         });
     return results;
 }
@@ -164,7 +182,10 @@ void study(const StudyAccuracyOptions& options) {
 void addStudyAccuracy(CLI::App& program) {
     CLI::App* command = program.add_subcommand("accuracy", "speed against error: every stepper against a reference");
     const auto options = std::make_shared<StudyAccuracyOptions>();
-    command->add_option("SCENE", options->scenes, "scene files or names (default: liquid solid powder fountain honey)");
+    command->add_option(
+        "SCENE", options->scenes,
+        "scene files or names, with an own window as powder:2 (default: liquid solid powder fountain honey; "
+        "powder:2 too unless quick)");
     command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-accuracy)")
         ->type_name("DIR");
     command->add_option("--set", options->overrides, "change a key of every scene")
@@ -172,12 +193,16 @@ void addStudyAccuracy(CLI::App& program) {
         ->allow_extra_args(false);
     command->add_option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
         ->check(CLI::NonNegativeNumber);
-    command->add_option("--window", options->window, "how long they run, s (default: 0.5)")->check(CLI::PositiveNumber);
-    command->add_flag("--quick", options->quick, "a coarse look: fewer runs, timed once, over 0.2 s");
+    command->add_option("--window", options->window, "how long they run, s (default: 0.2)")->check(CLI::PositiveNumber);
+    command->add_flag("--quick", options->quick, "a coarse look: fewer runs, timed once");
     addTo(*command, options->run);
     command->footer("Example: globular study accuracy liquid powder -o out/accuracy --threads 2");
     command->callback([options] {
-        if (options->scenes.empty()) options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
+        if (options->scenes.empty()) {
+            options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
+            // Long enough for chaos: statistics instead of positions.
+            if (!options->quick) options->scenes.emplace_back("powder:2");
+        }
         study(*options);
     });
 }
