@@ -35,8 +35,22 @@ constexpr double kFarLook = 4.0;
 constexpr double kLeastGrowth = 0.6;
 constexpr double kMostGrowth = 4.0;
 
-/// Looks at the first choice until it has settled.
+/// Chosen: looks in a row at a candidate until its step has settled, the first time and later.
 constexpr int kMostFirstLooks = 6;
+constexpr int kMostLooks = 2;
+
+/// Steps at least 1.5 times shorter should err 2.2 times less. Where they err more than this share, something else than
+/// the step makes the error, such as the sweep past an obstacle, and shorter ones are wasted.
+constexpr double kWasted = 0.7;
+
+/// Chosen: a candidate this much dearer than another is not followed to where its step settles.
+constexpr double kHopeless = 3.0;
+
+/// Chosen: no look is worth more intervals.
+constexpr double kMostWorth = 64.0;
+
+/// Chosen: intervals until the next look where a step has not settled.
+constexpr std::uint64_t kShortPause = 2;
 
 AutoChoice& choiceOf(Simulation& simulation, StepperKind stepper) {
     return simulation.automatic.choices[static_cast<std::size_t>(stepper)];
@@ -55,24 +69,51 @@ double shareOf(const Trial& trial, double step) {
     return step / (step > trial.step ? trial.asked : trial.step);
 }
 
-/// Measures a candidate and updates what is known of it. The first time, it goes on until the step has settled.
+bool isSettled(double share) {
+    return std::max(share, 1.0 / share) < kGoodEnough;
+}
+
+/// What a measurement makes of a choice.
+void choose(AutoChoice& choice, const Trial& trial, double wantedError, double interval) {
+    const double wanted = wantedStep(trial, wantedError);
+    choice.step = std::min(wanted, interval);
+    choice.cost = trial.cost / shareOf(trial, choice.step);
+    choice.reason = trial.restricted && wanted >= trial.step ? *trial.reason
+                    : wanted >= interval                     ? StepLimit::frame
+                                                             : StepLimit::error;
+}
+
+/// Of the candidates that have been looked at, passes over all pairs for a second of motion.
+double cheapestCost(const Simulation& simulation) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const AutoChoice& choice : simulation.automatic.choices) least = std::min(least, choice.cost);
+    return least;
+}
+
+/// Measures a candidate and updates what is known of it, again and again while its step has to become much shorter, the
+/// first time until it has settled, or until it costs far more than another candidate does.
 Trial look(Simulation& simulation, double time, StepperKind stepper, Simulation* finer) {
     AutoChoice& choice = choiceOf(simulation, stepper);
     const double interval = time - simulation.time;
+    const double wantedError = simulation.setup.error / simulation.automatic.growth;
     const bool first = choice.step == 0.0;
     if (first) choice.step = 0.25 * interval;
-    Trial trial;
-    for (int round = 0; round < (first ? kMostFirstLooks : 1); ++round) {
+    Trial trial = measure(simulation, time, stepper, choice.step, finer);
+    simulation.automatic.trials += trial.spent;
+    choose(choice, trial, wantedError, interval);
+    for (int round = 1; round < (first ? kMostFirstLooks : kMostLooks); ++round) {
+        const double share = shareOf(trial, choice.step);
+        if (isSettled(share) || choice.step == interval || (share > 1.0 && !first)) break;
+        if (choice.cost > kHopeless * cheapestCost(simulation)) break;
+        const Trial before = trial;
         trial = measure(simulation, time, stepper, choice.step, finer);
         simulation.automatic.trials += trial.spent;
-        const double wanted = wantedStep(trial, simulation.setup.error / simulation.automatic.growth);
-        choice.step = std::min(wanted, interval);
-        choice.cost = trial.cost / shareOf(trial, choice.step);
-        choice.reason = trial.restricted && wanted >= trial.step ? *trial.reason
-                        : wanted >= interval                     ? StepLimit::frame
-                                                                 : StepLimit::error;
-        const double share = shareOf(trial, wanted);
-        if (std::max(share, 1.0 / share) < kGoodEnough || choice.step == interval) break;
+        if (share < 1.0 && trial.error > kWasted * before.error) {
+            trial = before;
+            choice = {before.asked, before.cost, StepLimit::error};
+            break;
+        }
+        choose(choice, trial, wantedError, interval);
     }
     return trial;
 }
@@ -114,24 +155,38 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
     AutoState& state = simulation.automatic;
     const AutoChoice& choice = choiceOf(simulation, near.stepper);
     const double end = simulation.time + kFarLook * (time - simulation.time);
-    const Trial far = measure(simulation, end, near.stepper, choice.step);
+    const double step = std::min(2.0 * choice.step, time - simulation.time);  // cheaper, and the order is known
+    const Trial far = measure(simulation, end, near.stepper, step);
     state.trials += far.spent;
-    const double share = shareOf(near, choice.step);
+    const double share = shareOf(near, far.step);
     const double nearError = near.error * share * share;
     if (!(nearError > 0.0)) return;
     const double growth = std::clamp(far.error / nearError, kLeastGrowth, kMostGrowth);
     const double change = std::sqrt(state.growth / growth);
     for (const StepperKind candidate : kCandidates) {
         AutoChoice& other = choiceOf(simulation, candidate);
-        const double step = std::min(other.step * change, time - simulation.time);
-        other.cost *= other.step / step;
-        other.step = step;
+        const double fitting = std::min(other.step * change, time - simulation.time);
+        other.cost *= other.step / fitting;
+        other.step = fitting;
     }
     state.growth = growth;
 }
 
+/// Intervals to run before the next look: a look must not cost more than they do, but for the first.
+std::uint64_t pauseAfter(const Simulation& simulation, double spent, const Trial& trial, double interval) {
+    const std::uint64_t looks = simulation.automatic.looks;
+    const AutoChoice& choice = simulation.automatic.choices[static_cast<std::size_t>(trial.stepper)];
+    const bool settled = isSettled(shareOf(trial, choice.step));
+    const std::uint64_t pause = settled ? std::min(kLongestPause, 2 * looks) : kShortPause;
+    if (looks == 1) return pause;
+    const double worth = std::min(kMostWorth, spent / (choice.cost * interval));
+    return std::max(pause, static_cast<std::uint64_t>(worth));
+}
+
 void lookAround(Simulation& simulation, double time) {
     AutoState& state = simulation.automatic;
+    const double interval = time - simulation.time;
+    const double spentBefore = state.trials;
     const bool compare = state.looks % kLooksPerComparison == 0;
     std::array<Simulation, kCandidates.size()> finer;
     std::array<Trial, kCandidates.size()> trials;
@@ -144,8 +199,7 @@ void lookAround(Simulation& simulation, double time) {
     if (compare) lookFar(simulation, time, trials[chosen]);
     state.trials -= passesOf(finer[chosen].steps);  // the run goes on with these; they are not lost
     note(state, trials[chosen], choiceOf(simulation, best).step);
-    const std::uint64_t pause = std::min(kLongestPause, 2 * state.looks);
-    state.nextLook = state.intervals + pause;
+    state.nextLook = state.intervals + pauseAfter(simulation, state.trials - spentBefore, trials[chosen], interval);
     goOnFrom(simulation, std::move(finer[chosen]));
 }
 

@@ -14,20 +14,21 @@ struct Row {
 };
 
 /// Table 1, row by row, with the published masses of 1 kg; then the substances that the paper names without constants.
-/// Those are chosen for looks at g = 9.81 m/s^2: b_d over the mass sets the viscosity, b1 over the mass how far a pile
-/// is squeezed by its own weight, c_r the cohesion; c_r stays below 1.8, where matter starts to fall in on itself.
+/// Those are chosen for looks at g = 9.81 m/s^2: b_d over the mass sets the viscosity, b1 / (D0^4 m g) how far a pile
+/// is squeezed by its own weight (5 to 10: levels like a liquid; 20: keeps a crystal's slope), c_r the cohesion; c_r
+/// stays below 1.8, where matter starts to fall in on itself.
 constexpr std::array<Row, 11> kPresets = {{
     {"liquid", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
     {"solid", 0.15, 1.0, 0.8, 4.0, 2.0, 2.0},
     {"powder", 0.15, 1.0, 0.8, 4.0, 1.0, 1.0},
     {"fountain", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
-    {"honey", 0.15, 0.1, 0.05, 100.0, 1.3, 2.0},
-    {"jam", 0.15, 0.1, 0.1, 12.0, 1.4, 2.0},
-    {"oil", 0.15, 0.1, 0.04, 0.3, 1.2, 2.0},
-    {"lava", 0.15, 0.3, 0.3, 40.0, 1.4, 2.0},
-    {"mud", 0.15, 0.2, 0.2, 10.0, 1.3, 2.0},
-    {"molten-metal", 0.15, 0.5, 0.8, 1.0, 1.4, 2.0},
-    {"sand", 0.15, 0.1, 0.8, 4.0, 1.0, 1.0, 0.6},
+    {"honey", 0.08, 0.05, 0.003, 8.0, 1.1, 2.0},
+    {"jam", 0.1, 0.1, 0.012, 25.0, 1.25, 1.5, 0.12},
+    {"oil", 0.08, 0.05, 0.0015, 0.25, 1.1, 2.0},
+    {"lava", 0.12, 0.3, 0.12, 20.0, 1.2, 1.5, 0.03},
+    {"mud", 0.12, 0.2, 0.08, 15.0, 1.2, 1.5, 0.1},
+    {"molten-metal", 0.06, 0.06, 0.0015, 0.1, 1.1, 1.5},
+    {"sand", 0.08, 0.015, 0.03, 1.2, 1.0, 1.0, 0.3},
 }};
 
 }  // namespace
