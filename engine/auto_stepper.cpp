@@ -33,7 +33,7 @@ constexpr double kFarLook = 4.0;
 
 /// Measured on the scenes of `globular study accuracy`: beyond these, growth tells of one event and not of the motion.
 constexpr double kLeastGrowth = 0.6;
-constexpr double kMostGrowth = 4.0;
+constexpr double kMostGrowth = 3.0;
 
 /// Chosen: looks in a row at a candidate until its step has settled, the first time and later.
 constexpr int kMostFirstLooks = 6;
@@ -149,8 +149,9 @@ void goOnFrom(Simulation& simulation, Simulation&& finer) {
     simulation.steps = steps;
 }
 
-/// What an error made in one interval has become some intervals later, by damping or by collisions, is measured too,
-/// and the choices are made to fit it.
+/// What an error made in one interval has become some intervals later, by damping or by collisions, is measured too.
+/// The choices are made to fit the middle (on a scale of factors) of the two rates: the near one tells of the steps,
+/// the far one of where they lead.
 void lookFar(Simulation& simulation, double time, const Trial& near) {
     AutoState& state = simulation.automatic;
     const AutoChoice& choice = choiceOf(simulation, near.stepper);
@@ -161,7 +162,7 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
     const double share = shareOf(near, far.step);
     const double nearError = near.error * share * share;
     if (!(nearError > 0.0)) return;
-    const double growth = std::clamp(far.error / nearError, kLeastGrowth, kMostGrowth);
+    const double growth = std::clamp(std::sqrt(far.error / nearError), kLeastGrowth, kMostGrowth);
     const double change = std::sqrt(state.growth / growth);
     for (const StepperKind candidate : kCandidates) {
         AutoChoice& other = choiceOf(simulation, candidate);
