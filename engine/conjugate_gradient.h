@@ -16,7 +16,8 @@ struct SolverScratch {
 
 /// Conjugate gradients from x = 0, preconditioned with the mass, until the residual has fallen to `tolerance` times the
 /// right-hand side (both in the norm of the inverse mass). Returns the number of products with A.
-/// Holds:  where b has neither a total nor a moment, M x has neither, to rounding, at any tolerance: every vector of the
+/// Holds:  where b has neither a total nor a moment, M x has neither, to rounding, at any tolerance: every vector of
+/// the
 ///         iteration is M^-1 times a sum of pair impulses. Any other preconditioner but the mass would lose that.
 int solve(const PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch);

@@ -27,9 +27,8 @@ bool mayTouch(const Scenery& scenery, const Flight& flight, double duration);
 /// Flies on for a duration (s) under the forces of the obstacles alone, those of section 3.2.
 /// Holds:  at any finite speed the centre stays on the side of a plane, of a box's face and of a sphere that it came
 ///         from. Where the repulsor cannot stop it, it is reflected: the barrier, a departure from the paper. Under a
-///         plane it lies at the law's core distance from the repulsor, in a solid a tenth of the particle's radius or of
-///         half the solid's thickness under the surface.
-///         Order 2 in the duration of the stepper's step.
+///         plane it lies at the law's core distance from the repulsor, in a solid a tenth of the particle's radius or
+///         of half the solid's thickness under the surface. Order 2 in the duration of the stepper's step.
 void fly(const Scenery& scenery, Flight& flight, double duration);
 
 }  // namespace engine

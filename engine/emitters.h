@@ -1,6 +1,6 @@
-// Emitters: nozzles that give birth to particles on a schedule. A birth that would overlap a particle waits a quarter of
-// an interval, and again until its place is clear, and is counted. When it happens does not depend on the steps. Called
-// once a step by the simulation; the whole state is a few counters.
+// Emitters: nozzles that give birth to particles on a schedule. A birth that would overlap a particle waits a quarter
+// of an interval, and again until its place is clear, and is counted. When it happens does not depend on the steps.
+// Called once a step by the simulation; the whole state is a few counters.
 #pragma once
 
 #include <cstdint>

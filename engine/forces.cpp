@@ -7,8 +7,8 @@
 
 namespace engine {
 
-ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method)
-    : law_(std::move(law)), method_(method), pairs_(law_) {}
+ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision)
+    : law_(std::move(law)), method_(method), pairs_(law_, precision) {}
 
 void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
                               std::vector<Vec3>& forces) {

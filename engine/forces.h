@@ -29,7 +29,7 @@ double pairEnergyReference(const ForceLaw& law, const Particles& particles);
 class ForceEvaluator {
  public:
     ForceEvaluator() = default;
-    ForceEvaluator(ForceLaw law, ForceMethod method);
+    ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision = Precision::doubles);
 
     /// Total force on every particle, in newtons, with the given velocities (m/s) in the damping; obstacles included.
     /// Holds:  the same bits for any number of threads.

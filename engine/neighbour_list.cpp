@@ -1,44 +1,64 @@
-// Two passes over the cells: count, then fill, so that the rows lie without gaps whoever fills them.
+// Rows are found chunk by chunk of cells, then put together in order, whoever found them.
 #include "engine/neighbour_list.h"
 
 #include <algorithm>
-#include <array>
 
 #include "engine/parallel.h"
 
 namespace engine {
 namespace {
 
-/// Calls visit(other place) for every other particle within reach of the one at a place, in the order of the grid.
-/// Most candidates of a cell are out of reach, unpredictably so: they are sifted without branches first.
-template <class Visit>
-void forEachInReach(const NeighbourList& list, const Neighbourhood& around, std::uint32_t self, const Visit& visit) {
-    constexpr std::uint32_t kSieve = 256;  // chosen: a kilobyte on the stack, longer than most rows of cells
-    std::array<std::uint32_t, kSieve> within;
-    const Vec3 position = list.sorted[self];
-    const double reachSq = list.reach * list.reach;
-    for (int r = 0; r < around.count; ++r) {
-        const CellRange range = around.ranges[static_cast<std::size_t>(r)];
-        for (std::uint32_t begin = range.begin; begin < range.end; begin += kSieve) {
-            const std::uint32_t end = std::min(begin + kSieve, range.end);
-            std::size_t found = 0;
-            for (std::uint32_t other = begin; other < end; ++other) {
-                within[found] = other;
-                found += squaredLength(position - list.sorted[other]) < reachSq ? 1U : 0U;
-            }
-            for (std::size_t k = 0; k < found; ++k)
-                if (within[k] != self) visit(within[k]);
-        }
-    }
+constexpr std::size_t kCellsPerChunk = 16;  // chosen: cells of a dense scene take some microseconds each
+
+/// The rows of the particles of some cells, one after the other.
+struct Chunk {
+    std::size_t firstCell = 0;
+    std::size_t endCell = 0;
+};
+
+Chunk chunkOf(const CellGrid& grid, std::size_t number) {
+    return {number * kCellsPerChunk, std::min((number + 1) * kCellsPerChunk, grid.cellCount())};
 }
 
-template <class Body>
-void forEachPlace(const CellGrid& grid, const Body& body) {
-    constexpr std::size_t kGrain = 16;  // chosen: cells of a dense scene take some microseconds each
-    inParallel(grid.cellCount(), kGrain, [&](std::size_t cell) {
-        if (grid.start[cell] == grid.start[cell + 1]) return;
+std::size_t candidateCount(const Neighbourhood& around) {
+    std::size_t sum = 0;
+    for (int r = 0; r < around.count; ++r) {
+        const CellRange range = around.ranges[static_cast<std::size_t>(r)];
+        sum += range.end - range.begin;
+    }
+    return sum;
+}
+
+/// Fills the chunk's rows; rowStart[place + 1] becomes the length of the row.
+void search(NeighbourList& list, const Chunk& chunk, std::vector<std::uint32_t>& rows) {
+    const CellGrid& grid = list.grid;
+    std::size_t used = 0;
+    for (std::size_t cell = chunk.firstCell; cell < chunk.endCell; ++cell) {
+        if (grid.start[cell] == grid.start[cell + 1]) continue;
         const Neighbourhood around = neighbourhood(grid, static_cast<std::uint32_t>(cell));
-        for (std::uint32_t self = grid.start[cell]; self < grid.start[cell + 1]; ++self) body(around, self);
+        const std::size_t room = candidateCount(around) + kSearchOverhang;
+        for (std::uint32_t self = grid.start[cell]; self < grid.start[cell + 1]; ++self) {
+            if (rows.size() < used + room) rows.resize(2 * (used + room));
+            std::uint32_t* const row = rows.data() + used;
+            const std::uint32_t* const end = findInReach(list.candidates, around, self, list.reach * list.reach, row);
+            list.rowStart[self + 1] = static_cast<std::uint32_t>(end - row);
+            used += static_cast<std::size_t>(end - row);
+        }
+    }
+    rows.resize(used);
+}
+
+void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
+    list.order = list.grid.order;
+    const std::size_t count = list.order.size();
+    list.candidates.x.resize(count);
+    list.candidates.y.resize(count);
+    list.candidates.z.resize(count);
+    inParallel(count, kParticleGrain, [&](std::size_t place) {
+        const Vec3& position = positions[list.order[place]];
+        list.candidates.x[place] = position.x();
+        list.candidates.y[place] = position.y();
+        list.candidates.z[place] = position.z();
     });
 }
 
@@ -48,23 +68,20 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     list.reach = cutoff + skin;
     list.builtAt = positions;
     build(list.grid, positions, list.reach);
-    list.order = list.grid.order;
-    list.sorted.resize(positions.size());
-    for (std::size_t place = 0; place < list.order.size(); ++place) list.sorted[place] = positions[list.order[place]];
+    sortByPlace(list, positions);
     list.rowStart.assign(positions.size() + 1, 0);
-    forEachPlace(list.grid, [&](const Neighbourhood& around, std::uint32_t self) {
-        std::uint32_t found = 0;
-        forEachInReach(list, around, self, [&](std::uint32_t) { ++found; });
-        list.rowStart[self + 1] = found;
-    });
+    const std::size_t chunks = (list.grid.cellCount() + kCellsPerChunk - 1) / kCellsPerChunk;
+    list.found.resize(chunks);
+    inParallel(chunks, 1, [&](std::size_t c) { search(list, chunkOf(list.grid, c), list.found[c]); });
     list.alone.resize(positions.size());
     for (std::size_t place = 0; place < list.order.size(); ++place)
         list.alone[list.order[place]] = list.rowStart[place + 1] == 0 ? 1 : 0;
     for (std::size_t place = 1; place < list.rowStart.size(); ++place) list.rowStart[place] += list.rowStart[place - 1];
     list.places.resize(list.rowStart.back());
-    forEachPlace(list.grid, [&](const Neighbourhood& around, std::uint32_t self) {
-        std::uint32_t* next = list.places.data() + list.rowStart[self];
-        forEachInReach(list, around, self, [&](std::uint32_t other) { *next++ = other; });
+    inParallel(chunks, 1, [&](std::size_t c) {
+        const std::uint32_t first = list.rowStart[list.grid.start[chunkOf(list.grid, c).firstCell]];
+        std::copy(list.found[c].begin(), list.found[c].end(), list.places.begin() + first);
+        list.found[c].clear();
     });
 }
 

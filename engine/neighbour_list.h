@@ -5,20 +5,22 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/list_search.h"
 #include "engine/neighbours.h"
 
 namespace engine {
 
 /// Rows of places in the order of the cell grid that they were built with.
 struct NeighbourList {
-    std::vector<std::uint32_t> order;     ///< particle index at each place
-    std::vector<std::uint32_t> rowStart;  ///< of each place, and one past the last; at most 2^32 entries
-    std::vector<std::uint32_t> places;    ///< neighbours, row by row
-    std::vector<std::uint8_t> alone;      ///< by particle index: 1 where the row is empty
-    std::vector<Vec3> builtAt;            ///< positions by particle index when the list was built, m
-    double reach = 0.0;                   ///< cutoff and skin together, m
-    CellGrid grid;                        ///< scratch of the build
-    std::vector<Vec3> sorted;             ///< scratch of the build: positions by place, m
+    std::vector<std::uint32_t> order;               ///< particle index at each place
+    std::vector<std::uint32_t> rowStart;            ///< of each place, and one past the last; at most 2^32 entries
+    std::vector<std::uint32_t> places;              ///< neighbours, row by row
+    std::vector<std::uint8_t> alone;                ///< by particle index: 1 where the row is empty
+    std::vector<Vec3> builtAt;                      ///< positions by particle index when the list was built, m
+    double reach = 0.0;                             ///< cutoff and skin together, m
+    CellGrid grid;                                  ///< scratch of the build
+    Candidates candidates;                          ///< scratch of the build
+    std::vector<std::vector<std::uint32_t>> found;  ///< scratch of the build: rows of some cells each
 
     std::size_t count() const { return order.size(); }
 };

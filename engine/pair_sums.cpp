@@ -2,6 +2,8 @@
 // compiled into the kernel that runs.
 #include "engine/pair_sums.h"
 
+#include "engine/lane_forces.h"
+
 namespace engine {
 namespace {
 
@@ -103,11 +105,40 @@ void run(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& 
     pairs.forEachParticle(Kernel<variant>{pairs, sums, energies});
 }
 
+/// Forces and energies of uniform particles, a particle a lane. Groups with coincident particles are done again by the
+/// scalar kernel, which knows how to part them.
+template <PairTerms terms>
+void addUpGroups(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies) {
+    const bool hasEnergy = sums.energy != nullptr;
+    const LanePass pass{pairs.lanes, pairs.records, pairs.singles, pairs.unit, pairs.uniform, terms, hasEnergy};
+    constexpr std::size_t kGrain = 4;  // chosen: as kGrain of forEachParticle, in groups
+    inParallel(pairs.lanes.groupCount(), kGrain, [&](std::size_t group) {
+        LaneSums of;
+        addUpGroup(pass, group, of);
+        const std::size_t first = group * kGroup;
+        const std::size_t end = std::min(first + kGroup, pairs.records.size());
+        for (std::size_t place = first; place < end; ++place) {
+            const std::size_t lane = place - first;
+            sums.forces[pairs.list.order[place]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
+            if (hasEnergy) energies[place] = of.energy[lane];
+        }
+        if (!of.coincident) return;
+        for (std::size_t place = first; place < end; ++place) {
+            const auto self = static_cast<std::uint32_t>(place);
+            if (hasEnergy)
+                Kernel<Variant{terms, true, true, false}>{pairs, sums, energies}(self);
+            else
+                Kernel<Variant{terms, true, false, false}>{pairs, sums, energies}(self);
+        }
+    });
+}
+
 using Pass = void (*)(const PairTraversal&, const PairSums&, std::vector<double>&);
 
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& sums) {
     if (sums.matrix != nullptr) return run<Variant{terms, isUniform, true, true}>;
+    if constexpr (isUniform && !terms.friction) return addUpGroups<terms>;
     return sums.energy != nullptr ? run<Variant{terms, isUniform, true, false}>
                                   : run<Variant{terms, isUniform, false, false}>;
 }

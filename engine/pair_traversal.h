@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/force_law.h"
+#include "engine/lane_rows.h"
 #include "engine/neighbour_list.h"
 #include "engine/pair_law.h"
 #include "engine/parallel.h"
@@ -21,6 +22,17 @@ struct alignas(64) PairRecord {
     std::uint32_t id;
 };
 
+/// Arithmetic of the pair forces; the state is always in double.
+enum class Precision { doubles, singles };
+
+/// A particle as the kernels in float read it. Positions are whole numbers of a unit, modulo 2^32: what near particles
+/// differ by is exact however far from the origin they are.
+struct alignas(32) SinglePrecisionRecord {
+    std::int32_t x, y, z;
+    float vx, vy, vz;
+    float unused[2];
+};
+
 /// Particles sorted for visiting, their neighbours, and the constants of their pairs. Kept between visits: most of them
 /// find the list still good.
 struct PairTraversal {
@@ -29,10 +41,14 @@ struct PairTraversal {
     ForceTerms terms;
     PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
     NeighbourList list;
-    std::vector<PairRecord> records;  ///< in the list's order
+    LaneRows lanes;                              ///< the list once more, where the terms are uniform
+    std::vector<PairRecord> records;             ///< in the list's order
+    Precision precision = Precision::doubles;    ///< of forces where the terms are uniform
+    std::vector<SinglePrecisionRecord> singles;  ///< in the list's order; empty in double
+    double unit = 0.0;                           ///< of the singles' positions, m
 
     PairTraversal() = default;
-    explicit PairTraversal(const ForceLaw& law);
+    PairTraversal(const ForceLaw& law, Precision precision);
 
     /// Sorts the particles, with the velocities (m/s) that the damping is to see, and brings the list up to date.
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities);

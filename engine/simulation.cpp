@@ -45,7 +45,8 @@ Simulation start(const Setup& setup) {
     Simulation simulation;
     simulation.setup = setup;
     simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
-    simulation.evaluator = ForceEvaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces);
+    simulation.evaluator =
+        ForceEvaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces, setup.precision);
     simulation.particles = setup.initial;
     for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
     giveBirth(simulation);

@@ -40,6 +40,7 @@ struct Setup {
     double error = 1e-2;            ///< wanted position error of the automatic stepper, radii per second of motion
     double solverTolerance = 1e-4;  ///< of the implicit steppers: residual over right-hand side
     ForceMethod forces = ForceMethod::grid;
+    Precision precision = Precision::doubles;  ///< of pair forces between particles of one material and radius
     std::uint64_t seed = 1;
 };
 
@@ -95,7 +96,7 @@ struct AutoState {
     std::uint64_t looks = 0;
     double errorSum = 0.0;      ///< over the looks, radii per second
     double largestError = 0.0;  ///< radii per second
-    double growth = 1.0;        ///< of errors: rate over several intervals by that over one
+    double growth = 1.0;        ///< of errors beyond one interval: what the measured rate is multiplied by
     double agitation = 0.0;     ///< at the last look: rms of the acceleration beside gravity, m/s^2
     double trials = 0.0;        ///< passes over all pairs that looks have cost
 };

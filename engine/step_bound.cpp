@@ -99,7 +99,7 @@ double refined(const PairTraversal& pairs, const Particles& particles, StepperKi
 
 std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles, StepperKind stepper) {
     if (particles.count() < 2) return std::nullopt;
-    PairTraversal pairs(law);
+    PairTraversal pairs(law, Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<StepBound> bounds(particles.count());
     pairs.forEachParticle([&](std::uint32_t self) {

@@ -35,6 +35,7 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
         if (engine::nameOf(stepper) == physics.text("stepper")) setup.stepper = stepper;
     setup.error = physics.number("error");
     setup.solverTolerance = physics.number("solver_tolerance");
+    setup.precision = physics.text("precision") == "float" ? engine::Precision::singles : engine::Precision::doubles;
     setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 

@@ -19,6 +19,10 @@ std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettin
         else
             for (const int count : settings.stepsPerFrame) variants.push_back({stepper, 1.0 / (scene.fps * count), {}});
     }
+    // What float costs and saves shows on the stepper whose time goes into forces alone.
+    for (const int count : settings.stepsPerFrame)
+        variants.push_back(
+            {engine::StepperKind::velocityVerlet, 1.0 / (scene.fps * count), {}, engine::Precision::singles});
     return variants;
 }
 

@@ -28,11 +28,11 @@ std::string lineOf(const SceneAccuracy& scene, const AccuracyRow& row) {
     const WindowRun& run = row.run;
     const bool automatic = run.variant.stepper == engine::StepperKind::automatic;
     const engine::StepStatistics& steps = run.steps;
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name,
-                       engine::nameOf(run.variant.stepper), automatic ? "" : number(run.variant.asked),
-                       automatic ? number(run.variant.asked) : "", nameOf(run.ending), errorsOf(scene, row),
-                       number(run.seconds), steps.count, number(steps.shortest), number(steps.longest),
-                       steps.forceEvaluations, steps.products, number(run.lookPasses), steps.rejected, driftsOf(row));
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, nameOf(run.variant),
+                       automatic ? "" : number(run.variant.asked), automatic ? number(run.variant.asked) : "",
+                       nameOf(run.ending), errorsOf(scene, row), number(run.seconds), steps.count,
+                       number(steps.shortest), number(steps.longest), steps.forceEvaluations, steps.products,
+                       number(run.lookPasses), steps.rejected, driftsOf(row));
 }
 
 /// Stepper, its cost, and the automatic stepper's as a multiple of it.

@@ -17,18 +17,20 @@ namespace {
 /// Colours of Okabe and Ito's palette, which stay apart for colour-blind eyes; the automatic stepper is drawn over the
 /// others.
 struct Mark {
-    engine::StepperKind stepper;
+    Variant variant;
     const char* color;
     int point;
     double size;
     double width;
 };
 
-constexpr std::array kMarks = {Mark{engine::StepperKind::symplecticEuler, "#7f7f7f", 5, 0.7, 1.6},
-                               Mark{engine::StepperKind::velocityVerlet, "#0072b2", 7, 0.8, 1.8},
-                               Mark{engine::StepperKind::implicitDamping, "#009e73", 9, 1.0, 1.8},
-                               Mark{engine::StepperKind::linearlyImplicit, "#e69f00", 11, 1.0, 1.8},
-                               Mark{engine::StepperKind::automatic, "#d62728", 13, 1.2, 2.6}};
+const std::array kMarks = {
+    Mark{{engine::StepperKind::symplecticEuler, 0.0, {}}, "#7f7f7f", 5, 0.7, 1.6},
+    Mark{{engine::StepperKind::velocityVerlet, 0.0, {}}, "#0072b2", 7, 0.8, 1.8},
+    Mark{{engine::StepperKind::implicitDamping, 0.0, {}}, "#009e73", 9, 1.0, 1.8},
+    Mark{{engine::StepperKind::linearlyImplicit, 0.0, {}}, "#e69f00", 11, 1.0, 1.8},
+    Mark{{engine::StepperKind::velocityVerlet, 0.0, {}, engine::Precision::singles}, "#56b4e9", 6, 1.0, 1.2},
+    Mark{{engine::StepperKind::automatic, 0.0, {}}, "#d62728", 13, 1.2, 2.6}};
 
 /// Beyond it nothing is left to tell apart, radii; lines lead out of the frame towards such runs.
 constexpr double kMeaningless = 10.0;
@@ -48,20 +50,19 @@ double costOf(const AccuracyRow& row, CostAxis axis) {
 }
 
 /// Cost, error, what was asked.
-std::string pointsOf(const SceneAccuracy& scene, engine::StepperKind stepper, CostAxis axis) {
+std::string pointsOf(const SceneAccuracy& scene, const Variant& variant, CostAxis axis) {
     std::string points;
     for (const AccuracyRow& row : scene.rows)
-        if (row.run.variant.stepper == stepper && row.resolved)
+        if (isOf(row.run.variant, variant.stepper, variant.precision) && row.resolved)
             points += fmt::format("{:.6g} {:.6g} {:g}\n", costOf(row, axis), row.error, row.run.variant.asked);
     return points;
 }
 
-std::string keyOf(const SceneAccuracy& scene, engine::StepperKind stepper) {
+std::string keyOf(const SceneAccuracy& scene, const Variant& variant) {
     const auto unfinished = std::count_if(scene.rows.begin(), scene.rows.end(), [&](const AccuracyRow& row) {
-        return row.run.variant.stepper == stepper && row.run.ending != Ending::finished;
+        return isOf(row.run.variant, variant.stepper, variant.precision) && row.run.ending != Ending::finished;
     });
-    return unfinished == 0 ? std::string(engine::nameOf(stepper))
-                           : fmt::format("{} ({} failed)", engine::nameOf(stepper), unfinished);
+    return unfinished == 0 ? nameOf(variant) : fmt::format("{} ({} failed)", nameOf(variant), unfinished);
 }
 
 /// Inside gnuplot's single quotes a quote is doubled and everything else stands for itself, but the line must not end.
@@ -133,14 +134,14 @@ std::string plotScript(const SceneAccuracy& scene, CostAxis axis) {
     std::string data;
     std::vector<std::string> curves;
     for (const Mark& mark : kMarks) {
-        const std::string points = pointsOf(scene, mark.stepper, axis);
+        const std::string points = pointsOf(scene, mark.variant, axis);
         if (points.empty()) continue;
         const std::string block = fmt::format("$curve{}", curves.size());
         data += fmt::format("{} << EOD\n{}EOD\n", block, points);
         curves.push_back(fmt::format(
             "{} using 1:2 with linespoints linecolor rgb \"{}\" linewidth {} pointtype {} pointsize {} title \"{}\"",
-            block, mark.color, mark.width, mark.point, mark.size, keyOf(scene, mark.stepper)));
-        if (mark.stepper == engine::StepperKind::automatic)
+            block, mark.color, mark.width, mark.point, mark.size, keyOf(scene, mark.variant)));
+        if (mark.variant.stepper == engine::StepperKind::automatic)
             curves.push_back(
                 fmt::format("{} using 1:2:(sprintf(\"%g\", $3)) with labels offset 1.2,0.6 left "
                             "font \",12\" textcolor rgb \"{}\" notitle",

@@ -58,7 +58,7 @@ void addDrifts(AccuracyRow& row, const WindowRun& run, const WindowRun& referenc
 std::vector<StepError> asymptotic(const std::vector<AccuracyRow>& rows, StepperKind stepper) {
     std::vector<StepError> points;
     for (const AccuracyRow& row : rows)
-        if (row.run.variant.stepper == stepper && row.resolved && row.run.steps.rejected == 0 &&
+        if (isOf(row.run.variant, stepper) && row.resolved && row.run.steps.rejected == 0 &&
             row.error <= kAsymptoticError)
             points.push_back({row.run.variant.asked, row.error});
     std::sort(points.begin(), points.end(), [](const StepError& a, const StepError& b) { return a.step < b.step; });
@@ -82,7 +82,7 @@ std::optional<HandPicked> cheapest(const std::vector<AccuracyRow>& rows, Cost co
         if (stepper == StepperKind::automatic) continue;
         std::vector<CostPoint> points;
         for (const AccuracyRow& row : rows)
-            if (row.run.variant.stepper == stepper && row.resolved) points.push_back({row.error, cost(row.run)});
+            if (isOf(row.run.variant, stepper) && row.resolved) points.push_back({row.error, cost(row.run)});
         const auto price = costAt(points, error);
         if (price && (!best || *price < best->cost)) best = HandPicked{stepper, *price};
     }

@@ -32,7 +32,7 @@ constexpr double kResolvedFactor = 3.0;
 std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engine::StepperKind stepper) {
     std::vector<const WindowRun*> finished;
     for (const WindowRun& run : runs)
-        if (run.variant.stepper == stepper && run.ending == Ending::finished) finished.push_back(&run);
+        if (isOf(run.variant, stepper) && run.ending == Ending::finished) finished.push_back(&run);
     if (finished.size() < 2) return {};
     return {finished.end()[-2], finished.end()[-1]};
 }

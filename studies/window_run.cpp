@@ -5,6 +5,7 @@
 
 #include "engine/auto_stepper.h"
 #include "engine/error_look.h"
+#include "engine/steppers.h"
 #include "scenes/frame_steps.h"
 
 namespace studies {
@@ -15,6 +16,7 @@ engine::Simulation begin(const Window& window, const Variant& variant) {
     engine::Setup setup = window.start.setup;
     setup.initial = {};
     setup.stepper = variant.stepper;
+    setup.precision = variant.precision;
     if (variant.stepper == engine::StepperKind::automatic)
         setup.error = variant.asked;
     else
@@ -46,6 +48,15 @@ double Window::seconds() const {
 
 double WindowRun::passes() const {
     return engine::passesOf(steps) + lookPasses;
+}
+
+std::string nameOf(const Variant& variant) {
+    const std::string stepper(engine::nameOf(variant.stepper));
+    return variant.precision == engine::Precision::singles ? stepper + " in float" : stepper;
+}
+
+bool isOf(const Variant& variant, engine::StepperKind stepper, engine::Precision precision) {
+    return variant.stepper == stepper && variant.precision == precision;
 }
 
 std::string nameOf(Ending ending) {

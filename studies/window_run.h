@@ -30,7 +30,15 @@ struct Variant {
     engine::StepperKind stepper = engine::StepperKind::velocityVerlet;
     double asked = 0.0;  ///< step in s; for the automatic stepper error in radii per second of motion
     std::optional<double> solverTolerance;  ///< nothing: the scene's
+    engine::Precision precision = engine::Precision::doubles;
 };
+
+/// "velocity-verlet", or "velocity-verlet in float".
+std::string nameOf(const Variant& variant);
+
+/// Whether the variant is one of this stepper's in this arithmetic.
+bool isOf(const Variant& variant, engine::StepperKind stepper,
+          engine::Precision precision = engine::Precision::doubles);
 
 enum class Ending { finished, unstable, tooSlow };
 

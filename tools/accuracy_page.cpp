@@ -47,7 +47,7 @@ std::string small(double value) {
 }
 
 std::string nameIn(const studies::WindowRun& run) {
-    return std::string(engine::nameOf(run.variant.stepper));
+    return nameOf(run.variant);
 }
 
 std::string askedOf(const studies::Variant& variant) {

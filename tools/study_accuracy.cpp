@@ -87,7 +87,7 @@ studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccurac
 /// A line for each run that is done.
 studies::RunListener reporter(const std::string& name, Talk talk) {
     return [name, talk](const studies::WindowRun& run, std::string_view purpose) {
-        const auto stepper = engine::nameOf(run.variant.stepper);
+        const std::string stepper = studies::nameOf(run.variant);
         if (talk == Talk::json)
             fmt::print("{}\n", Json{{"event", purpose},
                                     {"scene", name},

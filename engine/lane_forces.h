@@ -1,0 +1,36 @@
+// Equation 1 for particles of one material and one radius, a particle a lane: the fast path of addUpPairs. Bit for bit
+// the scalar kernel's sums in double; in float it has the same order of operations in that arithmetic.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/lane_rows.h"
+#include "engine/pair_law.h"
+#include "engine/pair_traversal.h"
+
+namespace engine {
+
+/// One pass over groups of particles.
+struct LanePass {
+    const LaneRows& rows;
+    const std::vector<PairRecord>& records;             ///< read in double
+    const std::vector<SinglePrecisionRecord>& singles;  ///< read in float; empty: in double
+    double unit = 0.0;                                  ///< of the singles' positions, m
+    PairConstants<double> constants;
+    PairTerms terms;
+    bool energy = false;
+};
+
+/// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by place.
+struct LaneSums {
+    std::array<double, kGroup> x, y, z, energy;
+    bool coincident = false;  ///< two particles share a position: the sums are not those of the law
+};
+
+void addUpGroup(const LanePass& pass, std::size_t group, LaneSums& sums);
+
+/// Of the vectors that this machine runs: "AVX2", for example.
+const char* laneInstructionSet();
+
+}  // namespace engine
