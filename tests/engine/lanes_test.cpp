@@ -1,0 +1,108 @@
+// The kernels on vector units: the same bits whatever vectors the machine has, and what float loses.
+#include <hwy/targets.h>
+
+#include <set>
+
+#include "tests/catch.h"
+
+#include "engine/diagnostics.h"
+#include "engine/lane_forces.h"
+#include "tests/engine/runs.h"
+
+using namespace engine;
+
+namespace {
+
+/// A block of a few hundred particles: neither a multiple of a group nor of a vector.
+Particles block(const Material& material, const Vec3& center) {
+    Setup setup = runs::freeSetup(material, StepperKind::velocityVerlet, 0.01);
+    runs::addPacking(setup, {7, 6, 9});
+    for (Vec3& position : setup.initial.position) position += center;
+    return setup.initial;
+}
+
+std::vector<Vec3> pairForces(const Material& material, const Particles& particles, Precision precision) {
+    ForceEvaluator evaluator(clouds::lawOf(material), ForceMethod::grid, precision);
+    std::vector<Vec3> forces;
+    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    return forces;
+}
+
+/// rms difference over rms size.
+double relativeDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double differenceSq = 0.0;
+    double sizeSq = 0.0;
+    for (std::size_t p = 0; p < a.size(); ++p) {
+        differenceSq += squaredLength(a[p] - b[p]);
+        sizeSq += squaredLength(b[p]);
+    }
+    return std::sqrt(differenceSq / sizeSq);
+}
+
+/// Vectors of one kind alone, as long as it lives.
+class OnlyTarget {
+ public:
+    explicit OnlyTarget(std::int64_t target) { choose(target); }
+    ~OnlyTarget() { choose(0); }
+    OnlyTarget(const OnlyTarget&) = delete;
+    OnlyTarget& operator=(const OnlyTarget&) = delete;
+
+ private:
+    static void choose(std::int64_t targets) {
+        hwy::SetSupportedTargetsForTest(targets);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    }
+};
+
+std::string hashOfRun(const char* preset, Precision precision) {
+    Setup setup = runs::freeSetup(*materialPreset(preset), StepperKind::velocityVerlet, 0.002);
+    setup.gravity = Vec3(0, -9.8, 0);
+    setup.scenery.colliders = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}};
+    setup.precision = precision;
+    runs::addPacking(setup, {7, 6, 9});
+    Simulation simulation = start(setup);
+    advance(simulation, 0.1);
+    return stateHash(simulation.particles);
+}
+
+}  // namespace
+
+TEST_CASE("A run has the same bits with every kind of vectors", "[lanes]") {
+    for (const char* preset : {"liquid", "solid", "powder"})
+        for (const Precision precision : {Precision::doubles, Precision::singles}) {
+            const std::string expected = hashOfRun(preset, precision);
+            std::set<std::string> names;
+            for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+                const OnlyTarget only(targets & -targets);
+                const std::string name = laneInstructionSet();
+                names.insert(name);
+                INFO(preset << " with " << name);
+                CHECK(hashOfRun(preset, precision) == expected);
+            }
+            CHECK(names.size() > 1);  // what this machine has and at least one narrower kind
+        }
+}
+
+TEST_CASE("In float, forces err by its roundings, near the origin and far from it", "[lanes]") {
+    for (const char* preset : {"liquid", "solid", "powder"})
+        for (const double far : {0.0, 1e3, 1e6}) {
+            const Material material = *materialPreset(preset);
+            const Particles particles = block(material, Vec3(far, -far, 0.5 * far));
+            const double error = relativeDifference(pairForces(material, particles, Precision::singles),
+                                                    pairForces(material, particles, Precision::doubles));
+            INFO(preset << ", " << far << " m from the origin: " << error);
+            CHECK(error > 0.0);
+            CHECK(error < 2e-6);  // about ten roundings of 6e-8 a pair, larger where terms cancel at contact
+        }
+}
+
+TEST_CASE("Coincident particles are parted in float as in double", "[lanes]") {
+    const Material material = *materialPreset("powder");
+    Particles particles = block(material, Vec3::Zero());
+    particles.position[17] = particles.position[16];
+    const std::vector<Vec3> doubles = pairForces(material, particles, Precision::doubles);
+    const std::vector<Vec3> singles = pairForces(material, particles, Precision::singles);
+    CHECK(doubles[17].norm() > 0.0);
+    CHECK((singles[17] - doubles[17]).norm() < 1e-5 * doubles[17].norm());
+    CHECK((singles[16] - doubles[16]).norm() < 1e-5 * doubles[16].norm());
+}
