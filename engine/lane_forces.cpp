@@ -43,42 +43,64 @@ struct Terms {
     static constexpr bool kEnergy = hasEnergy;
 };
 
-/// The particles of a block of lanes in double: positions as they are.
+/// The particles of a block of lanes in double: positions as they are. Records are read a lane each; where vectors have
+/// 32 bytes, loads and shuffles do what gathers take longer for.
 struct Doubles {
     using T = double;
+    using V = Lanes<double>;
+    static constexpr Tag<double> kTag{};
+    static constexpr std::int64_t kStride = sizeof(PairRecord) / sizeof(double);
+
     const double* base;  ///< of the first record
     Places<double> self;
-    Vector3<Lanes<double>> position, velocity;
+    Vector3<V> position, velocity;
 
-    static constexpr int kStride = sizeof(PairRecord) / sizeof(double);
-
-    Doubles(const LanePass& pass, Places<double> places) : base(&pass.records[0].x), self(places) {
-        const auto index = indexOf(places);
-        position = {load(index, 0), load(index, 1), load(index, 2)};
-        velocity = {load(index, 3), load(index, 4), load(index, 5)};
-    }
-
-    static hn::Vec<hn::Rebind<std::int64_t, Tag<double>>> indexOf(Places<double> places) {
-        const hn::Rebind<std::int64_t, Tag<double>> wide;
-        return hn::Mul(hn::PromoteTo(wide, places), hn::Set(wide, kStride));
-    }
-
-    template <class Index>
-    Lanes<double> load(Index index, int field) const {
-        return hn::GatherIndex(Tag<double>(), base + field, index);
+    Doubles(const LanePass& pass, const std::int32_t* places)
+        : base(&pass.records[0].x), self(hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), places)) {
+        load<true>(places, position, velocity);
     }
 
     template <bool needsVelocity>
-    Row<double> row(Places<double> others) const {
+    void load(const std::int32_t* places, Vector3<V>& x, Vector3<V>& v) const {
+#if HWY_TARGET == HWY_AVX2
+        const auto record = [&](int lane) { return base + kStride * places[lane]; };
+        const auto half = [&](int lane) { return hn::Load(kTag, record(lane)); };
+        const auto evenLow = hn::InterleaveLower(kTag, half(0), half(1));
+        const auto oddLow = hn::InterleaveUpper(kTag, half(0), half(1));
+        const auto evenHigh = hn::InterleaveLower(kTag, half(2), half(3));
+        const auto oddHigh = hn::InterleaveUpper(kTag, half(2), half(3));
+        x = {hn::ConcatLowerLower(kTag, evenHigh, evenLow), hn::ConcatLowerLower(kTag, oddHigh, oddLow),
+             hn::ConcatUpperUpper(kTag, evenHigh, evenLow)};
+        if constexpr (needsVelocity) {
+            const auto rest = [&](int lane) { return hn::Load(kTag, record(lane) + 4); };
+            v.x = hn::ConcatUpperUpper(kTag, oddHigh, oddLow);
+            v.y = hn::ConcatLowerLower(kTag, hn::InterleaveLower(kTag, rest(2), rest(3)),
+                                       hn::InterleaveLower(kTag, rest(0), rest(1)));
+            v.z = hn::ConcatLowerLower(kTag, hn::InterleaveUpper(kTag, rest(2), rest(3)),
+                                       hn::InterleaveUpper(kTag, rest(0), rest(1)));
+        }
+#else
         const hn::Rebind<std::int64_t, Tag<double>> wide;
-        const auto index = indexOf(others);
+        const hn::Rebind<std::int32_t, Tag<double>> narrow;
+        const auto index = hn::Mul(hn::PromoteTo(wide, hn::LoadU(narrow, places)), hn::Set(wide, kStride));
+        const auto gather = [&](int field) { return hn::GatherIndex(kTag, base + field, index); };
+        x = {gather(0), gather(1), gather(2)};
+        if constexpr (needsVelocity) v = {gather(3), gather(4), gather(5)};
+#endif
+    }
+
+    template <bool needsVelocity>
+    Row<double> row(const std::int32_t* others) const {
+        const hn::Rebind<std::int64_t, Tag<double>> wide;
+        const hn::Rebind<std::int32_t, Tag<double>> narrow;
+        Vector3<V> x, v;
+        load<needsVelocity>(others, x, v);
         Row<double> row;
-        row.isPair = hn::RebindMask(Tag<double>(), hn::Ne(hn::PromoteTo(wide, others), hn::PromoteTo(wide, self)));
-        row.separation = {hn::Sub(position.x, load(index, 0)), hn::Sub(position.y, load(index, 1)),
-                          hn::Sub(position.z, load(index, 2))};
+        row.isPair =
+            hn::RebindMask(kTag, hn::Ne(hn::PromoteTo(wide, hn::LoadU(narrow, others)), hn::PromoteTo(wide, self)));
+        row.separation = {hn::Sub(position.x, x.x), hn::Sub(position.y, x.y), hn::Sub(position.z, x.z)};
         if constexpr (needsVelocity)
-            row.velocity = {hn::Sub(velocity.x, load(index, 3)), hn::Sub(velocity.y, load(index, 4)),
-                            hn::Sub(velocity.z, load(index, 5))};
+            row.velocity = {hn::Sub(velocity.x, v.x), hn::Sub(velocity.y, v.y), hn::Sub(velocity.z, v.z)};
         return row;
     }
 };
@@ -86,49 +108,76 @@ struct Doubles {
 /// In float: positions are whole numbers of a unit, modulo 2^32, whose differences are exact anywhere in the world.
 struct Singles {
     using T = float;
-    const std::int32_t* positions;  ///< of the first record
-    const float* velocities;        ///< of the first record
-    Places<float> self;
-    Vector3<Places<float>> position;
-    Vector3<Lanes<float>> velocity;
-    Lanes<float> unit;
+    using V = Lanes<float>;
+    using I = Places<float>;
+    static constexpr Tag<float> kTag{};
+    static constexpr hn::Rebind<std::int32_t, Tag<float>> kWhole{};
+    static constexpr std::int32_t kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
 
-    static constexpr int kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
+    const float* base;  ///< of the first record; its positions are bits of integers
+    I self;
+    Vector3<I> position;
+    Vector3<V> velocity;
+    V unit;
 
-    Singles(const LanePass& pass, Places<float> places)
-        : positions(&pass.singles[0].x), velocities(&pass.singles[0].vx), self(places) {
-        const auto index = indexOf(places);
-        position = {loadPosition(index, 0), loadPosition(index, 1), loadPosition(index, 2)};
-        velocity = {loadVelocity(index, 0), loadVelocity(index, 1), loadVelocity(index, 2)};
-        unit = hn::Set(Tag<float>(), static_cast<float>(pass.unit));
-    }
-
-    static Places<float> indexOf(Places<float> places) {
-        const hn::Rebind<std::int32_t, Tag<float>> tag;
-        return hn::Mul(places, hn::Set(tag, kStride));
-    }
-
-    Places<float> loadPosition(Places<float> index, int field) const {
-        return hn::GatherIndex(hn::Rebind<std::int32_t, Tag<float>>(), positions + field, index);
-    }
-
-    Lanes<float> loadVelocity(Places<float> index, int field) const {
-        return hn::GatherIndex(Tag<float>(), velocities + field, index);
-    }
-
-    Lanes<float> apart(Places<float> mine, Places<float> index, int field) const {
-        return hn::Mul(unit, hn::ConvertTo(Tag<float>(), hn::Sub(mine, loadPosition(index, field))));
+    Singles(const LanePass& pass, const std::int32_t* places)
+        : base(reinterpret_cast<const float*>(pass.singles.data())), self(hn::LoadU(kWhole, places)) {
+        load<true>(places, position, velocity);
+        unit = hn::Set(kTag, static_cast<float>(pass.unit));
     }
 
     template <bool needsVelocity>
-    Row<float> row(Places<float> others) const {
-        const auto index = indexOf(others);
+    void load(const std::int32_t* places, Vector3<I>& x, Vector3<V>& v) const {
+        const auto whole = [&](V bits) { return hn::BitCast(kWhole, bits); };
+#if HWY_TARGET == HWY_AVX2
+        const hn::Repartition<double, Tag<float>> pairs;
+        const auto record = [&](int lane) {
+            return hn::Load(kTag, base + static_cast<std::ptrdiff_t>(kStride) * places[lane]);
+        };
+        const auto lower = [&](int lane) {
+            return hn::BitCast(pairs, hn::InterleaveLower(kTag, record(lane), record(lane + 1)));
+        };
+        const auto upper = [&](int lane) {
+            return hn::BitCast(pairs, hn::InterleaveUpper(kTag, record(lane), record(lane + 1)));
+        };
+        const auto float8 = [&](auto vector) { return hn::BitCast(kTag, vector); };
+        // The first four lanes' and the last four's, each with x or y or z or v_x below and v_y or v_z above.
+        const auto first0 = float8(hn::InterleaveLower(pairs, lower(0), lower(2)));
+        const auto first1 = float8(hn::InterleaveUpper(pairs, lower(0), lower(2)));
+        const auto first2 = float8(hn::InterleaveLower(pairs, upper(0), upper(2)));
+        const auto last0 = float8(hn::InterleaveLower(pairs, lower(4), lower(6)));
+        const auto last1 = float8(hn::InterleaveUpper(pairs, lower(4), lower(6)));
+        const auto last2 = float8(hn::InterleaveLower(pairs, upper(4), upper(6)));
+        x = {whole(hn::ConcatLowerLower(kTag, last0, first0)), whole(hn::ConcatLowerLower(kTag, last1, first1)),
+             whole(hn::ConcatLowerLower(kTag, last2, first2))};
+        if constexpr (needsVelocity) {
+            const auto first3 = float8(hn::InterleaveUpper(pairs, upper(0), upper(2)));
+            const auto last3 = float8(hn::InterleaveUpper(pairs, upper(4), upper(6)));
+            v = {hn::ConcatLowerLower(kTag, last3, first3), hn::ConcatUpperUpper(kTag, last0, first0),
+                 hn::ConcatUpperUpper(kTag, last1, first1)};
+        }
+#else
+        const auto index = hn::Mul(hn::LoadU(kWhole, places), hn::Set(kWhole, kStride));
+        const auto gather = [&](int field) { return hn::GatherIndex(kTag, base + field, index); };
+        x = {whole(gather(0)), whole(gather(1)), whole(gather(2))};
+        if constexpr (needsVelocity) v = {gather(3), gather(4), gather(5)};
+#endif
+    }
+
+    V apart(I mine, I other) const {
+        return hn::Mul(unit, hn::ConvertTo(kTag, hn::Sub(mine, other)));
+    }
+
+    template <bool needsVelocity>
+    Row<float> row(const std::int32_t* others) const {
+        Vector3<I> x;
+        Vector3<V> v;
+        load<needsVelocity>(others, x, v);
         Row<float> row;
-        row.isPair = hn::RebindMask(Tag<float>(), hn::Ne(others, self));
-        row.separation = {apart(position.x, index, 0), apart(position.y, index, 1), apart(position.z, index, 2)};
+        row.isPair = hn::RebindMask(kTag, hn::Ne(hn::LoadU(kWhole, others), self));
+        row.separation = {apart(position.x, x.x), apart(position.y, x.y), apart(position.z, x.z)};
         if constexpr (needsVelocity)
-            row.velocity = {hn::Sub(velocity.x, loadVelocity(index, 0)), hn::Sub(velocity.y, loadVelocity(index, 1)),
-                            hn::Sub(velocity.z, loadVelocity(index, 2))};
+            row.velocity = {hn::Sub(velocity.x, v.x), hn::Sub(velocity.y, v.y), hn::Sub(velocity.z, v.z)};
         return row;
     }
 };
@@ -146,7 +195,7 @@ struct Law {
 
     PairConstants<T> c;
     V b1, bd, inverseRestSq, inverseReachSq, reachSq, inverseDampingSq, dampingSq, coreSq;
-    V core, reach, inverseReach, inverseReachCubed, a, b, slope;
+    V reach, inverseReach, inverseReachCubed, a, b, halfSlope;
 
     static V set(T value) { return hn::Set(kTag, value); }
 
@@ -170,44 +219,47 @@ struct Law {
         if constexpr (Kind::kEnergy) {
             const T reachOf = std::sqrt(c.reachSq);
             const T inverse = T(1) / reachOf;
-            core = set(std::sqrt(c.coreSq));
             reach = set(reachOf);
             inverseReach = set(inverse);
             inverseReachCubed = set(inverse * inverse * inverse);
             a = set(c.inverseRestSq + c.inverseReachSq);
             b = set(c.inverseRestSq * c.inverseReachSq);
-            slope = set(pairCoefficient<PairTerms{true, false}>(c.coreSq, T(0), c));
+            halfSlope = set(T(0.5) * pairCoefficient<PairTerms{true, false}>(c.coreSq, T(0), c));
         }
     }
 
-    V coefficient(V distanceSq, V approach) const {
+    /// What force and energy of a pair share.
+    struct Inverse {
+        V guardedSq, square, root;  ///< of the distance; 1 over it; 1 over the distance
+    };
+
+    Inverse inverseOf(V distanceSq) const {
         const V guardedSq = hn::Max(distanceSq, coreSq);
-        const V inverseSq = hn::Div(set(T(1)), guardedSq);
-        const V toRest = hn::Sub(inverseSq, inverseRestSq);
+        const V square = hn::Div(set(T(1)), guardedSq);
+        return {guardedSq, square, hn::Sqrt(square)};
+    }
+
+    V coefficient(const Inverse& inverse, V approach) const {
+        const V toRest = hn::Sub(inverse.square, inverseRestSq);
         V toReach = toRest;
-        if constexpr (Kind::kPair.attraction) toReach = hn::Sub(inverseSq, inverseReachSq);
-        const V repulsion = hn::Mul(hn::Mul(b1, hn::Sqrt(inverseSq)), hn::Mul(toRest, toReach));
-        V sum = hn::IfThenElseZero(hn::Lt(guardedSq, reachSq), repulsion);
+        if constexpr (Kind::kPair.attraction) toReach = hn::Sub(inverse.square, inverseReachSq);
+        const V repulsion = hn::Mul(hn::Mul(b1, inverse.root), hn::Mul(toRest, toReach));
+        V sum = hn::IfThenElseZero(hn::Lt(inverse.guardedSq, reachSq), repulsion);
         if constexpr (Kind::kPair.damping) {
-            const V falling = hn::Sub(set(T(1)), hn::Mul(guardedSq, inverseDampingSq));
-            const V damping = hn::Mul(hn::Mul(hn::Mul(bd, falling), inverseSq), approach);
-            sum = hn::Sub(sum, hn::IfThenElseZero(hn::Lt(guardedSq, dampingSq), damping));
+            const V falling = hn::Sub(set(T(1)), hn::Mul(inverse.guardedSq, inverseDampingSq));
+            const V damping = hn::Mul(hn::Mul(hn::Mul(bd, falling), inverse.square), approach);
+            sum = hn::Sub(sum, hn::IfThenElseZero(hn::Lt(inverse.guardedSq, dampingSq), damping));
         }
         return sum;
     }
 
-    V energy(V distanceSq) const {
-        const V distance = hn::Sqrt(distanceSq);
-        const V distanceSqAgain = hn::Mul(distance, distance);
-        const V guarded = hn::Max(distance, core);
-        const V inverse = hn::Div(set(T(1)), guarded);
-        const V cubed = hn::Mul(hn::Mul(inverse, inverse), inverse);
-        const V cubes = hn::Div(hn::Sub(cubed, inverseReachCubed), set(T(3)));
-        const V middle = hn::Sub(cubes, hn::Mul(a, hn::Sub(inverse, inverseReach)));
+    V energy(const Inverse& inverse, V distanceSq) const {
+        const V guarded = hn::Mul(inverse.guardedSq, inverse.root);
+        const V cubes = hn::Mul(hn::Sub(hn::Mul(inverse.square, inverse.root), inverseReachCubed), set(T(1) / T(3)));
+        const V middle = hn::Sub(cubes, hn::Mul(a, hn::Sub(inverse.root, inverseReach)));
         const V outside = hn::Mul(b1, hn::Add(middle, hn::Mul(b, hn::Sub(reach, guarded))));
-        const V inside = hn::Div(hn::Mul(slope, hn::Sub(coreSq, distanceSqAgain)), set(T(2)));
-        const V either = hn::Add(outside, hn::IfThenElseZero(hn::Lt(distance, core), inside));
-        return hn::IfThenElseZero(hn::Lt(hn::Max(distanceSq, distanceSqAgain), reachSq), either);
+        const V inside = hn::Mul(halfSlope, hn::Sub(inverse.guardedSq, distanceSq));  // 0 beyond the core
+        return hn::IfThenElseZero(hn::Lt(distanceSq, reachSq), hn::Add(outside, inside));
     }
 };
 
@@ -216,31 +268,33 @@ template <class Source, class Kind>
 void addUpBlock(const LanePass& pass, std::size_t group, std::size_t lane, LaneSums& sums) {
     using T = typename Source::T;
     constexpr Tag<T> kTag{};
-    const hn::Rebind<std::int32_t, Tag<T>> places;
     const std::size_t first = group * kGroup + lane;
     std::uint32_t longest = 0;
     for (std::size_t k = 0; k < hn::Lanes(kTag); ++k) longest = std::max(longest, pass.rows.length[first + k]);
-    const auto last = hn::Set(places, static_cast<std::int32_t>(pass.records.size() - 1));
-    const Source source(pass, hn::Min(hn::Iota(places, static_cast<std::int32_t>(first)), last));
+    std::array<std::int32_t, kGroup> selves;
+    for (std::size_t k = 0; k < hn::Lanes(kTag); ++k)
+        selves[k] = static_cast<std::int32_t>(std::min(first + k, pass.records.size() - 1));
+    const Source source(pass, selves.data());
     const Law<T, Kind> law(pass.constants);
     Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     Lanes<T> energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     const std::int32_t* entry = pass.rows.places.data() + pass.rows.start[group] * kGroup + lane;
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
-        const Row<T> row = source.template row<Kind::kPair.damping>(hn::LoadU(places, entry));
+        const Row<T> row = source.template row<Kind::kPair.damping>(entry);
         const Lanes<T> distanceSq = dot(row.separation, row.separation);
         coincident = hn::Or(coincident, hn::And(row.isPair, hn::Eq(distanceSq, hn::Zero(kTag))));
         Lanes<T> approach = hn::Zero(kTag);
         if constexpr (Kind::kPair.damping) approach = dot(row.velocity, row.separation);
         // A place that fills up a row is the particle itself, for which P is zero.
-        const Lanes<T> coefficient = law.coefficient(distanceSq, approach);
+        const auto inverse = law.inverseOf(distanceSq);
+        const Lanes<T> coefficient = law.coefficient(inverse, approach);
         force.x = hn::Add(force.x, hn::Mul(coefficient, row.separation.x));
         force.y = hn::Add(force.y, hn::Mul(coefficient, row.separation.y));
         force.z = hn::Add(force.z, hn::Mul(coefficient, row.separation.z));
         if constexpr (Kind::kEnergy)
-            energy = hn::Add(
-                energy, hn::IfThenElseZero(row.isPair, hn::Mul(Law<T, Kind>::set(T(0.5)), law.energy(distanceSq))));
+            energy = hn::Add(energy, hn::IfThenElseZero(row.isPair, hn::Mul(Law<T, Kind>::set(T(0.5)),
+                                                                            law.energy(inverse, distanceSq))));
     }
     std::array<T, kGroup> x, y, z, e;
     hn::StoreU(force.x, kTag, x.data());

@@ -1,5 +1,5 @@
-// Equation 1 for particles of one material and one radius, a particle a lane: the fast path of addUpPairs. Bit for bit
-// the scalar kernel's sums in double; in float it has the same order of operations in that arithmetic.
+// Equation 1 for particles of one material and one radius, a particle a lane: the fast path of addUpPairs. In double
+// the forces are bit for bit the scalar kernel's, the energies up to rounding; in float all is that arithmetic's.
 #pragma once
 
 #include <cstdint>
