@@ -6,9 +6,6 @@
 namespace engine {
 namespace {
 
-/// Width of the skin in cutoffs. Measured on the steps of the liquid scene: 0.05 to 0.15 cost the same within 5 %.
-constexpr double kSkin = 0.1;
-
 /// Units in the reach of a list: differences within it stay below 2^24, which float holds exactly.
 constexpr double kUnits = 8388608.0;
 
@@ -28,7 +25,7 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     if (terms.uniform && particles.count() > 0)
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * particles.radius.front());
     const bool isNew = !covers(list, particles.position, terms.cutoff);
-    if (isNew) build(list, particles.position, terms.cutoff, kSkin * terms.cutoff);
+    if (isNew) build(list, particles.position, terms.cutoff, kListSkin * terms.cutoff);
     const bool hasLanes = terms.uniform && !terms.pair.friction;
     if (hasLanes && (isNew || !before.uniform)) build(lanes, list);
     const bool hasSingles = hasLanes && precision == Precision::singles;

@@ -13,6 +13,9 @@
 
 namespace engine {
 
+/// Width of the skin in cutoffs. Measured on the steps of the liquid scene: 0.05 to 0.15 cost the same within 5 %.
+inline constexpr double kListSkin = 0.1;
+
 /// A particle as the kernels read it, in the order of the list; one cache line.
 struct alignas(64) PairRecord {
     double x, y, z;

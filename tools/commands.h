@@ -14,6 +14,7 @@ void addCheckCommand(CLI::App& program);
 void addScenesCommand(CLI::App& program);
 void addSchemaCommand(CLI::App& program);
 void addStudyCommand(CLI::App& program);
+void addBenchCommand(CLI::App& program);
 
 /// Subcommands of `globular study`.
 void addStudyAccuracy(CLI::App& study);

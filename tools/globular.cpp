@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
     tools::addScenesCommand(program);
     tools::addSchemaCommand(program);
     tools::addStudyCommand(program);
+    tools::addBenchCommand(program);
     const int code = run(program, argc, argv);
     // Results go to stdout; a full disk behind it is a failure like any other.
     if (std::fflush(stdout) != 0 && code == 0) return report("cannot write to standard output", kOutsideFailed);

@@ -31,7 +31,7 @@ const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", 
 const std::map<std::string, std::set<std::string>> kLibraries = {
     {"engine", {"Eigen", "hwy", "tbb"}},
     {"scenes", {"Eigen", "glm", "fmt", "toml++"}},
-    {"studies", {"Eigen", "fmt", "tbb"}},
+    {"studies", {"Eigen", "fmt", "hwy", "tbb"}},
 };
 
 /// Standard headers that a folder must not use: files, clocks, environment, output.

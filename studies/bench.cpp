@@ -1,0 +1,260 @@
+// Packings at the rest length, a little shaken; every time is the median of rounds, each long enough for the clock.
+#include "studies/bench.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+
+#include "engine/bodies.h"
+#include "engine/diagnostics.h"
+#include "engine/fnv.h"
+#include "engine/parallel.h"
+#include "engine/steppers.h"
+#include "studies/machine_loops.h"
+
+namespace studies {
+namespace {
+
+using engine::Precision;
+using engine::StepperKind;
+using engine::Vec3;
+
+constexpr std::array kMaterials = {"solid", "liquid", "powder"};
+
+/// Beyond it a million particles' steps would take the patience of whoever waits.
+constexpr std::size_t kMostStepped = 100000;
+
+using Work = std::function<void()>;
+
+double secondsOf(const Work& work, std::uint64_t repeats) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    for (std::uint64_t k = 0; k < repeats; ++k) work();
+    return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(repeats);
+}
+
+/// Median seconds of a call of the work, which has been called once before.
+double measured(const Work& work, const BenchSettings& settings) {
+    const double once = secondsOf(work, 1);
+    const auto repeats = static_cast<std::uint64_t>(std::max(1.0, std::ceil(settings.secondsPerRound / once)));
+    std::vector<double> rounds;
+    for (int round = 0; round < settings.rounds; ++round) rounds.push_back(secondsOf(work, repeats));
+    std::nth_element(rounds.begin(), rounds.begin() + settings.rounds / 2, rounds.end());
+    return rounds[static_cast<std::size_t>(settings.rounds / 2)];
+}
+
+/// A close packing at the rest length, in a cube.
+engine::Setup packed(const std::string& material, std::size_t count) {
+    engine::Setup setup;
+    setup.materials = {*engine::materialPreset(material)};
+    setup.materials[0].mass = 0.1;
+    setup.gravity = Vec3::Zero();
+    const double spacing = 2.0 * setup.materials[0].radius;
+    const double side = std::cbrt(static_cast<double>(count) / std::sqrt(2.0)) * spacing;
+    // A little larger, then cut to the number.
+    auto positions =
+        engine::boxPositions(Vec3::Zero(), Vec3::Constant(side + spacing), {.spacing = spacing, .jitter = 0.05});
+    positions.resize(std::min(count, positions.size()));
+    for (const Vec3& position : positions)
+        append(setup.initial, {.position = position, .radius = setup.materials[0].radius, .mass = 0.1});
+    return setup;
+}
+
+engine::ForceLaw lawOf(const engine::Setup& setup) {
+    return {setup.materials, setup.gravity, setup.scenery};
+}
+
+std::string hashOf(const std::vector<Vec3>& vectors) {
+    std::uint64_t hash = engine::fnv1a("");
+    for (const Vec3& v : vectors)
+        for (int axis = 0; axis < 3; ++axis) hash = engine::fnv1a(std::bit_cast<std::uint64_t>(v[axis]), hash);
+    return engine::hexadecimal(hash);
+}
+
+/// What rows of one packing have in common.
+struct Subject {
+    engine::Setup setup;
+    BenchRow row;
+};
+
+Subject subjectOf(const std::string& material, std::size_t count) {
+    Subject subject{packed(material, count), {}};
+    const engine::Particles& particles = subject.setup.initial;
+    engine::PairTraversal pairs(lawOf(subject.setup), Precision::doubles);
+    pairs.prepare(lawOf(subject.setup), particles, particles.velocity);
+    std::vector<std::uint32_t> neighbours(particles.count());
+    pairs.forEachParticle([&](std::uint32_t self) {
+        pairs.forEachNeighbour(self, [&](std::uint32_t, const Vec3&, double) { ++neighbours[self]; });
+    });
+    double sum = 0.0;
+    for (const std::uint32_t number : neighbours) sum += number;
+    subject.row.material = material;
+    subject.row.particles = particles.count();
+    subject.row.neighbours = sum / static_cast<double>(particles.count());
+    const auto entries = static_cast<double>(pairs.list.places.size() + pairs.lanes.places.size());
+    subject.row.bytesPerParticle =
+        sizeof(engine::PairRecord) + entries * sizeof(std::uint32_t) / static_cast<double>(particles.count());
+    return subject;
+}
+
+class Bench {
+ public:
+    Bench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener)
+        : settings_(settings), listener_(listener) {}
+
+    void measureMachine() {
+        if (wants("multiply-add", "")) addMultiplyAdds();
+        if (wants("copy", "")) addCopy();
+    }
+
+    void measure(const std::string& material, std::size_t count) {
+        const bool steps = count <= kMostStepped;
+        if (!wantsAny(material)) return;
+        const Subject subject = subjectOf(material, count);
+        for (const Precision precision : {Precision::doubles, Precision::singles})
+            if (wants("forces", material)) addForces(subject, precision);
+        if (wants("list", material)) addList(subject);
+        for (const StepperKind stepper : engine::kSteppers)
+            if (steps && stepper != StepperKind::automatic && wants(stepName(stepper), material))
+                addSteps(subject, stepper, Precision::doubles);
+        if (steps && wants(stepName(StepperKind::velocityVerlet), material))
+            addSteps(subject, StepperKind::velocityVerlet, Precision::singles);
+    }
+
+    std::vector<BenchRow> rows;
+
+ private:
+    static std::string stepName(StepperKind stepper) { return "step " + std::string(engine::nameOf(stepper)); }
+
+    bool wants(const std::string& name, const std::string& material) const {
+        return (name + " " + material).find(settings_.filter) != std::string::npos;
+    }
+
+    bool wantsAny(const std::string& material) const {
+        bool any = wants("forces", material) || wants("list", material);
+        for (const StepperKind stepper : engine::kSteppers) any = any || wants(stepName(stepper), material);
+        return any;
+    }
+
+    void add(BenchRow row) {
+        listener_(row);
+        rows.push_back(std::move(row));
+    }
+
+    void addForces(const Subject& subject, Precision precision) {
+        engine::ForceEvaluator evaluator(lawOf(subject.setup), engine::ForceMethod::grid, precision);
+        const engine::Particles& particles = subject.setup.initial;
+        std::vector<Vec3> forces;
+        BenchRow row = subject.row;
+        row.name = "forces";
+        row.precision = precision;
+        const Work pass = [&] { evaluator.pairForcesGrid(particles, particles.velocity, forces); };
+        pass();  // builds the list
+        row.seconds = measured(pass, settings_);
+        row.stateHash = hashOf(forces);
+        add(row);
+    }
+
+    void addList(const Subject& subject) {
+        const engine::Particles& particles = subject.setup.initial;
+        const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
+        engine::NeighbourList list;
+        engine::LaneRows lanes;
+        BenchRow row = subject.row;
+        row.name = "list";
+        const Work work = [&] {
+            engine::build(list, particles.position, cutoff, engine::kListSkin * cutoff);
+            engine::build(lanes, list);
+        };
+        work();
+        row.seconds = measured(work, settings_);
+        std::uint64_t hash = engine::fnv1a("");
+        for (const std::uint32_t place : list.places) hash = engine::fnv1a(std::uint64_t{place}, hash);
+        row.stateHash = engine::hexadecimal(hash);
+        add(row);
+    }
+
+    /// A fixed number of steps from the packing, so that the hash at their end can be compared; timed as they go.
+    void addSteps(const Subject& subject, StepperKind stepper, Precision precision) {
+        constexpr int kSteps = 20;
+        constexpr double kStep = 0.001;  // s, stable for all of them
+        engine::Setup setup = subject.setup;
+        setup.stepper = stepper;
+        setup.precision = precision;
+        setup.step = kStep;
+        BenchRow row = subject.row;
+        row.name = stepName(stepper);
+        row.precision = precision;
+        std::vector<double> rounds;
+        for (int round = 0; round < settings_.rounds; ++round) {
+            engine::Simulation simulation = engine::start(setup);
+            engine::advance(simulation, kStep);  // builds the list
+            rounds.push_back(secondsOf([&] { engine::advance(simulation, (kSteps + 1) * kStep); }, 1) / kSteps);
+            row.stateHash = engine::stateHash(simulation.particles);
+        }
+        std::sort(rounds.begin(), rounds.end());
+        row.seconds = rounds[rounds.size() / 2];
+        add(row);
+    }
+
+    void addMultiplyAdds() {
+        constexpr std::size_t kRounds = 1U << 22;
+        const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+        BenchRow row;
+        row.name = "multiply-add";
+        row.precision = Precision::singles;
+        float sink = 0.0F;
+        double operations = 0.0;
+        row.seconds = measured([&] { operations = multiplyAdd(threads, kRounds, sink); }, settings_);
+        row.rate = operations / row.seconds;
+        row.stateHash = engine::hexadecimal(std::bit_cast<std::uint32_t>(sink));
+        add(row);
+    }
+
+    void addCopy() {
+        constexpr std::size_t kNumbers = 1U << 24;  // 128 MiB each: far beyond any cache
+        std::vector<double> from(kNumbers, 1.0);
+        std::vector<double> to(kNumbers, 0.0);
+        BenchRow row;
+        row.name = "copy";
+        row.seconds = measured(
+            [&] {
+                engine::inParallel(64, 1, [&](std::size_t part) {
+                    const std::size_t share = kNumbers / 64;
+                    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(part * share), share,
+                                to.begin() + static_cast<std::ptrdiff_t>(part * share));
+                });
+            },
+            settings_);
+        row.rate = 2.0 * sizeof(double) * static_cast<double>(kNumbers) / row.seconds;
+        add(row);
+    }
+
+    BenchSettings settings_;
+    std::function<void(const BenchRow&)> listener_;
+};
+
+}  // namespace
+
+double BenchRow::particleStepsPerSecond() const {
+    return static_cast<double>(particles) / seconds;
+}
+
+double BenchRow::pairsPerSecond() const {
+    return neighbours * particleStepsPerSecond();
+}
+
+double BenchRow::nanosecondsPerPair() const {
+    return particles == 0 ? 0.0 : 1e9 / pairsPerSecond();
+}
+
+std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {
+    Bench bench(settings, listener);
+    bench.measureMachine();
+    for (const std::size_t count : settings.counts)
+        for (const char* material : kMaterials) bench.measure(material, count);
+    return std::move(bench.rows);
+}
+
+}  // namespace studies

@@ -1,0 +1,56 @@
+// The benchmark measures what it says: rows for what was asked, numbers that fit together, hashes that do not depend on
+// threads.
+#include "studies/bench.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "tests/catch.h"
+
+using studies::BenchRow;
+
+namespace {
+
+std::vector<BenchRow> benched(const std::string& filter, int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    std::vector<BenchRow> rows;
+    arena.execute([&] {
+        rows = studies::runBench({.filter = filter, .counts = {500}, .secondsPerRound = 1e-4, .rounds = 3},
+                                 [](const BenchRow&) {});
+    });
+    return rows;
+}
+
+}  // namespace
+
+TEST_CASE("bench has the rows that the filter names", "[bench]") {
+    const auto rows = benched("forces solid", 2);
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].precision == engine::Precision::doubles);
+    CHECK(rows[1].precision == engine::Precision::singles);
+    CHECK(rows[0].stateHash != rows[1].stateHash);
+    for (const BenchRow& row : rows) {
+        CHECK(row.name == "forces");
+        CHECK(row.material == "solid");
+        CHECK(row.particles == 500);
+        CHECK(row.neighbours > 20.0);  // 54 within twice the distance in a close packing, fewer at the surface
+        CHECK(row.neighbours < 54.0);
+        CHECK(row.seconds > 0.0);
+        CHECK(row.nanosecondsPerPair() == Approx(1e9 * row.seconds / (500 * row.neighbours)));
+    }
+    CHECK(benched("nothing like it", 1).empty());
+}
+
+TEST_CASE("bench computes the same on any number of threads", "[bench]") {
+    for (const char* filter : {"forces", "list", "step"}) {
+        const auto one = benched(filter, 1);
+        const auto three = benched(filter, 3);
+        REQUIRE(one.size() == three.size());
+        REQUIRE_FALSE(one.empty());
+        for (std::size_t k = 0; k < one.size(); ++k) {
+            INFO(one[k].name << " " << one[k].material);
+            CHECK(one[k].stateHash == three[k].stateHash);
+        }
+    }
+}

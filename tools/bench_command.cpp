@@ -1,0 +1,97 @@
+// globular bench: how fast the engine's parts run on this machine, with the hash of what they computed next to each
+// time.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/lane_forces.h"
+#include "studies/bench.h"
+#include "tools/commands.h"
+#include "tools/scene_options.h"
+#include "tools/threads.h"
+
+namespace tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct BenchOptions {
+    RunOptions run;
+    studies::BenchSettings settings;
+};
+
+std::string_view nameOf(engine::Precision precision) {
+    return precision == engine::Precision::doubles ? "double" : "float";
+}
+
+Json jsonOf(const studies::BenchRow& row, int threads) {
+    Json json = {{"name", row.name},
+                 {"material", row.material},
+                 {"particles", row.particles},
+                 {"neighbours", row.neighbours},
+                 {"threads", threads},
+                 {"isa", engine::laneInstructionSet()},
+                 {"precision", nameOf(row.precision)},
+                 {"seconds", row.seconds}};
+    if (row.particles > 0) {
+        json["particle_steps_per_s"] = row.particleStepsPerSecond();
+        json["pairs_per_s"] = row.pairsPerSecond();
+        json["ns_per_pair"] = row.nanosecondsPerPair();
+        json["bytes_per_particle"] = row.bytesPerParticle;
+    } else {
+        json["rate_per_s"] = row.rate;
+    }
+    json["state_hash"] = row.stateHash;
+    return json;
+}
+
+void print(const studies::BenchRow& row) {
+    if (row.particles == 0) {
+        fmt::print("{:23} {:8} {:.4g} G{}/s\n", row.name, "", 1e-9 * row.rate, row.name == "copy" ? "B" : "FLOP");
+        return;
+    }
+    fmt::print("{:23} {:8} {:>9} {:10.1f} {:9} {:12.3f} {:10.2f} {:8.1f} {:8.2f} {:8.0f}  {}\n", row.name, row.material,
+               row.particles, row.neighbours, nameOf(row.precision), 1e3 * row.seconds,
+               1e-6 * row.particleStepsPerSecond(), 1e-6 * row.pairsPerSecond(), row.nanosecondsPerPair(),
+               row.bytesPerParticle, row.stateHash);
+}
+
+void bench(const BenchOptions& options) {
+    const int threads = threadCount(options.run);
+    const bool isText = !options.run.json;
+    if (isText) {
+        fmt::print("{} threads, {}; medians of {} rounds\n", threads, engine::laneInstructionSet(),
+                   options.settings.rounds);
+        fmt::print("{:23} {:8} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
+                   "particles", "neighbours", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");
+    }
+    onThreads(threads, [&] {
+        runBench(options.settings, [&](const studies::BenchRow& row) {
+            if (isText)
+                print(row);
+            else
+                fmt::print("{}\n", jsonOf(row, threads).dump());
+            std::fflush(stdout);
+        });
+    });
+}
+
+}  // namespace
+
+void addBenchCommand(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("bench", "how fast forces, lists and steps run, with hashes of the results");
+    const auto options = std::make_shared<BenchOptions>();
+    command->add_option("--filter", options->settings.filter, "only rows whose name and material contain this text")
+        ->type_name("TEXT");
+    command->add_option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)")
+        ->type_name("N ...");
+    command->add_option("--rounds", options->settings.rounds, "how often each is timed (default: 5)")
+        ->check(CLI::PositiveNumber);
+    addTo(*command, options->run);
+    command->footer("Example: globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
+    command->callback([options] { bench(*options); });
+}
+
+}  // namespace tools
