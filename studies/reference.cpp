@@ -22,6 +22,10 @@ constexpr double kTwinDistance = 1e-9;
 /// Solver errors must stay below what halving the step changes.
 constexpr double kReferenceSolverTolerance = 1e-10;
 
+/// Twins that part by more than this share of the smallest error tell that positions show how roundings are amplified,
+/// and not the steppers. Chosen.
+constexpr double kChaoticShare = 0.1;
+
 /// What the last halving may change, as a share of the smallest error.
 constexpr double kSettledShare = 0.05;
 
@@ -113,9 +117,8 @@ Reference findReference(const Window& window, const std::vector<WindowRun>& runs
     reference.run = runReference(window, facts.variant, budget);
     double spent = reference.run.seconds;
     facts.twinSeparation = difference(window, Measure::positions, twin.particles, finest.particles);
-    // Twins that part by more than the errors: positions then tell of the amplification of roundings, not of steppers.
-    if (facts.twinSeparation > smallestError(window, Measure::positions, runs, reference.run.particles))
-        facts.measure = Measure::statistics;
+    const double smallest = smallestError(window, Measure::positions, runs, reference.run.particles);
+    if (facts.twinSeparation > kChaoticShare * smallest) facts.measure = Measure::statistics;
     do {
         facts.variant.asked /= 2.0;
         WindowRun halved = runReference(window, facts.variant, budget);

@@ -198,6 +198,44 @@ TEST_CASE("Float errs by its roundings more than double, and no more", "[studies
     }
 }
 
+TEST_CASE("After chaos, errors are those of statistics", "[studies]") {
+    // Elastic grains in a small container meet a hundred times in a second.
+    const auto gas = scenes::readScene(R"(
+title = "gas"
+duration = 2
+fps = 30
+[physics]
+gravity = [0, 0, 0]
+step = 0.001
+[material]
+preset = "powder"
+mass = 0.1
+bd = 0
+[[body]]
+shape = "grid"
+center = [0, 0, 0]
+counts = [3, 3, 3]
+spacing = 0.2
+jitter = 0.2
+[[obstacle]]
+shape = "container"
+minimum = [-0.7, -0.7, -0.7]
+maximum = [0.7, 0.7, 0.7]
+)",
+                                       "gas.toml", {});
+    studies::AccuracySettings settings = shortSettings();
+    settings.frameCount = 55;
+    settings.stepsPerFrame = {32, 64};
+    settings.errors = {1e-1};
+    settings.referenceBudget = 1.0;
+    const SceneAccuracy accuracy = studied(gas, settings);
+    INFO("twins end " << accuracy.reference.twinSeparation << " radii apart");
+    CHECK(accuracy.reference.measure == studies::Measure::statistics);
+    for (const AccuracyRow& row : accuracy.rows)
+        CHECK((row.run.ending != studies::Ending::finished || row.error == row.statistics));
+    CHECK(dozenStudied().reference.measure == studies::Measure::positions);
+}
+
 TEST_CASE("The tables have a line for each row and a cell for each column", "[studies]") {
     const std::vector<SceneAccuracy> scenes = {dozenStudied()};
     const std::size_t fixed = engine::kSteppers.size() - 1;
