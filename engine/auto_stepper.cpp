@@ -33,7 +33,7 @@ constexpr double kFarLook = 4.0;
 
 /// Measured on the scenes of `globular study accuracy`: beyond these, growth tells of one event and not of the motion.
 constexpr double kLeastGrowth = 0.6;
-constexpr double kMostGrowth = 3.0;
+constexpr double kMostGrowth = 2.5;
 
 /// Chosen: looks in a row at a candidate until its step has settled, the first time and later.
 constexpr int kMostFirstLooks = 6;
@@ -162,7 +162,7 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
     const double share = shareOf(near, far.step);
     const double nearError = near.error * share * share;
     if (!(nearError > 0.0)) return;
-    const double growth = std::clamp(std::sqrt(far.error / nearError), kLeastGrowth, kMostGrowth);
+    const double growth = std::clamp(0.5 * (1.0 + far.error / nearError), kLeastGrowth, kMostGrowth);
     const double change = std::sqrt(state.growth / growth);
     for (const StepperKind candidate : kCandidates) {
         AutoChoice& other = choiceOf(simulation, candidate);

@@ -58,7 +58,7 @@ Trial measure(const Simulation& simulation, double time, StepperKind stepper, do
     // Where the audit or births shortened the steps of the first run, those of the second are half as long again.
     Simulation halves = run(simulation, time, stepper, 0.5 * meanStep(whole));
     const double ratio = meanStep(halves) / meanStep(whole);
-    const double contrast = std::max(kLeastContrast, 1.0 - std::pow(ratio, orderOf(stepper)));
+    const double contrast = std::max(kLeastContrast, 1.0 - (orderOf(stepper) == 1 ? ratio : ratio * ratio));
     Trial trial;
     trial.stepper = stepper;
     trial.asked = interval / std::ceil(interval / step * (1.0 - 1e-9));

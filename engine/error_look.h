@@ -16,7 +16,7 @@ inline constexpr double kProductCost = 0.45;
 /// A wrong velocity goes on to move a particle wrongly until damping or a collision has eaten it, after this time, s.
 /// Measured: with it the estimate is within a factor of two of the error against a reference on liquid, solid, fountain
 /// and honey (`globular study accuracy`).
-inline constexpr double kErrorHorizon = 0.015;
+inline constexpr double kErrorHorizon = 0.0125;
 
 /// What steps cost, in passes over all pairs.
 double passesOf(const StepStatistics& steps);
