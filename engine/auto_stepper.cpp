@@ -162,7 +162,7 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
     const double share = shareOf(near, far.step);
     const double nearError = near.error * share * share;
     if (!(nearError > 0.0)) return;
-    const double growth = std::clamp(0.5 * (1.0 + far.error / nearError), kLeastGrowth, kMostGrowth);
+    const double growth = std::clamp(far.error / nearError, kLeastGrowth, kMostGrowth);
     const double change = std::sqrt(state.growth / growth);
     for (const StepperKind candidate : kCandidates) {
         AutoChoice& other = choiceOf(simulation, candidate);
