@@ -149,9 +149,8 @@ void goOnFrom(Simulation& simulation, Simulation&& finer) {
     simulation.steps = steps;
 }
 
-/// What an error made in one interval has become some intervals later, by damping or by collisions, is measured too.
-/// The choices are made to fit the middle (on a scale of factors) of the two rates: the near one tells of the steps,
-/// the far one of where they lead.
+/// What an error made in one interval has become some intervals later, by damping or by collisions, is measured too,
+/// and the choices are made to fit it.
 void lookFar(Simulation& simulation, double time, const Trial& near) {
     AutoState& state = simulation.automatic;
     const AutoChoice& choice = choiceOf(simulation, near.stepper);
