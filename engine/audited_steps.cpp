@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
@@ -42,7 +43,7 @@ void lookAtEnd(Simulation& simulation) {
 /// felt by the others from the next step's start on only.
 double nextStop(const Simulation& simulation, double time) {
     constexpr double kSame = 1e-9;  // s
-    double stop = time - kSame;
+    double stop = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
         stop = std::min(stop, nextBirth(simulation.setup.emitters[e], simulation.emitters[e]));
     return stop < time - kSame ? stop : time;

@@ -154,9 +154,9 @@ void goOnFrom(Simulation& simulation, Simulation&& finer) {
 void lookFar(Simulation& simulation, double time, const Trial& near) {
     AutoState& state = simulation.automatic;
     const AutoChoice& choice = choiceOf(simulation, near.stepper);
-    const double end = simulation.time + kFarLook * (time - simulation.time);
-    const double step = std::min(2.0 * choice.step, time - simulation.time);  // cheaper, and the order is known
-    const Trial far = measure(simulation, end, near.stepper, step);
+    const double interval = time - simulation.time;
+    const double step = std::min(2.0 * choice.step, interval);  // cheaper, and the order is known
+    const Trial far = measure(simulation, simulation.time + kFarLook * interval, near.stepper, step);
     state.trials += far.spent;
     const double share = shareOf(near, far.step);
     const double nearError = near.error * share * share;
@@ -165,7 +165,7 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
     const double change = std::sqrt(state.growth / growth);
     for (const StepperKind candidate : kCandidates) {
         AutoChoice& other = choiceOf(simulation, candidate);
-        const double fitting = std::min(other.step * change, time - simulation.time);
+        const double fitting = std::min(other.step * change, interval);
         other.cost *= other.step / fitting;
         other.step = fitting;
     }
@@ -173,9 +173,8 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
 }
 
 /// Intervals to run before the next look: a look must not cost more than they do, but for the first.
-std::uint64_t pauseAfter(const Simulation& simulation, double spent, const Trial& trial, double interval) {
-    const std::uint64_t looks = simulation.automatic.looks;
-    const AutoChoice& choice = simulation.automatic.choices[static_cast<std::size_t>(trial.stepper)];
+std::uint64_t pauseAfter(std::uint64_t looks, double spent, const Trial& trial, const AutoChoice& choice,
+                         double interval) {
     const bool settled = isSettled(shareOf(trial, choice.step));
     const std::uint64_t pause = settled ? std::min(kLongestPause, 2 * looks) : kShortPause;
     if (looks == 1) return pause;
@@ -198,8 +197,10 @@ void lookAround(Simulation& simulation, double time) {
         static_cast<std::size_t>(std::find(kCandidates.begin(), kCandidates.end(), best) - kCandidates.begin());
     if (compare) lookFar(simulation, time, trials[chosen]);
     state.trials -= passesOf(finer[chosen].steps);  // the run goes on with these; they are not lost
-    note(state, trials[chosen], choiceOf(simulation, best).step);
-    state.nextLook = state.intervals + pauseAfter(simulation, state.trials - spentBefore, trials[chosen], interval);
+    const AutoChoice& choice = choiceOf(simulation, best);
+    note(state, trials[chosen], choice.step);
+    const double spent = state.trials - spentBefore;
+    state.nextLook = state.intervals + pauseAfter(state.looks, spent, trials[chosen], choice, interval);
     goOnFrom(simulation, std::move(finer[chosen]));
 }
 

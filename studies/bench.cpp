@@ -34,14 +34,19 @@ double secondsOf(const Work& work, std::uint64_t repeats) {
     return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(repeats);
 }
 
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
 /// Median seconds of a call of the work, which has been called once before.
 double measured(const Work& work, const BenchSettings& settings) {
     const double once = secondsOf(work, 1);
     const auto repeats = static_cast<std::uint64_t>(std::max(1.0, std::ceil(settings.secondsPerRound / once)));
     std::vector<double> rounds;
     for (int round = 0; round < settings.rounds; ++round) rounds.push_back(secondsOf(work, repeats));
-    std::nth_element(rounds.begin(), rounds.begin() + settings.rounds / 2, rounds.end());
-    return rounds[static_cast<std::size_t>(settings.rounds / 2)];
+    return median(std::move(rounds));
 }
 
 /// A close packing at the rest length, in a cube.
@@ -193,8 +198,7 @@ class Bench {
             rounds.push_back(secondsOf([&] { engine::advance(simulation, (kSteps + 1) * kStep); }, 1) / kSteps);
             row.stateHash = engine::stateHash(simulation.particles);
         }
-        std::sort(rounds.begin(), rounds.end());
-        row.seconds = rounds[rounds.size() / 2];
+        row.seconds = median(std::move(rounds));
         add(row);
     }
 
