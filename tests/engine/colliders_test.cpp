@@ -6,18 +6,13 @@
 #include "tests/catch.h"
 
 #include "engine/pair_law.h"
+#include "tests/engine/obstacles.h"
 
 using namespace engine;
 
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-
-Scenery only(const Collider& collider) {
-    Scenery scenery;
-    scenery.colliders = {collider};
-    return scenery;
-}
 
 Vec3 forceAt(const Scenery& scenery, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
     return contactForce(scenery, {position, velocity, 0.15, 2.0});

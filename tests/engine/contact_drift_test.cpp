@@ -5,19 +5,12 @@
 #include "tests/catch.h"
 
 #include "engine/surfaces.h"
+#include "tests/engine/obstacles.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
 
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-
-Scenery only(const Collider& collider) {
-    Scenery scenery;
-    scenery.colliders = {collider};
-    return scenery;
-}
 
 /// Acceleration of a particle at a height (m) over the plane y = 0, m/s^2.
 double accelerationAt(double height, double speed, const Flight& flight, const RepulsorLaw& law) {

@@ -1,0 +1,10 @@
+// Sceneries of a single obstacle.
+#pragma once
+
+#include "engine/colliders.h"
+
+inline engine::Scenery only(const engine::Collider& collider) {
+    engine::Scenery scenery;
+    scenery.colliders = {collider};
+    return scenery;
+}
