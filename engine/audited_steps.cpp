@@ -42,11 +42,10 @@ void lookAtEnd(Simulation& simulation) {
 /// Where the steps have to end next: at the time (s) that was asked for or at a birth on the way, or a newborn would be
 /// felt by the others from the next step's start on only.
 double nextStop(const Simulation& simulation, double time) {
-    constexpr double kSame = 1e-9;  // s
     double stop = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
         stop = std::min(stop, nextBirth(simulation.setup.emitters[e], simulation.emitters[e]));
-    return stop < time - kSame ? stop : time;
+    return stop < time - kSameMoment ? stop : time;
 }
 
 void record(Simulation& simulation, double h, StepLimit limit) {

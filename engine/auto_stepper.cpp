@@ -161,7 +161,9 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
     const double share = shareOf(near, far.step);
     const double nearError = near.error * share * share;
     if (!(nearError > 0.0)) return;
-    const double growth = std::clamp(far.error / nearError, kLeastGrowth, kMostGrowth);
+    // What was known counts as much as the new: one birth or collision may happen to fall into this look.
+    const double measured = std::clamp(far.error / nearError, kLeastGrowth, kMostGrowth);
+    const double growth = state.looks == 0 ? measured : std::sqrt(state.growth * measured);
     const double change = std::sqrt(state.growth / growth);
     for (const StepperKind candidate : kCandidates) {
         AutoChoice& other = choiceOf(simulation, candidate);

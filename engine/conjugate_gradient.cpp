@@ -15,7 +15,7 @@ double weightedDot(const PairMatrix& matrix, const std::vector<Vec3>& a, const s
 
 }  // namespace
 
-int solve(const PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
+int solve(PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch) {
     const std::size_t count = matrix.count();
     auto& [residual, direction, product] = scratch;

@@ -19,7 +19,7 @@ struct SolverScratch {
 /// Holds:  where b has neither a total nor a moment, M x has neither, to rounding, at any tolerance: every vector of
 /// the
 ///         iteration is M^-1 times a sum of pair impulses. Any other preconditioner but the mass would lose that.
-int solve(const PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
+int solve(PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch);
 
 }  // namespace engine

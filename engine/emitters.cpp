@@ -9,9 +9,6 @@
 namespace engine {
 namespace {
 
-/// Due times are sums of many intervals; a birth this much early is meant to be on time, s.
-constexpr double kOnTime = 1e-9;
-
 /// Chosen: tries in an interval of a birth that has to wait. Each ends a step.
 constexpr double kTries = 4.0;
 
@@ -121,7 +118,7 @@ double nextBirth(const Emitter& emitter, const EmitterState& state) {
     double next = std::numeric_limits<double>::infinity();
     if (state.births >= emitter.limit) return next;
     for (const Schedule& schedule : state.schedules)
-        if (schedule.due < emitter.until - kOnTime) next = std::min(next, schedule.due);
+        if (schedule.due < emitter.until - kSameMoment) next = std::min(next, schedule.due);
     return next;
 }
 
@@ -130,7 +127,7 @@ std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext
     std::size_t born = 0;
     for (std::size_t s = 0; s < state.schedules.size(); ++s) {
         Schedule& schedule = state.schedules[s];
-        while (schedule.due <= context.time + kOnTime && schedule.due < emitter.until - kOnTime &&
+        while (schedule.due <= context.time + kSameMoment && schedule.due < emitter.until - kSameMoment &&
                state.births < emitter.limit) {
             const Birth birth{s, schedule.births};
             NewParticle newborn = newbornOf(emitter, context, material, birth);

@@ -12,6 +12,9 @@
 
 namespace engine {
 
+/// Due times are sums of many intervals: what is this little apart is meant to be the same moment, s.
+inline constexpr double kSameMoment = 1e-9;
+
 /// What happens when a birth is due.
 enum class Pick {
     all,    ///< every site gives birth, each on its own schedule

@@ -10,8 +10,8 @@ namespace engine {
 
 /// What an implicit step pays for its matrix and for a product with it, in passes over all pairs. Measured: the seconds
 /// of steps of liquid, solid and honey against their counts in `globular study accuracy`.
-inline constexpr double kMatrixCost = 1.0;
-inline constexpr double kProductCost = 0.45;
+inline constexpr double kMatrixCost = 0.3;
+inline constexpr double kProductCost = 0.27;
 
 /// A wrong velocity goes on to move a particle wrongly until damping or a collision has eaten it, after this time, s.
 /// Measured: with it the estimate is within a factor of two of the error against a reference on liquid, solid, fountain

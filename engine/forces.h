@@ -45,8 +45,8 @@ class ForceEvaluator {
     /// Particle index at each place of the matrix that was assembled last.
     const std::vector<std::uint32_t>& order() const { return pairs_.list.order; }
 
-    /// Whether nothing was within the list's reach of a particle when the list was built last.
-    bool isAlone(std::size_t p) const { return p < pairs_.list.alone.size() && pairs_.list.alone[p] == 1; }
+    /// Whether nobody was near a particle, within its cutoff or a little more, when the list was built last.
+    bool isAlone(std::size_t p) const;
 
     /// The pair forces of equation 1 alone, over the neighbour list.
     void pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);

@@ -2,12 +2,14 @@
 // the forces are bit for bit the scalar kernel's, the energies up to rounding; in float all is that arithmetic's.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "engine/lane_rows.h"
 #include "engine/pair_law.h"
-#include "engine/pair_traversal.h"
+#include "engine/pair_matrix.h"
+#include "engine/pair_record.h"
 
 namespace engine {
 
@@ -20,6 +22,8 @@ struct LanePass {
     PairConstants<double> constants;
     PairTerms terms;
     bool energy = false;
+    PairMatrix* matrix = nullptr;  ///< with room for the rows; takes the energy with it
+    MatrixWeights weights = {};    ///< of the matrix
 };
 
 /// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by place.

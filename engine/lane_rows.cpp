@@ -7,23 +7,28 @@
 
 namespace engine {
 
-void build(LaneRows& rows, const NeighbourList& list) {
+void makeRoom(LaneRows& rows, const NeighbourList& list) {
     const std::size_t count = list.count();
     const std::size_t groups = (count + kGroup - 1) / kGroup;
     rows.length.assign(groups * kGroup, 0);
     rows.start.assign(groups + 1, 0);
     for (std::size_t place = 0; place < count; ++place) {
-        rows.length[place] = list.rowStart[place + 1] - list.rowStart[place];
         std::uint32_t& longest = rows.start[place / kGroup + 1];
-        longest = std::max(longest, rows.length[place]);
+        longest = std::max(longest, list.rowStart[place + 1] - list.rowStart[place]);
     }
     for (std::size_t group = 0; group < groups; ++group) rows.start[group + 1] += rows.start[group];
     rows.places.resize(rows.start[groups] * kGroup);
-    inParallel(groups, 16, [&](std::size_t group) {
-        for (std::size_t lane = 0; lane < kGroup; ++lane) {
-            const std::size_t place = group * kGroup + lane;
+}
+
+void build(LaneRows& rows, const NeighbourList& list) {
+    makeRoom(rows, list);
+    const std::size_t count = list.count();
+    for (std::size_t place = 0; place < count; ++place)
+        rows.length[place] = list.rowStart[place + 1] - list.rowStart[place];
+    inParallel(rows.groupCount(), 16, [&](std::size_t group) {
+        for (std::size_t place = group * kGroup; place < (group + 1) * kGroup; ++place) {
             const auto self = static_cast<std::int32_t>(std::min(place, count - 1));
-            std::int32_t* entry = &rows.places[rows.start[group] * kGroup + lane];
+            std::int32_t* entry = &rows.places[rows.at(place, 0)];
             const std::size_t longest = rows.start[group + 1] - rows.start[group];
             const std::uint32_t* from = rows.length[place] > 0 ? &list.places[list.rowStart[place]] : nullptr;
             for (std::size_t k = 0; k < longest; ++k)

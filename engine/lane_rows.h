@@ -13,16 +13,24 @@ namespace engine {
 /// As many lanes as the widest instruction set has of the smallest number.
 inline constexpr std::size_t kGroup = 16;
 
-/// Entry k of a group's rows stands at (start + k) kGroup + lane; a row that is shorter than the group's longest is
-/// filled up with its own particle's place.
+/// Rows that are shorter than the longest of their group are filled up with their own particle's place.
 struct LaneRows {
     std::vector<std::uint32_t> start;   ///< of each group, in rows of kGroup entries, and one past the last
     std::vector<std::uint32_t> length;  ///< entries of each place's row; 0 beyond the last place
     std::vector<std::int32_t> places;
 
     std::size_t groupCount() const { return start.empty() ? 0 : start.size() - 1; }
+
+    /// Where entry k of a place's row stands.
+    std::size_t at(std::size_t place, std::size_t k) const {
+        return (start[place / kGroup] + k) * kGroup + place % kGroup;
+    }
 };
 
+/// The rows of a list.
 void build(LaneRows& rows, const NeighbourList& list);
+
+/// Empty rows with room for those of a list.
+void makeRoom(LaneRows& rows, const NeighbourList& list);
 
 }  // namespace engine

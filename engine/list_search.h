@@ -8,13 +8,14 @@
 
 namespace engine {
 
-/// Positions by place, m: cells lie one after the other, so that candidates are read in a row.
+/// Candidates that findInReach reads and entries that it writes beyond those that there are.
+inline constexpr std::size_t kSearchOverhang = 8;
+
+/// Positions by place, m: cells lie one after the other, so that candidates are read in a row. After the last one come
+/// kSearchOverhang more of any value.
 struct Candidates {
     std::vector<double> x, y, z;
 };
-
-/// Entries that findInReach may write beyond those it finds.
-inline constexpr std::size_t kSearchOverhang = 16;
 
 /// Writes the places of all others within reach of the particle at a place, in the order of the neighbourhood's ranges,
 /// and returns where they end. `out` has room for every candidate and the overhang.

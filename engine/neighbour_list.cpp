@@ -2,6 +2,8 @@
 #include "engine/neighbour_list.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/parallel.h"
 
@@ -51,10 +53,12 @@ void search(NeighbourList& list, const Chunk& chunk, std::vector<std::uint32_t>&
 void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
     list.order = list.grid.order;
     const std::size_t count = list.order.size();
-    list.candidates.x.resize(count);
-    list.candidates.y.resize(count);
-    list.candidates.z.resize(count);
+    list.placeOf.resize(count);
+    list.candidates.x.resize(count + kSearchOverhang);
+    list.candidates.y.resize(count + kSearchOverhang);
+    list.candidates.z.resize(count + kSearchOverhang);
     inParallel(count, kParticleGrain, [&](std::size_t place) {
+        list.placeOf[list.order[place]] = static_cast<std::uint32_t>(place);
         const Vec3& position = positions[list.order[place]];
         list.candidates.x[place] = position.x();
         list.candidates.y[place] = position.y();
@@ -73,9 +77,6 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     const std::size_t chunks = (list.grid.cellCount() + kCellsPerChunk - 1) / kCellsPerChunk;
     list.found.resize(chunks);
     inParallel(chunks, 1, [&](std::size_t c) { search(list, chunkOf(list.grid, c), list.found[c]); });
-    list.alone.resize(positions.size());
-    for (std::size_t place = 0; place < list.order.size(); ++place)
-        list.alone[list.order[place]] = list.rowStart[place + 1] == 0 ? 1 : 0;
     for (std::size_t place = 1; place < list.rowStart.size(); ++place) list.rowStart[place] += list.rowStart[place - 1];
     list.places.resize(list.rowStart.back());
     inParallel(chunks, 1, [&](std::size_t c) {
@@ -88,9 +89,10 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
     if (positions.size() != list.builtAt.size() || cutoff > list.reach) return false;
     const double slack = 0.5 * (list.reach - cutoff);
-    for (std::size_t p = 0; p < positions.size(); ++p)
-        if (!(squaredLength(positions[p] - list.builtAt[p]) <= slack * slack)) return false;
-    return true;
+    return largestOver(positions.size(), [&](std::size_t p) {
+               const double moveSq = squaredLength(positions[p] - list.builtAt[p]);
+               return std::isnan(moveSq) ? std::numeric_limits<double>::infinity() : moveSq;
+           }) <= slack * slack;
 }
 
 }  // namespace engine

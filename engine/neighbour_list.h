@@ -15,7 +15,7 @@ struct NeighbourList {
     std::vector<std::uint32_t> order;               ///< particle index at each place
     std::vector<std::uint32_t> rowStart;            ///< of each place, and one past the last; at most 2^32 entries
     std::vector<std::uint32_t> places;              ///< neighbours, row by row
-    std::vector<std::uint8_t> alone;                ///< by particle index: 1 where the row is empty
+    std::vector<std::uint32_t> placeOf;             ///< of each particle index
     std::vector<Vec3> builtAt;                      ///< positions by particle index when the list was built, m
     double reach = 0.0;                             ///< cutoff and skin together, m
     CellGrid grid;                                  ///< scratch of the build

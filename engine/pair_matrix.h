@@ -1,12 +1,13 @@
 // The matrix of the implicit steppers, never formed: A = M + C' + K', where M is the mass, C' the weighted damping and
 // K' the weighted stiffness of all pairs at one configuration, both acting along the line between the two; friction
-// adds weighted damping across it. Each pair is kept as one vector q with A_pi = -q q^T, so that a product is two dot
-// products a pair.
+// adds weighted damping across it. Each pair is kept as a number: a product is another pass over the pairs, with what
+// is multiplied in the place of the velocities.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "engine/lane_rows.h"
+#include "engine/pair_record.h"
 #include "engine/vec3.h"
 
 namespace engine {
@@ -17,22 +18,31 @@ struct MatrixWeights {
     double stiffness = 0.0;  ///< s^2; 0 leaves the stiffness out
 };
 
-/// All vectors are in the order of the neighbour list that it was assembled over.
+/// All vectors are in the order of the neighbour list that it was assembled over. The block of a pair is
+/// -(along P P^T + across 1), its two entries are equal bit for bit. Coincident pairs, which have no direction, have
+/// none.
 struct PairMatrix {
-    std::vector<double> mass;             ///< of each particle, kg
-    std::vector<std::uint32_t> rowStart;  ///< first entry of each row, and one past the last row's room
-    std::vector<std::uint32_t> rowEnd;    ///< one past the last entry of each row
-    std::vector<std::uint32_t> other;     ///< place of the other particle of each entry
-    std::vector<Matrix3> own;             ///< what obstacles add to each particle's own block, kg; empty without any
-    std::vector<double> across;           ///< with friction: weight times c_t of each entry, kg; empty without
-    std::vector<Vec3> normal;             ///< with friction: direction of each entry
-    std::vector<Vec3> along;              ///< q, kg^(1/2); q of (p, i) is minus that of (i, p), bit for bit
+    std::vector<double> mass;         ///< of each particle, kg
+    std::vector<Matrix3> own;         ///< what obstacles add to each particle's own block, kg; empty without any
+    std::vector<PairRecord> records;  ///< positions; a product puts what it multiplies in the place of the velocities
+    LaneRows rows;                    ///< of the pairs that have an entry
+    std::vector<double> along;        ///< of each entry of the rows, kg/m^2
+    std::vector<double> across;       ///< of each entry of the rows, kg; empty without friction
 
     std::size_t count() const { return mass.size(); }
+
+    /// Appends an entry to the row of a place; the place's own thread alone may.
+    void add(std::size_t place, std::int32_t other, double alongOf, double acrossOf);
 };
+
+/// Empties the matrix and gives it room for the pairs of a list.
+void makeRoom(PairMatrix& matrix, const NeighbourList& list, bool hasFriction);
+
+/// Fills the rows up, after the last entry.
+void close(PairMatrix& matrix);
 
 /// product = A x, both of count() entries.
 /// Holds: what the pairs add has neither a total nor a moment, to rounding.
-void multiply(const PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>& product);
+void multiply(PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>& product);
 
 }  // namespace engine

@@ -40,13 +40,6 @@ double energyOf(const PairRecord& p, const PairRecord& i, double distance, const
     return 2.0 * pairEnergy(0.0, constants) - energy;
 }
 
-/// A pair as the matrix needs it.
-struct Neighbour {
-    const Vec3& separation;
-    double distanceSq;
-    const Slip& slip;
-};
-
 /// The pass over one particle's neighbours.
 template <Variant variant>
 struct Kernel {
@@ -58,7 +51,6 @@ struct Kernel {
         const PairRecord& p = pairs.records[self];
         Vec3 force = Vec3::Zero();
         double energy = 0.0;
-        std::uint32_t entry = variant.matrix ? sums.matrix->rowStart[self] : 0;
         pairs.forEachNeighbour(self, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
             const PairRecord& i = pairs.records[other];
             const auto constants = pairs.constants<variant.uniform>(p, i);
@@ -73,30 +65,25 @@ struct Kernel {
             }
             if constexpr (variant.energy)
                 if (distanceSq < constants.reachSq) energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), constants);
-            if constexpr (variant.matrix) addEntry(entry, other, {separation, distanceSq, slip}, constants);
+            if constexpr (variant.matrix) addEntry(self, other, distanceSq, slip.damping, constants);
         });
         sums.forces[pairs.list.order[self]] = force;
         if constexpr (variant.energy) energies[self] = energy;
-        if constexpr (variant.matrix) sums.matrix->rowEnd[self] = entry;
     }
 
-    /// q q^T = (damping b_d s_d + stiffness max(k, 0)), each times its weight, along P.
-    void addEntry(std::uint32_t& entry, std::uint32_t other, const Neighbour& neighbour,
+    /// Across the pair acts friction, along it the damping b_d s_d and the stiffness max(k, 0), each times its weight.
+    void addEntry(std::uint32_t self, std::uint32_t other, double distanceSq, double slipDamping,
                   const PairConstants<double>& constants) const {
-        const double distanceSq = neighbour.distanceSq;
-        double overSq = 0.0;
-        if constexpr (variant.terms.damping) overSq = sums.weights.damping * pairDampingOverSq(distanceSq, constants);
+        double along = 0.0;
+        if constexpr (variant.terms.damping) along = sums.weights.damping * pairDampingOverSq(distanceSq, constants);
         if (sums.weights.stiffness > 0.0 && distanceSq < constants.reachSq) {
             const double stiffness = pairStiffness(std::sqrt(distanceSq), constants);
-            overSq += sums.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
+            along += sums.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
         }
-        if (overSq == 0.0 && neighbour.slip.damping == 0.0) return;
-        if constexpr (variant.terms.friction) {
-            sums.matrix->across[entry] = sums.weights.damping * neighbour.slip.damping;
-            sums.matrix->normal[entry] = neighbour.separation / std::sqrt(distanceSq);
-        }
-        sums.matrix->other[entry] = other;
-        sums.matrix->along[entry++] = std::sqrt(overSq) * neighbour.separation;
+        const double across = sums.weights.damping * slipDamping;
+        if (along == 0.0 && across == 0.0) return;
+        // across (1 - n n^T) = across 1 - (across / D^2) P P^T
+        sums.matrix->add(self, static_cast<std::int32_t>(other), along - across / distanceSq, across);
     }
 };
 
@@ -105,30 +92,40 @@ void run(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& 
     pairs.forEachParticle(Kernel<variant>{pairs, sums, energies});
 }
 
-/// Forces and energies of uniform particles, a particle a lane. Groups with coincident particles are done again by the
-/// scalar kernel, which knows how to part them.
+/// The same by the scalar kernel, which knows how to part coincident particles.
+template <PairTerms terms>
+void addUpOneByOne(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies, std::size_t first,
+                   std::size_t end) {
+    for (std::size_t place = first; place < end; ++place) {
+        const auto self = static_cast<std::uint32_t>(place);
+        if (sums.matrix != nullptr) {
+            sums.matrix->rows.length[place] = 0;
+            Kernel<Variant{terms, true, true, true}>{pairs, sums, energies}(self);
+        } else if (sums.energy != nullptr) {
+            Kernel<Variant{terms, true, true, false}>{pairs, sums, energies}(self);
+        } else {
+            Kernel<Variant{terms, true, false, false}>{pairs, sums, energies}(self);
+        }
+    }
+}
+
+/// What is wanted of uniform particles, a particle a lane. Groups with coincident particles are done again.
 template <PairTerms terms>
 void addUpGroups(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies) {
-    const bool hasEnergy = sums.energy != nullptr;
-    const LanePass pass{pairs.lanes, pairs.records, pairs.singles, pairs.unit, pairs.uniform, terms, hasEnergy};
+    const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
+    const LanePass pass{pairs.lanes, pairs.records, pairs.singles, pairs.unit,  pairs.uniform,
+                        terms,       hasEnergy,     sums.matrix,   sums.weights};
     constexpr std::size_t kGrain = 4;  // chosen: as kGrain of forEachParticle, in groups
     inParallel(pairs.lanes.groupCount(), kGrain, [&](std::size_t group) {
         LaneSums of;
         addUpGroup(pass, group, of);
         const std::size_t first = group * kGroup;
         const std::size_t end = std::min(first + kGroup, pairs.records.size());
+        if (of.coincident) return addUpOneByOne<terms>(pairs, sums, energies, first, end);
         for (std::size_t place = first; place < end; ++place) {
             const std::size_t lane = place - first;
             sums.forces[pairs.list.order[place]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
             if (hasEnergy) energies[place] = of.energy[lane];
-        }
-        if (!of.coincident) return;
-        for (std::size_t place = first; place < end; ++place) {
-            const auto self = static_cast<std::uint32_t>(place);
-            if (hasEnergy)
-                Kernel<Variant{terms, true, true, false}>{pairs, sums, energies}(self);
-            else
-                Kernel<Variant{terms, true, false, false}>{pairs, sums, energies}(self);
         }
     });
 }
@@ -137,8 +134,8 @@ using Pass = void (*)(const PairTraversal&, const PairSums&, std::vector<double>
 
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& sums) {
-    if (sums.matrix != nullptr) return run<Variant{terms, isUniform, true, true}>;
     if constexpr (isUniform && !terms.friction) return addUpGroups<terms>;
+    if (sums.matrix != nullptr) return run<Variant{terms, isUniform, true, true}>;
     return sums.energy != nullptr ? run<Variant{terms, isUniform, true, false}>
                                   : run<Variant{terms, isUniform, false, false}>;
 }
@@ -154,15 +151,6 @@ Pass passFor(PairTerms terms, const PairSums& sums) {
                          : passFor<PairTerms{false, false}, isUniform>(sums);
 }
 
-void makeRoom(const PairTraversal& pairs, PairMatrix& matrix) {
-    matrix.rowStart = pairs.list.rowStart;
-    matrix.rowEnd.resize(pairs.records.size());
-    matrix.other.resize(pairs.list.places.size());
-    matrix.along.resize(pairs.list.places.size());
-    matrix.across.resize(pairs.terms.pair.friction ? pairs.list.places.size() : 0);
-    matrix.normal.resize(matrix.across.size());
-}
-
 /// In order: the order of the sum is part of the result.
 double total(const std::vector<double>& energies) {
     double sum = 0.0;
@@ -173,10 +161,14 @@ double total(const std::vector<double>& energies) {
 }  // namespace
 
 void addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
-    if (sums.matrix != nullptr) makeRoom(pairs, *sums.matrix);
+    if (sums.matrix != nullptr) {
+        makeRoom(*sums.matrix, pairs.list, pairs.terms.pair.friction);
+        sums.matrix->records = pairs.records;
+    }
     std::vector<double> energies(sums.energy != nullptr || sums.matrix != nullptr ? pairs.records.size() : 0);
     const PairTerms terms = pairs.terms.pair;
     (pairs.terms.uniform ? passFor<true>(terms, sums) : passFor<false>(terms, sums))(pairs, sums, energies);
+    if (sums.matrix != nullptr) close(*sums.matrix);
     if (sums.energy != nullptr) *sums.energy = total(energies);
 }
 

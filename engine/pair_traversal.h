@@ -9,32 +9,16 @@
 #include "engine/lane_rows.h"
 #include "engine/neighbour_list.h"
 #include "engine/pair_law.h"
+#include "engine/pair_record.h"
 #include "engine/parallel.h"
 
 namespace engine {
 
-/// Width of the skin in cutoffs. Measured on the steps of the liquid scene: 0.05 to 0.15 cost the same within 5 %.
+/// Width of the skin in cutoffs. Measured: 0.05 to 0.15 cost the same within 5 % in the liquid scene.
 inline constexpr double kListSkin = 0.1;
-
-/// A particle as the kernels read it, in the order of the list; one cache line.
-struct alignas(64) PairRecord {
-    double x, y, z;
-    double vx, vy, vz;
-    double radius;
-    std::uint32_t material;
-    std::uint32_t id;
-};
 
 /// Arithmetic of the pair forces; the state is always in double.
 enum class Precision { doubles, singles };
-
-/// A particle as the kernels in float read it. Positions are whole numbers of a unit, modulo 2^32: what near particles
-/// differ by is exact however far from the origin they are.
-struct alignas(32) SinglePrecisionRecord {
-    std::int32_t x, y, z;
-    float vx, vy, vz;
-    float unused[2];
-};
 
 /// Particles sorted for visiting, their neighbours, and the constants of their pairs. Kept between visits: most of them
 /// find the list still good.

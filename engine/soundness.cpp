@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "engine/parallel.h"
+
 namespace engine {
 namespace {
 
@@ -26,9 +28,9 @@ bool isSoundAt(const Vec3& position, const Vec3& velocity) {
 }  // namespace
 
 bool isSound(const Particles& particles) {
-    for (std::size_t p = 0; p < particles.count(); ++p)
-        if (!isSoundAt(particles.position[p], particles.velocity[p])) return false;
-    return true;
+    return largestOver(particles.count(), [&](std::size_t p) {
+               return isSoundAt(particles.position[p], particles.velocity[p]) ? 0.0 : 1.0;
+           }) == 0.0;
 }
 
 void reportInstability(const Simulation& simulation, double h) {

@@ -43,11 +43,11 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p) {
 bool movedTooFar(const Simulation& simulation, const BeforeStep& kept) {
     const Particles& particles = simulation.particles;
     if (particles.count() < 2) return false;
-    for (std::size_t p = 0; p < particles.count(); ++p) {
-        const double radius = particles.radius[p];
-        if (!(squaredLength(particles.position[p] - kept.position[p]) <= radius * radius)) return true;
-    }
-    return false;
+    const double largest = largestOver(particles.count(), [&](std::size_t p) {
+        const double radii = std::sqrt(squaredLength(particles.position[p] - kept.position[p])) / particles.radius[p];
+        return std::isnan(radii) ? std::numeric_limits<double>::infinity() : radii;
+    });
+    return largest > 1.0;
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ double dotOf(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 /// Rayleigh quotients are the squared frequency and the decay.
 double refined(const PairTraversal& pairs, const Particles& particles, StepperKind stepper, double h) {
     constexpr int kIterations = 40;  // chosen: quotients settle to a few per cent
-    const PairSystem system = systemOf(pairs, particles);
+    PairSystem system = systemOf(pairs, particles);
     const std::size_t count = particles.count();
     std::vector<Vec3> x(count), kx(count), cx(count), mx(count);
     for (std::size_t p = 0; p < count; ++p)

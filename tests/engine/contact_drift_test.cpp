@@ -96,7 +96,7 @@ TEST_CASE("Only what is too fast or too stiff for the step is swept", "[contact-
     // h^2 w^2 + 2 h g is 0.37 at 0.01 s, 2 at 0.037 s, 11 at 0.1 s.
     CHECK_FALSE(needsSweep(floor, slow, 0.01, true));
     CHECK(needsSweep(floor, slow, 0.1, true));
-    CHECK(needsSweep(floor, slow, 0.045, true));               // 2.9
+    CHECK(needsSweep(floor, slow, 0.045, true));  // 2.9
     CHECK_FALSE(needsSweep(floor, slow, 0.1, false));
 }
 

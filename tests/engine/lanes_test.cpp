@@ -7,6 +7,7 @@
 
 #include "engine/diagnostics.h"
 #include "engine/lane_forces.h"
+#include "engine/steppers.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -54,8 +55,8 @@ class OnlyTarget {
     }
 };
 
-std::string hashOfRun(const char* preset, Precision precision) {
-    Setup setup = runs::freeSetup(*materialPreset(preset), StepperKind::velocityVerlet, 0.002);
+std::string hashOfRun(const char* preset, StepperKind stepper, Precision precision) {
+    Setup setup = runs::freeSetup(*materialPreset(preset), stepper, 0.002);
     setup.gravity = Vec3(0, -9.8, 0);
     setup.scenery.colliders = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}};
     setup.precision = precision;
@@ -69,18 +70,19 @@ std::string hashOfRun(const char* preset, Precision precision) {
 
 TEST_CASE("A run has the same bits with every kind of vectors", "[lanes]") {
     for (const char* preset : {"liquid", "solid", "powder"})
-        for (const Precision precision : {Precision::doubles, Precision::singles}) {
-            const std::string expected = hashOfRun(preset, precision);
-            std::set<std::string> names;
-            for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-                const OnlyTarget only(targets & -targets);
-                const std::string name = laneInstructionSet();
-                names.insert(name);
-                INFO(preset << " with " << name);
-                CHECK(hashOfRun(preset, precision) == expected);
+        for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::linearlyImplicit})
+            for (const Precision precision : {Precision::doubles, Precision::singles}) {
+                const std::string expected = hashOfRun(preset, stepper, precision);
+                std::set<std::string> names;
+                for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+                    const OnlyTarget only(targets & -targets);
+                    const std::string name = laneInstructionSet();
+                    names.insert(name);
+                    INFO(preset << ", " << nameOf(stepper) << " with " << name);
+                    CHECK(hashOfRun(preset, stepper, precision) == expected);
+                }
+                CHECK(names.size() > 1);  // what this machine has and at least one narrower kind
             }
-            CHECK(names.size() > 1);  // what this machine has and at least one narrower kind
-        }
 }
 
 TEST_CASE("In float, forces err by its roundings, near the origin and far from it", "[lanes]") {

@@ -1,0 +1,133 @@
+// Equation 2 and what follows from it over lanes: as pair_law.h has it, with the same order of products and sums; a
+// pair out of reach gives a zero instead of being skipped. Included once per instruction set.
+#if defined(ENGINE_LANE_LAW_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ENGINE_LANE_LAW_INL_H
+#undef ENGINE_LANE_LAW_INL_H
+#else
+#define ENGINE_LANE_LAW_INL_H
+#endif
+
+#include <cmath>
+
+#include "engine/lane_records-inl.h"
+#include "engine/pair_law.h"
+#include "engine/pair_matrix.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace engine {
+namespace HWY_NAMESPACE {
+
+/// What a kernel adds up besides forces.
+enum class Besides { nothing, energy, energyAndMatrix };
+
+/// What a kernel is compiled for.
+template <PairTerms pairTerms, Besides besides>
+struct Terms {
+    static constexpr PairTerms kPair = pairTerms;
+    static constexpr bool kEnergy = besides != Besides::nothing;
+    static constexpr bool kMatrix = besides == Besides::energyAndMatrix;
+};
+
+/// pairCoefficient(), pairEnergy() and what the matrix holds of a pair, over lanes.
+template <class T, class Kind>
+struct Law {
+    using V = Lanes<T>;
+    static constexpr Tag<T> kTag{};
+
+    PairConstants<T> c;
+    V b1, bd, inverseRestSq, inverseReachSq, reachSq, inverseDampingSq, dampingSq, coreSq;
+    V reach, inverseReach, inverseReachCubed, a, b, halfSlope;
+    V dampingWeight, stiffnessWeight;
+
+    static V set(T value) { return hn::Set(kTag, value); }
+
+    Law(const PairConstants<double>& wide, const MatrixWeights& weights) {
+        c.b1 = static_cast<T>(wide.b1);
+        c.bd = static_cast<T>(wide.bd);
+        c.inverseRestSq = static_cast<T>(wide.inverseRestSq);
+        c.inverseReachSq = static_cast<T>(wide.inverseReachSq);
+        c.reachSq = static_cast<T>(wide.reachSq);
+        c.inverseDampingSq = static_cast<T>(wide.inverseDampingSq);
+        c.dampingSq = static_cast<T>(wide.dampingSq);
+        c.coreSq = static_cast<T>(wide.coreSq);
+        b1 = set(c.b1);
+        bd = set(c.bd);
+        inverseRestSq = set(c.inverseRestSq);
+        inverseReachSq = set(c.inverseReachSq);
+        reachSq = set(c.reachSq);
+        inverseDampingSq = set(c.inverseDampingSq);
+        dampingSq = set(c.dampingSq);
+        coreSq = set(c.coreSq);
+        if constexpr (Kind::kEnergy) {
+            const T reachOf = std::sqrt(c.reachSq);
+            const T inverse = T(1) / reachOf;
+            reach = set(reachOf);
+            inverseReach = set(inverse);
+            inverseReachCubed = set(inverse * inverse * inverse);
+            a = set(c.inverseRestSq + c.inverseReachSq);
+            b = set(c.inverseRestSq * c.inverseReachSq);
+            halfSlope = set(T(0.5) * pairCoefficient<PairTerms{true, false}>(c.coreSq, T(0), c));
+        }
+        if constexpr (Kind::kMatrix) {
+            dampingWeight = set(static_cast<T>(weights.damping));
+            stiffnessWeight = set(static_cast<T>(weights.stiffness));
+        }
+    }
+
+    /// What force and energy of a pair share.
+    struct Inverse {
+        V guardedSq, square, root;  ///< of the distance; 1 over it; 1 over the distance
+    };
+
+    Inverse inverseOf(V distanceSq) const {
+        const V guardedSq = hn::Max(distanceSq, coreSq);
+        const V square = hn::Div(set(T(1)), guardedSq);
+        return {guardedSq, square, hn::Sqrt(square)};
+    }
+
+    V coefficient(const Inverse& inverse, V approach) const {
+        const V toRest = hn::Sub(inverse.square, inverseRestSq);
+        V toReach = toRest;
+        if constexpr (Kind::kPair.attraction) toReach = hn::Sub(inverse.square, inverseReachSq);
+        const V repulsion = hn::Mul(hn::Mul(b1, inverse.root), hn::Mul(toRest, toReach));
+        V sum = hn::IfThenElseZero(hn::Lt(inverse.guardedSq, reachSq), repulsion);
+        if constexpr (Kind::kPair.damping) {
+            const V falling = hn::Sub(set(T(1)), hn::Mul(inverse.guardedSq, inverseDampingSq));
+            const V damping = hn::Mul(hn::Mul(hn::Mul(bd, falling), inverse.square), approach);
+            sum = hn::Sub(sum, hn::IfThenElseZero(hn::Lt(inverse.guardedSq, dampingSq), damping));
+        }
+        return sum;
+    }
+
+    V energy(const Inverse& inverse, V distanceSq) const {
+        const V guarded = hn::Mul(inverse.guardedSq, inverse.root);
+        const V cubes = hn::Mul(hn::Sub(hn::Mul(inverse.square, inverse.root), inverseReachCubed), set(T(1) / T(3)));
+        const V middle = hn::Sub(cubes, hn::Mul(a, hn::Sub(inverse.root, inverseReach)));
+        const V outside = hn::Mul(b1, hn::Add(middle, hn::Mul(b, hn::Sub(reach, guarded))));
+        const V inside = hn::Mul(halfSlope, hn::Sub(inverse.guardedSq, distanceSq));  // 0 beyond the core
+        return hn::IfThenElseZero(hn::Lt(distanceSq, reachSq), hn::Add(outside, inside));
+    }
+
+    /// (damping b_d s_d + stiffness max(k, 0)) / D^2, with the weights of the matrix. In the core the law softens with
+    /// approach, so that k counts as 0.
+    V along(const Inverse& inverse, V distanceSq) const {
+        const V four = set(T(4));
+        const V slope = hn::Mul(inverse.square, hn::Sub(hn::Mul(four, inverse.square), hn::Add(a, a)));
+        const V k = hn::Mul(hn::Mul(b1, hn::Mul(inverse.root, inverse.square)), slope);
+        const auto isStiff = hn::And(hn::Ge(distanceSq, coreSq), hn::Lt(distanceSq, reachSq));
+        V sum = hn::IfThenElseZero(isStiff, hn::Mul(stiffnessWeight, hn::Max(k, hn::Zero(kTag))));
+        if constexpr (Kind::kPair.damping) {
+            const V falling = hn::Sub(set(T(1)), hn::Mul(inverse.guardedSq, inverseDampingSq));
+            const V overSq = hn::Mul(hn::Mul(bd, falling), inverse.square);
+            sum =
+                hn::Add(sum, hn::IfThenElseZero(hn::Lt(inverse.guardedSq, dampingSq), hn::Mul(dampingWeight, overSq)));
+        }
+        return sum;
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace engine
+HWY_AFTER_NAMESPACE();
+
+#endif

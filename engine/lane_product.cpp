@@ -1,0 +1,70 @@
+// The kernel, compiled once per instruction set.
+#include "engine/lane_product.h"
+
+#include <algorithm>
+
+// Vectors are kept in structs here, which sizeless SVE and RVV types do not allow.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/lane_product.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "engine/lane_records-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace engine {
+namespace HWY_NAMESPACE {
+
+template <bool hasFriction>
+void multiplyBlock(const PairMatrix& matrix, std::size_t group, std::size_t lane, LaneProduct& product) {
+    constexpr Tag<double> kTag{};
+    const std::size_t first = group * kGroup + lane;
+    const Doubles source(matrix.records.data(), selvesFrom<double>(first, matrix.records.size()).data());
+    const std::uint32_t longest = longestRow<double>(matrix.rows, first);
+    Vector3<Lanes<double>> sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
+    std::size_t entry = matrix.rows.at(group * kGroup, 0) + lane;
+    for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
+        const Row<double> row = source.row<true>(&matrix.rows.places[entry]);
+        const auto along = hn::LoadU(kTag, &matrix.along[entry]);
+        const auto push = hn::Mul(along, dot(row.velocity, row.separation));
+        sum.x = hn::Add(sum.x, hn::Mul(push, row.separation.x));
+        sum.y = hn::Add(sum.y, hn::Mul(push, row.separation.y));
+        sum.z = hn::Add(sum.z, hn::Mul(push, row.separation.z));
+        if constexpr (hasFriction) {
+            const auto across = hn::LoadU(kTag, &matrix.across[entry]);
+            sum.x = hn::Add(sum.x, hn::Mul(across, row.velocity.x));
+            sum.y = hn::Add(sum.y, hn::Mul(across, row.velocity.y));
+            sum.z = hn::Add(sum.z, hn::Mul(across, row.velocity.z));
+        }
+    }
+    hn::StoreU(sum.x, kTag, &product.x[lane]);
+    hn::StoreU(sum.y, kTag, &product.y[lane]);
+    hn::StoreU(sum.z, kTag, &product.z[lane]);
+}
+
+void multiplyGroupHere(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
+    const bool hasFriction = !matrix.across.empty();
+    for (std::size_t lane = 0; lane < kGroup; lane += hn::Lanes(Tag<double>()))
+        hasFriction ? multiplyBlock<true>(matrix, group, lane, product)
+                    : multiplyBlock<false>(matrix, group, lane, product);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace engine
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace engine {
+
+HWY_EXPORT(multiplyGroupHere);
+
+void multiplyGroup(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
+    HWY_DYNAMIC_DISPATCH(multiplyGroupHere)(matrix, group, product);
+}
+
+}  // namespace engine
+
+#endif
