@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 
-#include "engine/bodies.h"
 #include "engine/diagnostics.h"
 #include "engine/fnv.h"
 #include "engine/parallel.h"
 #include "engine/steppers.h"
+#include "studies/blocks.h"
 #include "studies/machine_loops.h"
+#include "studies/timing.h"
 
 namespace studies {
 namespace {
@@ -25,21 +25,6 @@ constexpr std::array kMaterials = {"solid", "liquid", "powder"};
 /// Beyond it a million particles' steps would take the patience of whoever waits.
 constexpr std::size_t kMostStepped = 100000;
 
-using Work = std::function<void()>;
-
-double secondsOf(const Work& work, std::uint64_t repeats) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
-    for (std::uint64_t k = 0; k < repeats; ++k) work();
-    return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(repeats);
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Median seconds of a call of the work, which has been called once before.
 double measured(const Work& work, const BenchSettings& settings) {
     const double once = secondsOf(work, 1);
@@ -47,23 +32,6 @@ double measured(const Work& work, const BenchSettings& settings) {
     std::vector<double> rounds;
     for (int round = 0; round < settings.rounds; ++round) rounds.push_back(secondsOf(work, repeats));
     return median(std::move(rounds));
-}
-
-/// A close packing at the rest length, in a cube.
-engine::Setup packed(const std::string& material, std::size_t count) {
-    engine::Setup setup;
-    setup.materials = {*engine::materialPreset(material)};
-    setup.materials[0].mass = 0.1;
-    setup.gravity = Vec3::Zero();
-    const double spacing = 2.0 * setup.materials[0].radius;
-    const double side = std::cbrt(static_cast<double>(count) / std::sqrt(2.0)) * spacing;
-    // A little larger, then cut to the number.
-    auto positions =
-        engine::boxPositions(Vec3::Zero(), Vec3::Constant(side + spacing), {.spacing = spacing, .jitter = 0.05});
-    positions.resize(std::min(count, positions.size()));
-    for (const Vec3& position : positions)
-        append(setup.initial, {.position = position, .radius = setup.materials[0].radius, .mass = 0.1});
-    return setup;
 }
 
 engine::ForceLaw lawOf(const engine::Setup& setup) {
@@ -84,19 +52,13 @@ struct Subject {
 };
 
 Subject subjectOf(const std::string& material, std::size_t count) {
-    Subject subject{packed(material, count), {}};
+    Subject subject{packedBlock(material, count, {}), {}};
     const engine::Particles& particles = subject.setup.initial;
     engine::PairTraversal pairs(lawOf(subject.setup), Precision::doubles);
     pairs.prepare(lawOf(subject.setup), particles, particles.velocity);
-    std::vector<std::uint32_t> neighbours(particles.count());
-    pairs.forEachParticle([&](std::uint32_t self) {
-        pairs.forEachNeighbour(self, [&](std::uint32_t, const Vec3&, double) { ++neighbours[self]; });
-    });
-    double sum = 0.0;
-    for (const std::uint32_t number : neighbours) sum += number;
     subject.row.material = material;
     subject.row.particles = particles.count();
-    subject.row.neighbours = sum / static_cast<double>(particles.count());
+    subject.row.neighbours = meanNeighbours(subject.setup, particles);
     const auto entries = static_cast<double>(pairs.list.places.size() + pairs.lanes.places.size());
     subject.row.bytesPerParticle =
         sizeof(engine::PairRecord) + entries * sizeof(std::uint32_t) / static_cast<double>(particles.count());

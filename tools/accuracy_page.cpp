@@ -28,20 +28,6 @@ code { background: #f0f0ec; padding: 0 0.2rem; }
 <h1>Speed against error</h1>
 )";
 
-using Cells = std::vector<std::string>;
-
-std::string line(const char* tag, const Cells& cells) {
-    std::string html = "<tr>";
-    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
-    return html + "</tr>\n";
-}
-
-std::string table(const Cells& head, const std::vector<Cells>& rows) {
-    std::string html = "<table>\n" + line("th", head);
-    for (const Cells& row : rows) html += line("td", row);
-    return html + "</table>\n";
-}
-
 std::string small(double value) {
     return fmt::format("{:.2e}", value);
 }
@@ -123,11 +109,6 @@ std::string referenceText(const studies::SceneAccuracy& accuracy) {
         1e6 * facts.variant.asked, facts.seconds, facts.change,
         facts.settled ? "" : ", more than a twentieth of the smallest error (budget spent)", facts.resolution,
         facts.twinSeparation, studies::nameOf(facts.measure));
-}
-
-std::string picture(const std::string& alt, const std::string& svg) {
-    return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", alt,
-                       base64({svg.begin(), svg.end()}));
 }
 
 std::string section(const AccuracySection& section) {

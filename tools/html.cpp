@@ -1,10 +1,21 @@
-// Character by character, and three bytes to four digits.
+// Character by character, three bytes to four digits, tables row by row.
 #include "tools/html.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
 
 namespace tools {
+namespace {
+
+std::string line(const char* tag, const Cells& cells) {
+    std::string html = "<tr>";
+    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+    return html + "</tr>\n";
+}
+
+}  // namespace
 
 std::string escaped(const std::string& text) {
     std::string html;
@@ -35,6 +46,17 @@ std::string base64(const std::vector<unsigned char>& bytes) {
             text += digit <= present ? kDigits[(group >> (18 - 6 * digit)) & 63U] : '=';
     }
     return text;
+}
+
+std::string table(const Cells& head, const std::vector<Cells>& rows) {
+    std::string html = "<table>\n" + line("th", head);
+    for (const Cells& row : rows) html += line("td", row);
+    return html + "</table>\n";
+}
+
+std::string picture(const std::string& alt, const std::string& svg) {
+    return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", alt,
+                       base64({svg.begin(), svg.end()}));
 }
 
 }  // namespace tools

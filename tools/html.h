@@ -12,4 +12,13 @@ std::string escaped(const std::string& text);
 /// Standard base64 (RFC 4648) with padding.
 std::string base64(const std::vector<unsigned char>& bytes);
 
+/// The texts of one row of a table.
+using Cells = std::vector<std::string>;
+
+/// A table of escaped texts.
+std::string table(const Cells& head, const std::vector<Cells>& rows);
+
+/// An SVG as an image within the page. Shape: alt needs no escaping.
+std::string picture(const std::string& alt, const std::string& svg);
+
 }  // namespace tools

@@ -1,0 +1,79 @@
+// What the study of scaling writes: tables and the script of the plot.
+#include <fmt/format.h>
+
+#include "studies/scaling.h"
+
+namespace studies {
+namespace {
+
+std::string milliseconds(const std::optional<double>& seconds) {
+    return seconds ? fmt::format("{:.5g}", 1e3 * *seconds) : "";
+}
+
+constexpr const char* kFrame = R"(set terminal svg size 860,600 enhanced font "DejaVu Sans,15" background "white"
+set logscale xy
+set format x "10^{%L}"
+set format y "10^{%L}"
+set xlabel "particles"
+set ylabel "milliseconds a step"
+set title "Time per step against the number of particles"
+set grid xtics ytics mxtics mytics linewidth 1 linecolor rgb "#d9d9d9", linewidth 0.5 linecolor rgb "#eeeeee"
+set border linecolor rgb "#444444"
+set key top left reverse Left samplen 2 font ",13"
+set lmargin 11
+)";
+
+/// Particles and milliseconds of one method.
+struct Curve {
+    std::string title;
+    std::string look;  ///< gnuplot's words for it
+    std::string points;
+};
+
+void addPoint(Curve& curve, const ScalingRow& row, const std::optional<double>& seconds) {
+    if (seconds) curve.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * *seconds);
+}
+
+}  // namespace
+
+std::string scalingCsv(const std::vector<ScalingRow>& rows) {
+    std::string csv = "subject,particles,neighbours,published_ms,every_pair_ms,list_ms,list_in_float_ms,state_hash\n";
+    for (const ScalingRow& row : rows)
+        csv += fmt::format("{},{},{:.4g},{},{},{},{},{}\n", row.subject, row.particles, row.neighbours,
+                           milliseconds(row.published), milliseconds(row.everyPair), milliseconds(row.list),
+                           milliseconds(row.listInFloat), row.stateHash);
+    return csv;
+}
+
+std::string fitsCsv(const std::vector<ScalingFit>& fits) {
+    std::string csv = "subject,method,from,to,exponent\n";
+    for (const ScalingFit& fit : fits)
+        csv += fmt::format("{},{},{},{},{:.3f}\n", fit.subject, fit.method, fit.from, fit.to, fit.exponent);
+    return csv;
+}
+
+std::string scalingPlot(const std::vector<ScalingRow>& rows) {
+    Curve published{"Table 2 (the paper's machine)", "lines linewidth 2 linecolor rgb '#7f7f7f' dashtype 2", ""};
+    Curve everyPair{"every pair, here", "points pointtype 5 pointsize 0.7 linecolor rgb '#d62728'", ""};
+    Curve list{"neighbour lists", "points pointtype 7 pointsize 0.8 linecolor rgb '#0072b2'", ""};
+    Curve inFloat{"neighbour lists in float", "points pointtype 6 pointsize 1 linecolor rgb '#56b4e9'", ""};
+    for (const ScalingRow& row : rows) {
+        if (row.published && row.subject == rows.front().subject) addPoint(published, row, row.published);
+        addPoint(everyPair, row, row.everyPair);
+        addPoint(list, row, row.list);
+        addPoint(inFloat, row, row.listInFloat);
+    }
+    std::string data;
+    std::string plots;
+    int number = 0;
+    for (const Curve& curve : {published, everyPair, list, inFloat}) {
+        if (curve.points.empty()) continue;
+        data += fmt::format("$curve{} << END\n{}END\n", number, curve.points);
+        plots +=
+            fmt::format("{}$curve{} with {} title \"{}\"", plots.empty() ? "" : ", ", number, curve.look, curve.title);
+        ++number;
+    }
+    return kFrame + data + "plot " + plots + "\n";
+}
+
+}  // namespace studies

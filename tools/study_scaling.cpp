@@ -1,0 +1,187 @@
+// globular study scaling: time per step against the number of particles, beside the paper's Table 2 and beside a peer.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "render/child_process.h"
+#include "render/system_error.h"
+#include "studies/timing.h"
+#include "tools/commands.h"
+#include "tools/gnuplot.h"
+#include "tools/output_file.h"
+#include "tools/scaling_page.h"
+#include "tools/scene_options.h"
+#include "tools/threads.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScalingOptions {
+    RunOptions run;
+    std::string folder = "out/study-scaling";
+    std::string peer;
+    bool quick = false;
+};
+
+/// Fountain, liquid, solid and powder of the paper's figures, and blocks of the same materials.
+constexpr std::array kScenes = {"paper/figure-1", "paper/figure-2", "paper/figure-3", "paper/figure-4"};
+constexpr std::array kMaterials = {"solid", "liquid", "powder"};
+
+studies::ScalingSettings settingsFor(const ScalingOptions& options) {
+    studies::ScalingSettings settings;
+    if (options.quick) {
+        settings.blocks = {1000, 4000, 10000, 32000};
+        settings.mostByEveryPair = 4000;
+        settings.rounds = 1;
+        settings.secondsPerRound = 0.02;
+    }
+    return settings;
+}
+
+studies::ScalingListener reporter(Talk talk) {
+    return [talk](const studies::ScalingRow& row) {
+        if (talk == Talk::json)
+            fmt::print("{}\n", nlohmann::ordered_json{{"event", "row"},
+                                                      {"subject", row.subject},
+                                                      {"particles", row.particles},
+                                                      {"seconds", row.list},
+                                                      {"state_hash", row.stateHash}}
+                                   .dump());
+        else if (talk == Talk::normal)
+            fmt::print(stderr, "{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list);
+    };
+}
+
+ScalingResults measure(const ScalingOptions& options) {
+    const studies::ScalingSettings settings = settingsFor(options);
+    ScalingResults results;
+    const auto take = [&](std::vector<studies::ScalingRow> rows) {
+        const std::vector<studies::ScalingFit> fits = studies::fitsOf(rows);
+        results.fits.insert(results.fits.end(), fits.begin(), fits.end());
+        std::move(rows.begin(), rows.end(), std::back_inserter(results.rows));
+    };
+    for (const char* name : kScenes) {
+        const scenes::Scene scene = load({name, {}});
+        take(studies::measureScene(name, scene, settings, reporter(options.run.talk())));
+    }
+    for (const char* material : kMaterials)
+        take(studies::measureBlocks(material, settings, reporter(options.run.talk())));
+    return results;
+}
+
+/// What the program says for a script on its input. Throws render::SystemError.
+std::string lammpsOutput(const std::string& script, int ranks) {
+    std::vector<std::string> arguments = {"mpirun", "--bind-to", "none", "-np", fmt::format("{}", ranks)};
+    if (geteuid() == 0) arguments.insert(arguments.begin() + 1, "--allow-run-as-root");
+    for (const char* argument : {"lmp", "-log", "none"}) arguments.emplace_back(argument);
+    render::ChildProcess lammps(arguments);
+    lammps.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
+    lammps.wait();
+    constexpr std::size_t kMostBytes = 1U << 20;
+    return lammps.output(kMostBytes);
+}
+
+/// Our time of a step at the peer's number of particles.
+const studies::ScalingRow& rowBeside(const ScalingResults& results) {
+    return *std::find_if(results.rows.begin(), results.rows.end(), [](const studies::ScalingRow& row) {
+        return row.subject == kMaterials[0] && row.particles == studies::kPeerParticles;
+    });
+}
+
+void measurePeer(ScalingResults& results, const ScalingOptions& options) {
+    constexpr int kRounds = 3;
+    const int ranks = threadCount(options.run);
+    results.peerText = fmt::format("LAMMPS with {} MPI ranks; ours: {} with {} threads, {:.1f} neighbours.", ranks,
+                                   kMaterials[0], ranks, rowBeside(results).neighbours);
+    for (const studies::PeerForce force : {studies::PeerForce::lennardJones, studies::PeerForce::dissipative}) {
+        std::vector<double> rounds;
+        std::string words;
+        for (int round = 0; round < kRounds; ++round) {
+            try {
+                const std::string output = lammpsOutput(studies::lammpsScript(force), ranks);
+                const std::size_t error = output.find("ERROR");
+                words = error == std::string::npos ? "it told no time"
+                                                   : output.substr(error, output.find('\n', error) - error);
+                if (error != std::string::npos) break;
+                if (const auto seconds = studies::lammpsSeconds(output)) rounds.push_back(*seconds);
+            } catch (const render::SystemError& error) {
+                words = fmt::format("{}; install LAMMPS (Debian: lammps)", error.what());
+                break;
+            }
+        }
+        if (rounds.empty()) {
+            results.peerText += fmt::format(" {}: {}.", studies::nameOf(force), words);
+            continue;
+        }
+        studies::PeerRow row;
+        row.name = "LAMMPS " + studies::nameOf(force);
+        row.secondsPerStep = studies::median(rounds) / studies::kPeerSteps;
+        row.ratio = row.secondsPerStep / rowBeside(results).list;
+        row.ratioInFloat = row.secondsPerStep / rowBeside(results).listInFloat;
+        results.peers.push_back(row);
+    }
+}
+
+std::string commandOf(const ScalingOptions& options) {
+    return fmt::format("globular study scaling{}{} --threads {}", options.quick ? " --quick" : "",
+                       options.peer.empty() ? "" : " --peer " + options.peer, threadCount(options.run));
+}
+
+void print(const ScalingResults& results) {
+    fmt::print("{:16} {:>9} {:>10} {:>13} {:>14} {:>10} {:>17}\n", "scene, material", "particles", "neighbours",
+               "published, ms", "every pair, ms", "list, ms", "list in float, ms");
+    const auto milliseconds = [](const std::optional<double>& seconds) {
+        return seconds ? fmt::format("{:.4g}", 1e3 * *seconds) : std::string("-");
+    };
+    for (const studies::ScalingRow& row : results.rows)
+        fmt::print("{:16} {:>9} {:>10.1f} {:>13} {:>14} {:>10} {:>17}\n", row.subject, row.particles, row.neighbours,
+                   milliseconds(row.published), milliseconds(row.everyPair), milliseconds(row.list),
+                   milliseconds(row.listInFloat));
+    for (const studies::ScalingFit& fit : results.fits)
+        fmt::print("{}, {}: time grows like N^{:.2f} from {} to {}\n", fit.subject, fit.method, fit.exponent, fit.from,
+                   fit.to);
+    if (!results.peerText.empty()) fmt::print("{}\n", results.peerText);
+    for (const studies::PeerRow& row : results.peers)
+        fmt::print("{}: {:.2f} million particle-steps a second; ours {:.2f} times that, {:.2f} in float\n", row.name,
+                   1e-6 * row.particleStepsPerSecond(), row.ratio, row.ratioInFloat);
+}
+
+void study(const ScalingOptions& options) {
+    ScalingResults results;
+    onThreads(threadCount(options.run), [&] { results = measure(options); });
+    if (!options.peer.empty()) measurePeer(results, options);
+    const fs::path folder = options.folder;
+    createFolder(folder);
+    writeFile(folder / "scaling.csv", studies::scalingCsv(results.rows));
+    writeFile(folder / "exponents.csv", studies::fitsCsv(results.fits));
+    const std::string plot = drawPlot(studies::scalingPlot(results.rows));
+    writeFile(folder / "scaling.svg", plot);
+    writeFile(folder / "index.html", scalingPage(results, plot, commandOf(options)));
+    if (options.run.talk() != Talk::normal) return;
+    print(results);
+    fmt::print("all of it: {}\n", (folder / "index.html").string());
+}
+
+}  // namespace
+
+void addStudyScaling(CLI::App& study) {
+    CLI::App* command =
+        study.add_subcommand("scaling", "time per step against the number of particles, beside the paper's Table 2");
+    const auto options = std::make_shared<ScalingOptions>();
+    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-scaling)")
+        ->type_name("DIR");
+    command->add_option("--peer", options->peer, "another program to measure in the same run, if it is installed")
+        ->check(CLI::IsMember({"lammps"}));
+    command->add_flag("--quick", options->quick, "fewer sizes, one round");
+    addTo(*command, options->run);
+    command->footer("Example: globular study scaling --peer lammps -o out/scaling");
+    command->callback([options] { tools::study(*options); });
+}
+
+}  // namespace tools
