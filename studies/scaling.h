@@ -25,6 +25,7 @@ extern const std::vector<PublishedRow> kTable2;
 struct ScalingSettings {
     std::vector<std::size_t> blocks = {1000,  2000,   5000,   10000,
                                        32000, 100000, 320000, 1000000};  ///< particles of the packed blocks
+    std::size_t mostInScenes = 2000;      ///< rows of Table 2 up to this number
     std::size_t mostByEveryPair = 10000;                                 ///< beyond it every pair is not visited
     int rounds = 5;                                                      ///< medians of so many
     double secondsPerRound = 0.1;  ///< at least; one step takes as long as it takes

@@ -54,10 +54,15 @@ std::string fitsCsv(const std::vector<ScalingFit>& fits) {
 
 std::string scalingPlot(const std::vector<ScalingRow>& rows) {
     Curve published{"Table 2 (the paper's machine)", "lines linewidth 2 linecolor rgb '#7f7f7f' dashtype 2", ""};
-    Curve everyPair{"every pair, here", "points pointtype 5 pointsize 0.7 linecolor rgb '#d62728'", ""};
-    Curve list{"neighbour lists", "points pointtype 7 pointsize 0.8 linecolor rgb '#0072b2'", ""};
-    Curve inFloat{"neighbour lists in float", "points pointtype 6 pointsize 1 linecolor rgb '#56b4e9'", ""};
+    Curve everyPair{"every pair, here", "linespoints pointtype 5 pointsize 0.7 linecolor rgb '#d62728'", ""};
+    Curve list{"neighbour lists", "linespoints pointtype 7 pointsize 0.8 linecolor rgb '#0072b2'", ""};
+    Curve inFloat{"neighbour lists in float", "linespoints pointtype 6 pointsize 1 linecolor rgb '#56b4e9'", ""};
+    std::string subject;
     for (const ScalingRow& row : rows) {
+        // An empty line ends a line of points: those of one scene or material belong together.
+        if (!subject.empty() && row.subject != subject)
+            for (Curve* curve : {&everyPair, &list, &inFloat}) curve->points += "\n";
+        subject = row.subject;
         if (row.published && row.subject == rows.front().subject) addPoint(published, row, row.published);
         addPoint(everyPair, row, row.everyPair);
         addPoint(list, row, row.list);

@@ -36,8 +36,9 @@ constexpr std::array kMaterials = {"solid", "liquid", "powder"};
 studies::ScalingSettings settingsFor(const ScalingOptions& options) {
     studies::ScalingSettings settings;
     if (options.quick) {
-        settings.blocks = {1000, 4000, 10000, 32000};
-        settings.mostByEveryPair = 4000;
+        settings.blocks = {1000, 10000, studies::kPeerParticles};
+        settings.mostInScenes = 100;
+        settings.mostByEveryPair = 1000;
         settings.rounds = 1;
         settings.secondsPerRound = 0.02;
     }

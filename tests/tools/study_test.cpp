@@ -59,3 +59,30 @@ TEST_CASE("A study of two scenes of one name is refused", "[tools]") {
     CHECK(twice.code == 2);
     CHECK(twice.err.find("two scenes would share its files") != std::string::npos);
 }
+
+TEST_CASE("The study of scaling writes tables, a plot and a page, and says when a peer is missing", "[tools]") {
+    const program::Folder folder;
+    const std::string command = "study scaling --quick --threads 1 -o " + (folder / "scaling").string();
+    const auto outcome = run(command);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const std::string table = program::textOf(folder / "scaling" / "scaling.csv");
+    CHECK(program::lineCount(table) == 1 + 4 + 3 * 3);  // a head, a row of Table 2 a figure, three blocks a material
+    CHECK(table.find("paper/figure-1,100,") != std::string::npos);
+    CHECK(table.find("powder,32000,") != std::string::npos);
+    CHECK(program::textOf(folder / "scaling" / "exponents.csv").find("solid,list,10000,32000,") != std::string::npos);
+    CHECK(program::textOf(folder / "scaling" / "scaling.svg").rfind("<?xml", 0) == 0);
+    CHECK(program::textOf(folder / "scaling" / "index.html").find("data:image/svg+xml;base64,") != std::string::npos);
+    CHECK(run("study scaling --peer gromacs").code == 2);
+}
+
+TEST_CASE("Without its program a peer is told of, and the rest is there", "[tools]") {
+    const program::Folder folder;
+    std::filesystem::create_directory(folder / "bin");
+    std::filesystem::create_symlink("/usr/bin/gnuplot", folder / "bin" / "gnuplot");
+    const auto outcome = run("study scaling --quick --threads 1 --peer lammps -o " + (folder / "scaling").string(),
+                             "PATH=" + (folder / "bin").string());
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("install LAMMPS (Debian: lammps)") != std::string::npos);
+}
