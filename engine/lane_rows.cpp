@@ -28,7 +28,7 @@ void build(LaneRows& rows, const NeighbourList& list) {
     inParallel(rows.groupCount(), 16, [&](std::size_t group) {
         for (std::size_t place = group * kGroup; place < (group + 1) * kGroup; ++place) {
             const auto self = static_cast<std::int32_t>(std::min(place, count - 1));
-            std::int32_t* entry = &rows.places[rows.at(place, 0)];
+            std::int32_t* entry = rows.places.data() + rows.at(place, 0);
             const std::size_t longest = rows.start[group + 1] - rows.start[group];
             const std::uint32_t* from = rows.length[place] > 0 ? &list.places[list.rowStart[place]] : nullptr;
             for (std::size_t k = 0; k < longest; ++k)
