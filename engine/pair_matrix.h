@@ -1,6 +1,6 @@
 // The matrix of the implicit steppers, never formed: A = M + C' + K', where M is the mass, C' the weighted damping and
 // K' the weighted stiffness of all pairs at one configuration, both acting along the line between the two; friction
-// adds weighted damping across it. Each pair is kept as a number: a product is another pass over the pairs, with what
+// adds weighted damping across it. Each entry is kept as a number: a product is another pass over the pairs, with what
 // is multiplied in the place of the velocities.
 #pragma once
 
@@ -19,8 +19,8 @@ struct MatrixWeights {
 };
 
 /// All vectors are in the order of the neighbour list that it was assembled over. The block of a pair is
-/// -(along P P^T + across 1), its two entries are equal bit for bit. Coincident pairs, which have no direction, have
-/// none.
+/// -(along P P^T + across 1), its two entries are equal bit for bit. Coincident pairs, which have no direction, add
+/// nothing.
 struct PairMatrix {
     std::vector<double> mass;         ///< of each particle, kg
     std::vector<Matrix3> own;         ///< what obstacles add to each particle's own block, kg; empty without any

@@ -2,6 +2,9 @@
 // compiled into the kernel that runs.
 #include "engine/pair_sums.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/lane_forces.h"
 
 namespace engine {
@@ -81,7 +84,10 @@ struct Kernel {
             along += sums.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
         }
         const double across = sums.weights.damping * slipDamping;
-        if (along == 0.0 && across == 0.0) return;
+        const PairRecord& p = pairs.records[self];
+        const PairRecord& i = pairs.records[other];
+        const bool isCoincident = p.x == i.x && p.y == i.y && p.z == i.z;
+        if ((along == 0.0 && across == 0.0) || isCoincident) return;
         // across (1 - n n^T) = across 1 - (across / D^2) P P^T
         sums.matrix->add(self, static_cast<std::int32_t>(other), along - across / distanceSq, across);
     }
@@ -92,20 +98,17 @@ void run(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& 
     pairs.forEachParticle(Kernel<variant>{pairs, sums, energies});
 }
 
-/// The same by the scalar kernel, which knows how to part coincident particles.
+/// Forces and energies by the scalar kernel, which knows how to part coincident particles. The rows of the matrix stay
+/// those of the lanes, or the two entries of a pair would be rounded differently.
 template <PairTerms terms>
 void addUpOneByOne(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies, std::size_t first,
                    std::size_t end) {
     for (std::size_t place = first; place < end; ++place) {
         const auto self = static_cast<std::uint32_t>(place);
-        if (sums.matrix != nullptr) {
-            sums.matrix->rows.length[place] = 0;
-            Kernel<Variant{terms, true, true, true}>{pairs, sums, energies}(self);
-        } else if (sums.energy != nullptr) {
-            Kernel<Variant{terms, true, true, false}>{pairs, sums, energies}(self);
-        } else {
+        if (energies.empty())
             Kernel<Variant{terms, true, false, false}>{pairs, sums, energies}(self);
-        }
+        else
+            Kernel<Variant{terms, true, true, false}>{pairs, sums, energies}(self);
     }
 }
 

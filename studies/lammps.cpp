@@ -47,8 +47,9 @@ std::string lammpsScript(PeerForce force) {
 
 std::optional<double> lammpsSeconds(const std::string& output) {
     constexpr std::string_view kBefore = "Loop time of ";
+    const std::string steps = fmt::format(" for {} steps", kPeerSteps);
     const std::size_t at = output.rfind(kBefore);
-    if (at == std::string::npos) return std::nullopt;
+    if (at == std::string::npos || output.find(steps, at) == std::string::npos) return std::nullopt;
     double seconds = 0.0;
     std::from_chars(output.data() + at + kBefore.size(), output.data() + output.size(), seconds);
     return seconds > 0.0 ? std::optional(seconds) : std::nullopt;

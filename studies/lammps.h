@@ -1,6 +1,7 @@
 // A peer to measure against: what LAMMPS is asked to do, and what it says of the time. It is run by the caller.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -12,7 +13,7 @@ enum class PeerForce { lennardJones, dissipative };
 
 std::string nameOf(PeerForce force);
 
-/// Neighbours within the cutoff that the peer is given, as many as our blocks have inside.
+/// Neighbours within the cutoff that the peer is given: about as many as a particle of our blocks has on the mean.
 inline constexpr double kPeerNeighbours = 45.0;
 
 /// Particles of the peer's periodic block, and steps of the run that is timed.
@@ -22,7 +23,7 @@ inline constexpr int kPeerSteps = 200;
 /// Input for the program: a block that melts, then kPeerSteps with lists rebuilt by displacement.
 std::string lammpsScript(PeerForce force);
 
-/// Seconds of the last loop that the program's output tells of; nothing if it tells of none.
+/// Seconds of the loop of kPeerSteps that the program's output tells of; nothing if it tells of none.
 std::optional<double> lammpsSeconds(const std::string& output);
 
 /// What one force of the peer reached.

@@ -1,4 +1,4 @@
-// From one state each method takes the same steps, several times in turn.
+// From one state every method takes some steps, several times in turn.
 #include "studies/scaling.h"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ constexpr double kStep = 0.01;
 /// Of the packed blocks, s: the solid pulls itself together, which at the paper's step would throw it about.
 constexpr double kBlockStep = 0.002;
 
-/// Steps of a run from the same state. Chosen: lists are built more than once on the way.
+/// Steps of a run from the same state. Chosen: a block's list is built twice (solid, liquid) or four times (powder) on
+/// the way.
 constexpr std::uint64_t kSteps = 20;
 constexpr std::uint64_t kStepsOfEveryPair = 2;
 

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -76,16 +78,21 @@ ScalingResults measure(const ScalingOptions& options) {
     return results;
 }
 
-/// What the program says for a script on its input. Throws render::SystemError.
-std::string lammpsOutput(const std::string& script, int ranks) {
+/// Seconds of the timed loop of a script. Throws render::SystemError with what kept the program from it.
+double lammpsSeconds(const std::string& script, int ranks) {
     std::vector<std::string> arguments = {"mpirun", "--bind-to", "none", "-np", fmt::format("{}", ranks)};
     if (geteuid() == 0) arguments.insert(arguments.begin() + 1, "--allow-run-as-root");
     for (const char* argument : {"lmp", "-log", "none"}) arguments.emplace_back(argument);
     render::ChildProcess lammps(arguments);
     lammps.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
-    lammps.wait();
+    const std::string ended = lammps.wait();
     constexpr std::size_t kMostBytes = 1U << 20;
-    return lammps.output(kMostBytes);
+    const std::string output = lammps.output(kMostBytes);
+    const std::optional<double> seconds = studies::lammpsSeconds(output);
+    if (ended.empty() && seconds) return *seconds;
+    const std::size_t error = output.find("ERROR");
+    if (error != std::string::npos) throw render::SystemError(output.substr(error, output.find('\n', error) - error));
+    throw render::SystemError(fmt::format("mpirun lmp ended with {}", ended.empty() ? "no time" : ended));
 }
 
 /// Our time of a step at the peer's number of particles.
@@ -102,22 +109,12 @@ void measurePeer(ScalingResults& results, const ScalingOptions& options) {
                                    kMaterials[0], ranks, rowBeside(results).neighbours);
     for (const studies::PeerForce force : {studies::PeerForce::lennardJones, studies::PeerForce::dissipative}) {
         std::vector<double> rounds;
-        std::string words;
-        for (int round = 0; round < kRounds; ++round) {
-            try {
-                const std::string output = lammpsOutput(studies::lammpsScript(force), ranks);
-                const std::size_t error = output.find("ERROR");
-                words = error == std::string::npos ? "it told no time"
-                                                   : output.substr(error, output.find('\n', error) - error);
-                if (error != std::string::npos) break;
-                if (const auto seconds = studies::lammpsSeconds(output)) rounds.push_back(*seconds);
-            } catch (const render::SystemError& error) {
-                words = fmt::format("{}; install LAMMPS (Debian: lammps)", error.what());
-                break;
-            }
-        }
-        if (rounds.empty()) {
-            results.peerText += fmt::format(" {}: {}.", studies::nameOf(force), words);
+        try {
+            for (int round = 0; round < kRounds; ++round)
+                rounds.push_back(lammpsSeconds(studies::lammpsScript(force), ranks));
+        } catch (const render::SystemError& error) {
+            results.peerText +=
+                fmt::format(" {}: {} (install LAMMPS: Debian's package lammps).", studies::nameOf(force), error.what());
             continue;
         }
         studies::PeerRow row;

@@ -69,7 +69,7 @@ std::string hashOfRun(const char* preset, StepperKind stepper, Precision precisi
 }  // namespace
 
 TEST_CASE("A run has the same bits with every kind of vectors", "[lanes]") {
-    for (const char* preset : {"liquid", "solid", "powder"})
+    for (const char* preset : {"liquid", "solid", "powder", "sand"})
         for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::linearlyImplicit})
             for (const Precision precision : {Precision::doubles, Precision::singles}) {
                 const std::string expected = hashOfRun(preset, stepper, precision);

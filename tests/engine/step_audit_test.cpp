@@ -198,7 +198,8 @@ TEST_CASE("Going back before a birth undoes it, and it happens again alike", "[s
     Simulation again = before;
     advance(again, 0.07);
     simulation.restriction = before.restriction;
-    simulation.evaluator = before.evaluator;  // the order of its sums is not part of the state
+    simulation.evaluator =
+        before.evaluator;  // its list, which orders sums and says who is alone, is no part of the state
     advance(simulation, 0.07);
     CHECK(stateHash(simulation.particles) == stateHash(again.particles));
 }

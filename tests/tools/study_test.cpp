@@ -84,5 +84,5 @@ TEST_CASE("Without its program a peer is told of, and the rest is there", "[tool
                              "PATH=" + (folder / "bin").string());
     INFO(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(outcome.out.find("install LAMMPS (Debian: lammps)") != std::string::npos);
+    CHECK(outcome.out.find("install LAMMPS: Debian's package lammps") != std::string::npos);
 }
