@@ -51,8 +51,8 @@ void chooseSwept(Simulation& simulation, double h) {
         // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part
         // of what the whole heap does.
         const Flight flight = flightOf(simulation, p);
-        const bool isSwept = mayTouch(scenery, flight, h) &&
-                             (simulation.evaluator.isAlone(p) || needsSweep(scenery, flight, h, isExplicit));
+        const bool isSwept =
+            simulation.evaluator.isAlone(p) ? mayTouch(scenery, flight, h) : needsSweep(scenery, flight, h, isExplicit);
         simulation.swept[p] = isSwept ? 1 : 0;
     });
 }

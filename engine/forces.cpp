@@ -6,13 +6,6 @@
 #include "engine/pair_sums.h"
 
 namespace engine {
-namespace {
-
-/// In cutoffs, no further than every list reaches. Chosen: further than births leave between two particles, so that
-/// what pours is in company all the way.
-constexpr double kCompany = 1.1;
-
-}  // namespace
 
 ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision)
     : law_(std::move(law)), method_(method), pairs_(law_, precision) {}
@@ -61,12 +54,7 @@ bool ForceEvaluator::isAlone(std::size_t p) const {
     const NeighbourList& list = pairs_.list;
     if (p >= list.placeOf.size()) return false;  // a newborn may have been placed beside anyone
     const std::uint32_t place = list.placeOf[p];
-    const double company = kCompany * pairs_.terms.cutoff;
-    for (std::uint32_t entry = list.rowStart[place]; entry < list.rowStart[place + 1]; ++entry) {
-        const std::uint32_t i = list.order[list.places[entry]];
-        if (squaredLength(list.builtAt[p] - list.builtAt[i]) < company * company) return false;
-    }
-    return true;
+    return list.rowStart[place] == list.rowStart[place + 1];
 }
 
 void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
