@@ -45,6 +45,14 @@ class ForceEvaluator {
     /// Particle index at each place of the matrix that was assembled last.
     const std::vector<std::uint32_t>& order() const { return pairs_.list.order; }
 
+    /// The neighbour list as it was built last.
+    const NeighbourList& list() const { return pairs_.list; }
+
+    /// Brings back a list by what it was built for, as of a run that is gone on with.
+    void restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double reach) {
+        pairs_.restoreList(law_, particles, builtAt, reach);
+    }
+
     /// Whether nobody was near a particle, within its cutoff or a little more, when the list was built last.
     bool isAlone(std::size_t p) const;
 

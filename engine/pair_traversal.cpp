@@ -55,4 +55,11 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     });
 }
 
+void PairTraversal::restoreList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& builtAt,
+                                double reach) {
+    terms = termsFor(law, particles);
+    build(list, builtAt, reach, 0.0);
+    if (runsOnLanes(terms)) build(lanes, list);
+}
+
 }  // namespace engine

@@ -40,6 +40,9 @@ struct PairTraversal {
     /// Sorts the particles, with the velocities (m/s) that the damping is to see, and brings the list up to date.
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities);
 
+    /// Brings back the list that was built for these positions (m) with this reach (m).
+    void restoreList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& builtAt, double reach);
+
     template <bool isUniform>
     PairConstants<double> constants(const PairRecord& p, const PairRecord& i) const {
         if constexpr (isUniform) return uniform;

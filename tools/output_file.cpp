@@ -80,10 +80,14 @@ void writeFile(const fs::path& path, const std::string& text) {
 }
 
 std::vector<std::uint8_t> readFile(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
+    if (fs::is_directory(path)) fail("read", path, EISDIR);
+    std::ifstream stream(path, std::ios::binary | std::ios::ate);
     if (!stream) fail("read", path, errno);
-    std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    if (stream.bad()) fail("read", path, errno);
+    const auto size = static_cast<std::streamoff>(stream.tellg());
+    if (size < 0) fail("read", path, errno);
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+    stream.seekg(0);
+    if (!stream.read(reinterpret_cast<char*>(bytes.data()), size)) fail("read", path, errno);
     return bytes;
 }
 

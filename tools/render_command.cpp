@@ -18,7 +18,7 @@ struct RenderOptions {
     RunOptions run;
     SceneOptions scene;
     DrawOptions draw;
-    std::string folder;
+    FolderFlags folder;
     std::string video;
     std::string frames;
 };
@@ -52,15 +52,15 @@ void render(const RenderOptions& options) {
     job.talk = options.run.talk();
     job.title = fs::path(scene.sourceName).stem().string();
     job.videoPath = options.video;
-    const fs::path folder = options.folder.empty() ? fs::path("out") / job.title : fs::path(options.folder);
-    job.pngPath = [folder](int frame) { return (folder / fmt::format("frame-{:05}.png", frame)).string(); };
+    job.folder = folderOf(options.folder, job.title);
+    job.pngPath = [](int) { return std::nullopt; };
+    const fs::path folder = job.folder->path;
 
-    createFolder(folder);
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
     FinishedRun result = renderFrames(job);
     const auto json = runJson(scene, result.simulation, result.report);
     writeFile(folder / "run.json", json.dump(2) + "\n");
-    if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
+    requireWhole(result.report, folder);
     printSummary(options, folder, json);
 }
 
@@ -70,8 +70,7 @@ void addRenderCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("render", "simulate and draw a scene: PNG frames, run.json, a video");
     const auto options = std::make_shared<RenderOptions>();
     addTo(*command, options->scene);
-    command->add_option("-o,--output", options->folder, "folder for frames and run.json (default: out/NAME)")
-        ->type_name("DIR");
+    addTo(*command, options->folder);
     command->add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
     command->add_option("--frames", options->frames, "draw only these frames")->type_name("A-B");
     addTo(*command, options->draw);

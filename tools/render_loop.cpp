@@ -4,16 +4,19 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
-#include <span>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
-#include "engine/diagnostics.h"
 #include "render/png.h"
 #include "render/renderer.h"
 #include "render/video.h"
-#include "scenes/frame_steps.h"
 #include "scenes/frame_view.h"
+#include "tools/frame_sequence.h"
 #include "tools/output_file.h"
 #include "tools/stopwatch.h"
 #include "tools/threads.h"
@@ -24,20 +27,25 @@ namespace {
 /// Frames in flight: one a stage, and one to even out their times.
 constexpr std::size_t kTokens = 4;
 
-/// Chosen: the error of a fixed step is sampled on at most this many frames of a run, which costs three frames each.
-constexpr int kErrorSamples = 8;
-
 struct FramePlan {
-    int number = 0;
-    double time = 0.0;  ///< s
-    render::View view;
+    SequencedFrame frame;
+    std::optional<render::View> view;  ///< of a frame that is to be drawn
 };
 
 struct FramePicture {
-    int number = 0;
-    double time = 0.0;  ///< s
-    render::Image image;
+    SequencedFrame frame;
+    std::optional<render::Image> image;
 };
+
+/// What decides the bytes of the frames of a run.
+nlohmann::ordered_json identityOf(const RenderJob& job, const std::string& glRenderer) {
+    constexpr std::array kNames = {"draft", "normal", "final"};
+    nlohmann::ordered_json identity = sceneIdentity(*job.scene);
+    identity["size"] = {job.scene->size.width, job.scene->size.height};
+    identity["quality"] = kNames[static_cast<std::size_t>(job.quality)];
+    identity["gl_renderer"] = glRenderer;
+    return identity;
+}
 
 /// The four calls between a scene and its files, one method a stage.
 class Run {
@@ -45,23 +53,23 @@ class Run {
     explicit Run(const RenderJob& job)
         : job_(job),
           context_(openContext(job)),
+          folder_(openFolder(job, context_.rendererName())),
           renderer_(context_, job.scene->size, job.quality),
-          next_(job.frames.first),
+          frames_(*job.scene, job.frames, folder_.get(), job.folder ? job.folder->checkpointSeconds : 0.0),
           progress_(job.title, job.frames.last - job.frames.first + 1, job.talk) {
-        result_.simulation = engine::start(job.scene->setup);
-        result_.report.threads = job.threads;
-        result_.report.glRenderer = context_.rendererName();
+        report().threads = job.threads;
+        report().glRenderer = context_.rendererName();
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
     }
 
     FinishedRun all() {
         {
-            const Stopwatch watch(result_.report.seconds.all);
+            const Stopwatch watch(report().seconds.all);
             onThreads(job_.threads, [this] { runPipeline(); });
-            if (video_ && result_.report.frames > 0) video_->finish();
+            frames_.finish();
+            if (video_ && report().frames > 0) video_->finish();
         }
-        result_.report.stateHash = engine::stateHash(result_.simulation.particles);
-        return std::move(result_);
+        return frames_.take();
     }
 
  private:
@@ -69,6 +77,11 @@ class Run {
         // llvmpipe reads its share of the machine from here; a user's own setting wins.
         ::setenv("LP_NUM_THREADS", std::to_string(job.threads).c_str(), 0);
         return render::Context(job.backend);
+    }
+
+    static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
+        if (!job.folder) return nullptr;
+        return std::make_unique<FrameFolder>(*job.folder, FrameNames{"frame-", ".png"}, identityOf(job, glRenderer));
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
@@ -92,56 +105,55 @@ class Run {
     }
 
     std::shared_ptr<FramePlan> simulate(tbb::flow_control& flow) {
-        if (next_ > job_.frames.last) {
+        auto frame = frames_.next();
+        if (!frame) {
             flow.stop();
             return nullptr;
         }
-        const Stopwatch watch(result_.report.seconds.simulating);
-        auto plan = std::make_shared<FramePlan>();
-        plan->number = next_++;
-        plan->time = scenes::frameTime(*job_.scene, plan->number);
-        try {
-            scenes::advanceToFrame(*job_.scene, result_.simulation, plan->number);
-            if ((plan->number - job_.frames.first) % sampleStride() == 0)
-                addSample(result_.report.errors, *job_.scene, result_.simulation);
-        } catch (const engine::InstabilityError& error) {
-            // The frames before it are still on their way to their files.
-            result_.report.unstable = error.what();
-            flow.stop();
-            return nullptr;
-        }
-        plan->view = scenes::frameView(*job_.scene, result_.simulation);
+        auto plan = std::make_shared<FramePlan>(FramePlan{std::move(*frame), std::nullopt});
+        if (plan->frame.isWanted && !plan->frame.isKept)
+            plan->view = scenes::frameView(*job_.scene, frames_.simulation());
         return plan;
     }
 
-    int sampleStride() const {
-        const int count = job_.frames.last - job_.frames.first + 1;
-        return (count + kErrorSamples - 1) / kErrorSamples;
-    }
-
-    std::shared_ptr<FramePicture> draw(const FramePlan& plan) {
-        const Stopwatch watch(result_.report.seconds.drawing);
-        auto picture = std::make_shared<FramePicture>(FramePicture{plan.number, plan.time, {}});
+    std::shared_ptr<FramePicture> draw(FramePlan& plan) {
+        auto picture = std::make_shared<FramePicture>(FramePicture{std::move(plan.frame), std::nullopt});
+        if (!plan.view) return picture;
+        const Stopwatch watch(report().seconds.drawing);
         // Isolated: a thread that waits for others here must not take up a frame's simulation and hold the context
         // meanwhile.
-        tbb::this_task_arena::isolate([&] { picture->image = renderer_.draw(plan.view); });
+        tbb::this_task_arena::isolate([&] { picture->image = renderer_.draw(*plan.view); });
         return picture;
     }
 
     void encode(const FramePicture& picture) {
-        const Stopwatch watch(result_.report.seconds.encoding);
-        if (const auto path = job_.pngPath(picture.number)) writeFile(*path, render::encodePng(picture.image));
-        if (video_) video_->add(picture.image);
-        ++result_.report.frames;
-        progress_.frameDone(picture.number, picture.time);
+        const Stopwatch watch(report().seconds.encoding);
+        const SequencedFrame& frame = picture.frame;
+        const auto elsewhere = picture.image ? job_.pngPath(frame.number) : std::nullopt;
+        std::vector<std::uint8_t> png;
+        if (picture.image && (folder_ || elsewhere)) png = render::encodePng(*picture.image);
+        if (folder_) frames_.store(frame, png);
+        if (elsewhere) writeFile(*elsewhere, png);
+        if (!frame.isWanted) return;
+        if (video_) video_->add(picture.image ? *picture.image : kept(frame.number));
+        ++report().frames;
+        progress_.frameDone(frame.number, frame.time);
     }
+
+    /// A frame that an earlier run has drawn.
+    render::Image kept(int frame) const {
+        const std::filesystem::path path = folder_->pathOf(frame);
+        return render::decodePng(readFile(path), path.string());
+    }
+
+    RunReport& report() { return frames_.report(); }
 
     const RenderJob& job_;
     render::Context context_;
+    std::unique_ptr<FrameFolder> folder_;
     render::Renderer renderer_;
+    FrameSequence frames_;
     std::unique_ptr<render::VideoWriter> video_;
-    FinishedRun result_;
-    int next_ = 0;
     Progress progress_;
 };
 

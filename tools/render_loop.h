@@ -9,6 +9,7 @@
 #include "render/context.h"
 #include "render/view.h"
 #include "scenes/scene.h"
+#include "tools/frame_folder.h"
 #include "tools/progress.h"
 #include "tools/run_report.h"
 #include "tools/scene_options.h"
@@ -18,7 +19,8 @@ namespace tools {
 struct RenderJob {
     const scenes::Scene* scene = nullptr;
     FrameRange frames;
-    std::function<std::optional<std::string>(int)> pngPath;  ///< where a frame goes, if it is wanted as a file
+    std::optional<FolderOptions> folder;  ///< that frames go to, with what is needed to go on; none: no frames
+    std::function<std::optional<std::string>(int)> pngPath;  ///< where else a frame goes, if anywhere
     std::string videoPath;                                   ///< empty: no video
     render::Quality quality = render::Quality::normal;
     render::Backend backend = render::Backend::osmesa;
@@ -27,8 +29,9 @@ struct RenderJob {
     std::string title;  ///< in the progress
 };
 
-/// Draws the frames of a job. A simulation that becomes unstable ends the run after the frames before that moment, with
-/// the reason in the report; the outside world's failures are thrown.
+/// Draws the frames of a job. A simulation that becomes unstable ends the run after the frames before that moment, and
+/// a signal, where there is a folder, after the frames in hand; the report has the reason. The outside world's failures
+/// are thrown.
 FinishedRun renderFrames(const RenderJob& job);
 
 }  // namespace tools

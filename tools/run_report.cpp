@@ -1,6 +1,8 @@
 // The fields of run.json.
 #include "tools/run_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -9,6 +11,8 @@
 #include "engine/error_look.h"
 #include "engine/steppers.h"
 #include "render/metaball_cast.h"
+#include "render/system_error.h"
+#include "tools/interrupt.h"
 
 namespace tools {
 namespace {
@@ -76,6 +80,18 @@ Json energyJson(const engine::Energy& energy) {
 
 }  // namespace
 
+Json encodeErrors(const ErrorSamples& errors) {
+    return {{"count", errors.count}, {"sum", errors.sum}, {"largest", errors.largest}};
+}
+
+ErrorSamples decodeErrors(const Json& json) {
+    try {
+        return {json.at("count").get<int>(), json.at("sum").get<double>(), json.at("largest").get<double>()};
+    } catch (const std::exception& error) {
+        throw render::SystemError(fmt::format("a checkpoint's report of errors cannot be read: {}", error.what()));
+    }
+}
+
 void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation) {
     if (simulation.setup.stepper == engine::StepperKind::automatic) return;
     try {
@@ -89,13 +105,26 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
     }
 }
 
+void requireWhole(const RunReport& report, const std::string& folder) {
+    if (!report.unstable.empty()) throw engine::InstabilityError(report.unstable);
+    if (report.interruptedBy == 0) return;
+    throw Interrupted(report.interruptedBy,
+                      fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume "
+                                  "goes on from there",
+                                  report.frames, folder));
+}
+
+Json sceneIdentity(const scenes::Scene& scene) {
+    return {{"scene", scene.title},
+            {"scene_hash", scene.sceneHash},
+            {"version", GLOBULAR_VERSION},
+            {"seed", scene.seed},
+            {"fps", scene.fps}};
+}
+
 Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report) {
-    Json json;
-    json["scene"] = scene.title;
+    Json json = sceneIdentity(scene);
     json["source"] = scene.sourceName;
-    json["scene_hash"] = scene.sceneHash;
-    json["version"] = GLOBULAR_VERSION;
-    json["seed"] = scene.seed;
     json["threads"] = report.threads;
     json["instruction_set"] = render::castInstructionSet();
     json["gl_renderer"] = report.glRenderer.empty() ? Json(nullptr) : Json(report.glRenderer);
@@ -103,7 +132,8 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);
     json["frames"] = report.frames;
-    json["fps"] = scene.fps;
+    json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
+    json["interrupted"] = report.interruptedBy != 0;
     json["stepper"] = engine::nameOf(scene.setup.stepper);
     json["steps"] = stepsJson(simulation.steps);
     json["seconds"] = {{"simulating", report.seconds.simulating},

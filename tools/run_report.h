@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "engine/simulation.h"
@@ -24,6 +25,10 @@ struct ErrorSamples {
     double largest = 0.0;
 };
 
+/// As JSON, for a checkpoint, and back. Throws: render::SystemError for JSON that is none.
+nlohmann::ordered_json encodeErrors(const ErrorSamples& errors);
+ErrorSamples decodeErrors(const nlohmann::ordered_json& json);
+
 /// Measures the error of the frame to come, at the step that the run takes, and adds it. Nothing for the automatic
 /// stepper, which measures itself, and for a run that is about to become unstable.
 void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation);
@@ -33,9 +38,11 @@ struct RunReport {
     ErrorSamples errors;
     int frames = 0;  ///< written
     int threads = 1;
-    std::string glRenderer;  ///< empty where nothing was drawn
-    std::string stateHash;   ///< of the last frame
-    std::string unstable;    ///< why the run ended early; empty for a whole one
+    std::string glRenderer;          ///< empty where nothing was drawn
+    std::string stateHash;           ///< of the last frame
+    std::string unstable;            ///< why the run ended early; empty for a whole one
+    int interruptedBy = 0;           ///< the signal that ended the run early, or 0
+    std::optional<int> resumedFrom;  ///< the frame whose checkpoint the run went on from
 };
 
 /// What a run leaves behind besides its files.
@@ -43,6 +50,12 @@ struct FinishedRun {
     engine::Simulation simulation;  ///< at the last frame
     RunReport report;
 };
+
+/// What of a scene decides what its frames show: the first fields of run.json, and of a folder's manifest.
+nlohmann::ordered_json sceneIdentity(const scenes::Scene& scene);
+
+/// Throws engine::InstabilityError or Interrupted for a run that ended early, with what to do about it.
+void requireWhole(const RunReport& report, const std::string& folder);
 
 /// The content of run.json for a run that has come to the given state.
 nlohmann::ordered_json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report);

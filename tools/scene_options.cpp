@@ -55,6 +55,28 @@ void addTo(CLI::App& command, DrawOptions& options) {
     command.add_option("--gl", options.backend, "OpenGL backend: osmesa or egl (default: osmesa)")->type_name("NAME");
 }
 
+void addTo(CLI::App& command, FolderFlags& options) {
+    command.add_option("-o,--output", options.path, "folder for frames and run.json (default: out/NAME)")
+        ->type_name("DIR");
+    CLI::Option* const resume =
+        command.add_flag("--resume", options.resume, "go on with a run that ended early: what is whole stays");
+    command.add_flag("--overwrite", options.overwrite, "remove the frames of another run from the folder first")
+        ->excludes(resume);
+    command.add_option("--checkpoint", options.checkpointSeconds, "seconds between two checkpoints (default: 5)")
+        ->type_name("SECONDS")
+        ->check(CLI::NonNegativeNumber);
+}
+
+FolderOptions folderOf(const FolderFlags& flags, const std::string& name) {
+    FolderOptions options;
+    options.path = flags.path.empty() ? (fs::path("out") / name).string() : flags.path;
+    if (flags.resume) options.existing = Existing::keep;
+    if (flags.overwrite) options.existing = Existing::overwrite;
+    options.checkpointSeconds = flags.checkpointSeconds;
+    options.warn = [](const std::string& line) { fmt::print(stderr, "warning: {}\n", line); };
+    return options;
+}
+
 int threadCount(const RunOptions& options) {
     if (options.threads > 0) return options.threads;
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

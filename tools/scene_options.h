@@ -9,6 +9,7 @@
 #include "render/context.h"
 #include "render/view.h"
 #include "scenes/scene.h"
+#include "tools/frame_folder.h"
 #include "tools/progress.h"
 
 namespace tools {
@@ -36,12 +37,24 @@ struct DrawOptions {
     std::string backend = "osmesa";
 };
 
+/// The folder that frames go to.
+struct FolderFlags {
+    std::string path;  ///< empty: out/NAME
+    bool resume = false;
+    bool overwrite = false;
+    double checkpointSeconds = 5.0;
+};
+
 void addTo(CLI::App& command, RunOptions& options);
 void addTo(CLI::App& command, SceneOptions& options);
 void addTo(CLI::App& command, DrawOptions& options);
+void addTo(CLI::App& command, FolderFlags& options);
 
 /// The number of threads to use, at least 1.
 int threadCount(const RunOptions& options);
+
+/// The folder of a run called `name`; what is damaged in it is said on stderr.
+FolderOptions folderOf(const FolderFlags& flags, const std::string& name);
 
 /// The scene with its overrides. Throws scenes::InputError.
 scenes::Scene load(const SceneOptions& options);

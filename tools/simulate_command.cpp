@@ -5,10 +5,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/diagnostics.h"
-#include "scenes/frame_steps.h"
 #include "scenes/particle_file.h"
 #include "tools/commands.h"
+#include "tools/frame_sequence.h"
 #include "tools/output_file.h"
 #include "tools/progress.h"
 #include "tools/run_report.h"
@@ -24,55 +23,48 @@ namespace fs = std::filesystem;
 struct SimulateOptions {
     RunOptions run;
     SceneOptions scene;
-    std::string folder;
+    FolderFlags folder;
     std::string frames;
     std::string format = "ply";
 };
 
-FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const fs::path& folder,
+FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const FolderOptions& options,
                            Progress& progress) {
-    FinishedRun run{engine::start(scene.setup), {}};
-    for (int frame = frames.first; frame <= frames.last; ++frame) {
-        const double time = scenes::frameTime(scene, frame);
-        try {
-            const Stopwatch watch(run.report.seconds.simulating);
-            scenes::advanceToFrame(scene, run.simulation, frame);
-        } catch (const engine::InstabilityError& error) {
-            run.report.unstable = error.what();
-            break;
-        }
-        {
-            const Stopwatch watch(run.report.seconds.encoding);
-            writeFile(folder / fmt::format("particles-{:05}.ply", frame),
-                      scenes::encodeParticles(run.simulation.particles));
-        }
-        ++run.report.frames;
-        progress.frameDone(frame, time);
+    FrameFolder folder(options, {"particles-", ".ply"}, sceneIdentity(scene));
+    FrameSequence sequence(scene, frames, &folder, options.checkpointSeconds);
+    while (const auto frame = sequence.next()) {
+        std::string ply;
+        const Stopwatch watch(sequence.report().seconds.encoding);
+        if (frame->isWanted && !frame->isKept) ply = scenes::encodeParticles(sequence.simulation().particles);
+        sequence.store(*frame, {reinterpret_cast<const std::uint8_t*>(ply.data()), ply.size()});
+        if (!frame->isWanted) continue;
+        ++sequence.report().frames;
+        progress.frameDone(frame->number, frame->time);
     }
-    run.report.stateHash = engine::stateHash(run.simulation.particles);
-    return run;
+    sequence.finish();
+    return sequence.take();
 }
 
 void simulate(const SimulateOptions& options) {
     const scenes::Scene scene = load(options.scene);
     const FrameRange frames = frameRange(options.frames, scenes::frameCount(scene));
     const std::string name = fs::path(scene.sourceName).stem().string();
-    const fs::path folder = options.folder.empty() ? fs::path("out") / name : fs::path(options.folder);
+    const FolderOptions folderOptions = folderOf(options.folder, name);
+    const fs::path folder = folderOptions.path;
     const int threads = threadCount(options.run);
 
-    createFolder(folder);
     Progress progress(name, frames.last - frames.first + 1, options.run.talk());
     FinishedRun run;
     double seconds = 0.0;
     {
         const Stopwatch watch(seconds);
-        onThreads(threads, [&] { run = simulateFrames(scene, frames, folder, progress); });
+        onThreads(threads, [&] { run = simulateFrames(scene, frames, folderOptions, progress); });
     }
     run.report.seconds.all = seconds;
     run.report.threads = threads;
     const auto json = runJson(scene, run.simulation, run.report);
     writeFile(folder / "run.json", json.dump(2) + "\n");
-    if (!run.report.unstable.empty()) throw engine::InstabilityError(run.report.unstable);
+    requireWhole(run.report, folder);
     if (options.run.json)
         fmt::print("{}\n",
                    nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
@@ -88,7 +80,7 @@ void addSimulateCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("simulate", "particle states only: one PLY file a frame, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
     addTo(*command, options->scene);
-    command->add_option("-o,--output", options->folder, "folder for the files (default: out/NAME)")->type_name("DIR");
+    addTo(*command, options->folder);
     command->add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
     command->add_option("--frames", options->frames, "write only these frames")->type_name("A-B");
     addTo(*command, options->run);

@@ -1,0 +1,174 @@
+// A run that is gone on with from a checkpoint is the run it was taken from, bit for bit; damaged bytes are refused.
+#include "engine/checkpoint.h"
+
+#include <cstring>
+#include <string>
+
+#include "engine/diagnostics.h"
+#include "engine/fnv.h"
+#include "tests/catch.h"
+#include "tests/engine/runs.h"
+
+namespace {
+
+using engine::CheckpointError;
+using engine::Setup;
+using engine::Simulation;
+using engine::StepperKind;
+using engine::Vec3;
+
+constexpr double kFrame = 1.0 / 30.0;
+
+/// A block that falls on a floor and a sphere, and a nozzle above it that needs to wait for room now and then.
+Setup busySetup(StepperKind stepper) {
+    engine::Material solid = *engine::materialPreset("solid");
+    solid.mass = 0.1;
+    Setup setup = runs::freeSetup(solid, stepper, 0.004);
+    setup.gravity = Vec3(0.0, -9.8, 0.0);
+    setup.drag = 0.1;
+    setup.scenery.colliders = {engine::Plane{Vec3(0, -0.6, 0), Vec3::UnitY()},
+                               engine::Sphere{Vec3(0.4, -0.6, 0.4), 0.3}};
+    setup.error = 0.05;
+    runs::addPacking(setup, {5, 5, 5});
+    engine::Emitter nozzle;
+    nozzle.sites = engine::discSites(Vec3(0.5, 2.5, 0.5), Vec3(0, -1, 0), 0.4, 0.31);
+    nozzle.velocity = Vec3(0, -3, 0);
+    nozzle.interval = 0.07;
+    nozzle.jitter = 0.1;
+    setup.emitters = {nozzle};
+    return setup;
+}
+
+void advanceFrames(Simulation& simulation, int from, int to) {
+    for (int frame = from + 1; frame <= to; ++frame) engine::advance(simulation, frame * kFrame);
+}
+
+/// Goes on from checkpoints at several frames and compares everything that a checkpoint holds at the end.
+void checkGoingOn(const Setup& setup, int frames) {
+    Simulation whole = engine::start(setup);
+    std::vector<std::vector<std::uint8_t>> checkpoints = {encodeCheckpoint(whole)};
+    for (int frame = 1; frame <= frames; ++frame) {
+        engine::advance(whole, frame * kFrame);
+        checkpoints.push_back(encodeCheckpoint(whole));
+    }
+    for (int frame = 0; frame <= frames; frame += 3) {
+        INFO("from frame " << frame);
+        Simulation resumed = decodeCheckpoint(setup, checkpoints[static_cast<std::size_t>(frame)]);
+        CHECK(encodeCheckpoint(resumed) == checkpoints[static_cast<std::size_t>(frame)]);
+        advanceFrames(resumed, frame, frames);
+        CHECK(engine::stateHash(resumed.particles) == engine::stateHash(whole.particles));
+        CHECK(encodeCheckpoint(resumed) == checkpoints.back());
+    }
+}
+
+std::vector<std::uint8_t> checkpointOf(const Setup& setup, int frames) {
+    Simulation simulation = engine::start(setup);
+    advanceFrames(simulation, 0, frames);
+    return encodeCheckpoint(simulation);
+}
+
+/// Puts the checksum right after the bytes were changed.
+void sign(std::vector<std::uint8_t>& bytes) {
+    const std::size_t size = bytes.size() - 8;
+    const std::uint64_t checksum = engine::fnv1a({reinterpret_cast<const char*>(bytes.data()), size});
+    std::memcpy(bytes.data() + size, &checksum, 8);
+}
+
+/// Sets the eight bytes at a place.
+void fill(std::vector<std::uint8_t>& bytes, std::size_t at) {
+    for (std::size_t byte = at; byte < at + 8; ++byte) bytes.at(byte) = 0xFF;
+}
+
+std::string complaint(const Setup& setup, const std::vector<std::uint8_t>& bytes) {
+    try {
+        engine::decodeCheckpoint(setup, bytes);
+    } catch (const CheckpointError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("A run goes on from a checkpoint with the same bits", "[checkpoint]") {
+    const StepperKind stepper =
+        GENERATE(StepperKind::symplecticEuler, StepperKind::velocityVerlet, StepperKind::implicitDamping,
+                 StepperKind::linearlyImplicit, StepperKind::automatic);
+    INFO(engine::nameOf(stepper));
+    checkGoingOn(busySetup(stepper), 12);
+}
+
+TEST_CASE("A run in single precision goes on with the same bits", "[checkpoint]") {
+    Setup setup = busySetup(StepperKind::velocityVerlet);
+    setup.precision = engine::Precision::singles;
+    checkGoingOn(setup, 12);
+}
+
+TEST_CASE("A run of two materials, with random births and friction, goes on with the same bits", "[checkpoint]") {
+    Setup setup = busySetup(StepperKind::automatic);
+    setup.materials.push_back(*engine::materialPreset("powder"));
+    setup.materials.back().friction = 0.3;
+    setup.emitters.front().material = 1;
+    setup.emitters.front().pick = engine::Pick::random;
+    setup.emitters.front().interval = 0.01;
+    checkGoingOn(setup, 12);
+}
+
+TEST_CASE("A run without particles goes on", "[checkpoint]") {
+    Setup setup = busySetup(StepperKind::automatic);
+    setup.initial = {};
+    setup.emitters.front().start = 0.1;
+    checkGoingOn(setup, 9);
+}
+
+TEST_CASE("Bytes that are not a checkpoint's are refused", "[checkpoint]") {
+    const Setup setup = busySetup(StepperKind::velocityVerlet);
+    const auto bytes = checkpointOf(setup, 3);
+    REQUIRE(complaint(setup, bytes).empty());
+    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{100}, bytes.size() - 1}) {
+        INFO("cut to " << size);
+        CHECK_FALSE(complaint(setup, {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}).empty());
+    }
+    for (std::size_t at = 0; at < bytes.size(); at += 97) {
+        auto damaged = bytes;
+        damaged[at] ^= 0x10;
+        INFO("byte " << at);
+        CHECK(complaint(setup, damaged).find("checksum") != std::string::npos);
+    }
+}
+
+TEST_CASE("A checkpoint with a right checksum and wrong contents is refused", "[checkpoint]") {
+    const Setup setup = busySetup(StepperKind::velocityVerlet);
+    const auto bytes = checkpointOf(setup, 3);
+    auto other = bytes;
+    other[0] ^= 1;  // the format
+    sign(other);
+    CHECK(complaint(setup, other).find("version") != std::string::npos);
+    auto more = bytes;
+    more.insert(more.end() - 8, 4, 0);
+    sign(more);
+    CHECK(complaint(setup, more).find("follows its end") != std::string::npos);
+    auto shorter = bytes;
+    shorter.erase(shorter.end() - 12, shorter.end() - 8);
+    sign(shorter);
+    CHECK(complaint(setup, shorter).find("cut short") != std::string::npos);
+    auto endless = bytes;
+    fill(endless, 16);  // the number of particles
+    sign(endless);
+    CHECK(complaint(setup, endless).find("cut short") != std::string::npos);
+    auto nowhere = bytes;
+    fill(nowhere, 24);  // the first coordinate: not a number
+    sign(nowhere);
+    CHECK(complaint(setup, nowhere).find("world") != std::string::npos);
+}
+
+TEST_CASE("A checkpoint of other emitters or materials is refused", "[checkpoint]") {
+    const Setup setup = busySetup(StepperKind::velocityVerlet);
+    const auto bytes = checkpointOf(setup, 3);
+    Setup other = setup;
+    other.emitters.front().sites.pop_back();
+    CHECK(complaint(other, bytes).find("another scene") != std::string::npos);
+    other = setup;
+    other.materials.push_back(other.materials.front());
+    CHECK(complaint(other, bytes).find("another scene") != std::string::npos);
+}

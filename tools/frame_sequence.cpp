@@ -1,0 +1,105 @@
+// Frames before the first wanted one are gone through one by one too, so that a signal or a kill costs little there.
+#include "tools/frame_sequence.h"
+
+#include <algorithm>
+
+#include "engine/checkpoint.h"
+#include "engine/diagnostics.h"
+#include "scenes/frame_steps.h"
+#include "tools/stopwatch.h"
+
+namespace tools {
+namespace {
+
+/// Chosen: the error of a fixed step is sampled on at most this many frames of a run, which costs three frames each.
+constexpr int kErrorSamples = 8;
+
+int sampleStride(const FrameRange& frames) {
+    return (frames.last - frames.first + kErrorSamples) / kErrorSamples;
+}
+
+}  // namespace
+
+FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, FrameFolder* folder,
+                             double checkpointSeconds)
+    : scene_(scene),
+      frames_(frames),
+      folder_(folder),
+      checkpointSeconds_(checkpointSeconds),
+      lastCheckpoint_(std::chrono::steady_clock::now()) {
+    if (folder_ != nullptr) interrupts_.emplace();
+    begin();
+}
+
+/// The newest checkpoint before the first frame that has to be made; where none has, the last frame's own.
+void FrameSequence::begin() {
+    int firstToMake = frames_.first;
+    while (folder_ != nullptr && firstToMake <= frames_.last && folder_->isKept(firstToMake)) ++firstToMake;
+    const int latest = std::min(firstToMake <= frames_.last ? firstToMake - 1 : frames_.last, frames_.last);
+    if (folder_ != nullptr) {
+        if (auto restart = folder_->restart(scene_.setup, latest)) {
+            position_ = restart->frame;
+            run_.simulation = std::move(restart->simulation);
+            run_.report.errors = decodeErrors(restart->report);
+            run_.report.resumedFrom = restart->frame;
+            next_ = std::min(frames_.first, position_ + 1);
+            return;
+        }
+    }
+    run_.simulation = engine::start(scene_.setup);
+}
+
+std::optional<SequencedFrame> FrameSequence::next() {
+    if (interrupts_) run_.report.interruptedBy = interrupts_->signal();
+    if (next_ > frames_.last || run_.report.interruptedBy != 0) return std::nullopt;
+    SequencedFrame frame;
+    frame.number = next_;
+    frame.time = scenes::frameTime(scene_, frame.number);
+    frame.isWanted = frame.number >= frames_.first;
+    frame.isKept = frame.isWanted && folder_ != nullptr && folder_->isKept(frame.number);
+    const bool isNew = frame.number > position_;
+    if (isNew && !advanceTo(frame.number)) return std::nullopt;
+    ++next_;
+    if (folder_ == nullptr) return frame;
+    if (frame.isWanted && !frame.isKept) frame.stateHash = engine::stateHash(run_.simulation.particles);
+    if (isNew && isCheckpointDue()) {
+        frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
+        frame.report = encodeErrors(run_.report.errors);
+        lastCheckpoint_ = std::chrono::steady_clock::now();
+    }
+    return frame;
+}
+
+/// False where the simulation became unstable: the frames before are still on their way to their files.
+bool FrameSequence::advanceTo(int frame) {
+    const Stopwatch watch(run_.report.seconds.simulating);
+    try {
+        scenes::advanceToFrame(scene_, run_.simulation, frame);
+    } catch (const engine::InstabilityError& error) {
+        run_.report.unstable = error.what();
+        return false;
+    }
+    position_ = frame;
+    if (frame >= frames_.first && (frame - frames_.first) % sampleStride(frames_) == 0)
+        addSample(run_.report.errors, scene_, run_.simulation);
+    return true;
+}
+
+bool FrameSequence::isCheckpointDue() const {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - lastCheckpoint_;
+    return since.count() >= checkpointSeconds_;
+}
+
+void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes) {
+    if (frame.isWanted && !frame.isKept) folder_->write(frame.number, bytes, frame.stateHash);
+    if (!frame.checkpoint.empty()) folder_->writeCheckpoint(frame.number, frame.checkpoint, frame.report);
+}
+
+void FrameSequence::finish() {
+    if (run_.report.unstable.empty() && folder_ != nullptr && position_ >= 0)
+        folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation),
+                                 encodeErrors(run_.report.errors));
+    run_.report.stateHash = engine::stateHash(run_.simulation.particles);
+}
+
+}  // namespace tools

@@ -1,0 +1,88 @@
+// The manifest as JSON.
+#include "tools/manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "engine/fnv.h"
+#include "render/system_error.h"
+
+namespace tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Changed whenever the meaning of a field is.
+constexpr int kFormat = 1;
+
+int frameNumber(const std::string& text) {
+    int number = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || number < 0)
+        throw render::SystemError(fmt::format("\"{}\" is no frame number", text));
+    return number;
+}
+
+Manifest parsed(const Json& json) {
+    if (json.at("format") != kFormat)
+        throw render::SystemError(fmt::format("its format is {}, not {}", json.at("format").dump(), kFormat));
+    Manifest manifest;
+    manifest.identity = json.at("run");
+    if (!manifest.identity.is_object()) throw render::SystemError("\"run\" is no object");
+    for (const auto& [number, frame] : json.at("frames").items())
+        manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
+                                                frame.at("state_hash").get<std::string>()};
+    for (const Json& checkpoint : json.at("checkpoints"))
+        manifest.checkpoints.push_back(
+            {checkpoint.at("frame").get<int>(), checkpoint.at("checksum").get<std::string>(), checkpoint.at("report")});
+    return manifest;
+}
+
+std::string textOf(const Json& identity, const std::string& key) {
+    return identity.contains(key) ? identity[key].dump() : "nothing";
+}
+
+}  // namespace
+
+std::string checksumOf(std::span<const std::uint8_t> bytes) {
+    return engine::hexadecimal(engine::fnv1a({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+}
+
+std::string encodeManifest(const Manifest& manifest) {
+    Json frames = Json::object();
+    for (const auto& [number, frame] : manifest.frames)
+        frames[fmt::format("{:05}", number)] = {{"checksum", frame.checksum}, {"state_hash", frame.stateHash}};
+    Json checkpoints = Json::array();
+    for (const CheckpointRecord& checkpoint : manifest.checkpoints)
+        checkpoints.push_back(
+            {{"frame", checkpoint.frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
+    const Json json = {
+        {"format", kFormat}, {"run", manifest.identity}, {"checkpoints", checkpoints}, {"frames", frames}};
+    return json.dump(1) + "\n";
+}
+
+Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name) {
+    try {
+        return parsed(Json::parse(text.begin(), text.end()));
+    } catch (const std::exception& error) {
+        throw render::SystemError(fmt::format("{} is no manifest of frames: {}", name, error.what()));
+    }
+}
+
+std::string differences(const Json& there, const Json& here) {
+    std::vector<std::string> keys;
+    for (const Json* identity : {&there, &here})
+        for (const auto& item : identity->items())
+            if (std::find(keys.begin(), keys.end(), item.key()) == keys.end()) keys.push_back(item.key());
+    std::string text;
+    for (const std::string& key : keys) {
+        if (textOf(there, key) == textOf(here, key)) continue;
+        text += fmt::format("{}{}: {} there, {} here", text.empty() ? "" : "; ", key, textOf(there, key),
+                            textOf(here, key));
+    }
+    return text;
+}
+
+}  // namespace tools

@@ -1,0 +1,44 @@
+// manifest.json: what a folder of frames holds. It says which run the frames belong to, so that those of another are
+// never mixed in, and has a checksum of every frame and checkpoint, so that a damaged one is noticed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// One frame's file.
+struct FrameRecord {
+    std::string checksum;   ///< of the file's bytes, checksumOf
+    std::string stateHash;  ///< of the particles that it shows
+};
+
+/// A state to go on from.
+struct CheckpointRecord {
+    int frame = 0;
+    std::string checksum;           ///< of the file's bytes
+    nlohmann::ordered_json report;  ///< what the run had measured by then
+};
+
+struct Manifest {
+    nlohmann::ordered_json identity;  ///< an object; what decides the bytes of the frames
+    std::map<int, FrameRecord> frames;
+    std::vector<CheckpointRecord> checkpoints;  ///< the newest last
+};
+
+/// FNV-1a of the bytes as 16 hexadecimal digits.
+std::string checksumOf(std::span<const std::uint8_t> bytes);
+
+std::string encodeManifest(const Manifest& manifest);
+
+/// Throws render::SystemError with the name for a text that is not a manifest.
+Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name);
+
+/// What of two identities differs, as in "scene_hash: 12ab there, 34cd here"; empty where nothing does.
+std::string differences(const nlohmann::ordered_json& there, const nlohmann::ordered_json& here);
+
+}  // namespace tools
