@@ -2,6 +2,7 @@
 #include "render/child_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -51,14 +53,21 @@ int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& 
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
-    const int error = ::posix_spawnp(&pid, pointers[0], &actions, nullptr, pointers.data(), environ);
+    // A group of its own: what a terminal sends to ours, such as SIGINT, is for us to act on.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    const int error = ::posix_spawnp(&pid, pointers[0], &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return error;
 }
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chrono::duration<double> patience)
+    : patience_(patience) {
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         throw SystemError(fmt::format("cannot create a socket pair for {}: {}", arguments.front(), words(errno)));
@@ -82,7 +91,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
 
 ChildProcess::~ChildProcess() {
     if (pid_ > 0) {
-        ::kill(pid_, SIGKILL);
+        ::kill(-pid_, SIGKILL);
         wait();
     }
     closeInput();
@@ -94,10 +103,22 @@ void ChildProcess::closeInput() {
     input_ = -1;
 }
 
+void ChildProcess::giveUp() {
+    gaveUp_ = true;
+    ::kill(-pid_, SIGKILL);  // its whole group
+}
+
 bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
+    const auto milliseconds =
+        static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(patience_).count());
     while (!bytes.empty()) {
-        const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) continue;
+        pollfd end = {input_, POLLOUT, 0};
+        const int ready = ::poll(&end, 1, milliseconds);
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready == 0) giveUp();
+        if (ready <= 0) return false;
+        const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (sent < 0) return false;
         bytes = bytes.subspan(static_cast<std::size_t>(sent));
     }
@@ -108,10 +129,16 @@ std::string ChildProcess::wait() {
     closeInput();
     if (pid_ <= 0) return "no such process any more";  // waitpid(-1) would take someone else's child
     int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0) {
-        if (errno != EINTR) return fmt::format("no exit status: {}", words(errno));
+    const auto start = std::chrono::steady_clock::now();
+    while (true) {
+        const pid_t ended = ::waitpid(pid_, &status, WNOHANG);
+        if (ended == pid_) break;
+        if (ended < 0 && errno != EINTR) return fmt::format("no exit status: {}", words(errno));
+        if (!gaveUp_ && std::chrono::steady_clock::now() - start > patience_) giveUp();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     pid_ = -1;
+    if (gaveUp_) return fmt::format("no sign of life for {:g} s", patience_.count());
     if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
     return WEXITSTATUS(status) == 0 ? std::string() : fmt::format("exit status {}", WEXITSTATUS(status));
 }

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,13 +11,17 @@
 
 namespace render {
 
+/// Chosen: no frame takes an encoder as long, s, nor does the end of a long film.
+inline constexpr std::chrono::duration<double> kPatience{120.0};
+
 /// A running program. Its output goes to an unnamed file, because a pipe that nobody reads fills up and stops both
 /// sides.
 class ChildProcess {
  public:
-    /// arguments[0] is the program, looked up on PATH; no shell is involved. Throws SystemError when it cannot be
-    /// started.
-    explicit ChildProcess(const std::vector<std::string>& arguments);
+    /// arguments[0] is the program, looked up on PATH; no shell is involved. A child that takes no input or does not
+    /// end for longer than `patience` is killed. Throws SystemError when it cannot be started.
+    explicit ChildProcess(const std::vector<std::string>& arguments,
+                          std::chrono::duration<double> patience = kPatience);
     /// Kills the child if it still runs.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
@@ -25,8 +30,8 @@ class ChildProcess {
     /// Writes everything to the child's input; false when the child no longer reads. Never raises SIGPIPE.
     bool write(std::span<const std::uint8_t> bytes);
 
-    /// Closes the input, waits for the end, and says how it ended: empty for exit status 0, else "exit status 1" or
-    /// "signal 9 (...)".
+    /// Closes the input, waits for the end, and says how it ended: empty for exit status 0, else "exit status 1",
+    /// "signal 9 (...)" or "no sign of life for 120 s".
     std::string wait();
 
     /// What the child wrote to its output and errors; the end of it, at most so many bytes.
@@ -34,6 +39,10 @@ class ChildProcess {
 
  private:
     void closeInput();
+    void giveUp();
+
+    std::chrono::duration<double> patience_;
+    bool gaveUp_ = false;
 
     int input_ = -1;
     int log_ = -1;

@@ -25,9 +25,9 @@ int even(int pixels) {
     return pixels + pixels % 2;
 }
 
-ChildProcess started(const std::vector<std::string>& arguments) {
+ChildProcess started(const std::vector<std::string>& arguments, const VideoOptions& options) {
     try {
-        return ChildProcess(arguments);
+        return ChildProcess(arguments, options.patience);
     } catch (const SystemError& error) {
         throw SystemError(fmt::format("{}; install ffmpeg or render frames only", error.what()));
     }
@@ -35,7 +35,8 @@ ChildProcess started(const std::vector<std::string>& arguments) {
 
 // Distributions that leave libx264 out of ffmpeg let a film fail only after the first frames.
 void requireX264(const VideoOptions& options) {
-    ChildProcess probe = started({options.ffmpeg, "-hide_banner", "-loglevel", "error", "-h", "encoder=libx264"});
+    ChildProcess probe =
+        started({options.ffmpeg, "-hide_banner", "-loglevel", "error", "-h", "encoder=libx264"}, options);
     const std::string ended = probe.wait();
     const std::string words = probe.output(100000);
     if (!ended.empty()) throw SystemError(fmt::format("{} ended with {}: {}", options.ffmpeg, ended, words));
@@ -71,7 +72,10 @@ VideoOptions checked(VideoOptions options) {
 struct VideoWriter::Parts {
     explicit Parts(VideoOptions options_) : options(checked(std::move(options_))) {
         requireX264(options);
-        process.emplace(commandLine(options));
+        // The encoder of a run that was killed may still be writing there: it keeps its file, we begin another.
+        std::error_code ignored;
+        std::filesystem::remove(partialPath(options), ignored);
+        process.emplace(commandLine(options), options.patience);
     }
 
     ~Parts() {

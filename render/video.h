@@ -2,9 +2,11 @@
 // tools/.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
+#include "render/child_process.h"
 #include "render/image.h"
 #include "render/view.h"
 
@@ -14,7 +16,8 @@ struct VideoOptions {
     std::string path;  ///< the finished film; written to path + ".partial" and renamed when whole
     PictureSize size;
     int fps = 30;
-    std::string ffmpeg = "ffmpeg";  ///< the program, looked up on PATH
+    std::string ffmpeg = "ffmpeg";                       ///< the program, looked up on PATH
+    std::chrono::duration<double> patience = kPatience;  ///< with a program that does not go on, s
 };
 
 /// Writes one film: H.264, yuv420p, BT.709. Odd sizes are padded to even by repeating the last column or row.

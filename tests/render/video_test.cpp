@@ -159,6 +159,30 @@ TEST_CASE("An ffmpeg that dies is one clear SystemError with its last words, and
     CHECK_FALSE(fs::exists(folder.file("a.mp4")));
 }
 
+TEST_CASE("An ffmpeg that hangs is given up") {
+    const Folder folder;
+    render::VideoOptions options{folder.file("a.mp4"), {640, 360}};  // more than a socket holds
+    options.patience = std::chrono::milliseconds(200);
+    options.ffmpeg = fakeFfmpeg(folder, "sleep 1000");  // takes nothing
+    CHECK_THROWS_WITH(writeFilm(options, 5), Catch::Contains("a.mp4") && Catch::Contains("no sign of life for 0.2 s"));
+    options.ffmpeg = fakeFfmpeg(folder, "cat >/dev/null; sleep 1000");  // does not end
+    CHECK_THROWS_WITH(writeFilm(options, 5), Catch::Contains("no sign of life for 0.2 s"));
+    CHECK_FALSE(fs::exists(folder.file("a.mp4")));
+}
+
+TEST_CASE("An encoder that outlived its run does not write into the next one's film") {
+    const Folder folder;
+    writeFilm({folder.file("whole.mp4"), {64, 64}, 30}, 3);
+    // What the old one goes on writing to after the new one has begun.
+    std::ofstream old(folder.file("a.mp4.partial"));
+    old << "old" << std::flush;
+    render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30});
+    for (int k = 0; k < 3; ++k) writer.add(frame({64, 64}, k));
+    old << std::string(1000, 'x') << std::flush;
+    writer.finish();
+    CHECK(bytesOf(folder.file("a.mp4")) == bytesOf(folder.file("whole.mp4")));
+}
+
 TEST_CASE("An ffmpeg that talks without end does not stop the film") {
     const Folder folder;
     render::VideoOptions options{folder.file("a.mp4"), {64, 64}};
