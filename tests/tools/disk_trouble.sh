@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Runs on a disk that is full, that becomes read-only, and whose folder is removed: one clear line with the file and the
+# reason, exit code 1, what is there is whole, and --resume completes it when the trouble is over. Needs to mount a small
+# tmpfs; where that is not allowed it says so and exits with 77.
+# Usage: disk_trouble.sh PROGRAM
+set -euo pipefail
+
+program=$1
+if [ "${2:-}" != inside ]; then
+    unshare --user --map-root-user --mount true 2>/dev/null || { echo "skipped: no mount name spaces here"; exit 77; }
+    exec unshare --user --map-root-user --mount "$0" "$program" inside
+fi
+
+work=$(mktemp -d)
+trap 'umount "$work/disk" 2>/dev/null || true; rm -rf "$work"' EXIT
+mkdir "$work/disk"
+
+fail() { echo "disk_trouble: $*" >&2; exit 1; }
+
+run() { "$program" render fountain --size 160x90 --frames 0-29 --quiet --checkpoint 0 "$@"; }
+
+run -o "$work/whole" --video "$work/whole.mp4"
+
+# What a run in trouble must have said and left.
+check_trouble() { # what happened, exit code, reason
+    [ "$2" -eq 1 ] || fail "$1: it ended with $2"
+    [ "$(wc -l <"$work/log")" -eq 1 ] || fail "$1: it said: $(cat "$work/log")"
+    grep -q "$3" "$work/log" || fail "$1: the reason is not in: $(cat "$work/log")"
+    grep -q "$work/disk" "$work/log" || fail "$1: the file is not in: $(cat "$work/log")"
+    local file
+    for file in "$work"/disk/a/*.png; do
+        [ -e "$file" ] || continue
+        cmp -s "$file" "$work/whole/${file##*/}" || fail "$1: ${file##*/} is not whole"
+    done
+}
+
+check_resume() { # what happened
+    run -o "$work/disk/a" --video "$work/disk/a.mp4" --resume 2>"$work/log" || fail "$1: it did not go on: $(cat "$work/log")"
+    local file
+    for file in "$work"/whole/*.png; do
+        cmp -s "$file" "$work/disk/a/${file##*/}" || fail "$1: ${file##*/} differs"
+    done
+    cmp -s "$work/whole.mp4" "$work/disk/a.mp4" || fail "$1: the film differs"
+}
+
+needed=$(du -sk "$work" | cut -f1)
+for percent in 10 30 60 80; do
+    size=$((needed * percent / 100))k
+    mount -t tmpfs -o "size=$size" tmpfs "$work/disk"
+    code=0
+    run -o "$work/disk/a" --video "$work/disk/a.mp4" 2>"$work/log" || code=$?
+    check_trouble "disk of $size" "$code" 'No space left on device'
+    mount -o remount,size=50m "$work/disk"
+    check_resume "disk of $size"
+    umount "$work/disk"
+done
+
+mount -t tmpfs -o size=50m tmpfs "$work/disk"
+run -o "$work/disk/a" --video "$work/disk/a.mp4" 2>"$work/log" &
+child=$!
+while [ ! -e "$work/disk/a/frame-00005.png" ]; do sleep 0.02; done
+until rm -rf "$work/disk/a" 2>/dev/null; do :; done  # it may write while we remove
+code=0
+wait "$child" || code=$?
+check_trouble 'folder removed' "$code" 'No such file or directory'
+check_resume 'folder removed'
+
+mount -o remount,ro "$work/disk"
+code=0
+run -o "$work/disk/a" --resume 2>"$work/log" || code=$?
+check_trouble 'read-only disk' "$code" 'Read-only file system'
+mount -o remount,rw "$work/disk"
+check_resume 'read-only disk'
+
+echo "six troubles: every run said what it was, kept its frames, and went on"

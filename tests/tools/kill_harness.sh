@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Kills runs of the four scenes at random moments with SIGKILL and goes on with --resume until they are done, again and
+# again. Every finished run must have the frames, the video and the state hash of one that was never disturbed, byte for
+# byte. Usage: kill_harness.sh PROGRAM [KILLS] [SEED]; prints what it did; fails if a byte differs.
+set -euo pipefail
+
+program=$1
+wanted=${2:-200}
+RANDOM=${3:-1}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Scenes with enough frames for many kills, small enough for one to take seconds.
+scenes=(fountain liquid solid powder)
+
+run() { # scene, folder, options...
+    local scene=$1 folder=$2
+    shift 2
+    exec "$program" render "$scene" --size 96x54 --frames 0-40 --quiet --checkpoint 0.2 -o "$folder" \
+        --video "$folder.mp4" "$@"
+}
+
+hash_of() { grep '"state_hash"' "$1/run.json"; }
+
+differing() { # whole, resumed: names of the files that differ
+    local file
+    for file in "$1"/*.png; do
+        cmp -s "$file" "$2/${file##*/}" || echo "${file##*/}"
+    done
+    [ "$(ls "$1"/*.png | wc -l)" = "$(ls "$2"/*.png | wc -l)" ] || echo "number of frames"
+    cmp -s "$1.mp4" "$2.mp4" || echo "${2##*/}.mp4"
+    [ "$(hash_of "$1")" = "$(hash_of "$2")" ] || echo "state hash"
+}
+
+for scene in "${scenes[@]}"; do (run "$scene" "$work/$scene"); done
+
+kills=0 runs=0 differ=0
+while [ "$kills" -lt "$wanted" ]; do
+    scene=${scenes[runs % ${#scenes[@]}]}
+    folder=$work/again-$scene
+    rm -rf "$folder" "$folder.mp4"
+    code=137
+    for _ in 1 2 3 4 5; do
+        [ "$kills" -lt "$wanted" ] || break
+        (run "$scene" "$folder" --resume) 2>"$work/log" &
+        child=$!
+        sleep "$(printf '0.%03d' $((RANDOM % 900 + 50)))"
+        # What has ended by now cannot be killed any more, and is no kill.
+        kill -KILL "$child" 2>/dev/null || true
+        code=0
+        wait "$child" 2>/dev/null || code=$?
+        [ "$code" -eq 137 ] || break
+        kills=$((kills + 1))
+    done
+    # Killed often enough: undisturbed to the end.
+    if [ "$code" -eq 137 ]; then
+        code=0
+        (run "$scene" "$folder" --resume) 2>"$work/log" || code=$?
+    fi
+    if [ "$code" -ne 0 ]; then
+        echo "$scene ended with $code:" >&2
+        tail -3 "$work/log" >&2
+        exit 1
+    fi
+    runs=$((runs + 1))
+    for file in $(differing "$work/$scene" "$folder"); do
+        echo "$scene: $file differs" >&2
+        differ=$((differ + 1))
+    done
+done
+echo "$kills kills in $runs runs: $differ files differ"
+[ "$differ" -eq 0 ]

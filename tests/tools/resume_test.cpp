@@ -1,0 +1,255 @@
+// A run that ends early, however it does, loses nothing: what is there stays valid, and --resume completes it to the
+// bytes of a run that was never disturbed.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/catch.h"
+#include "tests/tools/program.h"
+
+using program::Folder;
+using program::run;
+using program::textOf;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A small run with births, obstacles, shadows and a video; a checkpoint at every frame.
+std::string fountain(const fs::path& folder, const std::string& more = "") {
+    return "render fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " + folder.string() + " --video " +
+           folder.string() + ".mp4 " + more;
+}
+
+/// The bytes of all finished files of a run but run.json, which has times in it, and the manifest.
+std::map<std::string, std::string> filesOf(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".png" || entry.path().extension() == ".ply")
+            files[entry.path().filename().string()] = textOf(entry.path());
+    if (fs::exists(folder.string() + ".mp4")) files["video"] = textOf(folder.string() + ".mp4");
+    return files;
+}
+
+nlohmann::json runOf(const fs::path& folder) {
+    return nlohmann::json::parse(textOf(folder / "run.json"));
+}
+
+/// run.json without what a run that went on may differ in.
+nlohmann::json resultOf(const fs::path& folder) {
+    nlohmann::json json = runOf(folder);
+    for (const char* key : {"seconds", "resumed_from"}) json.erase(key);
+    return json;
+}
+
+std::vector<fs::path> checkpointsIn(const fs::path& folder) {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".state") found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+void damage(const fs::path& path) {
+    std::fstream stream(path, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(static_cast<std::streamoff>(fs::file_size(path) / 2));
+    stream.put('!').put('?');
+}
+
+/// Starts a run in the background, and sends it a signal after so many milliseconds; its exit code.
+int interrupted(const std::string& arguments, const std::string& signal, int milliseconds, const fs::path& log) {
+    const std::string command = "sh -c '" GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() +
+                                " & child=$!; sleep " + std::to_string(milliseconds / 1000.0) + "; kill -" + signal +
+                                " $child 2>/dev/null; wait $child'";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+TEST_CASE("A signal ends a run after the frame in hand, with a video that plays and a way to go on", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "whole")).code == 0);
+    const std::string arguments = "render fountain --size 96x54 --frames 0-99 --quiet --checkpoint 100 -o " +
+                                  (folder / "a").string() + " --video " + (folder / "a.mp4").string();
+    const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143});
+    CHECK(interrupted(arguments, signal, 700, folder / "log") == code);
+    CHECK(textOf(folder / "log").find("--resume") != std::string::npos);
+    CHECK(program::lineCount(textOf(folder / "log")) == 1);
+    const auto json = runOf(folder / "a");
+    CHECK(json["interrupted"] == true);
+    const int frames = json["frames"];
+    INFO("after " << frames << " frames");
+    REQUIRE(frames < 100);
+    REQUIRE(checkpointsIn(folder / "a").size() == 1);
+    // The film has the frames that are there.
+    REQUIRE(run("video " + (folder / "a").string() + " --quiet --fps 30 -o " + (folder / "again.mp4").string()).code ==
+            0);
+    CHECK(textOf(folder / "again.mp4") == textOf(folder / "a.mp4"));
+    REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
+    CHECK(runOf(folder / "a")["resumed_from"] == (frames > 20 ? nlohmann::json() : nlohmann::json(frames - 1)));
+    CHECK(textOf(folder / "a.mp4") == textOf(folder / "whole.mp4"));
+    CHECK(textOf(folder / "a/frame-00019.png") == textOf(folder / "whole/frame-00019.png"));
+}
+
+TEST_CASE("A resumed run completes a killed one to the same bytes", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "whole")).code == 0);
+    const auto whole = filesOf(folder / "whole");
+    REQUIRE(whole.size() == 21);
+    for (const int milliseconds : {150, 300, 450, 600}) {
+        fs::remove_all(folder / "a");
+        fs::remove(folder / "a.mp4");
+        interrupted(fountain(folder / "a"), "KILL", milliseconds, folder / "log");
+        INFO("killed after " << milliseconds << " ms");
+        REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
+        CHECK(filesOf(folder / "a") == whole);
+        CHECK(resultOf(folder / "a") == resultOf(folder / "whole"));
+    }
+}
+
+TEST_CASE("States are gone on with like frames", "[resume]") {
+    const Folder folder;
+    const auto states = [](const fs::path& to, const std::string& more) {
+        return "simulate powder --frames 2-30 --quiet --checkpoint 0 -o " + to.string() + " " + more;
+    };
+    REQUIRE(run(states(folder / "whole", "")).code == 0);
+    interrupted(states(folder / "a", ""), "KILL", 100, folder / "log");
+    REQUIRE(run(states(folder / "a", "--resume")).code == 0);
+    CHECK(filesOf(folder / "a") == filesOf(folder / "whole"));
+    CHECK(resultOf(folder / "a") == resultOf(folder / "whole"));
+}
+
+TEST_CASE("What is missing or damaged is said, and made again from before it", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    const auto whole = filesOf(folder / "a");
+    const auto checkpoints = checkpointsIn(folder / "a");
+    REQUIRE(checkpoints.size() == 2);  // the last two and no more
+
+    // Nothing is wrong: nothing is simulated or drawn.
+    REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
+    CHECK(runOf(folder / "a")["resumed_from"] == 19);
+    CHECK(runOf(folder / "a")["seconds"]["drawing"] == 0.0);
+
+    fs::remove(folder / "a/frame-00019.png");
+    auto outcome = run(fountain(folder / "a", "--resume"));
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("frame-00019.png is missing") != std::string::npos);
+    CHECK(runOf(folder / "a")["resumed_from"] == 18);
+    CHECK(filesOf(folder / "a") == whole);
+
+    damage(folder / "a/frame-00007.png");
+    outcome = run(fountain(folder / "a", "--resume"));
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("frame-00007.png is damaged") != std::string::npos);
+    CHECK(runOf(folder / "a")["resumed_from"].is_null());  // both checkpoints are later
+    CHECK(filesOf(folder / "a") == whole);
+
+    damage(checkpointsIn(folder / "a").back());
+    fs::remove(folder / "a/run.json");
+    outcome = run(fountain(folder / "a", "--resume"));
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find(checkpointsIn(folder / "a").back().string()) != std::string::npos);
+    CHECK(runOf(folder / "a")["resumed_from"] == 18);
+    CHECK(filesOf(folder / "a") == whole);
+
+    for (const fs::path& checkpoint : checkpointsIn(folder / "a")) fs::resize_file(checkpoint, 100);
+    fs::remove(folder / "a/frame-00019.png");
+    outcome = run(fountain(folder / "a", "--resume"));
+    CHECK(outcome.code == 0);
+    CHECK(runOf(folder / "a")["resumed_from"].is_null());
+    CHECK(filesOf(folder / "a") == whole);
+}
+
+TEST_CASE("A damaged manifest stops a run, which says so", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    fs::resize_file(folder / "a/manifest.json", 200);
+    const auto outcome = run(fountain(folder / "a", "--resume"));
+    CHECK(outcome.code == 1);
+    CHECK(program::lineCount(outcome.err) == 1);
+    CHECK(outcome.err.find("manifest.json is no manifest") != std::string::npos);
+    REQUIRE(run(fountain(folder / "a", "--overwrite")).code == 0);
+}
+
+TEST_CASE("Frames of different runs are never mixed", "[resume]") {
+    const Folder folder;
+    const std::string base = "render fountain --size 96x54 --frames 0-3 --quiet -o " + (folder / "a").string();
+    REQUIRE(run(base).code == 0);
+    const auto before = filesOf(folder / "a");
+    CHECK(run(base).code == 0);  // the same run may be repeated
+    for (const std::string other : {" --set seed=2", " --style spheres", " --quality final", " --set physics.drag=1.5"})
+        for (const std::string resume : {"", " --resume"}) {
+            const auto outcome = run(base + other + resume);
+            INFO(other << resume);
+            CHECK(outcome.code == 1);
+            CHECK(program::lineCount(outcome.err) == 1);
+            CHECK(outcome.err.find("frames of another run") != std::string::npos);
+            CHECK(outcome.err.find("--overwrite") != std::string::npos);
+            CHECK(filesOf(folder / "a") == before);
+        }
+    std::string size = base;
+    size.replace(size.find("96x54"), 5, "64x36");
+    const auto outcome = run(size);
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("size: [96,54] there, [64,36] here") != std::string::npos);
+    // What is overwritten is gone as a whole, also frames that the new run does not have.
+    REQUIRE(run("render powder --size 64x36 --frames 0-1 --quiet --overwrite -o " + (folder / "a").string()).code == 0);
+    CHECK(filesOf(folder / "a").size() == 2);
+    CHECK(run(base + " --resume --overwrite").code == 2);
+}
+
+TEST_CASE("Frames without a manifest are nobody's", "[resume]") {
+    const Folder folder;
+    fs::create_directory(folder / "a");
+    std::ofstream(folder / "a/frame-00003.png") << "a picture";
+    const auto outcome = run(fountain(folder / "a"));
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("left no manifest.json") != std::string::npos);
+    CHECK(textOf(folder / "a/frame-00003.png") == "a picture");
+}
+
+TEST_CASE("Two runs cannot write into one folder", "[resume]") {
+    const Folder folder;
+    fs::create_directory(folder / "a");
+    const int other = ::open((folder / "a").c_str(), O_RDONLY | O_DIRECTORY);
+    REQUIRE(::flock(other, LOCK_EX) == 0);
+    const auto outcome = run(fountain(folder / "a"));
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("another run is writing into") != std::string::npos);
+    ::close(other);
+    CHECK(run(fountain(folder / "a")).code == 0);
+}
+
+TEST_CASE("What a killed run was writing is cleared away", "[resume]") {
+    const Folder folder;
+    fs::create_directory(folder / "a");
+    std::ofstream(folder / "a/.frame-00003.png.partial") << "half";
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    CHECK_FALSE(fs::exists(folder / "a/.frame-00003.png.partial"));
+}
+
+TEST_CASE("An encoder that dies midway costs the film and no frame", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "whole")).code == 0);
+    fs::create_directory(folder / "bin");
+    // The program asks what it can do first; then it takes some frames.
+    std::ofstream(folder / "bin/ffmpeg")
+        << "#!/bin/sh\n[ \"$5\" = encoder=libx264 ] && { echo Encoder libx264; exit 0; }\n"
+           "head -c 100000 >/dev/null\necho 'the encoder fell over' >&2\nexit 7\n";
+    fs::permissions(folder / "bin/ffmpeg", fs::perms::owner_all);
+    const auto outcome = run(fountain(folder / "a"), "PATH=" + (folder / "bin").string() + ":$PATH");
+    CHECK(outcome.code == 1);
+    CHECK(program::lineCount(outcome.err) == 1);
+    CHECK(outcome.err.find("a.mp4") != std::string::npos);
+    CHECK(outcome.err.find("the encoder fell over") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "a.mp4"));
+    for (const auto& [name, bytes] : filesOf(folder / "a")) CHECK(bytes == textOf(folder / "whole" / name));
+    REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
+    CHECK(filesOf(folder / "a") == filesOf(folder / "whole"));
+}
