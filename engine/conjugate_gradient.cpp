@@ -18,7 +18,9 @@ double weightedDot(const PairMatrix& matrix, const std::vector<Vec3>& a, const s
 int solve(PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch) {
     const std::size_t count = matrix.count();
-    auto& [residual, direction, product] = scratch;
+    std::vector<Vec3>& residual = scratch.residual;
+    std::vector<Vec3>& direction = scratch.direction;
+    std::vector<Vec3>& product = scratch.product;
     x.assign(count, Vec3::Zero());
     residual = b;
     direction.resize(count);

@@ -17,7 +17,8 @@ void makeRoom(LaneRows& rows, const NeighbourList& list) {
         longest = std::max(longest, list.rowStart[place + 1] - list.rowStart[place]);
     }
     for (std::size_t group = 0; group < groups; ++group) rows.start[group + 1] += rows.start[group];
-    rows.places.resize(rows.start[groups] * kGroup);
+    // One more than there are: kernels step past the end of a row before they see that it is the last, or empty.
+    rows.places.resize((rows.start[groups] + 1) * kGroup);
 }
 
 void build(LaneRows& rows, const NeighbourList& list) {
@@ -28,11 +29,11 @@ void build(LaneRows& rows, const NeighbourList& list) {
     inParallel(rows.groupCount(), 16, [&](std::size_t group) {
         for (std::size_t place = group * kGroup; place < (group + 1) * kGroup; ++place) {
             const auto self = static_cast<std::int32_t>(std::min(place, count - 1));
-            std::int32_t* entry = rows.places.data() + rows.at(place, 0);
+            const std::size_t first = rows.at(place, 0);
             const std::size_t longest = rows.start[group + 1] - rows.start[group];
             const std::uint32_t* from = rows.length[place] > 0 ? &list.places[list.rowStart[place]] : nullptr;
             for (std::size_t k = 0; k < longest; ++k)
-                entry[k * kGroup] = k < rows.length[place] ? static_cast<std::int32_t>(from[k]) : self;
+                rows.places[first + k * kGroup] = k < rows.length[place] ? static_cast<std::int32_t>(from[k]) : self;
         }
     });
 }

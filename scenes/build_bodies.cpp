@@ -65,11 +65,7 @@ void checkPoints(Section& section, BuildContext& context) {
 }
 
 void checkCount(Section& section, BuildContext& context) {
-    if (const double count = countBound(section); count > kMostParticles)
-        report(section, "shape",
-               fmt::format("the body would have about {:.2g} particles, at most {:.2g} are allowed", count,
-                           kMostParticles),
-               context);
+    expect(section, "shape", countBound(section), "the body would have", context);
 }
 
 engine::Packing packingOf(const Body& body, const BuildContext& context) {

@@ -45,10 +45,10 @@ std::optional<Vec3> discDirection(Section& section, BuildContext& context) {
 /// Points of birth; empty, with the problem recorded, if there are too many.
 std::vector<Vec3> discSitesOf(Section& section, const Vec3& direction, BuildContext& context) {
     const double across = 2.0 * section.number("radius") / section.number("spacing") + 1.0;
-    if (across * across > kMostParticles) {
+    if (across * across > context.limits.particles) {
         report(section, "spacing",
-               fmt::format("the disc would have about {:.2g} points of birth, at most {:.2g} are allowed",
-                           across * across, kMostParticles),
+               fmt::format("the disc would have about {:.2g} points of birth, {}", across * across,
+                           allowedText("particles", context.limits.particles)),
                context);
         return {};
     }
@@ -78,11 +78,7 @@ void checkBirths(Section& section, BuildContext& context) {
     const double until = section.has("until") ? std::min(section.number("until"), context.duration) : context.duration;
     double births = section.number("rate") * std::max(0.0, until - section.number("start"));
     if (section.has("count")) births = std::min(births, static_cast<double>(section.integer("count")));
-    if (births > kMostParticles)
-        report(section, section.isGiven("rate") ? "rate" : "interval",
-               fmt::format("the emitter would give birth to about {:.2g} particles, at most {:.2g} are allowed", births,
-                           kMostParticles),
-               context);
+    expect(section, section.isGiven("rate") ? "rate" : "interval", births, "the emitter would give birth to", context);
 }
 
 engine::Emitter emitterFrom(const Section& section, std::vector<Vec3> sites) {

@@ -32,6 +32,22 @@ bool reportBoth(Section& section, std::string_view one, std::string_view other, 
     return true;
 }
 
+bool expect(Section& section, std::string_view name, double particles, std::string_view what, BuildContext& context) {
+    context.expected += particles;
+    const double most = context.limits.particles;
+    if (context.expected <= most) return true;
+    const std::string together =
+        context.expected > particles ? fmt::format(", {:.2g} with those before", context.expected) : "";
+    report(section, name,
+           fmt::format("{} about {:.2g} particles{}, {}", what, particles, together, allowedText("particles", most)),
+           context);
+    return false;
+}
+
+std::string allowedText(std::string_view limit, double most) {
+    return fmt::format("at most {:.2g} are allowed; --limit {}=N allows more", most, limit);
+}
+
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context) {
     if (!section.has("material")) return 0;
     const std::string& wanted = section.text("material");

@@ -8,14 +8,12 @@
 #include <vector>
 
 #include "engine/simulation.h"
+#include "scenes/limits.h"
 #include "scenes/look.h"
 #include "scenes/read_sections.h"
 #include "scenes/study.h"
 
 namespace scenes {
-
-/// Bodies and nozzles larger than this are a slip of the finger; 20 million particles take about 3 GB.
-inline constexpr double kMostParticles = 2e7;
 
 /// Materials by index, with what the engine does not need to know.
 struct Materials {
@@ -31,6 +29,8 @@ struct BuildContext {
     std::uint64_t seed = 1;
     bool damaged = false;       ///< something of the file could not be read, perhaps what is missing
     std::uint64_t contentHash;  ///< of the files that the scene names
+    Limits limits = {};
+    double expected = 0.0;  ///< particles of the bodies and births seen so far
 };
 
 Materials buildMaterials(std::vector<Section>& sections, BuildContext& context);
@@ -58,6 +58,13 @@ void reportMissing(Section& section, std::string_view name, BuildContext& contex
 
 /// Records that two keys that exclude each other were both written. True if they were.
 bool reportBoth(Section& section, std::string_view one, std::string_view other, BuildContext& context);
+
+/// Counts particles that a body or an emitter would make in `expected`, and records a problem at the key where that are
+/// too many. False then. Shape: what as in "the body would have".
+bool expect(Section& section, std::string_view name, double particles, std::string_view what, BuildContext& context);
+
+/// "at most 2e+06 are allowed; --limit particles=N allows more"
+std::string allowedText(std::string_view limit, double most);
 
 /// Index of the material that a section names, the first if it names none; nothing if there is no such material.
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context);

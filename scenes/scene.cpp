@@ -59,6 +59,26 @@ void checkPopulation(const Sections& sections, const engine::Setup& setup, Build
         context.problems.add({}, "there is nothing to simulate: the bodies have no particles");
 }
 
+/// Frames and pictures have to be possible to hold.
+void checkSize(Sections& sections, BuildContext& context) {
+    Section& top = sections.top;
+    if (top.has("duration") && top.has("fps")) {
+        const double frames = top.number("duration") * static_cast<double>(top.integer("fps"));
+        if (frames > context.limits.frames)
+            report(top, top.isGiven("duration") ? "duration" : "fps",
+                   fmt::format("the animation would have about {:.2g} frames, {}", frames,
+                               allowedText("frames", context.limits.frames)),
+                   context);
+    }
+    if (!sections.look.has("size")) return;
+    const double pixels = sections.look.numbers("size")[0] * sections.look.numbers("size")[1];
+    if (pixels > context.limits.pixels)
+        report(sections.look, "size",
+               fmt::format("a picture would have about {:.2g} pixels, {}", pixels,
+                           allowedText("pixels", context.limits.pixels)),
+               context);
+}
+
 std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
     std::vector<EffectiveValue> values;
     for (const Section* section : sections.all()) {
@@ -99,6 +119,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.camera = buildCamera(sections.camera, context);
     scene.look = buildLook(sections.look, context);
     readStill(sections, context, scene);
+    checkSize(sections, context);
     if (sections.study) scene.study = buildStudy(*sections.study, context);
     checkPopulation(sections, scene.setup, context);
     scene.setup.materials = std::move(materials.list);
@@ -121,13 +142,15 @@ double frameTime(const Scene& scene, int frame) {
     return static_cast<double>(frame) / scene.fps;
 }
 
-Scene readScene(std::string_view text, const std::string& fileName, const std::vector<std::string>& overrides) {
+Scene readScene(std::string_view text, const std::string& fileName, const std::vector<std::string>& overrides,
+                const Limits& limits) {
     ProblemList problems(fileName, overrides);
     Document document = parseDocument(text, problems);
     applyOverrides(document.root, overrides, problems);
     Sections sections = readSections(document, problems);
     BuildContext context = contextOf(sections, fileName, problems);
     context.damaged = document.damaged;
+    context.limits = limits;
     Scene scene;
     build(sections, context, scene);
     problems.throwIfAny();
@@ -143,8 +166,8 @@ Scene readScene(std::string_view text, const std::string& fileName, const std::v
     return scene;
 }
 
-Scene loadScene(const std::string& path, const std::vector<std::string>& overrides) {
-    return readScene(readFile(path, kLargestSceneFile), path, overrides);
+Scene loadScene(const std::string& path, const std::vector<std::string>& overrides, const Limits& limits) {
+    return readScene(readFile(path, kLargestSceneFile), path, overrides, limits);
 }
 
 }  // namespace scenes

@@ -72,7 +72,7 @@ std::string constantsOf(const scenes::Scene& scene, std::size_t particleCount) {
 
 FigureEntry makeFigure(int number, const FiguresOptions& options) {
     const std::string name = fmt::format("figure-{}", number);
-    const scenes::Scene scene = load({name, {}});
+    const scenes::Scene scene = load({name, {}, {}});
     const fs::path folder = options.folder;
     FigureEntry entry;
     entry.number = number;

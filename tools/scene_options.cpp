@@ -29,6 +29,25 @@ std::optional<int> wholeNumber(std::string_view text) {
     return value;
 }
 
+/// The limits of the flags: names and whole numbers, at least 1.
+scenes::Limits limitsOf(const std::vector<std::string>& flags) {
+    scenes::Limits limits;
+    for (const std::string& flag : flags) {
+        const std::size_t equals = flag.find('=');
+        const std::string name = flag.substr(0, equals);
+        double* const limit = name == "particles" ? &limits.particles
+                              : name == "frames"  ? &limits.frames
+                              : name == "pixels"  ? &limits.pixels
+                                                  : nullptr;
+        if (limit == nullptr)
+            failFlag("--limit " + flag, "must be particles=N, frames=N or pixels=N, e.g. particles=5000000");
+        const auto number = wholeNumber(std::string_view(flag).substr(std::min(equals, flag.size() - 1) + 1));
+        if (!number || *number < 1) failFlag("--limit " + flag, fmt::format("{} must be a whole number > 0", name));
+        *limit = *number;
+    }
+    return limits;
+}
+
 }  // namespace
 
 void addTo(CLI::App& command, RunOptions& options) {
@@ -43,6 +62,10 @@ void addTo(CLI::App& command, SceneOptions& options) {
         ->required();
     command.add_option("--set", options.overrides, "change a key of the scene, e.g. --set physics.step=0.005")
         ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--limit", options.limits, "allow a larger scene: particles=N, frames=N or pixels=N (of a picture)")
+        ->type_name("NAME=N")
         ->allow_extra_args(false);
 }
 
@@ -83,7 +106,8 @@ int threadCount(const RunOptions& options) {
 }
 
 scenes::Scene load(const SceneOptions& options) {
-    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), options.overrides);
+    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), options.overrides,
+                             limitsOf(options.limits));
 }
 
 std::vector<std::string> overridesOf(const DrawOptions& options) {

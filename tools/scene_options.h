@@ -27,6 +27,7 @@ struct RunOptions {
 struct SceneOptions {
     std::string scene;                   ///< path or built-in name
     std::vector<std::string> overrides;  ///< key=value
+    std::vector<std::string> limits;     ///< name=number
 };
 
 /// How frames are drawn.

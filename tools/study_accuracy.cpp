@@ -64,7 +64,7 @@ Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) 
     }
     subject.name = (scene.ends_with(".toml") ? fs::path(scene).stem().string() : scene) + suffix;
     std::replace(subject.name.begin(), subject.name.end(), '/', '-');
-    subject.scene = load({scene, options.overrides});
+    subject.scene = load({scene, options.overrides, {}});
     return subject;
 }
 

@@ -70,7 +70,7 @@ ScalingResults measure(const ScalingOptions& options) {
         std::move(rows.begin(), rows.end(), std::back_inserter(results.rows));
     };
     for (const char* name : kScenes) {
-        const scenes::Scene scene = load({name, {}});
+        const scenes::Scene scene = load({name, {}, {}});
         take(studies::measureScene(name, scene, settings, reporter(options.run.talk())));
     }
     for (const char* material : kMaterials)

@@ -1,0 +1,43 @@
+// Any bytes are a state that a simulation can go on from, or are refused. The checksum is put right first: it would
+// keep everything else from being tried.
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "engine/checkpoint.h"
+#include "engine/fnv.h"
+
+namespace {
+
+engine::Setup setup() {
+    engine::Setup setup;
+    setup.materials = {*engine::materialPreset("powder")};
+    engine::append(setup.initial, {.position = engine::Vec3(0.0, 1.0, 0.0), .mass = 0.1});
+    engine::append(setup.initial, {.position = engine::Vec3(0.2, 1.2, 0.0), .mass = 0.1});
+    engine::Emitter nozzle;
+    nozzle.sites = {engine::Vec3(1.0, 1.0, 0.0)};
+    nozzle.interval = 0.02;
+    setup.emitters = {nozzle};
+    setup.scenery.colliders = {engine::Plane{}};
+    setup.stepper = engine::StepperKind::velocityVerlet;
+    return setup;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::vector<std::uint8_t> bytes(data, data + size);
+    const std::uint64_t checksum = engine::fnv1a({reinterpret_cast<const char*>(bytes.data()), size});
+    bytes.resize(size + 8);
+    std::memcpy(bytes.data() + size, &checksum, 8);
+    try {
+        engine::Simulation simulation = engine::decodeCheckpoint(setup(), bytes);
+        // A state from the far future would take as many steps to catch up with its births.
+        if (simulation.time < 10.0) engine::advance(simulation, simulation.time + 0.01);
+    } catch (const engine::CheckpointError&) {
+    } catch (const engine::InstabilityError&) {
+    }
+    return 0;
+}

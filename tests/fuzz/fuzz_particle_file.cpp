@@ -1,0 +1,15 @@
+// Any bytes are a PLY file of particles or are refused.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "scenes/input_error.h"
+#include "scenes/particle_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        scenes::decodeParticles({reinterpret_cast<const char*>(data), size}, "fuzzed.ply");
+    } catch (const scenes::InputError&) {
+    }
+    return 0;
+}

@@ -1,0 +1,16 @@
+// Any text is a scene or a list of problems.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "scenes/scene.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        // Small limits: memory that a scene is allowed to take would be no finding.
+        scenes::readScene({reinterpret_cast<const char*>(data), size}, GLOBULAR_SOURCE "/tests/fuzz/fuzzed.toml", {},
+                          {.particles = 1000, .frames = 1000, .pixels = 1e6});
+    } catch (const scenes::InputError&) {
+    }
+    return 0;
+}
