@@ -1,24 +1,8 @@
-// [camera] and [look].
-#include <numbers>
-
+// [look].
 #include "scenes/builders.h"
 
 namespace scenes {
 namespace {
-
-using engine::Vec3;
-
-/// Squared sine of the angle below which "up" cannot be told from the direction of view.
-constexpr double kParallel = 1e-12;
-
-void checkView(Section& section, BuildContext& context) {
-    const auto forward = unitVector(section.vector("target") - section.vector("eye"));
-    const auto up = unitVector(section.vector("up"));
-    if (!forward) report(section, "target", "target is where eye is, must be another point", context);
-    if (!up) report(section, "up", "up is [0, 0, 0], must not be zero", context);
-    if (forward && up && engine::squaredLength(forward->cross(*up)) < kParallel)
-        report(section, "up", "up lies along the direction of view, must point across it", context);
-}
 
 void readColors(const Section& section, Look& look) {
     look.backgroundTop = section.vector("background_top");
@@ -45,22 +29,6 @@ void readLight(const Section& section, Look& look) {
 }
 
 }  // namespace
-
-CameraPlacement buildCamera(Section& section, BuildContext& context) {
-    CameraPlacement camera;
-    checkView(section, context);
-    if (!section.isSound()) return camera;
-    camera.eye = section.vector("eye");
-    camera.target = section.vector("target");
-    camera.up = section.vector("up");
-    if (section.text("projection") == "orthographic") {
-        camera.projection = render::Projection::orthographic;
-        camera.halfHeight = section.number("half_height");
-    } else {
-        camera.verticalFov = section.number("fov") * std::numbers::pi / 180.0;
-    }
-    return camera;
-}
 
 Look buildLook(Section& section, BuildContext& context) {
     Look look;

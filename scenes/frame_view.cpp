@@ -85,12 +85,12 @@ render::Camera cameraOf(const CameraPlacement& placement) {
 }
 
 /// The ground fades from below the point that the camera looks at.
-render::Ground groundOf(const Scene& scene) {
+render::Ground groundOf(const Look& look, const Vec3& target) {
     render::Ground ground;
-    ground.height = single(scene.look.groundHeight);
-    ground.color = single(scene.look.groundColor);
-    ground.center = single(Vec3(scene.camera.target.x(), scene.look.groundHeight, scene.camera.target.z()));
-    ground.fadeDistance = single(scene.look.groundFade);
+    ground.height = single(look.groundHeight);
+    ground.color = single(look.groundColor);
+    ground.center = single(Vec3(target.x(), look.groundHeight, target.z()));
+    ground.fadeDistance = single(look.groundFade);
     return ground;
 }
 
@@ -108,8 +108,9 @@ void addLook(const Look& look, render::View& view) {
 render::View frameView(const Scene& scene, const engine::Particles& particles, double time) {
     render::View view;
     addLook(scene.look, view);
-    view.camera = cameraOf(scene.camera);
-    if (scene.look.ground) view.ground = groundOf(scene);
+    const CameraPlacement camera = cameraAt(scene.camera, time);
+    view.camera = cameraOf(camera);
+    if (scene.look.ground) view.ground = groundOf(scene.look, camera.target);
     for (std::size_t index = 0; index < scene.setup.scenery.colliders.size(); ++index) addObstacle(scene, index, view);
     view.particles.reserve(particles.count());
     for (std::size_t index = 0; index < particles.count(); ++index)

@@ -96,7 +96,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.setup.initial = buildBodies(sections.bodies, materials, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
     Obstacles obstacles = buildObstacles(sections.obstacles, sections.look, context);
-    scene.camera = buildCamera(sections.camera, context);
+    scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, context);
     readStill(sections, context, scene);
     if (sections.study) scene.study = buildStudy(*sections.study, context);

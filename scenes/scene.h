@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/simulation.h"
+#include "scenes/camera_path.h"
 #include "scenes/input_error.h"
 #include "scenes/look.h"
 #include "scenes/section.h"
@@ -33,7 +34,7 @@ struct Scene {
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB, one for each material of the set-up
     std::vector<ObstacleLook> obstacleLooks;   ///< one for each collider of the set-up
-    CameraPlacement camera;
+    CameraPath camera;
     Look look;
     render::PictureSize size;
     double stillTime = 0.5;      ///< s

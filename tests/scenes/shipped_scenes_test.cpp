@@ -101,8 +101,9 @@ TEST_CASE("the paper's scenes have its gravity, obstacles and particles") {
 
 TEST_CASE("the floor line of figure 3 is the last but one row of its picture, as published") {
     const scenes::Scene scene = paperScene("figure-3");
+    const scenes::CameraPlacement& camera = scene.camera.keys.at(0).placement;
     // Row of y = -5 from the top: half the rows for half_height, measured down from the target.
-    const double row = 0.5 * scene.size.height * (1.0 + (scene.camera.target.y() + 5.0) / scene.camera.halfHeight);
+    const double row = 0.5 * scene.size.height * (1.0 + (camera.target.y() + 5.0) / camera.halfHeight);
     // Published: row 542 of 543; ours has one row more, half at each edge.
     CHECK(row == Approx(543.0).margin(1.0));
 }
