@@ -47,6 +47,7 @@ struct Obstacles {
 Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, BuildContext& context);
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
 Look buildLook(Section& section, BuildContext& context);
+Overlay buildOverlay(Section& section, const Section& look, const CameraPath& camera, BuildContext& context);
 Study buildStudy(Section& section, BuildContext& context);
 
 // What several builders need.

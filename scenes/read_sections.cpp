@@ -103,7 +103,7 @@ std::vector<const Section*> Sections::all() const {
     std::vector<const Section*> list = {&top, &physics};
     for (const std::vector<Section>* group : {&materials, &bodies, &emitters, &obstacles, &cameras})
         for (const Section& section : *group) list.push_back(&section);
-    for (const Section* section : {&look, &still}) list.push_back(section);
+    for (const Section* section : {&look, &overlay, &still}) list.push_back(section);
     if (study) list.push_back(&*study);
     return list;
 }
@@ -115,6 +115,7 @@ Sections readSections(const Document& document, ProblemList& problems) {
         .top = readOne(reader, *findTable(""), "", document.root),
         .physics = readSingle(reader, "physics"),
         .look = readSingle(reader, "look"),
+        .overlay = readSingle(reader, "overlay"),
         .still = readSingle(reader, "still"),
         .materials = readList(reader, "material"),
         .bodies = readList(reader, "body"),

@@ -14,6 +14,7 @@ struct Sections {
     Section top;
     Section physics;
     Section look;
+    Section overlay;
     Section still;
     std::vector<Section> materials;
     std::vector<Section> bodies;

@@ -98,6 +98,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     Obstacles obstacles = buildObstacles(sections.obstacles, sections.look, context);
     scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, context);
+    scene.overlay = buildOverlay(sections.overlay, sections.look, scene.camera, context);
     readStill(sections, context, scene);
     if (sections.study) scene.study = buildStudy(*sections.study, context);
     checkPopulation(sections, scene.setup, context);

@@ -36,6 +36,7 @@ struct Scene {
     std::vector<ObstacleLook> obstacleLooks;   ///< one for each collider of the set-up
     CameraPath camera;
     Look look;
+    Overlay overlay;
     render::PictureSize size;
     double stillTime = 0.5;      ///< s
     std::optional<Study> study;  ///< of the hard cases

@@ -43,6 +43,7 @@ const std::vector<TableInfo>& tables() {
          .article = "a camera on a path",
          .help = "from where it is seen; [[camera]] for a path, each keeping what it leaves out from the one before"},
         {.name = "look", .discriminator = "color_by", .article = "[look]", .help = "how it is drawn"},
+        {.name = "overlay", .article = "[overlay]", .help = "what is drawn over the finished picture, for figures"},
         {.name = "still", .article = "[still]", .help = "the single picture of the scene"},
         {.name = "study",
          .article = "[study]",

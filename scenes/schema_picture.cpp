@@ -1,4 +1,4 @@
-// Rows of the schema: [camera], [look] and [still]. Where a default repeats render/view.h, the two agree.
+// Rows of the schema: [camera], [look], [overlay] and [still]. Where a default repeats render/view.h, the two agree.
 #include "scenes/schema_rows.h"
 
 namespace scenes {
@@ -151,11 +151,43 @@ std::vector<Key> lightRows() {
     };
 }
 
+std::vector<Key> overlayRows() {
+    return {
+        {.path = "overlay.time",
+         .type = Type::boolean,
+         .fallback = "false",
+         .help = "the time of the moment, in the upper left corner"},
+        {.path = "overlay.scale_bar",
+         .unit = "m",
+         .fallback = "0",
+         .range = kNotNegative,
+         .help = "a bar as long as this is at the camera's target, in the lower left corner; 0 is none"},
+        {.path = "overlay.color_bar",
+         .type = Type::boolean,
+         .fallback = "false",
+         .help = "which colour is which speed or age, in the lower right corner"},
+        {.path = "overlay.color_label",
+         .type = Type::text,
+         .derived = "speed or age",
+         .help = "what the colour bar calls it; the unit follows"},
+        {.path = "overlay.ink",
+         .type = Type::color,
+         .derived = "dark or light, whichever contrasts with the background",
+         .range = kUnitInterval,
+         .help = "of text and lines"},
+        {.path = "overlay.size",
+         .fallback = "1",
+         .range = {.low = 0.5, .high = 4.0},
+         .help = "of the text; 1 is 3 % of the picture's shorter side, at least 11 pixels"},
+    };
+}
+
 }  // namespace
 
 std::vector<Key> pictureRows() {
     std::vector<Key> rows = cameraRows();
-    for (const std::vector<Key>& part : {colorRows(), lightRows()}) rows.insert(rows.end(), part.begin(), part.end());
+    for (const std::vector<Key>& part : {colorRows(), lightRows(), overlayRows()})
+        rows.insert(rows.end(), part.begin(), part.end());
     rows.push_back({.path = "still.time",
                     .unit = "s",
                     .derived = "half the duration",
