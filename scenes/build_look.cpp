@@ -1,8 +1,24 @@
 // [look].
 #include "scenes/builders.h"
+#include "scenes/color_map.h"
 
 namespace scenes {
 namespace {
+
+/// An override of the one takes the place of the other in the file.
+bool overrules(const Section& section, std::string_view one, std::string_view other) {
+    return section.isGiven(one) && section.at(one).overrideIndex >= 0 && section.at(other).overrideIndex < 0;
+}
+
+void checkRamp(Section& section, BuildContext& context) {
+    if (!overrules(section, "color_map", "colors") && !overrules(section, "colors", "color_map"))
+        reportBoth(section, "colors", "color_map", context);
+}
+
+std::vector<engine::Vec3> rampOf(const Section& section) {
+    const bool isMap = section.has("color_map") && !overrules(section, "colors", "color_map");
+    return isMap ? colorMap(section.text("color_map")) : section.vectors("colors");
+}
 
 void readColors(const Section& section, Look& look) {
     look.backgroundTop = section.vector("background_top");
@@ -10,7 +26,7 @@ void readColors(const Section& section, Look& look) {
     look.edgeColor = section.vector("edge_color");
     look.edgeWidth = section.number("edge_width");
     if (look.colorBy == ColorBy::material) return;
-    look.ramp = section.vectors("colors");
+    look.ramp = rampOf(section);
     look.rampLow = section.numbers("color_range")[0];
     look.rampHigh = section.numbers("color_range")[1];
 }
@@ -34,6 +50,7 @@ Look buildLook(Section& section, BuildContext& context) {
     Look look;
     const auto toLight = unitVector(section.vector("light_direction"));
     if (!toLight) report(section, "light_direction", "light_direction is [0, 0, 0], must not be zero", context);
+    checkRamp(section, context);
     if (!section.isSound()) return look;
     look.toLight = *toLight;
     look.style = section.text("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;

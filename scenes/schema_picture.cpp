@@ -1,4 +1,5 @@
 // Rows of the schema: [camera], [look], [overlay] and [still]. Where a default repeats render/view.h, the two agree.
+#include "scenes/color_map.h"
 #include "scenes/schema_rows.h"
 
 namespace scenes {
@@ -72,6 +73,12 @@ std::vector<Key> colorRows() {
          .range = kUnitInterval,
          .appliesTo = {"speed", "age"},
          .help = "from low to high, evenly spaced, interpolated in linear light"},
+        {.path = "look.color_map",
+         .type = Type::choice,
+         .derived = "the colors above",
+         .choices = {colorMapNames().begin(), colorMapNames().end()},
+         .appliesTo = {"speed", "age"},
+         .help = "a perceptually uniform map in place of colors"},
         {.path = "look.color_range",
          .type = Type::interval,
          .unit = "m/s or s",

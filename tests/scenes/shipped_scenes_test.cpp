@@ -52,6 +52,22 @@ TEST_CASE("every shipped scene opens with a comment") {
     }
 }
 
+TEST_CASE("no shipped camera meets its target or the ground on its way") {
+    int paths = 0;
+    for (const scenes::LibraryEntry& entry : scenes::listScenes({kScenes})) {
+        INFO(entry.name);
+        const scenes::Scene scene = scenes::loadScene(entry.path, {});
+        if (scene.camera.keys.size() == 1) continue;
+        ++paths;
+        for (int frame = 0; frame < scenes::frameCount(scene); ++frame) {
+            const scenes::CameraPlacement camera = scenes::cameraAt(scene.camera, scenes::frameTime(scene, frame));
+            CHECK((camera.eye - camera.target).norm() > 1.0);
+            if (scene.look.ground) CHECK(camera.eye.y() > scene.look.groundHeight + 0.5);
+        }
+    }
+    CHECK(paths >= 2);
+}
+
 TEST_CASE("the paper's scenes have the paper's constants and method") {
     for (const Constants& expected : kPaper) {
         INFO(expected.name);
