@@ -38,10 +38,11 @@ struct Scene {
     Look look;
     Overlay overlay;
     render::PictureSize size;
-    double stillTime = 0.5;      ///< s
-    std::optional<Study> study;  ///< of the hard cases
-    std::string sourceName;      ///< the file it was read from
-    std::string sceneHash;       ///< 16 hexadecimal digits over all effective values and the files they name
+    double stillTime = 0.5;          ///< s
+    std::vector<double> stripTimes;  ///< s, increasing
+    std::optional<Study> study;      ///< of the hard cases
+    std::string sourceName;          ///< the file it was read from
+    std::string sceneHash;           ///< 16 hexadecimal digits over all effective values and the files they name
     std::vector<EffectiveValue> values;
 };
 
@@ -53,6 +54,9 @@ double frameTime(const Scene& scene, int frame);
 
 /// The frame nearest to the scene's still, within the animation.
 int stillFrame(const Scene& scene);
+
+/// The frames nearest to the moments of the scene's strip, within the animation, each once.
+std::vector<int> stripFrames(const Scene& scene);
 
 /// The scene that a text describes. Files it names are sought in the folder of fileName, which also opens each message.
 /// Throws: InputError with all mistakes, by position, then those of the overrides ("physics.step=0.005").

@@ -107,6 +107,8 @@ std::string expectedText(const Key& key) {
     switch (key.type) {
         case Type::number:
             return "a number";
+        case Type::numberList:
+            return "a list of numbers";
         case Type::integer:
             return "a whole number";
         case Type::boolean:

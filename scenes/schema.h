@@ -12,6 +12,7 @@ namespace scenes {
 
 enum class Type {
     number,
+    numberList,
     integer,
     boolean,
     text,

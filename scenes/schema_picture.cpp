@@ -200,6 +200,12 @@ std::vector<Key> pictureRows() {
                     .derived = "half the duration",
                     .range = kNotNegative,
                     .help = "the moment that stands for the scene"});
+    rows.push_back({.path = "still.strip",
+                    .type = Type::numberList,
+                    .unit = "s",
+                    .derived = "the four quarters of the duration",
+                    .range = kNotNegative,
+                    .help = "the moments side by side in its strip"});
     return rows;
 }
 

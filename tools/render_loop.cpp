@@ -4,7 +4,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include <cstdlib>
 #include <memory>
 #include <span>
 
@@ -14,6 +13,7 @@
 #include "render/video.h"
 #include "scenes/frame_steps.h"
 #include "scenes/frame_view.h"
+#include "tools/open_context.h"
 #include "tools/output_file.h"
 #include "tools/stopwatch.h"
 #include "tools/threads.h"
@@ -44,7 +44,7 @@ class Run {
  public:
     explicit Run(const RenderJob& job)
         : job_(job),
-          context_(openContext(job)),
+          context_(openContext(job.backend, job.threads)),
           renderer_(context_, job.scene->size, job.quality),
           next_(job.frames.first),
           progress_(job.title, job.frames.last - job.frames.first + 1, job.talk) {
@@ -65,12 +65,6 @@ class Run {
     }
 
  private:
-    static render::Context openContext(const RenderJob& job) {
-        // llvmpipe reads its share of the machine from here; a user's own setting wins.
-        ::setenv("LP_NUM_THREADS", std::to_string(job.threads).c_str(), 0);
-        return render::Context(job.backend);
-    }
-
     static render::VideoOptions videoOptions(const RenderJob& job) {
         render::VideoOptions options;
         options.path = job.videoPath;
