@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "render/draw_overlay.h"
 #include "render/picture_pass.h"
 #include "render/system_error.h"
 
@@ -164,6 +165,7 @@ Image Renderer::draw(const View& view) {
     parts.times.prepare = watch.lap();
     parts.quality == Quality::final ? parts.drawFinal(view) : parts.drawDirectly(view);
     Image image = parts.readBack();
+    drawOverlay(image, view.overlay, view.camera);
     parts.times.draw = watch.lap() - parts.times.cast;
     return image;
 }

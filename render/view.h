@@ -22,6 +22,8 @@
 
 #include <glm/glm.hpp>
 
+#include "render/overlay.h"
+
 namespace render {
 
 /// A particle: a lit sphere, or one ball of the metaball field.
@@ -119,6 +121,7 @@ struct View {
     std::vector<SphereObstacle> sphereObstacles;
     std::vector<BoxObstacle> boxObstacles;
     std::vector<Edge> edges;
+    Overlay overlay;  ///< drawn last, over the finished picture
 };
 
 struct PictureSize {

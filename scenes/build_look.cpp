@@ -1,23 +1,23 @@
-// [camera] and [look].
-#include <numbers>
-
+// [look].
 #include "scenes/builders.h"
+#include "scenes/color_map.h"
 
 namespace scenes {
 namespace {
 
-using engine::Vec3;
+/// An override of the one takes the place of the other in the file.
+bool overrules(const Section& section, std::string_view one, std::string_view other) {
+    return section.isGiven(one) && section.at(one).overrideIndex >= 0 && section.at(other).overrideIndex < 0;
+}
 
-/// Squared sine of the angle below which "up" cannot be told from the direction of view.
-constexpr double kParallel = 1e-12;
+void checkRamp(Section& section, BuildContext& context) {
+    if (!overrules(section, "color_map", "colors") && !overrules(section, "colors", "color_map"))
+        reportBoth(section, "colors", "color_map", context);
+}
 
-void checkView(Section& section, BuildContext& context) {
-    const auto forward = unitVector(section.vector("target") - section.vector("eye"));
-    const auto up = unitVector(section.vector("up"));
-    if (!forward) report(section, "target", "target is where eye is, must be another point", context);
-    if (!up) report(section, "up", "up is [0, 0, 0], must not be zero", context);
-    if (forward && up && engine::squaredLength(forward->cross(*up)) < kParallel)
-        report(section, "up", "up lies along the direction of view, must point across it", context);
+std::vector<engine::Vec3> rampOf(const Section& section) {
+    const bool isMap = section.has("color_map") && !overrules(section, "colors", "color_map");
+    return isMap ? colorMap(section.text("color_map")) : section.vectors("colors");
 }
 
 void readColors(const Section& section, Look& look) {
@@ -26,7 +26,7 @@ void readColors(const Section& section, Look& look) {
     look.edgeColor = section.vector("edge_color");
     look.edgeWidth = section.number("edge_width");
     if (look.colorBy == ColorBy::material) return;
-    look.ramp = section.vectors("colors");
+    look.ramp = rampOf(section);
     look.rampLow = section.numbers("color_range")[0];
     look.rampHigh = section.numbers("color_range")[1];
 }
@@ -46,26 +46,11 @@ void readLight(const Section& section, Look& look) {
 
 }  // namespace
 
-CameraPlacement buildCamera(Section& section, BuildContext& context) {
-    CameraPlacement camera;
-    checkView(section, context);
-    if (!section.isSound()) return camera;
-    camera.eye = section.vector("eye");
-    camera.target = section.vector("target");
-    camera.up = section.vector("up");
-    if (section.text("projection") == "orthographic") {
-        camera.projection = render::Projection::orthographic;
-        camera.halfHeight = section.number("half_height");
-    } else {
-        camera.verticalFov = section.number("fov") * std::numbers::pi / 180.0;
-    }
-    return camera;
-}
-
 Look buildLook(Section& section, BuildContext& context) {
     Look look;
     const auto toLight = unitVector(section.vector("light_direction"));
     if (!toLight) report(section, "light_direction", "light_direction is [0, 0, 0], must not be zero", context);
+    checkRamp(section, context);
     if (!section.isSound()) return look;
     look.toLight = *toLight;
     look.style = section.text("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/simulation.h"
+#include "scenes/camera_path.h"
 #include "scenes/limits.h"
 #include "scenes/look.h"
 #include "scenes/read_sections.h"
@@ -44,8 +45,9 @@ struct Obstacles {
 };
 
 Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, BuildContext& context);
-CameraPlacement buildCamera(Section& section, BuildContext& context);
+CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
 Look buildLook(Section& section, BuildContext& context);
+Overlay buildOverlay(Section& section, const Section& look, const CameraPath& camera, BuildContext& context);
 Study buildStudy(Section& section, BuildContext& context);
 
 // What several builders need.

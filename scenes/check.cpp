@@ -182,6 +182,19 @@ std::optional<Typed> numberOf(const Check& check, const Value& value) {
     return typed;
 }
 
+std::optional<Typed> numberListOf(const Check& check, const Value& value) {
+    if (value.kind != Kind::array || value.items.empty()) {
+        reportType(check, value);
+        return std::nullopt;
+    }
+    const auto numbers = numbersOf(check, value, std::string(nameOf(check.key)), {value.items.size(), false});
+    if (!numbers) return std::nullopt;
+    Typed typed;
+    typed.numbers = *numbers;
+    typed.canonical = listText(*numbers);
+    return typed;
+}
+
 std::optional<Typed> choiceOf(const Check& check, const Value& value) {
     const std::vector<std::string> choices(check.key.choices.begin(), check.key.choices.end());
     if (value.kind == Kind::text && std::find(choices.begin(), choices.end(), value.text) != choices.end()) {
@@ -253,6 +266,8 @@ std::optional<Typed> checkValue(const Key& key, const Value& value, ProblemList&
         case Type::number:
         case Type::integer:
             return numberOf(check, value);
+        case Type::numberList:
+            return numberListOf(check, value);
         case Type::textList:
             return textListOf(check, value);
         case Type::boolean:

@@ -21,7 +21,7 @@ struct Typed {
     std::string text;                   ///< text, choice
     std::vector<std::string> texts;     ///< textList
     std::vector<engine::Vec3> vectors;  ///< vec3 and color: one; vec3List and colorList: all; counts: one
-    std::vector<double> numbers;        ///< interval, size: two
+    std::vector<double> numbers;        ///< numberList: all; interval, size: two
     std::string canonical;              ///< TOML text; equal for values that mean the same
 };
 

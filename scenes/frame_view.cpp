@@ -2,27 +2,17 @@
 // boxes may show their edges.
 #include "scenes/frame_view.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "scenes/color.h"
+#include "scenes/overlay_view.h"
+#include "scenes/single.h"
 
 namespace scenes {
 namespace {
 
 using engine::Vec3;
-
-/// The nearest float; numbers beyond its range, which no picture can show, take its largest.
-float single(double number) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    return static_cast<float>(std::clamp(number, -kLargest, kLargest));
-}
-
-glm::vec3 single(const Vec3& vector) {
-    return {single(vector.x()), single(vector.y()), single(vector.z())};
-}
 
 /// What the colour of a particle shows, in the unit of the look's range.
 double shownQuantity(const Look& look, const engine::Particles& particles, std::size_t index, double time) {
@@ -85,12 +75,12 @@ render::Camera cameraOf(const CameraPlacement& placement) {
 }
 
 /// The ground fades from below the point that the camera looks at.
-render::Ground groundOf(const Scene& scene) {
+render::Ground groundOf(const Look& look, const Vec3& target) {
     render::Ground ground;
-    ground.height = single(scene.look.groundHeight);
-    ground.color = single(scene.look.groundColor);
-    ground.center = single(Vec3(scene.camera.target.x(), scene.look.groundHeight, scene.camera.target.z()));
-    ground.fadeDistance = single(scene.look.groundFade);
+    ground.height = single(look.groundHeight);
+    ground.color = single(look.groundColor);
+    ground.center = single(Vec3(target.x(), look.groundHeight, target.z()));
+    ground.fadeDistance = single(look.groundFade);
     return ground;
 }
 
@@ -108,8 +98,10 @@ void addLook(const Look& look, render::View& view) {
 render::View frameView(const Scene& scene, const engine::Particles& particles, double time) {
     render::View view;
     addLook(scene.look, view);
-    view.camera = cameraOf(scene.camera);
-    if (scene.look.ground) view.ground = groundOf(scene);
+    const CameraPlacement camera = cameraAt(scene.camera, time);
+    view.camera = cameraOf(camera);
+    if (scene.look.ground) view.ground = groundOf(scene.look, camera.target);
+    view.overlay = overlayOf(scene, time);
     for (std::size_t index = 0; index < scene.setup.scenery.colliders.size(); ++index) addObstacle(scene, index, view);
     view.particles.reserve(particles.count());
     for (std::size_t index = 0; index < particles.count(); ++index)

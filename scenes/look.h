@@ -1,7 +1,8 @@
-// How a scene is seen, still in double: camera, colours, lights and what of the obstacles is drawn. frame_view.cpp
-// turns it into the renderer's input.
+// How a scene is seen, still in double: camera, colours, lights, overlay and what of the obstacles is drawn.
+// frame_view.cpp turns it into the renderer's input.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/vec3.h"
@@ -43,6 +44,16 @@ struct Look {
     engine::Vec3 groundColor = {0.6, 0.6, 0.6};
     double groundFade = 30.0;    ///< m
     double metaballReach = 2.5;  ///< particle radii
+};
+
+/// What figures carry besides the picture.
+struct Overlay {
+    bool time = false;
+    double scaleBar = 0.0;  ///< m; 0: none
+    bool colorBar = false;
+    std::string colorLabel;              ///< what the colours show, without the unit
+    engine::Vec3 ink = {1.0, 1.0, 1.0};  ///< linear RGB
+    double size = 1.0;                   ///< of text, relative to the usual
 };
 
 /// What is drawn of an obstacle.

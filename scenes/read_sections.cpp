@@ -15,8 +15,9 @@ struct Reader {
     bool doubtful = false;
 };
 
-Section readOne(const Reader& reader, const TableInfo& info, std::string prefix, const Value& value) {
-    return readTable({info, std::move(prefix), value, reader.document.damaged}, reader.problems);
+Section readOne(const Reader& reader, const TableInfo& info, std::string prefix, const Value& value,
+                const Section* before = nullptr) {
+    return readTable({info, std::move(prefix), value, reader.document.damaged, before}, reader.problems);
 }
 
 Section absent(const Reader& reader, const TableInfo& info) {
@@ -50,7 +51,8 @@ void readItems(Reader& reader, const TableInfo& info, const Value& list, std::ve
         const Value& item = list.items[index];
         std::string prefix = fmt::format("{}[{}]", info.name, index);
         if (item.kind == Kind::table) {
-            sections.push_back(readOne(reader, info, std::move(prefix), item));
+            const Section* before = info.inherits && !sections.empty() ? &sections.back() : nullptr;
+            sections.push_back(readOne(reader, info, std::move(prefix), item, before));
         } else {
             reader.doubtful = true;
             reader.problems.add(item.at, fmt::format("{} is {}, must be a table", prefix, describe(item)));
@@ -99,9 +101,9 @@ void reportUnknownTables(Reader& reader) {
 
 std::vector<const Section*> Sections::all() const {
     std::vector<const Section*> list = {&top, &physics};
-    for (const std::vector<Section>* group : {&materials, &bodies, &emitters, &obstacles})
+    for (const std::vector<Section>* group : {&materials, &bodies, &emitters, &obstacles, &cameras})
         for (const Section& section : *group) list.push_back(&section);
-    for (const Section* section : {&camera, &look, &still}) list.push_back(section);
+    for (const Section* section : {&look, &overlay, &still}) list.push_back(section);
     if (study) list.push_back(&*study);
     return list;
 }
@@ -112,17 +114,19 @@ Sections readSections(const Document& document, ProblemList& problems) {
     Sections sections{
         .top = readOne(reader, *findTable(""), "", document.root),
         .physics = readSingle(reader, "physics"),
-        .camera = readSingle(reader, "camera"),
         .look = readSingle(reader, "look"),
+        .overlay = readSingle(reader, "overlay"),
         .still = readSingle(reader, "still"),
         .materials = readList(reader, "material"),
         .bodies = readList(reader, "body"),
         .emitters = readList(reader, "emitter"),
         .obstacles = readList(reader, "obstacle"),
+        .cameras = readList(reader, "camera"),
         .study = readOptional(reader, "study"),
     };
     // Without a [material] everything is made of the first preset.
     if (sections.materials.empty()) sections.materials.push_back(absent(reader, *findTable("material")));
+    if (sections.cameras.empty()) sections.cameras.push_back(absent(reader, *findTable("camera")));
     sections.doubtful = reader.doubtful;
     return sections;
 }

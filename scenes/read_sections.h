@@ -13,13 +13,14 @@ namespace scenes {
 struct Sections {
     Section top;
     Section physics;
-    Section camera;
     Section look;
+    Section overlay;
     Section still;
     std::vector<Section> materials;
     std::vector<Section> bodies;
     std::vector<Section> emitters;
     std::vector<Section> obstacles;
+    std::vector<Section> cameras;  ///< at least one
     std::optional<Section> study;  ///< only if it was written
     bool doubtful = false;         ///< some table could not be read, so what is missing may be in it
 

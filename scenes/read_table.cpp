@@ -66,6 +66,14 @@ void reportUnknown(Reading& reading, const Entry& entry) {
     reading.section.markUnsound();
 }
 
+/// What the item before has for a key that this one leaves out. A key without a default, such as the time of a camera,
+/// is each item's own.
+const Typed* inheritedBy(const Reading& reading, const Key& key) {
+    const Section* before = reading.source.before;
+    const std::string_view name = nameOf(key);
+    return before != nullptr && !key.fallback.empty() && before->has(name) ? &before->typed(name) : nullptr;
+}
+
 bool applies(const Reading& reading, const Key& key) {
     return key.appliesTo.empty() ||
            std::find(key.appliesTo.begin(), key.appliesTo.end(), reading.kind) != key.appliesTo.end();
@@ -99,6 +107,8 @@ void findKind(Reading& reading) {
     if (const Entry* entry = findEntry(reading.source.value, name)) {
         reading.kindAt = entry->at;
         if (const auto typed = checkValue(key, entry->value, ignored)) reading.kind = typed->text;
+    } else if (const Typed* inherited = inheritedBy(reading, key)) {
+        reading.kind = inherited->text;
     } else if (const Typed* fallback = fallbackOf(key)) {
         reading.kind = fallback->text;
     }
@@ -112,7 +122,9 @@ void reportMissing(Reading& reading, const Key& key) {
 void completeKey(Reading& reading, const Key& key) {
     const std::string_view name = nameOf(key);
     if (reading.section.has(name) || !applies(reading, key)) return;
-    if (const Typed* fallback = fallbackOf(key))
+    if (const Typed* inherited = inheritedBy(reading, key))
+        reading.section.put(name, *inherited, reading.section.at(), Origin::derived);
+    else if (const Typed* fallback = fallbackOf(key))
         reading.section.put(name, *fallback, reading.section.at(), Origin::fallback);
     else if (key.required && !reading.section.isGiven(name))
         reportMissing(reading, key);

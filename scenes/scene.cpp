@@ -39,6 +39,27 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 
+/// Each after the one before, and none after the end.
+std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
+    Section& still = sections.still;
+    const double end = context.duration;
+    if (!still.has("strip")) return {0.25 * end, 0.5 * end, 0.75 * end, end};
+    const std::vector<double> times = still.numbers("strip");
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        if (k > 0 && times[k] <= times[k - 1])
+            report(still, "strip",
+                   fmt::format("strip[{}] is {}, must be after the moment before, {} (seconds)", k,
+                               numberText(times[k]), numberText(times[k - 1])),
+                   context);
+        if (times[k] > end && sections.top.has("duration"))
+            report(still, "strip",
+                   fmt::format("strip[{}] is {}, must be at most the duration, {} (seconds)", k, numberText(times[k]),
+                               sections.top.canonical("duration")),
+                   context);
+    }
+    return times;
+}
+
 void readStill(Sections& sections, BuildContext& context, Scene& scene) {
     Section& still = sections.still;
     still.deriveNumber("time", 0.5 * context.duration);
@@ -48,6 +69,7 @@ void readStill(Sections& sections, BuildContext& context, Scene& scene) {
                            sections.top.canonical("duration")),
                context);
     if (still.has("time")) scene.stillTime = still.number("time");
+    scene.stripTimes = stripTimes(sections, context);
 }
 
 /// Something has to move.
@@ -116,8 +138,9 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.setup.initial = buildBodies(sections.bodies, materials, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
     Obstacles obstacles = buildObstacles(sections.obstacles, sections.look, context);
-    scene.camera = buildCamera(sections.camera, context);
+    scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, context);
+    scene.overlay = buildOverlay(sections.overlay, sections.look, scene.camera, context);
     readStill(sections, context, scene);
     checkSize(sections, context);
     if (sections.study) scene.study = buildStudy(*sections.study, context);
@@ -128,6 +151,11 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.obstacleLooks = std::move(obstacles.looks);
 }
 
+/// The frame of the animation that is nearest to a time.
+int frameNear(const Scene& scene, double time) {
+    return std::clamp(static_cast<int>(std::lround(time * scene.fps)), 0, frameCount(scene) - 1);
+}
+
 }  // namespace
 
 int frameCount(const Scene& scene) {
@@ -135,7 +163,16 @@ int frameCount(const Scene& scene) {
 }
 
 int stillFrame(const Scene& scene) {
-    return std::clamp(static_cast<int>(std::lround(scene.stillTime * scene.fps)), 0, frameCount(scene) - 1);
+    return frameNear(scene, scene.stillTime);
+}
+
+std::vector<int> stripFrames(const Scene& scene) {
+    std::vector<int> frames;
+    for (const double time : scene.stripTimes) {
+        const int frame = frameNear(scene, time);
+        if (frames.empty() || frames.back() < frame) frames.push_back(frame);
+    }
+    return frames;
 }
 
 double frameTime(const Scene& scene, int frame) {

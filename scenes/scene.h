@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/simulation.h"
+#include "scenes/camera_path.h"
 #include "scenes/input_error.h"
 #include "scenes/limits.h"
 #include "scenes/look.h"
@@ -34,13 +35,15 @@ struct Scene {
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB, one for each material of the set-up
     std::vector<ObstacleLook> obstacleLooks;   ///< one for each collider of the set-up
-    CameraPlacement camera;
+    CameraPath camera;
     Look look;
+    Overlay overlay;
     render::PictureSize size;
-    double stillTime = 0.5;      ///< s
-    std::optional<Study> study;  ///< of the hard cases
-    std::string sourceName;      ///< the file it was read from
-    std::string sceneHash;       ///< 16 hexadecimal digits over all effective values and the files they name
+    double stillTime = 0.5;          ///< s
+    std::vector<double> stripTimes;  ///< s, increasing
+    std::optional<Study> study;      ///< of the hard cases
+    std::string sourceName;          ///< the file it was read from
+    std::string sceneHash;           ///< 16 hexadecimal digits over all effective values and the files they name
     std::vector<EffectiveValue> values;
 };
 
@@ -52,6 +55,9 @@ double frameTime(const Scene& scene, int frame);
 
 /// The frame nearest to the scene's still, within the animation.
 int stillFrame(const Scene& scene);
+
+/// The frames nearest to the moments of the scene's strip, within the animation, each once.
+std::vector<int> stripFrames(const Scene& scene);
 
 /// The scene that a text describes. Files it names are sought in the folder of fileName, which also opens each message.
 /// Throws: InputError with all mistakes, by position, then those of the overrides ("physics.step=0.005").

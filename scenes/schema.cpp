@@ -36,8 +36,14 @@ const std::vector<TableInfo>& tables() {
          .discriminator = "shape",
          .article = "an obstacle",
          .help = "what particles bounce off"},
-        {.name = "camera", .discriminator = "projection", .article = "[camera]", .help = "from where it is seen"},
+        {.name = "camera",
+         .list = true,
+         .inherits = true,
+         .discriminator = "projection",
+         .article = "a camera on a path",
+         .help = "from where it is seen; [[camera]] for a path, each keeping what it leaves out from the one before"},
         {.name = "look", .discriminator = "color_by", .article = "[look]", .help = "how it is drawn"},
+        {.name = "overlay", .article = "[overlay]", .help = "what is drawn over the finished picture, for figures"},
         {.name = "still", .article = "[still]", .help = "the single picture of the scene"},
         {.name = "study",
          .article = "[study]",
@@ -101,6 +107,8 @@ std::string expectedText(const Key& key) {
     switch (key.type) {
         case Type::number:
             return "a number";
+        case Type::numberList:
+            return "a list of numbers";
         case Type::integer:
             return "a whole number";
         case Type::boolean:

@@ -12,6 +12,7 @@ namespace scenes {
 
 enum class Type {
     number,
+    numberList,
     integer,
     boolean,
     text,
@@ -53,6 +54,7 @@ struct TableInfo {
     std::string_view name{};
     bool single = true;                ///< may be written [name]
     bool list = false;                 ///< may be written [[name]]
+    bool inherits = false;             ///< an item takes what it leaves out from the one before, not from the defaults
     std::string_view discriminator{};  ///< the key that decides which others apply
     std::string_view article{};        ///< "a body", for messages
     std::string_view help{};

@@ -1,4 +1,5 @@
-// Rows of the schema: [camera], [look] and [still]. Where a default repeats render/view.h, the two agree.
+// Rows of the schema: [camera], [look], [overlay] and [still]. Where a default repeats render/view.h, the two agree.
+#include "scenes/color_map.h"
 #include "scenes/schema_rows.h"
 
 namespace scenes {
@@ -9,32 +10,37 @@ constexpr Range kLight{.low = 0.0, .high = 100.0};
 
 std::vector<Key> cameraRows() {
     return {
-        {.path = "camera.projection",
+        {.path = "camera[].time",
+         .unit = "s",
+         .derived = "needed in a list",
+         .range = kNotNegative,
+         .help = "when it is seen from here; in between the camera glides"},
+        {.path = "camera[].projection",
          .type = Type::choice,
          .fallback = "\"perspective\"",
          .choices = {"perspective", "orthographic"},
          .help = "how depth is drawn"},
-        {.path = "camera.eye",
+        {.path = "camera[].eye",
          .type = Type::vec3,
          .unit = "m",
          .fallback = "[0, 2, 10]",
          .help = "where the camera is"},
-        {.path = "camera.target",
+        {.path = "camera[].target",
          .type = Type::vec3,
          .unit = "m",
          .fallback = "[0, 0, 0]",
          .help = "what is in the middle of the picture"},
-        {.path = "camera.up",
+        {.path = "camera[].up",
          .type = Type::vec3,
          .fallback = "[0, 1, 0]",
          .help = "upwards in the picture; any length"},
-        {.path = "camera.fov",
+        {.path = "camera[].fov",
          .unit = "degrees",
          .fallback = "40",
          .range = {.low = 1.0, .high = 170.0},
          .appliesTo = {"perspective"},
          .help = "full vertical angle of view"},
-        {.path = "camera.half_height",
+        {.path = "camera[].half_height",
          .unit = "m",
          .fallback = "5",
          .range = kPositive,
@@ -67,6 +73,12 @@ std::vector<Key> colorRows() {
          .range = kUnitInterval,
          .appliesTo = {"speed", "age"},
          .help = "from low to high, evenly spaced, interpolated in linear light"},
+        {.path = "look.color_map",
+         .type = Type::choice,
+         .derived = "the colors above",
+         .choices = {colorMapNames().begin(), colorMapNames().end()},
+         .appliesTo = {"speed", "age"},
+         .help = "a perceptually uniform map in place of colors"},
         {.path = "look.color_range",
          .type = Type::interval,
          .unit = "m/s or s",
@@ -146,16 +158,54 @@ std::vector<Key> lightRows() {
     };
 }
 
+std::vector<Key> overlayRows() {
+    return {
+        {.path = "overlay.time",
+         .type = Type::boolean,
+         .fallback = "false",
+         .help = "the time of the moment, in the upper left corner"},
+        {.path = "overlay.scale_bar",
+         .unit = "m",
+         .fallback = "0",
+         .range = kNotNegative,
+         .help = "a bar as long as this is at the camera's target, in the lower left corner; 0 is none"},
+        {.path = "overlay.color_bar",
+         .type = Type::boolean,
+         .fallback = "false",
+         .help = "which colour is which speed or age, in the lower right corner"},
+        {.path = "overlay.color_label",
+         .type = Type::text,
+         .derived = "speed or age",
+         .help = "what the colour bar calls it; the unit follows"},
+        {.path = "overlay.ink",
+         .type = Type::color,
+         .derived = "dark or light, whichever contrasts with the background",
+         .range = kUnitInterval,
+         .help = "of text and lines"},
+        {.path = "overlay.size",
+         .fallback = "1",
+         .range = {.low = 0.5, .high = 4.0},
+         .help = "of the text; 1 is 3 % of the picture's shorter side, at least 11 pixels"},
+    };
+}
+
 }  // namespace
 
 std::vector<Key> pictureRows() {
     std::vector<Key> rows = cameraRows();
-    for (const std::vector<Key>& part : {colorRows(), lightRows()}) rows.insert(rows.end(), part.begin(), part.end());
+    for (const std::vector<Key>& part : {colorRows(), lightRows(), overlayRows()})
+        rows.insert(rows.end(), part.begin(), part.end());
     rows.push_back({.path = "still.time",
                     .unit = "s",
                     .derived = "half the duration",
                     .range = kNotNegative,
                     .help = "the moment that stands for the scene"});
+    rows.push_back({.path = "still.strip",
+                    .type = Type::numberList,
+                    .unit = "s",
+                    .derived = "the four quarters of the duration",
+                    .range = kNotNegative,
+                    .help = "the moments side by side in its strip"});
     return rows;
 }
 

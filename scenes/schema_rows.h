@@ -16,7 +16,7 @@ std::vector<Key> worldRows();
 /// Bodies, emitters and obstacles.
 std::vector<Key> contentRows();
 
-/// Camera, look and still.
+/// Camera, look, overlay and still.
 std::vector<Key> pictureRows();
 
 /// The hard cases' own table.

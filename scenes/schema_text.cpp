@@ -12,6 +12,8 @@ std::string typeText(Type type) {
     switch (type) {
         case Type::number:
             return "number";
+        case Type::numberList:
+            return "list of numbers";
         case Type::integer:
             return "integer";
         case Type::boolean:

@@ -48,6 +48,7 @@ class Section {
     const engine::Vec3& vector(std::string_view name) const { return slot(name).value.vectors.at(0); }
     const std::vector<engine::Vec3>& vectors(std::string_view name) const { return slot(name).value.vectors; }
     const std::vector<double>& numbers(std::string_view name) const { return slot(name).value.numbers; }
+    const Typed& typed(std::string_view name) const { return slot(name).value; }
     const std::string& canonical(std::string_view name) const { return slot(name).value.canonical; }
 
     void put(std::string_view name, Typed value, Position at, Origin origin);

@@ -7,6 +7,7 @@
 namespace tools {
 
 void addRenderCommand(CLI::App& program);
+void addStripCommand(CLI::App& program);
 void addSimulateCommand(CLI::App& program);
 void addFiguresCommand(CLI::App& program);
 void addVideoCommand(CLI::App& program);

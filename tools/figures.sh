@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds the program, and renders the paper's figures and the four scenes to pictures and videos. Takes the
-# folder to write to, by default out/.
+# Sets the machine up, builds the program, and renders the paper's figures, the four scenes and the README's strip to pictures
+# and videos. Takes the folder to write to, by default out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,4 +14,5 @@ globular=build/release/tools/globular
 for scene in fountain liquid solid powder; do
     "$globular" render "$scene" -o "$out/$scene" --video "$out/$scene.mp4"
 done
+"$globular" strip splash --size 400x225 -o "$out/strip.png"
 echo "done: $out/figures/index.html and $out/{fountain,liquid,solid,powder}.mp4"

@@ -1,4 +1,4 @@
-// globular figures: the paper's figures as stills, videos and one page that shows them.
+// globular figures: the paper's figures as stills, strips, videos and one page that shows them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/steppers.h"
+#include "render/png.h"
 #include "tools/commands.h"
 #include "tools/figures_page.h"
+#include "tools/moments.h"
 #include "tools/output_file.h"
 #include "tools/render_loop.h"
 
@@ -19,46 +21,36 @@ namespace fs = std::filesystem;
 
 struct FiguresOptions {
     RunOptions run;
-    std::string backend = "osmesa";
+    DrawOptions draw;  ///< of which the backend is the user's
     std::string folder = "out/figures";
     std::vector<int> numbers;
 };
 
-RenderJob jobFor(const scenes::Scene& scene, const FiguresOptions& options) {
-    RenderJob job;
-    job.scene = &scene;
-    DrawOptions draw;
-    draw.backend = options.backend;
-    job.backend = backendOf(draw);
-    job.threads = threadCount(options.run);
-    job.talk = options.run.talk();
-    return job;
-}
-
-FinishedRun renderWhole(const RenderJob& job) {
-    FinishedRun result = renderFrames(job);
-    if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
-    return result;
-}
-
-/// The still alone, in the best quality; the frames before it are simulated but not drawn.
-void renderStill(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
-    RenderJob job = jobFor(scene, options);
-    const int frame = scenes::stillFrame(scene);
-    job.frames = {frame, frame};
-    job.quality = render::Quality::final;
-    job.title = fmt::format("figure {} still", entry.number);
-    job.pngPath = [&](int) { return entry.stillPath; };
-    renderWhole(job);
+/// The still and the strip, in the best quality; the frames between their moments are simulated but not drawn.
+void drawPictures(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
+    const MomentsJob job{.scene = &scene,
+                         .backend = backendOf(options.draw),
+                         .threads = threadCount(options.run),
+                         .talk = options.run.talk(),
+                         .title = fmt::format("figure {} pictures", entry.number)};
+    const MomentPictures pictures = drawMoments(job, {scenes::stillFrame(scene), scenes::stripFrames(scene)});
+    writeFile(entry.stillPath, render::encodePng(pictures.still));
+    writeFile(entry.stripPath, render::encodePng(pictures.strip));
 }
 
 FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
-    RenderJob job = jobFor(scene, options);
+    RenderJob job;
+    job.scene = &scene;
     job.frames = {0, scenes::frameCount(scene) - 1};
-    job.videoPath = entry.videoPath;
-    job.title = fmt::format("figure {}", entry.number);
     job.pngPath = [](int) { return std::nullopt; };
-    return renderWhole(job);
+    job.videoPath = entry.videoPath;
+    job.backend = backendOf(options.draw);
+    job.threads = threadCount(options.run);
+    job.talk = options.run.talk();
+    job.title = fmt::format("figure {}", entry.number);
+    FinishedRun result = renderFrames(job);
+    if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
+    return result;
 }
 
 /// The columns of Table 1 and what else decides the motion.
@@ -80,6 +72,8 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
     entry.description = scene.description;
     entry.stillPath = (folder / (name + ".png")).string();
     entry.videoPath = (folder / (name + ".mp4")).string();
+    entry.stripPath = (folder / fmt::format("strip-{}.png", number)).string();
+    for (const int frame : scenes::stripFrames(scene)) entry.stripTimes.push_back(scenes::frameTime(scene, frame));
     entry.stillTime = scenes::frameTime(scene, scenes::stillFrame(scene));
     for (const scenes::EffectiveValue& value : scene.values) {
         if (value.origin == scenes::Origin::fallback) continue;
@@ -87,7 +81,7 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
     }
     entry.command = fmt::format("globular render {} -o out/{} --video out/{}.mp4", name, name, name);
 
-    renderStill(scene, options, entry);
+    drawPictures(scene, options, entry);
     FinishedRun result = renderVideo(scene, options, entry);
     entry.stateHash = result.report.stateHash;
     entry.constants = constantsOf(scene, result.simulation.particles.count());
@@ -105,11 +99,12 @@ void makeFigures(const FiguresOptions& options) {
             fmt::print("{}\n", nlohmann::ordered_json{{"event", "figure"},
                                                       {"figure", number},
                                                       {"still", entry.stillPath},
+                                                      {"strip", entry.stripPath},
                                                       {"video", entry.videoPath},
                                                       {"state_hash", entry.stateHash}}
                                    .dump());
         else if (!options.run.quiet)
-            fmt::print("figure {}: {}, {}\n", number, entry.stillPath, entry.videoPath);
+            fmt::print("figure {}: {}, {}, {}\n", number, entry.stillPath, entry.stripPath, entry.videoPath);
     }
     const fs::path page = fs::path(options.folder) / "index.html";
     writeFile(page, figuresPage(entries));
@@ -120,11 +115,12 @@ void makeFigures(const FiguresOptions& options) {
 
 void addFiguresCommand(CLI::App& program) {
     CLI::App* command =
-        program.add_subcommand("figures", "the paper's figures: stills, videos, and a page that shows them");
+        program.add_subcommand("figures", "the paper's figures: stills, strips, videos, and a page that shows them");
     const auto options = std::make_shared<FiguresOptions>();
     command->add_option("FIGURE", options->numbers, "which figures (default: all four)")->check(CLI::Range(1, 4));
     command->add_option("-o,--output", options->folder, "folder to write to (default: out/figures)")->type_name("DIR");
-    command->add_option("--gl", options->backend, "OpenGL backend: osmesa or egl (default: osmesa)")->type_name("NAME");
+    command->add_option("--gl", options->draw.backend, "OpenGL backend: osmesa or egl (default: osmesa)")
+        ->type_name("NAME");
     addTo(*command, options->run);
     command->footer("Example: globular figures 1 3 -o out/figures");
     command->callback([options] {

@@ -18,6 +18,7 @@ section { background: #fff; border: 1px solid #ddd; border-radius: 6px; margin: 
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start; }
 figure { margin: 0; flex: 1 1 22rem; }
 img, video { width: 100%; background: #000; display: block; }
+.strip { margin-top: 1rem; }
 figcaption { color: #666; font-size: 0.85rem; margin-top: 0.3rem; }
 table { border-collapse: collapse; font-size: 0.85rem; }
 td { border-top: 1px solid #eee; padding: 0.1rem 1rem 0.1rem 0; vertical-align: top; }
@@ -43,11 +44,14 @@ std::string section(const FigureEntry& figure) {
         "<section><h2>{}</h2>\n<p>{}</p>\n<p><code>{}</code></p>\n<div class=\"pictures\">\n"
         "<figure><img alt=\"Figure {}\" src=\"{}\"><figcaption>Still at {} s</figcaption></figure>\n"
         "<figure><video controls loop muted src=\"{}\"></video><figcaption>The whole animation</figcaption></figure>\n"
-        "</div>\n<p>Again: <code>{}</code>; state of the last frame <code>{}</code></p>\n"
+        "</div>\n<figure class=\"strip\"><img alt=\"Figure {} at several times\" src=\"{}\">"
+        "<figcaption>At {} s</figcaption></figure>\n<p>Again: <code>{}</code>; state of the last frame "
+        "<code>{}</code></p>\n"
         "<details><summary>All parameters</summary>\n{}</details></section>\n",
         escaped(figure.title), escaped(figure.description), escaped(figure.constants), figure.number,
-        dataUri("image/png", figure.stillPath), figure.stillTime, dataUri("video/mp4", figure.videoPath),
-        escaped(figure.command), figure.stateHash, parameterTable(figure));
+        dataUri("image/png", figure.stillPath), figure.stillTime, dataUri("video/mp4", figure.videoPath), figure.number,
+        dataUri("image/png", figure.stripPath), fmt::join(figure.stripTimes, ", "), escaped(figure.command),
+        figure.stateHash, parameterTable(figure));
 }
 
 }  // namespace

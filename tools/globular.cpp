@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     program.require_subcommand(0, 1);
     program.footer("Example: globular render liquid -o out/liquid --video out/liquid.mp4");
     tools::addRenderCommand(program);
+    tools::addStripCommand(program);
     tools::addSimulateCommand(program);
     tools::addFiguresCommand(program);
     tools::addVideoCommand(program);

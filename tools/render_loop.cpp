@@ -5,7 +5,6 @@
 #include <tbb/task_arena.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "render/video.h"
 #include "scenes/frame_view.h"
 #include "tools/frame_sequence.h"
+#include "tools/open_context.h"
 #include "tools/output_file.h"
 #include "tools/stopwatch.h"
 #include "tools/threads.h"
@@ -52,7 +52,7 @@ class Run {
  public:
     explicit Run(const RenderJob& job)
         : job_(job),
-          context_(openContext(job)),
+          context_(openContext(job.backend, job.threads)),
           folder_(openFolder(job, context_.rendererName())),
           renderer_(context_, job.scene->size, job.quality),
           frames_(*job.scene, job.frames, folder_.get(), job.folder ? job.folder->checkpointSeconds : 0.0),
@@ -73,12 +73,6 @@ class Run {
     }
 
  private:
-    static render::Context openContext(const RenderJob& job) {
-        // llvmpipe reads its share of the machine from here; a user's own setting wins.
-        ::setenv("LP_NUM_THREADS", std::to_string(job.threads).c_str(), 0);
-        return render::Context(job.backend);
-    }
-
     static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
         if (!job.folder) return nullptr;
         return std::make_unique<FrameFolder>(*job.folder, FrameNames{"frame-", ".png"}, identityOf(job, glRenderer));

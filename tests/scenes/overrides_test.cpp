@@ -68,7 +68,8 @@ TEST_CASE("overrides that name nothing are refused") {
 TEST_CASE("an override of the shape makes the keys of the former shape moot") {
     const std::string text = kBall + "[camera]\nprojection = \"orthographic\"\nhalf_height = 3\n";
     CHECK(problemsOf(text, {"camera.projection=perspective"}) == Lines{});
-    CHECK(sceneOf(text, {"camera.projection=perspective"}).camera.projection == render::Projection::perspective);
+    CHECK(sceneOf(text, {"camera.projection=perspective"}).camera.keys.at(0).placement.projection ==
+          render::Projection::perspective);
     CHECK(problemsOf(text, {"camera.projection=perspective", "camera.half_height=2"}) ==
           Lines{"--set camera.half_height=2: half_height does not apply to projection \"perspective\", only to "
                 "orthographic"});

@@ -7,6 +7,8 @@
 
 using engine::Vec3;
 using scenes_test::kBall;
+using scenes_test::Lines;
+using scenes_test::problemsOf;
 using scenes_test::sceneOf;
 using scenes_test::ScratchFolder;
 
@@ -129,4 +131,24 @@ TEST_CASE("scenes are read from files, and a file that cannot be read is an inpu
     const std::string missing = (folder.path / "none.toml").string();
     CHECK(messageOf(missing) == missing + ": cannot be read: No such file or directory");
     CHECK(messageOf(folder.path.string()) == folder.path.string() + ": cannot be read: it is a folder");
+}
+
+TEST_CASE("the strip of a scene is its four quarters, or the moments it names") {
+    CHECK(scenes::stripFrames(sceneOf(kBall)) == std::vector<int>{15, 30, 45, 59});  // 2 s at 30 a second
+    CHECK(scenes::stripFrames(sceneOf(kBall + "[still]\nstrip = [0.1, 1, 1.9]\n")) == std::vector<int>{3, 30, 57});
+    // Two moments that are nearest to one frame are one panel.
+    CHECK(scenes::stripFrames(sceneOf(kBall, {"still.strip=[0.5,0.501,2]"})) == std::vector<int>{15, 59});
+}
+
+TEST_CASE("the moments of a strip are numbers that increase, within the duration") {
+    const std::string still = kBall + "[still]\n";
+    CHECK(problemsOf(still + "strip = 1\n") == Lines{"pile.toml:7:9: strip is 1, must be a list of numbers (seconds)"});
+    CHECK(problemsOf(still + "strip = []\n") ==
+          Lines{"pile.toml:7:9: strip is a list of 0, must be a list of numbers (seconds)"});
+    CHECK(problemsOf(still + "strip = [0, \"a\", -1]\n") ==
+          Lines{"pile.toml:7:13: strip[1] is \"a\" (a string), must be a number (seconds)",
+                "pile.toml:7:18: strip[2] is -1, must be >= 0 (seconds)"});
+    CHECK(problemsOf(still + "strip = [1, 1, 3]\n") ==
+          Lines{"pile.toml:7:9: strip[1] is 1, must be after the moment before, 1 (seconds)",
+                "pile.toml:7:9: strip[2] is 3, must be at most the duration, 2 (seconds)"});
 }

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "render/png.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
+#include "tools/output_file.h"
 
 using program::run;
 using program::textOf;
@@ -116,6 +118,74 @@ TEST_CASE("globular simulate writes states that a scene can start from", "[tools
     CHECK(nlohmann::json::parse(check.out)["particles_at_start"] == written["particles"]);
 }
 
+TEST_CASE("globular strip puts the frames of its moments side by side", "[tools]") {
+    const program::Folder folder;
+    const std::string scene = "figure-2 --size 120x80 --quiet ";
+    REQUIRE(run("strip " + scene + "--times 0.2,0.4,0.81 -o " + (folder / "strip.png").string()).code == 0);
+    REQUIRE(run("render " + scene + "--frames 5-20 -o " + (folder / "frames").string()).code == 0);
+    const auto imageOf = [](const fs::path& path) { return render::decodePng(tools::readFile(path), path.string()); };
+    const render::Image strip = imageOf(folder / "strip.png");
+    const int gap = (strip.width - 3 * 120) / 2;
+    int panel = 0;
+    // At 25 frames a second: 0.2 s is frame 5, 0.4 s frame 10, and 0.81 s nearest to frame 20.
+    for (const char* name : {"frames/frame-00005.png", "frames/frame-00010.png", "frames/frame-00020.png"}) {
+        const render::Image frame = imageOf(folder / name);
+        const int left = panel++ * (120 + gap);
+        for (int y = 0; y < 80; ++y) {
+            const auto from = strip.rgb.begin() + 3 * (y * strip.width + left);
+            CHECK(std::equal(from, from + 360, frame.rgb.begin() + 360 * y));
+        }
+    }
+}
+
+TEST_CASE("The moments of a strip are checked like the scene's own", "[tools]") {
+    const program::Folder folder;
+    const std::string strip = "strip figure-2 --size 64x48 -o " + (folder / "strip.png").string();
+    const auto late = run(strip + " --times 0.2,99");
+    CHECK(late.code == 2);
+    CHECK(late.err.find("strip[1] is 99, must be at most the duration, 16 (seconds)") != std::string::npos);
+    CHECK(run(strip + " --times 1,0.5").code == 2);
+    CHECK(run(strip + " --times soon").code == 2);
+    CHECK(!fs::exists(folder / "strip.png"));
+    const std::string lines = run(strip + " --times 0.08,0.2 --json").out;
+    REQUIRE(program::lineCount(lines) == 3);  // one a panel, and the result
+    const auto last = nlohmann::json::parse(lines.substr(lines.rfind('\n', lines.size() - 2) + 1));
+    CHECK(last["times"] == nlohmann::json::array({0.08, 0.2}));
+}
+
+TEST_CASE("Panels carry their scales once and no time stamp of their own", "[tools]") {
+    const program::Folder folder;
+    // Nothing moves and nothing is lit: panels differ by their overlays alone.
+    std::ofstream(folder / "still.toml")
+        << "title = \"still\"\nduration = 1\n[physics]\ngravity = [0, 0, 0]\n[[body]]\nshape = \"points\"\n"
+           "positions = [[0, 50, 0]]\n[look]\nsize = [320, 240]\ncolor_by = \"speed\"\n"
+           "[overlay]\ntime = true\nscale_bar = 1\ncolor_bar = true\n";
+    REQUIRE(run("strip " + (folder / "still.toml").string() + " --times 0.2,0.5,0.8 --quiet -o " +
+                (folder / "strip.png").string())
+                .code == 0);
+    const render::Image strip = render::decodePng(tools::readFile(folder / "strip.png"), "strip.png");
+    const int gap = (strip.width - 3 * 320) / 2;
+    // How many pixels of a panel's half, beside the time stamp's rows or below them, are not those of the panel
+    // between.
+    const auto different = [&](int panel, bool right, bool lower) {
+        int count = 0;
+        for (int y = lower ? 60 : 0; y < (lower ? 240 : 60); ++y)
+            for (int x = right ? 160 : 0; x < (right ? 320 : 160); ++x) {
+                const auto at = [&](int number) {
+                    return strip.rgb.begin() + 3 * (y * strip.width + number * (320 + gap) + x);
+                };
+                count += std::equal(at(panel), at(panel) + 3, at(1)) ? 0 : 1;
+            }
+        return count;
+    };
+    for (const int panel : {0, 2})
+        for (const bool right : {false, true}) CHECK(different(panel, right, false) == 0);
+    CHECK(different(0, false, true) > 50);
+    CHECK(different(0, true, true) == 0);
+    CHECK(different(2, false, true) == 0);
+    CHECK(different(2, true, true) > 500);
+}
+
 TEST_CASE("--json prints one object a line", "[tools]") {
     const program::Folder folder;
     const auto outcome = run("render figure-1 --size 64x64 --frames 0-2 --json -o " + (folder / "a").string());
@@ -130,7 +200,7 @@ TEST_CASE("--json prints one object a line", "[tools]") {
 }
 
 TEST_CASE("Every command explains itself with an example", "[tools]") {
-    for (const char* command : {"render", "simulate", "figures", "video", "check", "scenes", "schema"}) {
+    for (const char* command : {"render", "strip", "simulate", "figures", "video", "check", "scenes", "schema"}) {
         const auto help = run(std::string(command) + " --help");
         INFO(command);
         CHECK(help.code == 0);

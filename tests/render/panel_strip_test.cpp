@@ -1,0 +1,61 @@
+// Strips: panels untouched, in order, apart; the texts below their own panel.
+#include "tests/catch.h"
+
+#include <stdexcept>
+
+#include "render/panel_strip.h"
+
+using render::Image;
+
+namespace {
+
+Image plain(int width, int height, std::uint8_t grey) {
+    Image image{width, height, {}};
+    image.rgb.assign(image.byteCount(), grey);
+    return image;
+}
+
+std::uint8_t byteAt(const Image& image, int x, int y) {
+    return image.rgb.at(static_cast<std::size_t>(3 * (y * image.width + x)));
+}
+
+}  // namespace
+
+TEST_CASE("Panels stand side by side with thin white lines between them") {
+    const Image strip =
+        render::joinPanels({{plain(100, 60, 10), "a"}, {plain(100, 60, 20), "b"}, {plain(100, 60, 30), "c"}});
+    const int gap = (strip.width - 300) / 2;
+    CHECK(strip.width == 300 + 2 * gap);
+    CHECK(gap >= 2);
+    CHECK(gap <= 4);
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < strip.width; ++x) {
+            const int within = x % (100 + gap);
+            const int expected = within >= 100 ? 255 : 10 * (1 + x / (100 + gap));
+            CHECK(byteAt(strip, x, y) == expected);
+        }
+}
+
+TEST_CASE("Every text stands below the middle of its panel, and one without text has none") {
+    const Image strip = render::joinPanels({{plain(160, 60, 10), "t = 0.5 s"}, {plain(160, 60, 20), ""}});
+    REQUIRE(strip.height > 75);
+    double sum = 0.0;
+    double ink = 0.0;
+    int rightmost = 0;
+    for (int y = 60; y < strip.height; ++y)
+        for (int x = 0; x < strip.width; ++x) {
+            const int dark = 255 - byteAt(strip, x, y);
+            sum += dark * (x + 0.5);
+            ink += dark;
+            if (dark > 0) rightmost = x;
+            if (y == strip.height - 1 || y == 60) CHECK(dark == 0);
+        }
+    REQUIRE(ink > 255.0 * 30.0);  // some hundred pixels of letters
+    CHECK(rightmost < 160);
+    CHECK(sum / ink == Approx(80.0).margin(8.0));  // letters are not equally heavy: a tenth of the text's width
+}
+
+TEST_CASE("A strip of nothing or of unequal panels is refused") {
+    CHECK_THROWS_AS(render::joinPanels({}), std::logic_error);
+    CHECK_THROWS_AS(render::joinPanels({{plain(10, 10, 0), ""}, {plain(10, 11, 0), ""}}), std::logic_error);
+}

@@ -1,0 +1,59 @@
+// One pass over the frames that are wanted, in order of time.
+#include "tools/moments.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/diagnostics.h"
+#include "render/panel_strip.h"
+#include "render/renderer.h"
+#include "scenes/frame_steps.h"
+#include "scenes/frame_view.h"
+#include "scenes/overlay_view.h"
+#include "tools/open_context.h"
+#include "tools/threads.h"
+
+namespace tools {
+namespace {
+
+/// Leaves to a panel what a reader needs there.
+void trimOverlay(const scenes::Scene& scene, const std::vector<int>& frames, int frame, render::Overlay& overlay) {
+    overlay.stamp.clear();
+    if (frame != frames.back()) overlay.colorBar.reset();
+    if (frame != frames.front() && scene.camera.keys.size() == 1) overlay.scaleBar.reset();
+}
+
+MomentPictures drawAll(const MomentsJob& job, const Moments& moments) {
+    const scenes::Scene& scene = *job.scene;
+    std::set<int> frames(moments.stripFrames.begin(), moments.stripFrames.end());
+    if (moments.stillFrame) frames.insert(*moments.stillFrame);
+    render::Context context = openContext(job.backend, job.threads);
+    render::Renderer renderer(context, scene.size, job.quality);
+    engine::Simulation simulation = engine::start(scene.setup);
+    Progress progress(job.title, static_cast<int>(frames.size()), job.talk);
+    MomentPictures pictures;
+    std::vector<render::Panel> panels;
+    for (const int frame : frames) {
+        scenes::advanceToFrame(scene, simulation, frame);
+        render::View view = scenes::frameView(scene, simulation);
+        if (frame == moments.stillFrame) pictures.still = renderer.draw(view);
+        if (std::binary_search(moments.stripFrames.begin(), moments.stripFrames.end(), frame)) {
+            trimOverlay(scene, moments.stripFrames, frame, view.overlay);
+            panels.push_back({renderer.draw(view), scenes::timeText(scene, simulation.time)});
+        }
+        progress.frameDone(frame, simulation.time);
+    }
+    if (!panels.empty()) pictures.strip = render::joinPanels(panels);
+    pictures.stateHash = engine::stateHash(simulation.particles);
+    return pictures;
+}
+
+}  // namespace
+
+MomentPictures drawMoments(const MomentsJob& job, const Moments& moments) {
+    MomentPictures pictures;
+    onThreads(job.threads, [&] { pictures = drawAll(job, moments); });
+    return pictures;
+}
+
+}  // namespace tools

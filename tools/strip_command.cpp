@@ -1,0 +1,79 @@
+// globular strip: several moments of a scene side by side in one picture.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "render/png.h"
+#include "tools/commands.h"
+#include "tools/moments.h"
+#include "tools/output_file.h"
+#include "tools/scene_options.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StripOptions {
+    RunOptions run;
+    SceneOptions scene;
+    DrawOptions draw;
+    std::string times;
+    std::string output;
+};
+
+scenes::Scene loadFor(const StripOptions& options) {
+    SceneOptions sceneOptions = options.scene;
+    for (const std::string& change : overridesOf(options.draw)) sceneOptions.overrides.push_back(change);
+    if (!options.times.empty()) sceneOptions.overrides.push_back(fmt::format("still.strip=[{}]", options.times));
+    return load(sceneOptions);
+}
+
+void printResult(const StripOptions& options, const fs::path& path, const nlohmann::ordered_json& json) {
+    if (options.run.json)
+        fmt::print("{}\n", json.dump());
+    else if (!options.run.quiet)
+        fmt::print("{} panels in {}\n", json["times"].size(), path.string());
+}
+
+void drawStrip(const StripOptions& options) {
+    const scenes::Scene scene = loadFor(options);
+    MomentsJob job;
+    job.scene = &scene;
+    job.quality = qualityOf(options.draw);
+    job.backend = backendOf(options.draw);
+    job.threads = threadCount(options.run);
+    job.talk = options.run.talk();
+    job.title = fs::path(scene.sourceName).stem().string();
+    const fs::path path =
+        options.output.empty() ? fs::path("out") / (job.title + "-strip.png") : fs::path(options.output);
+
+    const std::vector<int> frames = scenes::stripFrames(scene);
+    const MomentPictures pictures = drawMoments(job, {std::nullopt, frames});
+    if (path.has_parent_path()) createFolder(path.parent_path());
+    writeFile(path, render::encodePng(pictures.strip));
+    nlohmann::ordered_json json{{"event", "done"}, {"strip", path.string()}, {"times", nlohmann::json::array()}};
+    for (const int frame : frames) json["times"].push_back(scenes::frameTime(scene, frame));
+    json["state_hash"] = pictures.stateHash;
+    printResult(options, path, json);
+}
+
+}  // namespace
+
+void addStripCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("strip", "several moments of a scene side by side in one picture");
+    const auto options = std::make_shared<StripOptions>();
+    addTo(*command, options->scene);
+    command->add_option("--times", options->times, "moments in seconds (default: the scene's still.strip)")
+        ->type_name("T,T,...");
+    command->add_option("-o,--output", options->output, "the picture to write (default: out/NAME-strip.png)")
+        ->type_name("FILE.png");
+    addTo(*command, options->draw);
+    addTo(*command, options->run);
+    command->footer("Example: globular strip liquid --times 0.5,1,2 --size 480x270 -o out/liquid.png");
+    command->callback([options] { drawStrip(*options); });
+}
+
+}  // namespace tools
