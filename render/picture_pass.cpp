@@ -27,12 +27,6 @@ std::int32_t beginOf(const CellLists& lists, std::size_t cell) {
     return static_cast<std::int32_t>(lists.begin[cell]);
 }
 
-// Spheres that OpenGL draws: obstacles always, particles unless they are metaballs.
-struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;  // center relative to the eye, in world axes
-    std::vector<glm::vec4> colors;    // w: specular
-};
-
 DrawnSpheres drawnSpheres(const View& view) {
     DrawnSpheres drawn;
     const auto add = [&](glm::vec3 center, float radius, glm::vec3 color, float specular) {
@@ -68,38 +62,41 @@ PicturePass::PicturePass(const Gl& gl)
     frameBlock_ = BufferName(gl, name);
 }
 
-void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels) {
+void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times) {
+    StageClock clock;
     frame_ = frame;
     light_ = lightBasis(view.light.toLight);
     castsField_ = view.style == Style::metaballs && !view.particles.empty();
     fieldSlots_.clear();
-    uploadSpheres(view);
-    uploadLight(view, depthMapTexels);
+    binSpheres(view);
     uploadLines(view);
     uploadBoxes(view);
+    clock.add(times.bin);
+    castLight(view, depthMapTexels);
+    clock.add(times.shadow);
 }
 
-void PicturePass::uploadSpheres(const View& view) {
-    const DrawnSpheres drawn = drawnSpheres(view);
-    std::vector<ViewSphere> seen(drawn.spheres.size());
+void PicturePass::binSpheres(const View& view) {
+    drawn_ = drawnSpheres(view);
+    std::vector<ViewSphere> seen(drawn_.spheres.size());
     for (std::size_t k = 0; k < seen.size(); ++k) {
-        seen[k] = {frame_.toView(drawn.spheres[k].center + frame_.eye), drawn.spheres[k].radius};
+        seen[k] = {frame_.toView(drawn_.spheres[k].center + frame_.eye), drawn_.spheres[k].radius};
     }
     sphereTiles_ = binToTiles(frame_, seen);
     std::vector<glm::vec4> entries(sphereTiles_.items.size());
     tbb::parallel_for(std::size_t{0}, entries.size() / 4096 + 1, [&](std::size_t chunk) {
         for (std::size_t k = chunk * 4096; k < std::min((chunk + 1) * 4096, entries.size()); ++k) {
-            const ViewSphere& sphere = drawn.spheres[sphereTiles_.items[k]];
+            const ViewSphere& sphere = drawn_.spheres[sphereTiles_.items[k]];
             entries[k] = glm::vec4(sphere.center, sphere.radius);
         }
     });
     tileSpheres_.upload(bytesOf(entries));
     tileSphereIds_.upload(bytesOf(sphereTiles_.items));
-    sphereColors_.upload(bytesOf(drawn.colors));
-    lightGrid_ = view.light.shadows ? lightGrid(light_, drawn.spheres) : LightGrid{};
+    sphereColors_.upload(bytesOf(drawn_.colors));
 }
 
-void PicturePass::uploadLight(const View& view, int depthMapTexels) {
+void PicturePass::castLight(const View& view, int depthMapTexels) {
+    lightGrid_ = view.light.shadows ? lightGrid(light_, drawn_.spheres) : LightGrid{};
     lightLists_.upload(bytesOf(lightGrid_.cells));
     lightSpheres_.upload(bytesOf(lightGrid_.spheres));
     depthMap_ = castsField_ && view.light.shadows ? castDepthMap(light_, view, depthMapTexels) : DepthMap{};
@@ -168,7 +165,7 @@ void PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
 Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int tileClass) const {
     Features features;
     features.samples = sampling.samples;
-    features.encode = sampling.encode;
+    features.output = sampling.output;
     features.spheres = (tileClass & kSphereBit) != 0;
     features.field = (tileClass & kFieldBit) != 0;
     features.lines = (tileClass & kLineBit) != 0;

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "render/camera_frame.h"
+#include "render/draw_times.h"
 #include "render/gl_objects.h"
 #include "render/light_space.h"
 #include "render/line_list.h"
@@ -30,7 +31,13 @@ struct FrameBlock {
 struct Sampling {
     int samples = 1;         ///< 1 or 4
     glm::vec2 offset{0.0F};  ///< from the pixel's middle, pixels; with one sample only
-    bool encode = true;      ///< sRGB bytes; otherwise linear
+    Output output = Output::bytes;
+};
+
+/// Spheres that OpenGL draws: obstacles always, particles unless they are metaballs.
+struct DrawnSpheres {
+    std::vector<ViewSphere> spheres;  ///< center relative to the eye, in world axes
+    std::vector<glm::vec4> colors;    ///< w: specular
 };
 
 class PicturePass {
@@ -38,7 +45,7 @@ class PicturePass {
     explicit PicturePass(const Gl& gl);
 
     /// Fills and uploads everything that does not depend on where in the pixel the rays go.
-    void prepare(const CameraFrame& frame, const View& view, int depthMapTexels);
+    void prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times);
 
     /// Casts the metaballs for these rays; draws nothing yet. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
@@ -49,8 +56,8 @@ class PicturePass {
     ProgramCache& programs() { return programs_; }
 
  private:
-    void uploadSpheres(const View& view);
-    void uploadLight(const View& view, int depthMapTexels);
+    void binSpheres(const View& view);
+    void castLight(const View& view, int depthMapTexels);
     void uploadLines(const View& view);
     void uploadBoxes(const View& view);
     void uploadFrame(const View& view, const Sampling& sampling);
@@ -65,6 +72,7 @@ class PicturePass {
     BufferName frameBlock_;
 
     CameraFrame frame_;
+    DrawnSpheres drawn_;
     CellLists sphereTiles_;
     LineList lineList_;
     std::vector<std::uint8_t> boxTiles_;  // 1 where a box may be seen

@@ -44,7 +44,8 @@ std::string definesOf(const Features& features) {
     define("LIGHT_SPHERES", features.lightSpheres);
     define("LIGHT_FIELD", features.lightField);
     define("SPECULAR", features.specular);
-    define("ENCODE", features.encode);
+    define("ENCODE", features.output == Output::bytes);
+    define("SURFACE", features.output == Output::surface);
     return text;
 }
 
@@ -69,22 +70,26 @@ GLuint compile(const Gl& gl, GLenum stage, const std::string& source) {
 
 }  // namespace
 
-GLuint ProgramCache::build(ProgramName& place, const std::string& vertex, const std::string& fragment) const {
-    ProgramName program(*gl_, gl_->CreateProgram());
-    const GLuint vertexShader = compile(*gl_, GL_VERTEX_SHADER, vertex);
-    const GLuint fragmentShader = compile(*gl_, GL_FRAGMENT_SHADER, fragment);
-    gl_->AttachShader(program.get(), vertexShader);
-    gl_->AttachShader(program.get(), fragmentShader);
-    gl_->LinkProgram(program.get());
-    gl_->DeleteShader(vertexShader);
-    gl_->DeleteShader(fragmentShader);
+ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::string& fragment) {
+    ProgramName program(gl, gl.CreateProgram());
+    const GLuint vertexShader = compile(gl, GL_VERTEX_SHADER, vertex);
+    const GLuint fragmentShader = compile(gl, GL_FRAGMENT_SHADER, fragment);
+    gl.AttachShader(program.get(), vertexShader);
+    gl.AttachShader(program.get(), fragmentShader);
+    gl.LinkProgram(program.get());
+    gl.DeleteShader(vertexShader);
+    gl.DeleteShader(fragmentShader);
     GLint good = GL_FALSE;
-    gl_->GetProgramiv(program.get(), GL_LINK_STATUS, &good);
+    gl.GetProgramiv(program.get(), GL_LINK_STATUS, &good);
     if (good != GL_TRUE) {
         std::array<char, 2000> words{};
-        gl_->GetProgramInfoLog(program.get(), static_cast<GLsizei>(words.size()), nullptr, words.data());
+        gl.GetProgramInfoLog(program.get(), static_cast<GLsizei>(words.size()), nullptr, words.data());
         throw SystemError(fmt::format("OpenGL cannot link globular's shaders: {}", words.data()));
     }
+    return program;
+}
+
+GLuint ProgramCache::keep(ProgramName& place, ProgramName program) const {
     gl_->UseProgram(program.get());
     for (const Unit& unit : kUnits) setInteger(program.get(), unit.name, unit.unit);
     const GLuint block = gl_->GetUniformBlockIndex(program.get(), "FrameBlock");
@@ -100,13 +105,13 @@ GLuint ProgramCache::picture(const Features& features) {
     std::string fragment =
         joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "shadow.glsl", "shade.glsl"});
     if (features.lines) fragment = joined(fragment, {"lines.glsl"});
-    return build(place, vertex, joined(fragment, {"picture.frag"}));
+    return keep(place, buildProgram(*gl_, vertex, joined(fragment, {"picture.frag"})));
 }
 
 GLuint ProgramCache::resolve() {
     if (resolve_.get() != 0) return resolve_.get();
-    return build(resolve_, joined("#version 330 core\n", {"full_screen.vert"}),
-                 joined("#version 330 core\n", {"encode.glsl", "resolve.frag"}));
+    return keep(resolve_, buildProgram(*gl_, joined("#version 330 core\n", {"full_screen.vert"}),
+                                       joined("#version 330 core\n", {"encode.glsl", "resolve.frag"})));
 }
 
 void ProgramCache::setInteger(GLuint program, const char* name, int value) const {

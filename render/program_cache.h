@@ -13,6 +13,13 @@ namespace render {
 /// Text of a file of shaders/, embedded by the build.
 std::string_view shaderSource(std::string_view name);
 
+/// What a pixel of a drawing is.
+enum class Output {
+    bytes,   ///< sRGB encoded
+    linear,  ///< colour, for averaging
+    surface  ///< normal and view depth of what is seen; depth -1 for nothing
+};
+
 /// What one draw of tiles needs.
 struct Features {
     int samples = 1;
@@ -26,7 +33,7 @@ struct Features {
     bool lightSpheres = false;  ///< spheres cast shadows
     bool lightField = false;    ///< metaballs cast shadows
     bool specular = false;
-    bool encode = true;  ///< to sRGB bytes; otherwise linear, for averaging
+    Output output = Output::bytes;
 
     auto operator<=>(const Features&) const = default;
 };
@@ -47,6 +54,9 @@ enum TextureUnit : int {
     kAccumulatedUnit
 };
 
+/// A linked program; throws SystemError with the compiler's or linker's words.
+ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::string& fragment);
+
 class ProgramCache {
  public:
     explicit ProgramCache(const Gl& gl) : gl_(&gl) {}
@@ -57,7 +67,7 @@ class ProgramCache {
     void setInteger(GLuint program, const char* name, int value) const;
 
  private:
-    GLuint build(ProgramName& place, const std::string& vertex, const std::string& fragment) const;
+    GLuint keep(ProgramName& place, ProgramName program) const;
 
     const Gl* gl_;
     std::map<Features, ProgramName> pictures_;

@@ -216,6 +216,10 @@ void main() {
 #ifdef SPHERES
     lookAtSpheres(rays);
 #endif
+#ifdef SURFACE
+    pixel = vec4(pointOn(ids[0], rays[0]).normal, ids[0] == kBackground ? -1.0 : depths[0]);
+    return;
+#endif
     vec3 color = colorOfPixel(corner);
 #ifdef LINES
     color = drawLines(color, corner + (SAMPLES == 1 ? picture.zw : vec2(0.0)));

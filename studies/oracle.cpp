@@ -1,14 +1,14 @@
 // The oracle's ray caster, see oracle.h. From top to bottom: the metaball field, the nearest surface, light, the
 // picture. Balls, boxes and the ground are in oracle_solids.h, the roots of the field's polynomials in polynomial.h.
-#include "tests/render/oracle.h"
+#include "studies/oracle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "tests/render/oracle_solids.h"
-#include "tests/render/polynomial.h"
+#include "studies/oracle_solids.h"
+#include "studies/polynomial.h"
 
 namespace oracle {
 namespace {
@@ -34,9 +34,10 @@ struct CrossedBall {
     Chord chord;
 };
 
-std::vector<CrossedBall> ballsCrossed(const render::View& view, const Ray& ray) {
+std::vector<CrossedBall> ballsCrossed(const render::View& view, const Indices& near, const Ray& ray) {
     std::vector<CrossedBall> crossed;
-    for (const render::Sphere& ball : view.particles) {
+    for (const std::uint32_t k : near) {
+        const render::Sphere& ball = view.particles[k];
         const Foot foot = footOf(ray, dvec3(ball.center));
         const double reach = reachOf(view, ball);
         const std::optional<Chord> chord = chordOf(foot, reach);
@@ -70,8 +71,8 @@ Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, cons
 
 /// The first distance from 0 on where the field is at least the threshold; infinity without one. Between neighbouring
 /// entries and exits the field is one polynomial, whose roots are all found: no step, so no sliver is too thin.
-double firstFieldDistance(const render::View& view, const Ray& ray) {
-    const std::vector<CrossedBall> balls = ballsCrossed(view, ray);
+double firstFieldDistance(const render::View& view, const Indices& near, const Ray& ray) {
+    const std::vector<CrossedBall> balls = ballsCrossed(view, near, ray);
     std::vector<double> ends{0.0};
     for (const CrossedBall& ball : balls) {
         if (ball.chord.enter > 0.0) ends.push_back(ball.chord.enter);
@@ -83,6 +84,7 @@ double firstFieldDistance(const render::View& view, const Ray& ray) {
         if (stretch.enter == stretch.exit) continue;
         const Quartic excess = fieldAlong(balls, fieldThreshold(view), stretch);
         if (valueAt(excess, -1.0) >= 0.0) return stretch.enter;
+        if (staysNegative(excess)) continue;
         const std::vector<double> roots = rootsIn(excess, -1.0, 1.0);
         if (!roots.empty()) return stretch.enter + 0.5 * (roots.front() + 1.0) * (stretch.exit - stretch.enter);
     }
@@ -90,8 +92,8 @@ double firstFieldDistance(const render::View& view, const Ray& ray) {
 }
 
 /// The kernel's gradient is -4 (1 - d^2/R^2) (x - c)/R^2; the factor 4 drops out of the normal.
-Hit hitField(const render::View& view, const Ray& ray) {
-    const double distance = firstFieldDistance(view, ray);
+Hit hitField(const render::View& view, const Indices& near, const Ray& ray) {
+    const double distance = firstFieldDistance(view, near, ray);
     if (distance == kInfinity) return {};
     Hit hit;
     hit.kind = Hit::Kind::particle;
@@ -100,7 +102,8 @@ Hit hitField(const render::View& view, const Ray& ray) {
     dvec3 downhill{0.0};
     dvec3 colorSum{0.0};
     double kernelSum = 0.0;
-    for (const render::Sphere& ball : view.particles) {
+    for (const std::uint32_t k : near) {
+        const render::Sphere& ball = view.particles[k];
         const double root = kernelRoot(view, ball, hit.point);
         if (root == 0.0) continue;
         const double reach = reachOf(view, ball);
@@ -124,13 +127,16 @@ void keepNearer(Hit& best, Hit candidate, Hit::Kind kind, const glm::vec3& color
 }
 
 /// Everything that casts shadows: all but the ground.
-Hit traceCasters(const render::View& view, const Ray& ray) {
+Hit traceCasters(const render::View& view, const Crowd& crowd, const Ray& ray) {
     Hit best;
+    const Indices near = crowd.along(ray);
     if (view.style == render::Style::metaballs) {
-        keepNearer(best, hitField(view, ray));
+        keepNearer(best, hitField(view, near, ray));
     } else {
-        for (const render::Sphere& sphere : view.particles)
+        for (const std::uint32_t k : near) {
+            const render::Sphere& sphere = view.particles[k];
             keepNearer(best, hitSphere(ray, dvec3(sphere.center), sphere.radius), Hit::Kind::particle, sphere.color);
+        }
     }
     for (const render::SphereObstacle& sphere : view.sphereObstacles)
         keepNearer(best, hitSphere(ray, dvec3(sphere.center), sphere.radius), Hit::Kind::sphereObstacle, sphere.color);
@@ -154,11 +160,12 @@ double glint(const render::Surface& surface, const dvec3& normal, const dvec3& t
     return fresnel * (gloss + 8.0) / 8.0 * std::pow(std::max(0.0, glm::dot(normal, halfway)), gloss);
 }
 
-dvec3 shadeSurface(const render::View& view, const Hit& hit, const Ray& ray) {
+dvec3 shadeSurface(const render::View& view, const Crowd& crowd, const Hit& hit, const Ray& ray) {
     const dvec3 toLight = unitToLight(view);
     const double cosine = glm::dot(hit.normal, toLight);
     const dvec3 ambient = glm::mix(dvec3(view.ambient.ground), dvec3(view.ambient.sky), 0.5 + 0.5 * hit.normal.y);
-    if (cosine <= 0.0 || (view.light.shadows && inShadow(view, hit.point, hit.normal))) return hit.albedo * ambient;
+    if (cosine <= 0.0 || (view.light.shadows && inShadow(view, crowd, hit.point, hit.normal)))
+        return hit.albedo * ambient;
     const dvec3 light = dvec3(view.light.color);
     const dvec3 matt = hit.albedo * (ambient + light * cosine);
     if (hit.kind != Hit::Kind::particle) return matt;
@@ -184,7 +191,11 @@ Ray pixelRay(const render::View& view, render::PictureSize size, double px, doub
 }
 
 Hit trace(const render::View& view, const Ray& ray) {
-    Hit best = traceCasters(view, ray);
+    return trace(view, Crowd::everyone(view), ray);
+}
+
+Hit trace(const render::View& view, const Crowd& crowd, const Ray& ray) {
+    Hit best = traceCasters(view, crowd, ray);
     if (view.ground) keepNearer(best, hitGround(ray, *view.ground), Hit::Kind::ground, view.ground->color);
     return best;
 }
@@ -204,16 +215,20 @@ double fieldThreshold(const render::View& view) {
     return root * root;
 }
 
-bool inShadow(const render::View& view, const dvec3& point, const dvec3& normal) {
+bool inShadow(const render::View& view, const Crowd& crowd, const dvec3& point, const dvec3& normal) {
     // Lifts the start off its own surface: a million roundings of the coordinates, still far below anything visible.
     const double lift = 1e-9 * (1.0 + glm::length(point));
-    return traceCasters(view, {point + lift * normal, unitToLight(view)}).kind != Hit::Kind::none;
+    return traceCasters(view, crowd, {point + lift * normal, unitToLight(view)}).kind != Hit::Kind::none;
 }
 
 dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT) {
+    return shade(view, Crowd::everyone(view), hit, ray, screenT);
+}
+
+dvec3 shade(const render::View& view, const Crowd& crowd, const Hit& hit, const Ray& ray, double screenT) {
     const dvec3 background = glm::mix(dvec3(view.background.bottom), dvec3(view.background.top), screenT);
     if (hit.kind == Hit::Kind::none) return background;
-    const dvec3 color = shadeSurface(view, hit, ray);
+    const dvec3 color = shadeSurface(view, crowd, hit, ray);
     if (hit.kind != Hit::Kind::ground) return color;
     const double relative = glm::distance(hit.point, dvec3(view.ground->center)) / double(view.ground->fadeDistance);
     const double fade = std::pow(relative, 4.0);
@@ -228,16 +243,22 @@ std::uint8_t encodeSrgb(double linear) {
 }
 
 Picture draw(const render::View& view, render::PictureSize size, int samplesPerAxis) {
-    Picture picture{size.width, size.height, {}, {}, {}};
+    return drawWindow(view, Crowd(view), size, {0, 0, size.width, size.height}, samplesPerAxis);
+}
+
+Picture drawWindow(const render::View& view, const Crowd& crowd, render::PictureSize size, const Window& window,
+                   int samplesPerAxis) {
+    Picture picture{window.width, window.height, {}, {}, {}, {}};
     const auto sampleAt = [&](double px, double py) {
         const Ray ray = pixelRay(view, size, px, py);
-        return glm::clamp(shade(view, trace(view, ray), ray, 1.0 - py / size.height), 0.0, 1.0);
+        return glm::clamp(shade(view, crowd, trace(view, crowd, ray), ray, 1.0 - py / size.height), 0.0, 1.0);
     };
-    for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x) {
-            const Hit hit = trace(view, pixelRay(view, size, x + 0.5, y + 0.5));
+    for (int y = window.y; y < window.y + window.height; ++y) {
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            const Hit hit = trace(view, crowd, pixelRay(view, size, x + 0.5, y + 0.5));
             picture.kinds.push_back(hit.kind);
             picture.distances.push_back(hit.distance);
+            picture.normals.push_back(hit.normal);
             dvec3 sum{0.0};
             for (int j = 0; j < samplesPerAxis; ++j)
                 for (int i = 0; i < samplesPerAxis; ++i)

@@ -1,0 +1,107 @@
+// globular study pictures: what frames cost, stage by stage, and how far they are from the exact picture.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "studies/pictures.h"
+#include "tools/commands.h"
+#include "tools/gnuplot.h"
+#include "tools/output_file.h"
+#include "tools/pictures_page.h"
+#include "tools/scene_options.h"
+#include "tools/threads.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PicturesOptions {
+    RunOptions run;
+    std::string folder = "out/study-pictures";
+    bool quick = false;
+};
+
+studies::PictureSettings settingsFor(const PicturesOptions& options) {
+    studies::PictureSettings settings;
+    settings.videoPath = (fs::path(options.folder) / "timing.mp4").string();
+    if (options.quick) {
+        settings.particles = {2000, 10000};
+        settings.sizes = {{640, 360}};
+        settings.frames = 3;
+        settings.encodedFrames = 4;
+        settings.windowColumns = 3;
+        settings.windowRows = 2;
+        settings.samplesPerAxis = 2;
+    }
+    return settings;
+}
+
+studies::PictureListener reporter(Talk talk) {
+    return [talk](const studies::PictureRow& row) {
+        if (talk == Talk::json)
+            fmt::print("{}\n", nlohmann::ordered_json{{"event", "row"},
+                                                      {"style", studies::nameOf(row.style)},
+                                                      {"particles", row.particles},
+                                                      {"width", row.size.width},
+                                                      {"quality", studies::nameOf(row.quality)},
+                                                      {"seconds", row.draw},
+                                                      {"ratio", row.ratio()},
+                                                      {"ssim", row.error.ssim}}
+                                   .dump());
+        else if (talk == Talk::normal)
+            fmt::print(stderr, "{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
+                       studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
+                       studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim);
+    };
+}
+
+void print(const std::vector<studies::PictureRow>& rows) {
+    fmt::print("{:9} {:>9} {:>9} {:7} {:>9} {:>9} {:>9} {:>9} {:>6} {:>9} {:>8} {:>9}\n", "style", "particles", "size",
+               "quality", "frame, ms", "+PNG, ms", "+MP4, ms", "quads, ms", "ratio", "RMSE", "SSIM", "wrong, %");
+    for (const studies::PictureRow& row : rows)
+        fmt::print("{:9} {:>9} {:>9} {:7} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>6.2f} {:>9.3f} {:>8.5f} {:>9.4f}\n",
+                   studies::nameOf(row.style), row.particles, fmt::format("{}x{}", row.size.width, row.size.height),
+                   studies::nameOf(row.quality), 1e3 * row.draw, 1e3 * row.withPng, 1e3 * row.withMp4,
+                   1e3 * row.baseline, row.ratio(), row.error.rmse, row.error.ssim, 100.0 * row.error.wrongHits);
+}
+
+void study(const PicturesOptions& options) {
+    const int threads = threadCount(options.run);
+    ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+    const fs::path folder = options.folder;
+    createFolder(folder);
+    const studies::PictureSettings settings = settingsFor(options);
+    std::vector<studies::PictureRow> rows;
+    onThreads(threads, [&] { rows = studies::measurePictures(settings, reporter(options.run.talk())); });
+    fs::remove(settings.videoPath);
+    writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
+    const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows)), drawPlot(studies::pictureErrorsPlot(rows))};
+    writeFile(folder / "times.svg", plots.times);
+    writeFile(folder / "errors.svg", plots.errors);
+    const std::string command =
+        fmt::format("globular study pictures{} --threads {}", options.quick ? " --quick" : "", threads);
+    writeFile(folder / "index.html", picturesPage(rows, plots, command));
+    if (options.run.talk() != Talk::normal) return;
+    print(rows);
+    fmt::print("all of it: {}\n", (folder / "index.html").string());
+}
+
+}  // namespace
+
+void addStudyPictures(CLI::App& study) {
+    CLI::App* command =
+        study.add_subcommand("pictures", "time of each stage of a frame, and its error against the exact picture");
+    const auto options = std::make_shared<PicturesOptions>();
+    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-pictures)")
+        ->type_name("DIR");
+    command->add_flag("--quick", options->quick, "fewer particles, small pictures");
+    addTo(*command, options->run);
+    command->footer("Example: globular study pictures --quick -o out/pictures");
+    command->callback([options] { tools::study(*options); });
+}
+
+}  // namespace tools
