@@ -5,7 +5,7 @@
 
 namespace render {
 
-/// Wall-clock seconds of one picture; a stage that the view does not need takes 0.
+/// Wall-clock seconds of one picture; a stage that the view does not need takes next to nothing.
 struct DrawTimes {
     double bin = 0.0;        ///< spheres, boxes and lines to tiles, and their upload
     double occlusion = 0.0;  ///< how open to the sky the particles are

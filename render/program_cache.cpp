@@ -16,7 +16,7 @@ struct Unit {
     TextureUnit unit;
 };
 
-constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
+constexpr std::array<Unit, 16> kUnits = {{{"boxes", kBoxesUnit},
                                           {"tileTable", kTileTableUnit},
                                           {"tileSpheres", kTileSpheresUnit},
                                           {"tileSphereIds", kTileSphereIdsUnit},
@@ -27,7 +27,11 @@ constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
                                           {"lightDepths", kLightDepthsUnit},
                                           {"lines", kLinesUnit},
                                           {"lineLists", kLineListsUnit},
-                                          {"accumulated", kAccumulatedUnit}}};
+                                          {"accumulated", kAccumulatedUnit},
+                                          {"sphereOpen", kSphereOpenUnit},
+                                          {"fieldOpen", kFieldOpenUnit},
+                                          {"gridOpen", kGridOpenUnit},
+                                          {"groundOpen", kGroundOpenUnit}}};
 
 std::string definesOf(const Features& features) {
     std::string text = fmt::format("#version 330 core\n#define SAMPLES {}\n", features.samples);
@@ -43,7 +47,18 @@ std::string definesOf(const Features& features) {
     define("SHADOWS", features.shadows);
     define("LIGHT_SPHERES", features.lightSpheres);
     define("LIGHT_FIELD", features.lightField);
+    define("SOFT", features.soft);
     define("SPECULAR", features.specular);
+    define("METAL", features.metal);
+    define("MIRROR", features.mirror);
+    define("ROUGH", features.rough);
+    define("TRANSLUCENT", features.translucent);
+    define("ABSORBING", features.absorbing);
+    define("GLOW", features.glow);
+    define("OPEN", features.open);
+    define("OCCLUSION", features.occlusion);
+    define("OPEN_OBSTACLES", features.openObstacles);
+    define("TONE", features.tone);
     define("ENCODE", features.output == Output::bytes);
     define("SURFACE", features.output == Output::surface);
     return text;
@@ -102,8 +117,8 @@ GLuint ProgramCache::picture(const Features& features) {
     ProgramName& place = pictures_[features];
     if (place.get() != 0) return place.get();
     const std::string vertex = joined("#version 330 core\n", {"tile.vert"});
-    std::string fragment =
-        joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "shadow.glsl", "shade.glsl"});
+    std::string fragment = joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "openness.glsl",
+                                                        "shadow.glsl", "shade.glsl"});
     if (features.lines) fragment = joined(fragment, {"lines.glsl"});
     return keep(place, buildProgram(*gl_, vertex, joined(fragment, {"picture.frag"})));
 }

@@ -32,7 +32,18 @@ struct Features {
     bool shadows = false;
     bool lightSpheres = false;  ///< spheres cast shadows
     bool lightField = false;    ///< metaballs cast shadows
+    bool soft = false;          ///< shadows
     bool specular = false;
+    bool metal = false;
+    bool mirror = false;
+    bool rough = false;
+    bool translucent = false;
+    bool absorbing = false;
+    bool glow = false;
+    bool open = false;  ///< some term looks at openness
+    bool occlusion = false;
+    bool openObstacles = false;  ///< obstacles do
+    bool tone = false;
     Output output = Output::bytes;
 
     auto operator<=>(const Features&) const = default;
@@ -51,7 +62,11 @@ enum TextureUnit : int {
     kLightDepthsUnit,
     kLinesUnit,
     kLineListsUnit,
-    kAccumulatedUnit
+    kAccumulatedUnit,
+    kSphereOpenUnit,
+    kFieldOpenUnit,
+    kGridOpenUnit,
+    kGroundOpenUnit
 };
 
 /// A linked program; throws SystemError with the compiler's or linker's words.

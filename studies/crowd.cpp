@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace oracle {
 namespace {
@@ -14,9 +15,8 @@ using glm::dvec3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A millionth more than a ball's own, so that no rounding of the walk loses it.
-double widthOf(const render::View& view, const render::Sphere& particle) {
-    const bool metaballs = view.style == render::Style::metaballs;
-    return (metaballs ? double(view.field.reach) : 1.0) * double(particle.radius) * (1.0 + 1e-6);
+double widthOf(const Extent& ball) {
+    return ball.radius * (1.0 + 1e-6);
 }
 
 struct Stretch {
@@ -40,24 +40,30 @@ Stretch insideBox(const Ray& ray, const dvec3& low, const dvec3& high) {
     return stretch;
 }
 
+Indices onceEach(Indices found) {
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
 }  // namespace
 
-Crowd Crowd::everyone(const render::View& view) {
+Crowd Crowd::everyone(std::size_t count) {
     Crowd crowd;
     crowd.all_ = true;
-    crowd.count_ = static_cast<std::uint32_t>(view.particles.size());
+    crowd.count_ = static_cast<std::uint32_t>(count);
     return crowd;
 }
 
-Crowd::Crowd(const render::View& view) : count_(static_cast<std::uint32_t>(view.particles.size())) {
-    if (view.particles.empty()) return;
+Crowd::Crowd(const std::vector<Extent>& balls) : count_(static_cast<std::uint32_t>(balls.size())) {
+    if (balls.empty()) return;
     dvec3 high(-kInfinity);
     low_ = dvec3(kInfinity);
     double sum = 0.0;
-    for (const render::Sphere& particle : view.particles) {
-        const double width = widthOf(view, particle);
-        low_ = glm::min(low_, dvec3(particle.center) - width);
-        high = glm::max(high, dvec3(particle.center) + width);
+    for (const Extent& ball : balls) {
+        const double width = widthOf(ball);
+        low_ = glm::min(low_, ball.center - width);
+        high = glm::max(high, ball.center + width);
         sum += width;
     }
     const dvec3 extent = high - low_;
@@ -65,13 +71,13 @@ Crowd::Crowd(const render::View& view) : count_(static_cast<std::uint32_t>(view.
     cellSize_ = std::max({2.0 * sum / count_, std::max({extent.x, extent.y, extent.z}) / 128.0, 1e-9});
     for (std::size_t axis = 0; axis < 3; ++axis)
         cells_[axis] = static_cast<int>(extent[static_cast<int>(axis)] / cellSize_) + 1;
-    const auto forCellsOf = [&](const render::Sphere& particle, const auto& visit) {
-        const double width = widthOf(view, particle);
+    const auto forCellsOf = [&](const Extent& ball, const auto& visit) {
+        const double width = widthOf(ball);
         std::array<int, 3> first{};
         std::array<int, 3> last{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const int k = static_cast<int>(axis);
-            const double at = double(particle.center[k]) - low_[k];
+            const double at = ball.center[k] - low_[k];
             first[axis] = std::clamp(static_cast<int>((at - width) / cellSize_), 0, cells_[axis] - 1);
             last[axis] = std::clamp(static_cast<int>((at + width) / cellSize_), 0, cells_[axis] - 1);
         }
@@ -80,13 +86,12 @@ Crowd::Crowd(const render::View& view) : count_(static_cast<std::uint32_t>(view.
                 for (int x = first[0]; x <= last[0]; ++x) visit(cellAt({x, y, z}));
     };
     begin_.assign(cellAt({0, 0, cells_[2]}) + 1, 0);
-    for (const render::Sphere& particle : view.particles)
-        forCellsOf(particle, [&](std::size_t cell) { ++begin_[cell + 1]; });
+    for (const Extent& ball : balls) forCellsOf(ball, [&](std::size_t cell) { ++begin_[cell + 1]; });
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     lists_.resize(begin_.back());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::uint32_t k = 0; k < count_; ++k)
-        forCellsOf(view.particles[k], [&](std::size_t cell) { lists_[next[cell]++] = k; });
+        forCellsOf(balls[k], [&](std::size_t cell) { lists_[next[cell]++] = k; });
 }
 
 std::size_t Crowd::cellAt(const std::array<int, 3>& cell) const {
@@ -125,9 +130,25 @@ Indices Crowd::along(const Ray& ray) const {
         if (next[axis] == kInfinity || cell[axis] < 0 || cell[axis] >= cells_[axis]) break;
         next[axis] += 1.0 / std::abs(slope);
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
+    return onceEach(std::move(found));
+}
+
+Indices Crowd::within(const dvec3& place, double halfSide) const {
+    std::array<int, 3> first{};
+    std::array<int, 3> last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = place[static_cast<int>(axis)] - low_[static_cast<int>(axis)];
+        first[axis] = std::clamp(static_cast<int>(std::floor((at - halfSide) / cellSize_)), 0, cells_[axis] - 1);
+        last[axis] = std::clamp(static_cast<int>(std::floor((at + halfSide) / cellSize_)), 0, cells_[axis] - 1);
+    }
+    Indices found;
+    for (int z = first[2]; z <= last[2]; ++z)
+        for (int y = first[1]; y <= last[1]; ++y)
+            for (int x = first[0]; x <= last[0]; ++x) {
+                const std::size_t cell = cellAt({x, y, z});
+                found.insert(found.end(), lists_.begin() + begin_[cell], lists_.begin() + begin_[cell + 1]);
+            }
+    return onceEach(std::move(found));
 }
 
 }  // namespace oracle

@@ -1,4 +1,4 @@
-// Particles by place, so that the oracle's rays try only those that they may touch. It leaves out none: a ball that a
+// Balls by place, so that the oracle's rays try only those that they may touch. It leaves out none: a ball that a
 // ray crosses lies in a cell that the ray crosses. Used by the oracle alone.
 #pragma once
 
@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/glm.hpp>
+#include <cstddef>
 
-#include "render/view.h"
+#include <glm/glm.hpp>
 
 namespace oracle {
 
@@ -17,19 +17,26 @@ struct Ray {
     glm::dvec3 direction{0.0, 0.0, -1.0};  ///< unit length
 };
 
-/// Indices of particles, in rising order.
+struct Extent {
+    glm::dvec3 center{0.0};
+    double radius = 0.0;
+};
+
+/// Indices of balls, in rising order.
 using Indices = std::vector<std::uint32_t>;
 
 class Crowd {
  public:
-    /// Every particle is near every ray.
-    static Crowd everyone(const render::View& view);
+    /// Every ball is near every ray.
+    static Crowd everyone(std::size_t count);
 
-    /// Sorted into cells of a grid by their reach (metaballs) or radius (spheres).
-    explicit Crowd(const render::View& view);
+    /// Sorted into cells of a grid.
+    explicit Crowd(const std::vector<Extent>& balls);
 
-    /// All particles of which the ray may cross the ball, and perhaps others.
+    /// All balls that the ray may cross, and perhaps others.
     Indices along(const Ray& ray) const;
+    /// All balls that may reach into a cube around a place, and perhaps others.
+    Indices within(const glm::dvec3& place, double halfSide) const;
 
  private:
     Crowd() = default;

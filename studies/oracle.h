@@ -20,6 +20,7 @@
 
 #include "render/view.h"
 #include "studies/crowd.h"
+#include "studies/oracle_sky.h"
 
 namespace oracle {
 
@@ -33,6 +34,28 @@ struct Hit {
     dvec3 point{0.0};
     dvec3 normal{0.0};  ///< unit length, outwards
     dvec3 albedo{0.0};
+    SixValues open = kAllOpen;
+};
+
+/// A ball of the metaball field.
+struct Ball {
+    dvec3 center{0.0};
+    double reach = 0.0;
+    double weight = 1.0;
+};
+
+/// The balls of a view, one a particle, by its skin.
+std::vector<Ball> ballsOf(const render::View& view);
+
+/// A view with what takes long to find for each ray anew. The view must outlive it.
+struct Scene {
+    /// Balls sorted by place, or, everyone, each tried for each ray.
+    explicit Scene(const render::View& view_, bool everyone = false);
+
+    const render::View& view;
+    std::vector<Ball> balls;
+    Crowd crowd;
+    Sky sky;
 };
 
 /// A part of a picture: columns and rows from (x, y) on.
@@ -60,8 +83,7 @@ Ray pixelRay(const render::View& view, render::PictureSize size, double px, doub
 
 /// The nearest surface along a ray, every surface tried; Kind::none where there is none.
 Hit trace(const render::View& view, const Ray& ray);
-/// The same, with the particles that a crowd knows near the ray.
-Hit trace(const render::View& view, const Crowd& crowd, const Ray& ray);
+Hit trace(const Scene& scene, const Ray& ray);
 
 /// The metaball field at a point; the surface is where it equals fieldThreshold.
 double fieldAt(const render::View& view, const dvec3& point);
@@ -69,12 +91,16 @@ double fieldThreshold(const render::View& view);
 
 /// Whether particles (spheres or the metaball surface, by style) or obstacles, but not the ground, hide the light from
 /// a point of a surface with this normal; a hard shadow. Light::shadows is not looked at: shade does that.
-bool inShadow(const render::View& view, const Crowd& crowd, const dvec3& point, const dvec3& normal);
+bool inShadow(const Scene& scene, const dvec3& point, const dvec3& normal);
+
+/// How much of the light reaches a point of a surface with this normal, by view.h's soft shadows, or 0 or 1 by
+/// inShadow.
+double visibility(const Scene& scene, const dvec3& point, const dvec3& normal);
 
 /// Linear colour of what a ray meets, before the clamp to [0,1]; screenT runs from 0 at the picture's bottom edge
 /// to 1 at its top edge.
 dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT);
-dvec3 shade(const render::View& view, const Crowd& crowd, const Hit& hit, const Ray& ray, double screenT);
+dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT);
 
 /// Linear [0,1] to 8-bit sRGB by the standard's formula, rounded to nearest; anything else is an error.
 std::uint8_t encodeSrgb(double linear);
@@ -83,7 +109,6 @@ std::uint8_t encodeSrgb(double linear);
 /// before the mean.
 Picture draw(const render::View& view, render::PictureSize size, int samplesPerAxis);
 /// A window of that picture.
-Picture drawWindow(const render::View& view, const Crowd& crowd, render::PictureSize size, const Window& window,
-                   int samplesPerAxis);
+Picture drawWindow(const Scene& scene, render::PictureSize size, const Window& window, int samplesPerAxis);
 
 }  // namespace oracle

@@ -93,7 +93,16 @@ render::View pictureCloud(std::size_t count, render::Style style) {
     view.light.toLight = glm::normalize(glm::vec3(-0.5F, 0.8F, 0.45F));
     view.light.color = {0.95F, 0.93F, 0.88F};
     view.ambient = {{0.42F, 0.45F, 0.5F}, {0.22F, 0.21F, 0.2F}};
-    view.surface = {0.04F, 7};
+    view.surface.specular = 0.04F;
+    view.surface.glossExponent = 8;
+    view.surface.reflection = 1.0F;
+    view.surface.translucency = 0.3F;
+    view.surface.absorption = 0.4F;
+    view.surroundings = {{1.2F, 1.3F, 1.4F}, {0.7F, 0.75F, 0.8F}, {0.2F, 0.2F, 0.2F}};
+    view.light.softness = 1.0F;
+    view.ambient.occlusion = 0.85F;
+    view.exposure = 1.0F;
+    view.field = {3.0F, render::Skin::smooth};
     view.background = {{0.56F, 0.63F, 0.70F}, {0.74F, 0.77F, 0.79F}};
     view.ground = render::Ground{0.0F, glm::vec3(0.5F), glm::vec3(0.0F), 30.0F};
     return view;

@@ -8,7 +8,7 @@
 
 namespace studies {
 
-/// The dam with ground, shadows and highlights, particles coloured from left to right. The same numbers give the same
+/// The dam with ground, soft shadows, occlusion and wet reflections, particles coloured from left to right. The same numbers give the same
 /// view. Shape: count > 0.
 render::View pictureCloud(std::size_t count, render::Style style);
 

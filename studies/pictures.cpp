@@ -123,9 +123,9 @@ std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const ren
                                 (2 * row + 1) * size.height / (2 * settings.windowRows) - settings.windowSide / 2,
                                 settings.windowSide, settings.windowSide},
                                {}});
-    const oracle::Crowd crowd(view);
+    const oracle::Scene scene(view);
     tbb::parallel_for(std::size_t{0}, windows.size(), [&](std::size_t k) {
-        windows[k].picture = oracle::drawWindow(view, crowd, size, windows[k].window, settings.samplesPerAxis);
+        windows[k].picture = oracle::drawWindow(scene, size, windows[k].window, settings.samplesPerAxis);
     });
     return windows;
 }

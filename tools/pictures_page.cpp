@@ -64,10 +64,18 @@ std::string errorTable(const std::vector<studies::PictureRow>& rows) {
                  table_);
 }
 
+std::string flickerTable(const std::vector<studies::FlickerRow>& rows) {
+    std::vector<Cells> table_;
+    for (const studies::FlickerRow& row : rows)
+        table_.push_back({studies::nameOf(row.style), studies::nameOf(row.quality), fmt::format("{:.3f}", row.change),
+                          fmt::format("{:.3f}", row.jerk)});
+    return table({"style", "quality", "change", "jerk"}, table_);
+}
+
 }  // namespace
 
-std::string picturesPage(const std::vector<studies::PictureRow>& rows, const PicturePlots& plots,
-                         const std::string& command) {
+std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command) {
+    const std::vector<studies::PictureRow>& rows = results.rows;
     std::string html = kHead;
     html += fmt::format(
         "<p>Made by <code>{}</code>. A dam that splashes, as many particles as the table says, in its full look. "
@@ -81,6 +89,12 @@ std::string picturesPage(const std::vector<studies::PictureRow>& rows, const Pic
         "<h2>Error</h2>\n<p>Against a ray caster in double precision, in windows spread evenly over the picture; depth "
         "and normal are means over the right hits on particles.</p>\n";
     html += picture("error against milliseconds", plots.errors) + errorTable(rows);
+    html +=
+        "<h2>Steadiness</h2>\n<p>A still scene while the camera moves an eighth of a pixel a frame: RMSE in steps of "
+        "255 "
+        "between one frame and the next (<em>change</em>), and between one such difference and the next "
+        "(<em>jerk</em>: what flickers rather than moves).</p>\n" +
+        flickerTable(results.flicker);
     return html + "</body></html>\n";
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/flicker.h"
 #include "studies/pictures.h"
 
 namespace tools {
@@ -14,7 +15,12 @@ struct PicturePlots {
     std::string errors;
 };
 
-std::string picturesPage(const std::vector<studies::PictureRow>& rows, const PicturePlots& plots,
-                         const std::string& command);
+/// All that the study found.
+struct PictureResults {
+    std::vector<studies::PictureRow> rows;
+    std::vector<studies::FlickerRow> flicker;
+};
+
+std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command);
 
 }  // namespace tools

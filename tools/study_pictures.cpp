@@ -1,11 +1,14 @@
 // globular study pictures: what frames cost, stage by stage, and how far they are from the exact picture.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "scenes/input_error.h"
 #include "studies/pictures.h"
 #include "tools/commands.h"
 #include "tools/gnuplot.h"
@@ -23,7 +26,20 @@ struct PicturesOptions {
     RunOptions run;
     std::string folder = "out/study-pictures";
     bool quick = false;
+    std::vector<std::size_t> particles;
+    std::string size;  ///< WxH
 };
+
+render::PictureSize sizeOf(const std::string& text) {
+    render::PictureSize size{0, 0};
+    char rest = 0;
+    const bool whole = std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) == 2;
+    // The windows of the error lie side by side.
+    if (!whole || size.width < 256 || size.height < 144 || size.width > 8192 || size.height > 8192)
+        throw scenes::InputError(
+            {{"--size", 0, 0, fmt::format("{} must be WxH from 256x144 to 8192x8192 pixels", text)}});
+    return size;
+}
 
 studies::PictureSettings settingsFor(const PicturesOptions& options) {
     studies::PictureSettings settings;
@@ -36,6 +52,18 @@ studies::PictureSettings settingsFor(const PicturesOptions& options) {
         settings.windowColumns = 3;
         settings.windowRows = 2;
         settings.samplesPerAxis = 2;
+    }
+    if (!options.particles.empty()) settings.particles = options.particles;
+    if (!options.size.empty()) settings.sizes = {sizeOf(options.size)};
+    return settings;
+}
+
+studies::FlickerSettings flickerSettingsFor(const PicturesOptions& options) {
+    studies::FlickerSettings settings;
+    if (options.quick) {
+        settings.particles = 2000;
+        settings.size = {320, 180};
+        settings.frames = 3;
     }
     return settings;
 }
@@ -75,18 +103,28 @@ void study(const PicturesOptions& options) {
     const fs::path folder = options.folder;
     createFolder(folder);
     const studies::PictureSettings settings = settingsFor(options);
-    std::vector<studies::PictureRow> rows;
-    onThreads(threads, [&] { rows = studies::measurePictures(settings, reporter(options.run.talk())); });
+    PictureResults results;
+    onThreads(threads, [&] {
+        results.rows = studies::measurePictures(settings, reporter(options.run.talk()));
+        results.flicker = studies::measureFlicker(flickerSettingsFor(options));
+    });
+    const std::vector<studies::PictureRow>& rows = results.rows;
     fs::remove(settings.videoPath);
     writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
+    writeFile(folder / "flicker.csv", studies::flickerCsv(results.flicker));
     const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows)), drawPlot(studies::pictureErrorsPlot(rows))};
     writeFile(folder / "times.svg", plots.times);
     writeFile(folder / "errors.svg", plots.errors);
-    const std::string command =
-        fmt::format("globular study pictures{} --threads {}", options.quick ? " --quick" : "", threads);
-    writeFile(folder / "index.html", picturesPage(rows, plots, command));
+    std::string command = fmt::format("globular study pictures{}", options.quick ? " --quick" : "");
+    if (!options.particles.empty()) command += fmt::format(" --particles {}", fmt::join(options.particles, " "));
+    if (!options.size.empty()) command += " --size " + options.size;
+    command += fmt::format(" --threads {}", threads);
+    writeFile(folder / "index.html", picturesPage(results, plots, command));
     if (options.run.talk() != Talk::normal) return;
     print(rows);
+    for (const studies::FlickerRow& row : results.flicker)
+        fmt::print("{} {}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n", studies::nameOf(row.style),
+                   studies::nameOf(row.quality), row.change, row.jerk);
     fmt::print("all of it: {}\n", (folder / "index.html").string());
 }
 
@@ -98,6 +136,10 @@ void addStudyPictures(CLI::App& study) {
     const auto options = std::make_shared<PicturesOptions>();
     command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-pictures)")
         ->type_name("DIR");
+    command->add_option("--particles", options->particles, "how many (default: 2000 10000 50000 200000)")
+        ->check(CLI::Range(100, 10000000))
+        ->type_name("N...");
+    command->add_option("--size", options->size, "of the picture (default: 1280x720 and 1920x1080)")->type_name("WxH");
     command->add_flag("--quick", options->quick, "fewer particles, small pictures");
     addTo(*command, options->run);
     command->footer("Example: globular study pictures --quick -o out/pictures");

@@ -99,4 +99,6 @@ TEST_CASE("The study of pictures writes its table, plots and a page, and leaves 
     CHECK(program::textOf(folder / "pictures" / "index.html").find("study pictures --quick --threads 1") !=
           std::string::npos);
     CHECK_FALSE(fs::exists(folder / "pictures" / "timing.mp4"));
+    CHECK(run("study pictures --size 100x100 -o /nonexistent/pictures").code == 2);
+    CHECK(run("study pictures --particles 3 -o /nonexistent/pictures").code == 2);
 }
