@@ -31,6 +31,14 @@ std::uint32_t packedRoots(glm::vec3 color) {
 
 }  // namespace
 
+std::uint32_t packedOpenness(const RayBlock& block, std::size_t k) {
+    if (!(block.depth[k] >= 0.0F)) return 0;
+    const auto packed = [](float at) {
+        return static_cast<std::uint32_t>(std::clamp(at, 0.0F, 1.0F) * 1023.0F + 0.5F);
+    };
+    return packed(block.open[0][k]) | packed(block.open[1][k]) << 10 | packed(block.open[2][k]) << 20;
+}
+
 FieldSample packedSample(const CameraFrame& frame, const RayBlock& block, std::size_t k) {
     if (!(block.depth[k] >= 0.0F)) return {};
     const glm::vec3 normal =

@@ -18,6 +18,9 @@ struct FieldSample {
     std::uint32_t extra = 0;      ///< first of four more samples at the sub-pixel places; 0: none
 };
 
+/// Openness of ray k along the normal, against it and along the mirrored ray, 10 bits each.
+std::uint32_t packedOpenness(const RayBlock& block, std::size_t k);
+
 /// Packs ray k of a block that was cast from this camera.
 FieldSample packedSample(const CameraFrame& frame, const RayBlock& block, std::size_t k);
 

@@ -31,9 +31,12 @@ namespace render {
     X(DeleteShader, PFNGLDELETESHADERPROC)                     \
     X(DeleteTextures, PFNGLDELETETEXTURESPROC)                 \
     X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)         \
+    X(DepthFunc, PFNGLDEPTHFUNCPROC)                           \
     X(Disable, PFNGLDISABLEPROC)                               \
     X(DrawArrays, PFNGLDRAWARRAYSPROC)                         \
+    X(DrawArraysInstanced, PFNGLDRAWARRAYSINSTANCEDPROC)       \
     X(Enable, PFNGLENABLEPROC)                                 \
+    X(Finish, PFNGLFINISHPROC)                                 \
     X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)     \
     X(GenBuffers, PFNGLGENBUFFERSPROC)                         \
     X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)               \

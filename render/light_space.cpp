@@ -48,7 +48,7 @@ LightBounds lightBounds(const LightBasis& basis, std::span<const ViewSphere> sph
     return bounds;
 }
 
-LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres) {
+LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness) {
     LightGrid grid;
     grid.cells.resize(1);
     if (spheres.empty()) return grid;
@@ -72,11 +72,11 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
 
     std::vector<BinItem> items(spheres.size());
     const std::vector<std::uint32_t> order = orderByKey(keys);
-    // The softened edge reaches a tenth of a radius outwards at most, see shaders/shadow.glsl.
-    constexpr float kMargin = 1.11F;
+    // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see shaders/shadow.glsl.
+    const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
     for (std::size_t place = 0; place < order.size(); ++place) {
         const LightSphere& sphere = seen[order[place]];
-        const float reach = kMargin * sphere.radius;
+        const float reach = margin * sphere.radius;
         items[place] = {order[place],
                         {cellOf(sphere.u - reach, low.x, grid.cellSize, grid.columns),
                          cellOf(sphere.v - reach, low.y, grid.cellSize, grid.rows),

@@ -47,8 +47,8 @@ struct LightGrid {
     std::vector<LightSphere> spheres;  ///< cell after cell, the nearest to the light first
 };
 
-/// Bins spheres (center relative to the eye) for a light.
-LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres);
+/// Bins spheres (center relative to the eye) for a light whose shadows are this soft.
+LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness);
 
 /// Bounds of spheres on the light's plane and along it.
 struct LightBounds {

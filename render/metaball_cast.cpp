@@ -1,8 +1,8 @@
 // Ray casting of metaballs with Highway, one ray per lane; this file is compiled once per instruction set.
 //
-// Along a ray at view depth t a ball's kernel root is 1 - d^2/R^2 = w - u^2 with u = (t - t0) s, where t0 is the depth
-// closest to the ball's centre, s = |direction|/R and w = 1 - (closest distance)^2/R^2. Hence the field and its
-// derivative:
+// Along a ray at view depth t the root of a ball's kernel is p - d^2 q^2 = w - u^2 (p its peak, q its slope) with u =
+// (t - t0) s, where t0 is the depth closest to the ball's centre, s = |direction| q and w = p - (closest distance)^2
+// q^2. Hence the field and its derivative:
 //   F = sum max(0, w - u^2)^2,     F' = -4 sum max(0, w - u^2) u s.
 // F is sampled on a grid of depths. A sample at or above the threshold brackets the surface; between two samples below
 // it a sliver can hide only if F rises at the first and falls at the second, and then the maximum is looked for.
@@ -38,7 +38,7 @@ constexpr int kPeakSearches = 4;  // steps towards the maximum of a suspected sl
 /// The balls that the rays of a group meet, in the order of the tile's list.
 struct NearBalls {
     std::vector<float> lanes;  ///< per ball: w, then t0 s, each one vector
-    std::vector<float> inverseReach;
+    std::vector<float> slope;
     std::vector<float> farDepth;
     std::vector<std::uint32_t> index;
     std::size_t count = 0;
@@ -48,7 +48,7 @@ struct NearBalls {
         count = 0;
         if (index.size() >= most) return;
         lanes.resize(2 * laneCount * most);
-        inverseReach.resize(most);
+        slope.resize(most);
         farDepth.resize(most);
         index.resize(most);
     }
@@ -146,7 +146,7 @@ class Group {
             const FieldBall& ball = cast_.balls[near_.index[b]];
             const V root = rootOf(b, depth).root;
             const V k = hn::Max(root, hn::Zero(d));
-            const V pull = hn::Mul(k, hn::Set(d, near_.inverseReach[b] * near_.inverseReach[b]));
+            const V pull = hn::Mul(k, hn::Set(d, near_.slope[b] * near_.slope[b]));
             n[0] = hn::Add(n[0], hn::Mul(pull, hn::Sub(px, hn::Set(d, ball.center.x))));
             n[1] = hn::Add(n[1], hn::Mul(pull, hn::Sub(py, hn::Set(d, ball.center.y))));
             n[2] = hn::Add(n[2], hn::Mul(pull, hn::Sub(depth, hn::Set(d, ball.center.z))));
@@ -158,13 +158,62 @@ class Group {
         }
         const V square = hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2]));
         const V scale = hn::Div(hn::Set(d, 1.0F), hn::Sqrt(hn::Max(square, hn::Set(d, 1e-30F))));
+        for (V& component : n) component = hn::Mul(component, scale);
+        if (cast_.openness) lookAround(depth, n, place, block);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            hn::StoreU(hn::Mul(n[axis], scale), d, &block.normal[axis][place]);
+            hn::StoreU(n[axis], d, &block.normal[axis][place]);
             hn::StoreU(hn::Div(c[axis], hn::Max(weight, hn::Set(d, 1e-30F))), d, &block.color[axis][place]);
         }
     }
 
+    /// Openness along the normal (unit, view coordinates), against it and along the mirrored ray.
+    void lookAround(V depth, const V* normal, std::size_t place, RayBlock& block) const {
+        const D d;
+        V open[6];
+        for (V& value : open) value = hn::Zero(d);
+        V weight = hn::Zero(d);
+        for (std::size_t b = firstFound_; b < near_.count; ++b) {
+            const Openness& values = cast_.balls[near_.index[b]].open;
+            const V k = hn::Max(rootOf(b, depth).root, hn::Zero(d));
+            const V share = hn::Mul(k, k);
+            weight = hn::Add(weight, share);
+            for (std::size_t side = 0; side < 6; ++side)
+                open[side] = hn::Add(open[side], hn::Mul(share, hn::Set(d, values[side])));
+        }
+        const V scale = hn::Div(hn::Set(d, 1.0F), hn::Max(weight, hn::Set(d, 1e-30F)));
+        for (V& value : open) value = hn::Mul(value, scale);
+        // The ray d and its mirror image d - 2 (d.n) n, both of unit length.
+        const V inverse = hn::Div(hn::Set(d, 1.0F), length_);
+        const V ray[3] = {hn::Mul(directionX_, inverse), hn::Mul(directionY_, inverse), inverse};
+        const V cosine =
+            hn::Add(hn::Add(hn::Mul(ray[0], normal[0]), hn::Mul(ray[1], normal[1])), hn::Mul(ray[2], normal[2]));
+        V mirrored[3];
+        V against[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            mirrored[axis] = hn::Sub(ray[axis], hn::Mul(hn::Mul(hn::Set(d, 2.0F), cosine), normal[axis]));
+            against[axis] = hn::Neg(normal[axis]);
+        }
+        hn::StoreU(openAlong(normal, open), d, &block.open[0][place]);
+        hn::StoreU(openAlong(against, open), d, &block.open[1][place]);
+        hn::StoreU(openAlong(mirrored, open), d, &block.open[2][place]);
+    }
+
  private:
+    /// Sum over the world's axes of the squared component times the value on its side.
+    V openAlong(const V* direction, const V* open) const {
+        const D d;
+        const CameraFrame& frame = cast_.frame;
+        V sum = hn::Zero(d);
+        for (int axis = 0; axis < 3; ++axis) {
+            const V world = hn::Add(hn::Add(hn::Mul(direction[0], hn::Set(d, frame.right[axis])),
+                                            hn::Mul(direction[1], hn::Set(d, frame.up[axis]))),
+                                    hn::Mul(direction[2], hn::Set(d, frame.forward[axis])));
+            const V value = hn::IfThenElse(hn::Gt(world, hn::Zero(d)), open[2 * axis], open[2 * axis + 1]);
+            sum = hn::Add(sum, hn::Mul(hn::Mul(world, world), value));
+        }
+        return sum;
+    }
+
     float depthOf(long k) const { return start_ + static_cast<float>(k) * cast_.step; }
     float nearDepth(std::uint32_t place) const {
         const FieldBall& ball = cast_.balls[cast_.tiles->items[place]];
@@ -187,12 +236,12 @@ class Group {
             const V offY = hn::Sub(y, hn::Mul(closest, directionY_));
             const V offZ = hn::Sub(z, closest);
             const V square = hn::Add(hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY)), hn::Mul(offZ, offZ));
-            const V w = hn::Sub(hn::Set(d, 1.0F), hn::Mul(square, hn::Set(d, ball.inverseReach * ball.inverseReach)));
+            const V w = hn::Sub(hn::Set(d, ball.peak), hn::Mul(square, hn::Set(d, ball.slope * ball.slope)));
             if (hn::AllTrue(d, hn::Le(w, hn::Zero(d)))) continue;
             float* lanes = &near_.lanes[2 * near_.count * hn::Lanes(d)];
             hn::StoreU(w, d, lanes);
-            hn::StoreU(hn::Mul(closest, hn::Mul(length_, hn::Set(d, ball.inverseReach))), d, lanes + hn::Lanes(d));
-            near_.inverseReach[near_.count] = ball.inverseReach;
+            hn::StoreU(hn::Mul(closest, hn::Mul(length_, hn::Set(d, ball.slope))), d, lanes + hn::Lanes(d));
+            near_.slope[near_.count] = ball.slope;
             near_.farDepth[near_.count] = ball.center.z + ball.reach;
             near_.index[near_.count] = index;
             ++near_.count;
@@ -217,7 +266,7 @@ class Group {
     Root rootOf(std::size_t b, V t) const {
         const D d;
         const float* lanes = &near_.lanes[2 * b * hn::Lanes(d)];
-        const V s = hn::Mul(length_, hn::Set(d, near_.inverseReach[b]));
+        const V s = hn::Mul(length_, hn::Set(d, near_.slope[b]));
         const V u = hn::Sub(hn::Mul(t, s), hn::LoadU(d, lanes + hn::Lanes(d)));
         return {hn::Sub(hn::LoadU(d, lanes), hn::Mul(u, u)), hn::Mul(u, s)};
     }

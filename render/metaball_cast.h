@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "render/camera_frame.h"
+#include "render/openness.h"
 #include "render/tiles.h"
 
 namespace render {
@@ -17,8 +18,10 @@ namespace render {
 struct FieldBall {
     glm::vec3 center{0.0F};
     float reach = 1.0F;  ///< where its kernel ends, m
-    float inverseReach = 1.0F;
+    float peak = 1.0F;   ///< square root of its weight, so that its share of the field is (peak - d^2 slope^2)^2
+    float slope = 1.0F;  ///< fourth root of its weight over its reach
     glm::vec3 color{0.0F};
+    Openness open = kOpen;
 };
 
 /// What all rays of one picture share.
@@ -28,7 +31,8 @@ struct FieldCast {
     const CellLists* tiles = nullptr;  ///< of the balls' reaches, front to back
     float threshold = 0.5F;
     float step = 0.05F;      ///< view depth between samples of the field, m
-    bool depthOnly = false;  ///< leaves normal and color unwritten
+    bool depthOnly = false;  ///< leaves normal, color and open unwritten
+    bool openness = false;   ///< writes open
 };
 
 inline constexpr std::size_t kBlockRays = 256;
@@ -41,6 +45,8 @@ struct RayBlock {
     alignas(64) std::array<float, kBlockRays> depth{};                  ///< view depth of the hit; negative: none
     alignas(64) std::array<std::array<float, kBlockRays>, 3> normal{};  ///< in view coordinates, unit length
     alignas(64) std::array<std::array<float, kBlockRays>, 3> color{};
+    /// Along the normal, against it, and along the mirrored ray.
+    alignas(64) std::array<std::array<float, kBlockRays>, 3> open{};
 };
 
 /// Casts the rays of a block, all within one tile.

@@ -41,9 +41,9 @@ struct BinnedField {
     float smallestRadius = 1.0F;
 };
 
-BinnedField binField(const CameraFrame& frame, const View& view) {
+BinnedField binField(const CameraFrame& frame, const Skinned& skin) {
     BinnedField field;
-    field.balls = fieldBalls(frame, view);
+    field.balls = fieldBalls(frame, skin);
     std::vector<ViewSphere> reaches(field.balls.size());
     float smallest = std::numeric_limits<float>::max();
     double sum = 0.0;
@@ -54,7 +54,7 @@ BinnedField binField(const CameraFrame& frame, const View& view) {
     }
     // A dwarf among giants may not make every ray crawl: a tenth of the mean radius is as small as it gets.
     const double mean = sum / static_cast<double>(std::max<std::size_t>(field.balls.size(), 1));
-    field.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / view.field.reach;
+    field.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / skin.view.field.reach;
     field.tiles = binToTiles(frame, reaches);
     return field;
 }
@@ -114,6 +114,7 @@ class Neighbours {
 struct TileExtras {
     std::vector<std::uint8_t> pixels;
     std::vector<FieldSample> samples;  ///< four a pixel
+    std::vector<std::uint32_t> open;
 };
 
 TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::uint8_t> pixels) {
@@ -124,7 +125,10 @@ TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::
     RayBlock block;
     const auto flush = [&] {
         castBlock(cast, tile, block);
-        for (std::size_t k = 0; k < block.count; ++k) extras.samples.push_back(packedSample(cast.frame, block, k));
+        for (std::size_t k = 0; k < block.count; ++k) {
+            extras.samples.push_back(packedSample(cast.frame, block, k));
+            if (cast.openness) extras.open.push_back(packedOpenness(block, k));
+        }
         block.count = 0;
     };
     for (const std::uint8_t pixel : pixels) {
@@ -160,6 +164,7 @@ void addExtras(const FieldCast& cast, float jump, FieldPicture& picture) {
                 static_cast<std::uint32_t>(picture.samples.size() + 4 * k);
         }
         picture.samples.insert(picture.samples.end(), extras[tile].samples.begin(), extras[tile].samples.end());
+        picture.open.insert(picture.open.end(), extras[tile].open.begin(), extras[tile].open.end());
     }
 }
 
@@ -181,36 +186,41 @@ CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) 
 // Finer than a twelfth of a radius nothing more is to be seen in a shadow (measured by eye).
 constexpr float kTexelsPerRadius = 12.0F;
 
-DepthMap emptyMap(const LightBounds& bounds, float radius, int mostTexels) {
+// eye: of the camera in light space. Texels lie at multiples of their size in the world, so that a map that grows by a
+// row, or a camera that moves, leaves the rest where it was.
+DepthMap emptyMap(const LightBounds& bounds, glm::vec3 eye, float texelSize, int mostTexels) {
     DepthMap map;
     const glm::vec3 extent = bounds.high - bounds.low;
-    map.texelSize =
-        std::max(std::max(extent.x, extent.y) / static_cast<float>(mostTexels - 4), radius / kTexelsPerRadius);
+    map.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(mostTexels - 5), texelSize);
     // Two texels of margin for the filter.
-    map.columns = static_cast<int>(extent.x / map.texelSize) + 5;
-    map.rows = static_cast<int>(extent.y / map.texelSize) + 5;
-    map.origin = glm::vec2(bounds.low) - 2.0F * map.texelSize;
+    map.columns = static_cast<int>(extent.x / map.texelSize) + 6;
+    map.rows = static_cast<int>(extent.y / map.texelSize) + 6;
+    const glm::vec2 low = glm::vec2(bounds.low) + glm::vec2(eye);
+    map.origin = (glm::floor(low / map.texelSize) - 2.0F) * map.texelSize - glm::vec2(eye);
     map.heights.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), kNoHeight);
     return map;
 }
 
 }  // namespace
 
-std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const View& view) {
+std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin) {
     std::vector<FieldBall> balls;
-    balls.reserve(view.particles.size());
-    for (const Sphere& particle : view.particles) {
-        if (particle.radius > 0.0F) {
-            const float reach = view.field.reach * particle.radius;
-            balls.push_back({frame.toView(particle.center), reach, 1.0F / reach, particle.color});
-        }
+    balls.reserve(skin.balls.size());
+    for (std::size_t k = 0; k < skin.balls.size(); ++k) {
+        const Sphere& particle = skin.view.particles[k];
+        if (!(particle.radius > 0.0F)) continue;
+        const float reach = skin.view.field.reach * particle.radius;
+        const float peak = std::sqrt(skin.balls[k].weight);
+        balls.push_back({frame.toView(skin.balls[k].center), reach, peak, std::sqrt(peak) / reach, particle.color,
+                         skin.open.empty() ? kOpen : skin.open[k]});
     }
     return balls;
 }
 
-FieldPicture castPicture(const CameraFrame& frame, const View& view, const FieldSampling& sampling) {
-    const BinnedField field = binField(frame, view);
-    const FieldCast cast = castOf(frame, view, field);
+FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling) {
+    const BinnedField field = binField(frame, skin);
+    FieldCast cast = castOf(frame, skin.view, field);
+    cast.openness = !skin.open.empty();
     FieldPicture picture;
     const std::size_t tileCount = field.tiles.begin.size() - 1;
     picture.slots.assign(tileCount, -1);
@@ -219,35 +229,47 @@ FieldPicture castPicture(const CameraFrame& frame, const View& view, const Field
         if (field.tiles.begin[tile + 1] > field.tiles.begin[tile]) picture.slots[tile] = slotCount++;
     }
     picture.samples.resize(static_cast<std::size_t>(slotCount) * kBlockRays);
+    if (cast.openness) picture.open.resize(picture.samples.size());
     tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
         if (picture.slots[tile] < 0) return;
         RayBlock block;
         placeRays(block, field.tiles, tile, sampling.offset);
         castBlock(cast, tile, block);
-        FieldSample* out = &picture.samples[static_cast<std::size_t>(picture.slots[tile]) * kBlockRays];
-        for (std::size_t k = 0; k < kBlockRays; ++k) out[kZCurve[k]] = packedSample(frame, block, k);
+        const std::size_t out = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
+        for (std::size_t k = 0; k < kBlockRays; ++k) {
+            picture.samples[out + kZCurve[k]] = packedSample(frame, block, k);
+            if (cast.openness) picture.open[out + kZCurve[k]] = packedOpenness(block, k);
+        }
     });
     if (sampling.extraAtOutlines) addExtras(cast, 0.5F * field.smallestRadius, picture);
     return picture;
 }
 
-DepthMap castDepthMap(const LightBasis& basis, const View& view, int mostTexels) {
+DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexels) {
+    const View& view = skin.view;
     DepthMap map;
     std::vector<ViewSphere> reaches;
     float smallest = std::numeric_limits<float>::max();
-    for (const Sphere& particle : view.particles) {
-        if (particle.radius <= 0.0F) continue;
-        reaches.push_back({particle.center - view.camera.eye, view.field.reach * particle.radius});
-        smallest = std::min(smallest, particle.radius);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < skin.balls.size(); ++k) {
+        const float radius = view.particles[k].radius;
+        if (radius <= 0.0F) continue;
+        reaches.push_back({skin.balls[k].center - view.camera.eye, view.field.reach * radius});
+        smallest = std::min(smallest, radius);
+        sum += double(radius);
     }
     map.heights.assign(1, kNoHeight);
     if (reaches.empty()) return map;
     const LightBounds bounds = lightBounds(basis, reaches);
-    map = emptyMap(bounds, smallest, mostTexels);
+    // A soft edge is three texels of half the softness wide.
+    const auto mean = static_cast<float>(sum / static_cast<double>(reaches.size()));
+    const float soft = view.light.softness;
+    map = emptyMap(bounds, basis.toLightSpace(view.camera.eye),
+                   soft > 0.0F ? 0.5F * soft * mean : smallest / kTexelsPerRadius, mostTexels);
     CameraFrame frame = lightFrame(basis, map, bounds.high.z);
     frame.eye += view.camera.eye;
 
-    const BinnedField field = binField(frame, view);
+    const BinnedField field = binField(frame, skin);
     FieldCast cast = castOf(frame, view, field);
     cast.depthOnly = true;
     tbb::parallel_for(std::size_t{0}, field.tiles.begin.size() - 1, [&](std::size_t tile) {

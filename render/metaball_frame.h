@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -11,6 +12,7 @@
 #include "render/field_sample.h"
 #include "render/light_space.h"
 #include "render/metaball_cast.h"
+#include "render/skin.h"
 #include "render/tiles.h"
 #include "render/view.h"
 
@@ -18,6 +20,7 @@ namespace render {
 
 struct FieldPicture {
     std::vector<FieldSample> samples;  ///< 256 a slot, row by row, then the extra samples
+    std::vector<std::uint32_t> open;   ///< of each sample, as packedOpenness() has it; empty without
     std::vector<std::int32_t> slots;   ///< per tile; -1 where no ball reaches
 };
 
@@ -38,13 +41,20 @@ struct DepthMap {
 
 inline constexpr float kNoHeight = -3e38F;
 
-/// Balls of the particles in a camera's coordinates; radii not above zero are left out.
-std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const View& view);
+/// The particles of a view as metaballs.
+struct Skinned {
+    const View& view;
+    std::span<const SkinBall> balls;  ///< one a particle
+    std::span<const Openness> open;   ///< likewise, or empty
+};
+
+/// Balls in a camera's coordinates; radii not above zero are left out.
+std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin);
 
 /// Half a radius of the smallest ball per step: metaball_test.cpp finds no hit missed against the oracle's exact roots.
-FieldPicture castPicture(const CameraFrame& frame, const View& view, const FieldSampling& sampling);
+FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling);
 
 /// mostTexels: along the longer side.
-DepthMap castDepthMap(const LightBasis& basis, const View& view, int mostTexels);
+DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexels);
 
 }  // namespace render

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -12,7 +13,15 @@ namespace render {
 namespace {
 
 // A tile's class: which of these it shows. Tiles of one class are drawn together with a program that has only that.
-enum ClassBit { kSphereBit = 1, kFieldBit = 2, kLineBit = 4, kBoxBit = 8, kClassCount = 16 };
+enum ClassBit {
+    kSphereBit = 1,
+    kFieldBit = 2,
+    kLineBit = 4,
+    kBoxBit = 8,
+    kGroundBit = 16,
+    kDimBit = 32,  // shadows or openness are looked up
+    kClassCount = 64
+};
 
 struct TileRow {
     std::int32_t column, row, sphereBegin, sphereEnd, fieldSlot, lineBegin, lineEnd, unused;
@@ -27,24 +36,38 @@ std::int32_t beginOf(const CellLists& lists, std::size_t cell) {
     return static_cast<std::int32_t>(lists.begin[cell]);
 }
 
-// Spheres that OpenGL draws: obstacles always, particles unless they are metaballs.
-struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;  // center relative to the eye, in world axes
-    std::vector<glm::vec4> colors;    // w: specular
-};
-
-DrawnSpheres drawnSpheres(const View& view) {
+DrawnSpheres drawnSpheres(const View& view, std::span<const Openness> open) {
     DrawnSpheres drawn;
-    const auto add = [&](glm::vec3 center, float radius, glm::vec3 color, float specular) {
-        if (!(radius > 0.0F)) return;
+    const auto add = [&](glm::vec3 center, float radius, glm::vec3 color, float particle) {
         drawn.spheres.push_back({center - view.camera.eye, radius});
-        drawn.colors.emplace_back(color, specular);
+        drawn.colors.emplace_back(color, particle);
     };
     if (view.style == Style::spheres) {
-        for (const Sphere& s : view.particles) add(s.center, s.radius, s.color, view.surface.specular);
+        for (std::size_t k = 0; k < view.particles.size(); ++k) {
+            const Sphere& s = view.particles[k];
+            if (!(s.radius > 0.0F)) continue;
+            add(s.center, s.radius, s.color, 1.0F);
+            if (open.empty()) continue;
+            drawn.open.emplace_back(open[k][0], open[k][2], open[k][4], 0.0F);
+            drawn.open.emplace_back(open[k][1], open[k][3], open[k][5], 0.0F);
+        }
     }
-    for (const SphereObstacle& s : view.sphereObstacles) add(s.center, s.radius, s.color, 0.0F);
+    for (const SphereObstacle& s : view.sphereObstacles)
+        if (s.radius > 0.0F) add(s.center, s.radius, s.color, 0.0F);
     return drawn;
+}
+
+// Whether any term of the shading model looks at openness.
+bool asksForOpenness(const View& view) {
+    const Surface& surface = view.surface;
+    return !view.particles.empty() && (view.ambient.occlusion > 0.0F || surface.reflection > 0.0F ||
+                                       surface.translucency > 0.0F || surface.absorption > 0.0F);
+}
+
+float meanRadiusOf(const View& view) {
+    double sum = 0.0;
+    for (const Sphere& particle : view.particles) sum += double(particle.radius);
+    return view.particles.empty() ? 0.0F : static_cast<float>(sum / static_cast<double>(view.particles.size()));
 }
 
 }  // namespace
@@ -62,47 +85,79 @@ PicturePass::PicturePass(const Gl& gl)
       lightSpheres_(gl, "shadow casters in cells", GL_RGBA32F, 16),
       lightDepths_(gl, "texels of the light's depth map", GL_R32F, 4),
       lines_(gl, "lines", GL_RGBA32F, 16),
-      lineLists_(gl, "lines in tiles", GL_R32I, 4) {
+      lineLists_(gl, "lines in tiles", GL_R32I, 4),
+      sphereOpen_(gl, "openness of spheres", GL_RGBA32F, 16),
+      fieldOpen_(gl, "openness of metaball samples", GL_R32UI, 4),
+      gridOpen_(gl, "cubes of openness", GL_R32F, 4),
+      groundOpen_(gl, "openness of the ground", GL_R32F, 4) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     frameBlock_ = BufferName(gl, name);
 }
 
-void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels) {
+void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times) {
+    StageClock clock;
     frame_ = frame;
     light_ = lightBasis(view.light.toLight);
     castsField_ = view.style == Style::metaballs && !view.particles.empty();
     fieldSlots_.clear();
-    uploadSpheres(view);
-    uploadLight(view, depthMapTexels);
+    meanRadius_ = meanRadiusOf(view);
+    findOpenness(view);
+    clock.add(times.occlusion);
+    skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
+    binSpheres(view);
     uploadLines(view);
     uploadBoxes(view);
+    clock.add(times.bin);
+    castLight(view, depthMapTexels);
+    clock.add(times.shadow);
+    sortGround(view);
+    clock.add(times.bin);
 }
 
-void PicturePass::uploadSpheres(const View& view) {
-    const DrawnSpheres drawn = drawnSpheres(view);
-    std::vector<ViewSphere> seen(drawn.spheres.size());
+void PicturePass::findOpenness(const View& view) {
+    opens_ = asksForOpenness(view);
+    particleOpen_.clear();
+    openGrid_ = opens_ ? opennessGrid(view.particles) : OpennessGrid{};
+    openMap_ = OpennessMap{};
+    if (!opens_) return;
+    particleOpen_.resize(view.particles.size());
+    tbb::parallel_for(std::size_t{0}, view.particles.size(),
+                      [&](std::size_t k) { particleOpen_[k] = opennessAt(openGrid_, view.particles[k].center); });
+    if (view.ground) openMap_ = opennessAtHeight(openGrid_, view.ground->height);
+    groundOpen_.upload(bytesOf(openMap_.values));
+    if (view.boxObstacles.empty() && view.sphereObstacles.empty()) return;
+    std::vector<float> all;
+    for (const std::vector<float>& values : openGrid_.values) all.insert(all.end(), values.begin(), values.end());
+    gridOpen_.upload(bytesOf(all));
+}
+
+void PicturePass::binSpheres(const View& view) {
+    drawn_ = drawnSpheres(view, particleOpen_);
+    std::vector<ViewSphere> seen(drawn_.spheres.size());
     for (std::size_t k = 0; k < seen.size(); ++k) {
-        seen[k] = {frame_.toView(drawn.spheres[k].center + frame_.eye), drawn.spheres[k].radius};
+        seen[k] = {frame_.toView(drawn_.spheres[k].center + frame_.eye), drawn_.spheres[k].radius};
     }
     sphereTiles_ = binToTiles(frame_, seen);
     std::vector<glm::vec4> entries(sphereTiles_.items.size());
     tbb::parallel_for(std::size_t{0}, entries.size() / 4096 + 1, [&](std::size_t chunk) {
         for (std::size_t k = chunk * 4096; k < std::min((chunk + 1) * 4096, entries.size()); ++k) {
-            const ViewSphere& sphere = drawn.spheres[sphereTiles_.items[k]];
+            const ViewSphere& sphere = drawn_.spheres[sphereTiles_.items[k]];
             entries[k] = glm::vec4(sphere.center, sphere.radius);
         }
     });
     tileSpheres_.upload(bytesOf(entries));
     tileSphereIds_.upload(bytesOf(sphereTiles_.items));
-    sphereColors_.upload(bytesOf(drawn.colors));
-    lightGrid_ = view.light.shadows ? lightGrid(light_, drawn.spheres) : LightGrid{};
+    sphereColors_.upload(bytesOf(drawn_.colors));
+    sphereOpen_.upload(bytesOf(drawn_.open));
 }
 
-void PicturePass::uploadLight(const View& view, int depthMapTexels) {
+void PicturePass::castLight(const View& view, int depthMapTexels) {
+    lightGrid_ = view.light.shadows ? lightGrid(light_, drawn_.spheres, view.light.softness) : LightGrid{};
     lightLists_.upload(bytesOf(lightGrid_.cells));
     lightSpheres_.upload(bytesOf(lightGrid_.spheres));
-    depthMap_ = castsField_ && view.light.shadows ? castDepthMap(light_, view, depthMapTexels) : DepthMap{};
+    depthMap_ =
+        castsField_ && view.light.shadows ? castDepthMap(light_, {view, skin_, {}}, depthMapTexels) : DepthMap{};
     lightDepths_.upload(bytesOf(depthMap_.heights));
 }
 
@@ -132,11 +187,49 @@ void PicturePass::uploadBoxes(const View& view) {
     }
 }
 
+void PicturePass::sortGround(const View& view) {
+    groundTiles_.assign(sphereTiles_.begin.size() - 1, GroundTile::none);
+    if (!view.ground) return;
+    Dimming dimming;
+    dimming.light = light_;
+    if (view.light.shadows) {
+        glm::vec2 low(std::numeric_limits<float>::max());
+        glm::vec2 high(std::numeric_limits<float>::lowest());
+        const auto cover = [&](glm::vec2 first, glm::vec2 last) {
+            low = min(low, first);
+            high = max(high, last);
+        };
+        const glm::vec2 gridSize(lightGrid_.columns, lightGrid_.rows);
+        if (!lightGrid_.spheres.empty()) cover(lightGrid_.origin, lightGrid_.origin + lightGrid_.cellSize * gridSize);
+        const glm::vec2 mapSize(depthMap_.columns, depthMap_.rows);
+        if (depthMap_.heights.size() > 1) cover(depthMap_.origin, depthMap_.origin + depthMap_.texelSize * mapSize);
+        for (const BoxObstacle& box : view.boxObstacles) {
+            // Half the width of an edge: a soft one's, or a pixel's, which far away is wider than anything.
+            const glm::vec3 size = box.maximum - box.minimum;
+            const float edge = view.light.softness * meanRadius_ + 0.5F * length(size);
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::vec3 at = box.minimum + size * glm::vec3(corner & 1, (corner >> 1) & 1, corner >> 2);
+                const glm::vec2 on(light_.toLightSpace(at - frame_.eye));
+                cover(on - edge, on + edge);
+            }
+        }
+        dimming.shadowLow = low;
+        dimming.shadowHigh = high;
+    }
+    if (opens_ && view.ambient.occlusion > 0.0F) {
+        dimming.openLow = openMap_.origin - glm::vec2(frame_.eye.x, frame_.eye.z);
+        dimming.openHigh = dimming.openLow + openMap_.side * glm::vec2(openMap_.columns, openMap_.rows);
+    }
+    groundTiles_ = groundTiles(frame_, view.ground->height - frame_.eye.y, dimming);
+}
+
 void PicturePass::castField(const View& view, const Sampling& sampling) {
     if (!castsField_) return;
-    const FieldPicture picture = castPicture(frame_, view, {sampling.offset, sampling.samples > 1});
+    const FieldPicture picture =
+        castPicture(frame_, {view, skin_, particleOpen_}, {sampling.offset, sampling.samples > 1});
     fieldSlots_ = picture.slots;
     fieldSamples_.upload(bytesOf(picture.samples));
+    fieldOpen_.upload(bytesOf(picture.open));
 }
 
 void PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
@@ -161,6 +254,17 @@ void PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
     block.lightCells = glm::ivec4(lightGrid_.columns, lightGrid_.rows, depthMap_.columns, depthMap_.rows);
     block.depthMap = glm::vec4(depthMap_.origin, 1.0F / depthMap_.texelSize, depthMap_.texelSize);
     block.counts = glm::ivec4(view.boxObstacles.size(), view.surface.glossExponent, 0, 0);
+    const Surface& surface = view.surface;
+    block.material = glm::vec4(surface.reflection, surface.metal, surface.roughness, surface.translucency);
+    block.tone = glm::vec4(surface.absorption, surface.glow, view.ambient.occlusion, view.exposure);
+    block.mirrorTop = glm::vec4(view.surroundings.top, 0.0F);
+    block.mirrorHorizon = glm::vec4(view.surroundings.horizon, 0.0F);
+    block.mirrorBottom = glm::vec4(view.surroundings.bottom, 0.0F);
+    block.openGrid = glm::vec4(openGrid_.origin - frame_.eye, 1.0F / openGrid_.side);
+    block.openCells = glm::ivec4(openGrid_.cells, openMap_.columns);
+    block.openMap =
+        glm::vec4(openMap_.origin - glm::vec2(frame_.eye.x, frame_.eye.z), 1.0F / openMap_.side, openMap_.rows);
+    block.soft = glm::vec4(view.light.softness, meanRadius_, 0.0F, 0.0F);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.get());
     gl_->BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
 }
@@ -168,18 +272,32 @@ void PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
 Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int tileClass) const {
     Features features;
     features.samples = sampling.samples;
-    features.encode = sampling.encode;
+    features.output = sampling.output;
     features.spheres = (tileClass & kSphereBit) != 0;
     features.field = (tileClass & kFieldBit) != 0;
     features.lines = (tileClass & kLineBit) != 0;
     features.boxes = (tileClass & kBoxBit) != 0;
-    features.ground = view.ground.has_value();
-    features.lightSpheres = !lightGrid_.spheres.empty();
-    features.lightField = depthMap_.heights.size() > 1;
-    features.lightBoxes = view.light.shadows && !view.boxObstacles.empty();
+    features.ground = (tileClass & kGroundBit) != 0;
+    const bool dim = (tileClass & kDimBit) != 0;
+    features.lightSpheres = dim && !lightGrid_.spheres.empty();
+    features.lightField = dim && depthMap_.heights.size() > 1;
+    features.lightBoxes = dim && view.light.shadows && !view.boxObstacles.empty();
     features.shadows = features.lightSpheres || features.lightField || features.lightBoxes;
-    features.specular =
-        view.surface.specular > 0.0F && (features.field || (features.spheres && view.style == Style::spheres));
+    features.soft = features.shadows && view.light.softness > 0.0F;
+    const bool particles = features.field || (features.spheres && view.style == Style::spheres);
+    const Surface& surface = view.surface;
+    features.specular = particles && (surface.specular > 0.0F || surface.metal > 0.0F);
+    features.metal = particles && surface.metal > 0.0F;
+    features.mirror = particles && surface.reflection > 0.0F;
+    features.rough = particles && surface.roughness > 0.0F;
+    features.translucent = particles && surface.translucency > 0.0F;
+    features.absorbing = particles && surface.absorption > 0.0F;
+    features.glow = particles && surface.glow > 0.0F;
+    features.occlusion = dim && opens_ && view.ambient.occlusion > 0.0F;
+    features.open = opens_ && (features.occlusion || particles);
+    features.openObstacles =
+        features.occlusion && (features.boxes || (features.spheres && !view.sphereObstacles.empty()));
+    features.tone = view.exposure > 0.0F;
     return features;
 }
 
@@ -189,6 +307,9 @@ int PicturePass::classOf(std::size_t tile) const {
     if (!fieldSlots_.empty() && fieldSlots_[tile] >= 0) bits |= kFieldBit;
     if (lineList_.tiles.begin[tile + 1] > lineList_.tiles.begin[tile]) bits |= kLineBit;
     if (boxTiles_[tile] != 0) bits |= kBoxBit;
+    if (groundTiles_[tile] != GroundTile::none) bits |= kGroundBit;
+    const bool surfaces = (bits & (kSphereBit | kFieldBit | kBoxBit)) != 0;
+    if (surfaces || groundTiles_[tile] == GroundTile::dimmed) bits |= kDimBit;
     return bits;
 }
 
@@ -230,6 +351,10 @@ void PicturePass::draw(const View& view, const Sampling& sampling, PictureSize t
     lightDepths_.bind(kLightDepthsUnit);
     lines_.bind(kLinesUnit);
     lineLists_.bind(kLineListsUnit);
+    sphereOpen_.bind(kSphereOpenUnit);
+    fieldOpen_.bind(kFieldOpenUnit);
+    gridOpen_.bind(kGridOpenUnit);
+    groundOpen_.bind(kGroundOpenUnit);
     for (int tileClass = 0; tileClass < kClassCount; ++tileClass) {
         const int begin = first[static_cast<std::size_t>(tileClass)];
         const int end = first[static_cast<std::size_t>(tileClass) + 1];

@@ -8,10 +8,13 @@
 #include <glm/glm.hpp>
 
 #include "render/camera_frame.h"
+#include "render/draw_times.h"
 #include "render/gl_objects.h"
+#include "render/ground_tiles.h"
 #include "render/light_space.h"
 #include "render/line_list.h"
 #include "render/metaball_frame.h"
+#include "render/openness.h"
 #include "render/program_cache.h"
 #include "render/view.h"
 
@@ -24,13 +27,23 @@ struct FrameBlock {
     glm::ivec4 lightCells;
     glm::vec4 depthMap;
     glm::ivec4 counts;
+    glm::vec4 material, tone, mirrorTop, mirrorHorizon, mirrorBottom, openGrid;
+    glm::ivec4 openCells;
+    glm::vec4 openMap, soft;
 };
 
 /// Which rays one drawing takes through a pixel, and what becomes of their colours.
 struct Sampling {
     int samples = 1;         ///< 1 or 4
     glm::vec2 offset{0.0F};  ///< from the pixel's middle, pixels; with one sample only
-    bool encode = true;      ///< sRGB bytes; otherwise linear
+    Output output = Output::bytes;
+};
+
+/// Spheres that OpenGL draws: obstacles always, particles unless they are metaballs.
+struct DrawnSpheres {
+    std::vector<ViewSphere> spheres;  ///< center relative to the eye, in world axes
+    std::vector<glm::vec4> colors;    ///< w: 1 for particles, 0 for obstacles
+    std::vector<glm::vec4> open;      ///< two a sphere: openness along +x, +y, +z and along -x, -y, -z; empty without
 };
 
 class PicturePass {
@@ -38,7 +51,7 @@ class PicturePass {
     explicit PicturePass(const Gl& gl);
 
     /// Fills and uploads everything that does not depend on where in the pixel the rays go.
-    void prepare(const CameraFrame& frame, const View& view, int depthMapTexels);
+    void prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times);
 
     /// Casts the metaballs for these rays; draws nothing yet. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
@@ -49,10 +62,12 @@ class PicturePass {
     ProgramCache& programs() { return programs_; }
 
  private:
-    void uploadSpheres(const View& view);
-    void uploadLight(const View& view, int depthMapTexels);
+    void binSpheres(const View& view);
+    void findOpenness(const View& view);
+    void castLight(const View& view, int depthMapTexels);
     void uploadLines(const View& view);
     void uploadBoxes(const View& view);
+    void sortGround(const View& view);
     void uploadFrame(const View& view, const Sampling& sampling);
     Features featuresOf(const View& view, const Sampling& sampling, int tileClass) const;
     int classOf(std::size_t tile) const;
@@ -62,15 +77,24 @@ class PicturePass {
     ProgramCache programs_;
     TextureBuffer boxes_, tileTable_, tileSpheres_, tileSphereIds_, sphereColors_, fieldSamples_;
     TextureBuffer lightLists_, lightSpheres_, lightDepths_, lines_, lineLists_;
+    TextureBuffer sphereOpen_, fieldOpen_, gridOpen_, groundOpen_;
     BufferName frameBlock_;
 
     CameraFrame frame_;
+    DrawnSpheres drawn_;
     CellLists sphereTiles_;
     LineList lineList_;
     std::vector<std::uint8_t> boxTiles_;  // 1 where a box may be seen
+    std::vector<GroundTile> groundTiles_;
     LightBasis light_;
     LightGrid lightGrid_;
     DepthMap depthMap_;
+    bool opens_ = false;  // the look asks for openness
+    std::vector<Openness> particleOpen_;
+    std::vector<SkinBall> skin_;  // of metaballs
+    OpennessGrid openGrid_;
+    OpennessMap openMap_;
+    float meanRadius_ = 0.0F;
     std::vector<std::int32_t> fieldSlots_;
     bool castsField_ = false;
 };

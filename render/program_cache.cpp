@@ -16,7 +16,7 @@ struct Unit {
     TextureUnit unit;
 };
 
-constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
+constexpr std::array<Unit, 16> kUnits = {{{"boxes", kBoxesUnit},
                                           {"tileTable", kTileTableUnit},
                                           {"tileSpheres", kTileSpheresUnit},
                                           {"tileSphereIds", kTileSphereIdsUnit},
@@ -27,7 +27,11 @@ constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
                                           {"lightDepths", kLightDepthsUnit},
                                           {"lines", kLinesUnit},
                                           {"lineLists", kLineListsUnit},
-                                          {"accumulated", kAccumulatedUnit}}};
+                                          {"accumulated", kAccumulatedUnit},
+                                          {"sphereOpen", kSphereOpenUnit},
+                                          {"fieldOpen", kFieldOpenUnit},
+                                          {"gridOpen", kGridOpenUnit},
+                                          {"groundOpen", kGroundOpenUnit}}};
 
 std::string definesOf(const Features& features) {
     std::string text = fmt::format("#version 330 core\n#define SAMPLES {}\n", features.samples);
@@ -43,8 +47,20 @@ std::string definesOf(const Features& features) {
     define("SHADOWS", features.shadows);
     define("LIGHT_SPHERES", features.lightSpheres);
     define("LIGHT_FIELD", features.lightField);
+    define("SOFT", features.soft);
     define("SPECULAR", features.specular);
-    define("ENCODE", features.encode);
+    define("METAL", features.metal);
+    define("MIRROR", features.mirror);
+    define("ROUGH", features.rough);
+    define("TRANSLUCENT", features.translucent);
+    define("ABSORBING", features.absorbing);
+    define("GLOW", features.glow);
+    define("OPEN", features.open);
+    define("OCCLUSION", features.occlusion);
+    define("OPEN_OBSTACLES", features.openObstacles);
+    define("TONE", features.tone);
+    define("ENCODE", features.output == Output::bytes);
+    define("SURFACE", features.output == Output::surface);
     return text;
 }
 
@@ -69,22 +85,26 @@ GLuint compile(const Gl& gl, GLenum stage, const std::string& source) {
 
 }  // namespace
 
-GLuint ProgramCache::build(ProgramName& place, const std::string& vertex, const std::string& fragment) const {
-    ProgramName program(*gl_, gl_->CreateProgram());
-    const GLuint vertexShader = compile(*gl_, GL_VERTEX_SHADER, vertex);
-    const GLuint fragmentShader = compile(*gl_, GL_FRAGMENT_SHADER, fragment);
-    gl_->AttachShader(program.get(), vertexShader);
-    gl_->AttachShader(program.get(), fragmentShader);
-    gl_->LinkProgram(program.get());
-    gl_->DeleteShader(vertexShader);
-    gl_->DeleteShader(fragmentShader);
+ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::string& fragment) {
+    ProgramName program(gl, gl.CreateProgram());
+    const GLuint vertexShader = compile(gl, GL_VERTEX_SHADER, vertex);
+    const GLuint fragmentShader = compile(gl, GL_FRAGMENT_SHADER, fragment);
+    gl.AttachShader(program.get(), vertexShader);
+    gl.AttachShader(program.get(), fragmentShader);
+    gl.LinkProgram(program.get());
+    gl.DeleteShader(vertexShader);
+    gl.DeleteShader(fragmentShader);
     GLint good = GL_FALSE;
-    gl_->GetProgramiv(program.get(), GL_LINK_STATUS, &good);
+    gl.GetProgramiv(program.get(), GL_LINK_STATUS, &good);
     if (good != GL_TRUE) {
         std::array<char, 2000> words{};
-        gl_->GetProgramInfoLog(program.get(), static_cast<GLsizei>(words.size()), nullptr, words.data());
+        gl.GetProgramInfoLog(program.get(), static_cast<GLsizei>(words.size()), nullptr, words.data());
         throw SystemError(fmt::format("OpenGL cannot link globular's shaders: {}", words.data()));
     }
+    return program;
+}
+
+GLuint ProgramCache::keep(ProgramName& place, ProgramName program) const {
     gl_->UseProgram(program.get());
     for (const Unit& unit : kUnits) setInteger(program.get(), unit.name, unit.unit);
     const GLuint block = gl_->GetUniformBlockIndex(program.get(), "FrameBlock");
@@ -97,16 +117,16 @@ GLuint ProgramCache::picture(const Features& features) {
     ProgramName& place = pictures_[features];
     if (place.get() != 0) return place.get();
     const std::string vertex = joined("#version 330 core\n", {"tile.vert"});
-    std::string fragment =
-        joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "shadow.glsl", "shade.glsl"});
+    std::string fragment = joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "openness.glsl",
+                                                        "shadow.glsl", "shade.glsl"});
     if (features.lines) fragment = joined(fragment, {"lines.glsl"});
-    return build(place, vertex, joined(fragment, {"picture.frag"}));
+    return keep(place, buildProgram(*gl_, vertex, joined(fragment, {"picture.frag"})));
 }
 
 GLuint ProgramCache::resolve() {
     if (resolve_.get() != 0) return resolve_.get();
-    return build(resolve_, joined("#version 330 core\n", {"full_screen.vert"}),
-                 joined("#version 330 core\n", {"encode.glsl", "resolve.frag"}));
+    return keep(resolve_, buildProgram(*gl_, joined("#version 330 core\n", {"full_screen.vert"}),
+                                       joined("#version 330 core\n", {"encode.glsl", "resolve.frag"})));
 }
 
 void ProgramCache::setInteger(GLuint program, const char* name, int value) const {

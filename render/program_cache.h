@@ -13,6 +13,13 @@ namespace render {
 /// Text of a file of shaders/, embedded by the build.
 std::string_view shaderSource(std::string_view name);
 
+/// What a pixel of a drawing is.
+enum class Output {
+    bytes,   ///< sRGB encoded
+    linear,  ///< colour, for averaging
+    surface  ///< normal and view depth of what is seen; depth -1 for nothing
+};
+
 /// What one draw of tiles needs.
 struct Features {
     int samples = 1;
@@ -25,8 +32,19 @@ struct Features {
     bool shadows = false;
     bool lightSpheres = false;  ///< spheres cast shadows
     bool lightField = false;    ///< metaballs cast shadows
+    bool soft = false;          ///< shadows
     bool specular = false;
-    bool encode = true;  ///< to sRGB bytes; otherwise linear, for averaging
+    bool metal = false;
+    bool mirror = false;
+    bool rough = false;
+    bool translucent = false;
+    bool absorbing = false;
+    bool glow = false;
+    bool open = false;  ///< some term looks at openness
+    bool occlusion = false;
+    bool openObstacles = false;  ///< obstacles do
+    bool tone = false;
+    Output output = Output::bytes;
 
     auto operator<=>(const Features&) const = default;
 };
@@ -44,8 +62,15 @@ enum TextureUnit : int {
     kLightDepthsUnit,
     kLinesUnit,
     kLineListsUnit,
-    kAccumulatedUnit
+    kAccumulatedUnit,
+    kSphereOpenUnit,
+    kFieldOpenUnit,
+    kGridOpenUnit,
+    kGroundOpenUnit
 };
+
+/// A linked program; throws SystemError with the compiler's or linker's words.
+ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::string& fragment);
 
 class ProgramCache {
  public:
@@ -57,7 +82,7 @@ class ProgramCache {
     void setInteger(GLuint program, const char* name, int value) const;
 
  private:
-    GLuint build(ProgramName& place, const std::string& vertex, const std::string& fragment) const;
+    GLuint keep(ProgramName& place, ProgramName program) const;
 
     const Gl* gl_;
     std::map<Features, ProgramName> pictures_;

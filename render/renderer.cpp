@@ -1,7 +1,6 @@
 // From view to image: prepare, cast, draw, read back; at final quality nine times with the rays moved within the pixel.
 #include "render/renderer.h"
 
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -43,20 +42,6 @@ void requireFinite(const View& view) {
         throw std::logic_error("render: the light has no direction");
 }
 
-class Stopwatch {
- public:
-    /// Seconds since the last call.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - start_).count();
-        start_ = now;
-        return seconds;
-    }
-
- private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 PictureSize checkedSize(PictureSize size) {
     if (size.width > 0 && size.height > 0) return size;
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
@@ -88,10 +73,13 @@ struct Renderer::Parts {
     }
 
     void drawOnce(const View& view, const Sampling& sampling) {
-        Stopwatch watch;
+        StageClock clock;
         pass.castField(view, sampling);
-        times.cast += watch.lap();
+        clock.add(times.cast);
         pass.draw(view, sampling, padded);
+        // OpenGL draws when it is asked for a result.
+        context.gl().Finish();
+        clock.add(times.shade);
     }
 
     // Regular 3 x 3 grid, each sample clamped, averaged in linear light.
@@ -103,28 +91,50 @@ struct Renderer::Parts {
         gl.Enable(GL_BLEND);
         for (int row = -1; row <= 1; ++row) {
             for (int column = -1; column <= 1; ++column) {
-                drawOnce(view, {1, glm::vec2(column, row) / 3.0F, false});
+                drawOnce(view, {1, glm::vec2(column, row) / 3.0F, Output::linear});
             }
         }
         gl.Disable(GL_BLEND);
+        StageClock clock;
         bytes.bindForDrawing();
         linear->bindAsTexture(kAccumulatedUnit);
         const GLuint program = pass.programs().resolve();
         gl.UseProgram(program);
         pass.programs().setInteger(program, "sampleCount", 9);
         gl.DrawArrays(GL_TRIANGLES, 0, 3);
+        gl.Finish();
+        clock.add(times.shade);
+    }
+
+    std::vector<SurfacePoint> surfaces(const View& view) {
+        const Target target(context.gl(), GL_RGBA32F, padded.width, padded.height);
+        target.bindForDrawing();
+        drawOnce(view, {1, glm::vec2(0.0F), Output::surface});
+        std::vector<glm::vec4> texels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+        context.gl().ReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_FLOAT, texels.data());
+        checkGl(context.gl(), "drawing surfaces");
+        std::vector<SurfacePoint> points;
+        points.reserve(texels.size());
+        for (const glm::vec4& texel : texels) points.push_back({glm::vec3(texel), texel.w});
+        return points;
     }
 
     void drawDirectly(const View& view) {
         bytes.bindForDrawing();
-        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), true});
+        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), Output::bytes});
     }
 
-    Image readBack() const {
+    void prepare(const View& view) {
+        pass.prepare(cameraFrame(view.camera, size), view, depthMapTexels(quality), times);
+    }
+
+    Image readBack() {
+        StageClock clock;
         Image image{size.width, size.height, {}};
         image.rgb.resize(image.byteCount());
         context.gl().ReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
         checkGl(context.gl(), "drawing a frame");
+        clock.add(times.readBack);
         return image;
     }
 
@@ -158,16 +168,20 @@ Renderer::~Renderer() {
 Image Renderer::draw(const View& view) {
     requireFinite(view);
     const CurrentContext current(parts_->context);
-    Parts& parts = *parts_;
-    parts.times = {};
-    Stopwatch watch;
-    parts.pass.prepare(cameraFrame(view.camera, parts.size), view, depthMapTexels(parts.quality));
-    parts.times.prepare = watch.lap();
-    parts.quality == Quality::final ? parts.drawFinal(view) : parts.drawDirectly(view);
-    Image image = parts.readBack();
+    parts_->times = {};
+    parts_->prepare(view);
+    parts_->quality == Quality::final ? parts_->drawFinal(view) : parts_->drawDirectly(view);
+    Image image = parts_->readBack();
     drawOverlay(image, view.overlay, view.camera);
-    parts.times.draw = watch.lap() - parts.times.cast;
     return image;
+}
+
+std::vector<SurfacePoint> Renderer::surfaces(const View& view) {
+    requireFinite(view);
+    const CurrentContext current(parts_->context);
+    parts_->times = {};
+    parts_->prepare(view);
+    return parts_->surfaces(view);
 }
 
 const DrawTimes& Renderer::times() const {

@@ -2,18 +2,19 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "render/context.h"
+#include "render/draw_times.h"
 #include "render/image.h"
 #include "render/view.h"
 
 namespace render {
 
-/// Where the time of one picture went, in seconds.
-struct DrawTimes {
-    double prepare = 0.0;  ///< binning, uploads, the metaballs' shadow map
-    double cast = 0.0;     ///< ray casting of metaballs on the CPU
-    double draw = 0.0;     ///< OpenGL, reading the pixels back included
+/// What the ray through a pixel's middle meets first.
+struct SurfacePoint {
+    glm::vec3 normal{0.0F};  ///< unit length, world axes
+    float depth = -1.0F;     ///< view depth, m; -1: nothing is met
 };
 
 /// Draws views of one size and quality. Frames may come from different threads, one at a time.
@@ -29,6 +30,9 @@ class Renderer {
     /// Throws SystemError where OpenGL fails or a list outgrows its limits, std::logic_error for a view with numbers
     /// that are not finite.
     Image draw(const View& view);
+
+    /// The surfaces that a picture of the view shows, row by row from the top left; by the same lists and shaders.
+    std::vector<SurfacePoint> surfaces(const View& view);
 
     /// Of the last picture drawn.
     const DrawTimes& times() const;

@@ -38,10 +38,25 @@ void readLight(const Section& section, Look& look) {
     look.ambientGround = section.vector("ambient_ground");
     look.specular = section.number("specular");
     look.glossExponent = static_cast<int>(section.integer("gloss"));
+    look.shadowSoftness = section.number("shadow_softness");
+    look.occlusion = section.number("occlusion");
+    look.exposure = section.number("exposure");
     look.ground = section.flag("ground");
     look.groundHeight = section.number("ground_height");
     look.groundColor = section.vector("ground_color");
     look.groundFade = section.number("ground_fade");
+}
+
+void readSurface(const Section& section, Look& look) {
+    look.reflection = section.number("reflection");
+    look.mirrorTop = section.vector("mirror_top");
+    look.mirrorHorizon = section.vector("mirror_horizon");
+    look.mirrorBottom = section.vector("mirror_bottom");
+    look.metal = section.number("metal");
+    look.roughness = section.number("roughness");
+    look.translucency = section.number("translucency");
+    look.absorption = section.number("absorption");
+    look.glow = section.number("glow");
 }
 
 }  // namespace
@@ -60,7 +75,9 @@ Look buildLook(Section& section, BuildContext& context) {
     if (look.colorBy == ColorBy::age) section.deriveInterval("color_range", 0.0, context.duration);
     readColors(section, look);
     readLight(section, look);
+    readSurface(section, look);
     look.metaballReach = section.number("metaball_reach");
+    look.skin = section.text("skin") == "smooth" ? render::Skin::smooth : render::Skin::plain;
     return look;
 }
 

@@ -86,10 +86,13 @@ render::Ground groundOf(const Look& look, const Vec3& target) {
 
 void addLook(const Look& look, render::View& view) {
     view.style = look.style;
-    view.field.reach = single(look.metaballReach);
-    view.light = {single(look.toLight), single(look.lightColor), look.shadows};
-    view.ambient = {single(look.ambientSky), single(look.ambientGround)};
-    view.surface = {single(look.specular), look.glossExponent};
+    view.field = {single(look.metaballReach), look.skin};
+    view.light = {single(look.toLight), single(look.lightColor), look.shadows, single(look.shadowSoftness)};
+    view.ambient = {single(look.ambientSky), single(look.ambientGround), single(look.occlusion)};
+    view.surface = {single(look.specular),  look.glossExponent,        single(look.reflection), single(look.metal),
+                    single(look.roughness), single(look.translucency), single(look.absorption), single(look.glow)};
+    view.surroundings = {single(look.mirrorTop), single(look.mirrorHorizon), single(look.mirrorBottom)};
+    view.exposure = single(look.exposure);
     view.background = {single(look.backgroundTop), single(look.backgroundBottom)};
 }
 

@@ -39,11 +39,24 @@ struct Look {
     engine::Vec3 ambientGround = {0.2, 0.2, 0.2};
     double specular = 0.0;
     int glossExponent = 6;
+    double shadowSoftness = 0.0;  ///< in particle radii
+    double occlusion = 0.0;
+    double reflection = 0.0;
+    engine::Vec3 mirrorTop = {0.9, 0.9, 0.9};
+    engine::Vec3 mirrorHorizon = {0.6, 0.6, 0.6};
+    engine::Vec3 mirrorBottom = {0.2, 0.2, 0.2};
+    double metal = 0.0;
+    double roughness = 0.0;
+    double translucency = 0.0;
+    double absorption = 0.0;
+    double glow = 0.0;
+    double exposure = 0.0;
     bool ground = false;
     double groundHeight = 0.0;  ///< m
     engine::Vec3 groundColor = {0.6, 0.6, 0.6};
     double groundFade = 30.0;    ///< m
     double metaballReach = 2.5;  ///< particle radii
+    render::Skin skin = render::Skin::plain;
 };
 
 /// What figures carry besides the picture.

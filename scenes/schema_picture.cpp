@@ -139,6 +139,18 @@ std::vector<Key> lightRows() {
          .fallback = "6",
          .range = {.low = 0.0, .high = 10.0},
          .help = "sharpness of highlights: their exponent is 2 to the power of this"},
+        {.path = "look.shadow_softness",
+         .fallback = "0",
+         .range = kUnitInterval,
+         .help = "width of the shadows' edges in particle radii; 0 is sharp"},
+        {.path = "look.occlusion",
+         .fallback = "0",
+         .range = kUnitInterval,
+         .help = "how much darker the light from everywhere is where little of the sky shows"},
+        {.path = "look.exposure",
+         .fallback = "0",
+         .range = {.low = 0.0, .high = 10.0},
+         .help = "multiplies all light, and rounds off what is too bright; 0 leaves light as it is"},
         {.path = "look.ground", .type = Type::boolean, .fallback = "false", .help = "a horizontal plane is drawn"},
         {.path = "look.ground_height", .unit = "m", .fallback = "0", .help = "its height"},
         {.path = "look.ground_color",
@@ -155,6 +167,56 @@ std::vector<Key> lightRows() {
          .fallback = "2.5",
          .range = {.low = 1.2, .high = 4.0},
          .help = "radius of a metaball's field in particle radii; more is smoother"},
+        {.path = "look.skin",
+         .type = Type::choice,
+         .fallback = "\"plain\"",
+         .choices = {"plain", "smooth"},
+         .help = "of metaballs: balls that melt into one another, or balls evened out among their neighbours"},
+    };
+}
+
+/// How the particles answer light, beyond their colour.
+std::vector<Key> surfaceRows() {
+    return {
+        {.path = "look.reflection",
+         .fallback = "0",
+         .range = {.low = 0.0, .high = 4.0},
+         .help = "how much of the surroundings the particles mirror, times Fresnel's term"},
+        {.path = "look.mirror_top",
+         .type = Type::color,
+         .fallback = "[0.9, 0.9, 0.9]",
+         .range = kLight,
+         .help = "what mirrors show above"},
+        {.path = "look.mirror_horizon",
+         .type = Type::color,
+         .fallback = "[0.6, 0.6, 0.6]",
+         .range = kLight,
+         .help = "what mirrors show at the horizon"},
+        {.path = "look.mirror_bottom",
+         .type = Type::color,
+         .fallback = "[0.2, 0.2, 0.2]",
+         .range = kLight,
+         .help = "what mirrors show below"},
+        {.path = "look.metal",
+         .fallback = "0",
+         .range = kUnitInterval,
+         .help = "1: reflections have the particles' colour and no light leaves their body"},
+        {.path = "look.roughness",
+         .fallback = "0",
+         .range = kUnitInterval,
+         .help = "of dust: 1 is as bright at the rim as in the middle"},
+        {.path = "look.translucency",
+         .fallback = "0",
+         .range = {.low = 0.0, .high = 4.0},
+         .help = "light from behind that thin parts let through"},
+        {.path = "look.absorption",
+         .fallback = "0",
+         .range = kUnitInterval,
+         .help = "how much deeper the colour of thick parts is"},
+        {.path = "look.glow",
+         .fallback = "0",
+         .range = kLight,
+         .help = "light of the particles' own, the square of their colour"},
     };
 }
 
@@ -193,7 +255,7 @@ std::vector<Key> overlayRows() {
 
 std::vector<Key> pictureRows() {
     std::vector<Key> rows = cameraRows();
-    for (const std::vector<Key>& part : {colorRows(), lightRows(), overlayRows()})
+    for (const std::vector<Key>& part : {colorRows(), lightRows(), surfaceRows(), overlayRows()})
         rows.insert(rows.end(), part.begin(), part.end());
     rows.push_back({.path = "still.time",
                     .unit = "s",

@@ -19,6 +19,7 @@ void addBenchCommand(CLI::App& program);
 
 /// Subcommands of `globular study`.
 void addStudyAccuracy(CLI::App& study);
+void addStudyPictures(CLI::App& study);
 void addStudyScaling(CLI::App& study);
 void addStudyStability(CLI::App& study);
 

@@ -19,6 +19,15 @@ layout(std140) uniform FrameBlock {
     ivec4 lightCells;       // cells in u, v; texels of the depth map in u, v
     vec4 depthMap;          // origin u, v, 1 / texel size, texel size
     ivec4 counts;           // boxes, gloss exponent, unused, unused
+    vec4 material;          // reflection, metal, roughness, translucency
+    vec4 tone;              // absorption, glow, occlusion, exposure
+    vec4 mirrorTop;
+    vec4 mirrorHorizon;
+    vec4 mirrorBottom;
+    vec4 openGrid;          // middle of the first cube, 1 / side
+    ivec4 openCells;        // cubes along x, y, z, columns of the ground's map
+    vec4 openMap;           // middle of its first cell x, z, 1 / side, rows
+    vec4 soft;              // softness of shadows, mean radius of the particles
 };
 
 uniform samplerBuffer boxes;         // minimum, maximum, color per box
@@ -45,7 +54,8 @@ struct Point {
     vec3 position;
     vec3 normal;
     vec3 albedo;
-    float specular;
+    float particle;         // 1 on particles, 0 on obstacles and ground
+    vec3 open;              // along the normal, against it, along the mirrored ray
     float pixelWidth;       // m, at this depth
 };
 

@@ -95,7 +95,8 @@ Point pointOn(int id, Ray ray) {
     // Away from the light, so that the background looks for no shadow.
     point.normal = -toLight.xyz;
     point.albedo = groundColor.xyz;
-    point.specular = 0.0;
+    point.particle = 0.0;
+    point.open = vec3(1.0);
 #ifdef GROUND
     depth = id == kGround ? (groundColor.w - ray.origin.y) / ray.direction.y : depth;
     point.normal = id == kGround ? vec3(0.0, 1.0, 0.0) : point.normal;
@@ -104,7 +105,8 @@ Point pointOn(int id, Ray ray) {
     bool isSphere = id >= 0 && id < kBoxes;
     int place = isSphere ? id : 0;
     vec4 sphere = texelFetch(tileSpheres, place);
-    vec4 look = texelFetch(sphereColors, texelFetch(tileSphereIds, place).x);
+    int sphereId = texelFetch(tileSphereIds, place).x;
+    vec4 look = texelFetch(sphereColors, sphereId);
     vec3 toCenter = sphere.xyz - ray.origin;
     float closest = dot(toCenter, ray.direction) * ray.inverseSquare;
     vec3 off = closest * ray.direction - toCenter;
@@ -113,7 +115,7 @@ Point pointOn(int id, Ray ray) {
     depth = isSphere ? sphereDepth : depth;
     point.normal = isSphere ? normalize(off + (sphereDepth - closest) * ray.direction) : point.normal;
     point.albedo = isSphere ? look.xyz : point.albedo;
-    point.specular = isSphere ? look.w : point.specular;
+    point.particle = isSphere ? look.w : point.particle;
 #endif
 #ifdef BOXES
     bool isBox = id >= kBoxes && id < kField;
@@ -130,10 +132,27 @@ Point pointOn(int id, Ray ray) {
     depth = isField ? uintBitsToFloat(texel.x) : depth;
     point.normal = isField ? octahedralNormal(texel.y) : point.normal;
     point.albedo = isField ? unpackColor(texel.z) : point.albedo;
-    point.specular = isField ? toLight.w : point.specular;
+    point.particle = isField ? 1.0 : point.particle;
 #endif
     point.position = ray.origin + depth * ray.direction;
     point.pixelWidth = forward.w * (right.w > 0.5 ? depth : 1.0);
+#ifdef OPEN
+    vec3 mirrored = reflect(ray.direction * sqrt(ray.inverseSquare), point.normal);
+#if defined(GROUND) && defined(OCCLUSION)
+    point.open.x = id == kGround ? openOfGround(point.position) : point.open.x;
+#endif
+#ifdef OPEN_OBSTACLES
+    bool isObstacle = point.particle == 0.0 && id >= 0;
+    point.open.x = isObstacle ? openOfObstacle(point.position, point.normal) : point.open.x;
+#endif
+#ifdef SPHERES
+    bool isParticle = isSphere && look.w > 0.0;
+    point.open = isParticle ? openOfSphere(sphereId, point.normal, mirrored) : point.open;
+#endif
+#ifdef FIELD
+    point.open = isField ? openOfSample(isField ? id - kField : 0) : point.open;
+#endif
+#endif
     return point;
 }
 
@@ -215,6 +234,10 @@ void main() {
 #endif
 #ifdef SPHERES
     lookAtSpheres(rays);
+#endif
+#ifdef SURFACE
+    pixel = vec4(pointOn(ids[0], rays[0]).normal, ids[0] == kBackground ? -1.0 : depths[0]);
+    return;
 #endif
     vec3 color = colorOfPixel(corner);
 #ifdef LINES

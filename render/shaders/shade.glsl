@@ -11,28 +11,84 @@ float lightOn(Point point) {
 #endif
 }
 
+#if defined(SPECULAR) || defined(MIRROR)
+vec3 fresnel(Point point, float cosine) {
+    vec3 headOn = vec3(toLight.w);
+#ifdef METAL
+    headOn = mix(headOn, point.albedo, material.y);
+#endif
+    float away = 1.0 - max(0.0, cosine);
+    return headOn + (1.0 - headOn) * ((away * away) * (away * away) * away);
+}
+#endif
+
+#ifdef SPECULAR
 vec3 glint(Point point, vec3 toEye, float lit) {
     vec3 halfway = normalize(toLight.xyz + toEye);
-    float away = 1.0 - max(0.0, dot(toEye, halfway));
-    float fresnel = point.specular + (1.0 - point.specular) * (away * away) * (away * away) * away;
     float peak = max(0.0, dot(point.normal, halfway));
     float gloss = 1.0;
     for (int squaring = 0; squaring < counts.y; ++squaring) {
         peak *= peak;
         gloss *= 2.0;
     }
-    bool facing = dot(point.normal, toLight.xyz) > 0.0;
-    return facing && point.specular > 0.0 ? lightColor.xyz * (lit * fresnel * (gloss + 8.0) / 8.0 * peak) : vec3(0.0);
+    bool facing = dot(point.normal, toLight.xyz) > 0.0 && point.particle > 0.0;
+    return facing ? lightColor.xyz * fresnel(point, dot(toEye, halfway)) * (lit * (gloss + 8.0) / 8.0 * peak) : vec3(0.0);
+}
+#endif
+
+vec3 sky(float up) { return mix(ambientGround.xyz, ambientSky.xyz, 0.5 + 0.5 * up); }
+
+vec3 surroundings(vec3 direction) {
+    float up = direction.y;
+    vec3 above = mix(mirrorHorizon.xyz, mirrorTop.xyz, up * (2.0 - up));
+    return up > 0.0 ? above : mix(mirrorHorizon.xyz, mirrorBottom.xyz, min(1.0, -4.0 * up));
+}
+
+// A smooth shoulder for what is brighter than 0.7; below 1, and whiter the brighter it was.
+vec3 shoulder(vec3 color) {
+    float peak = max(color.x, max(color.y, color.z));
+    float kept = 1.0 - 0.09 / max(peak - 0.4, 0.3);
+    vec3 bent = mix(color * (kept / max(peak, 0.7)), vec3(kept), 1.0 - 1.0 / (1.0 + 0.06 * (peak - kept)));
+    return peak > 0.7 ? bent : color;
 }
 
 // Not clamped yet.
 vec3 shade(Point point, vec3 toEye) {
     float lit = lightOn(point);
-    vec3 ambient = mix(ambientGround.xyz, ambientSky.xyz, 0.5 + 0.5 * point.normal.y);
-    vec3 diffuse = lightColor.xyz * (max(0.0, dot(point.normal, toLight.xyz)) * lit);
-    vec3 color = point.albedo * (ambient + diffuse);
+    float cosine = max(0.0, dot(point.normal, toLight.xyz));
+#ifdef ROUGH
+    float dust = 2.2 / (cosine + max(0.0, dot(point.normal, toEye)) + 0.2);
+    cosine *= 1.0 + point.particle * material.z * (dust - 1.0);
+#endif
+    vec3 ambient = sky(point.normal.y);
+#ifdef OCCLUSION
+    ambient *= 1.0 - tone.z * (1.0 - point.open.x);
+#endif
+    vec3 light = ambient + lightColor.xyz * (cosine * lit);
+#ifdef TRANSLUCENT
+    float behind = 0.25 + max(0.0, -dot(point.normal, toLight.xyz));
+    light += (sky(-point.normal.y) + lightColor.xyz * behind) * (point.particle * material.w * point.open.y);
+#endif
+    vec3 body = point.albedo;
+#ifdef ABSORBING
+    body = mix(body, body * body, point.particle * tone.x * (1.0 - point.open.y));
+#endif
+    vec3 color = body * light;
+#ifdef METAL
+    color *= 1.0 - point.particle * material.y;
+#endif
 #ifdef SPECULAR
     color += glint(point, toEye, lit);
+#endif
+#ifdef MIRROR
+    vec3 mirrored = reflect(-toEye, point.normal);
+    color += fresnel(point, dot(point.normal, toEye)) * surroundings(mirrored) * (point.particle * material.x * point.open.z);
+#endif
+#ifdef GLOW
+    color += point.albedo * point.albedo * (point.particle * tone.y);
+#endif
+#ifdef TONE
+    color = shoulder(tone.w * color);
 #endif
     return color;
 }

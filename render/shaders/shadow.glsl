@@ -4,6 +4,11 @@ uniform isamplerBuffer lightLists;      // per cell of the light's grid: begin, 
 uniform samplerBuffer lightSpheres;     // u, v, height towards the light, radius; the nearest to the light first
 uniform samplerBuffer lightDepths;      // height of the metaballs' surface per texel of the depth map
 
+float softened(float x) {
+    float t = clamp(x + 0.5, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
 // Sum of what each sphere covers of a strip one pixel wide around the ray to the light. The sum (not the product) closes the
 // seam between two spheres that touch.
 // facing: points turned away from the light walk no list.
@@ -23,9 +28,15 @@ float coverOfSpheres(vec3 point, float width, bool facing) {
         float top = sphere.z + sqrt(max(sphere.w * sphere.w - square, 0.0));
         // A point of this very sphere lies at `top`; one hundredth of a radius is far above the rounding and invisible.
         bool above = top > height + 0.01 * sphere.w;
+#ifdef SOFT
+        float most = soft.x * min(sphere.w, max(0.5 * (sphere.z - height), 0.0));
+        float edge = max(most, clamp(width, 1.0e-4 * sphere.w, 0.2 * sphere.w));
+        cover += above ? softened((sphere.w - sqrt(square)) / edge) : 0.0;
+#else
         // The light's grid leaves a tenth of a radius for the softened edge.
-        float soft = clamp(width, 1.0e-4 * sphere.w, 0.2 * sphere.w);
-        cover += above ? clamp(0.5 + (sphere.w - sqrt(square)) / soft, 0.0, 1.0) : 0.0;
+        float edge = clamp(width, 1.0e-4 * sphere.w, 0.2 * sphere.w);
+        cover += above ? clamp(0.5 + (sphere.w - sqrt(square)) / edge, 0.0, 1.0) : 0.0;
+#endif
     }
     return cover;
 }
@@ -47,7 +58,12 @@ float coverOfBox(vec3 point, vec3 minimum, vec3 maximum, float width) {
     float inside = min(gap.x, min(gap.y, gap.z));
     float exit = min(far.x, min(far.y, far.z));
     float tolerance = 1.0e-4 * length(maximum - minimum);
+#ifdef SOFT
+    width = max(width, soft.x * min(soft.y, 0.5 * exit));
+    return exit > tolerance ? softened(inside / max(width, tolerance)) : 0.0;
+#else
     return exit > tolerance ? clamp(0.5 + inside / max(width, tolerance), 0.0, 1.0) : 0.0;
+#endif
 }
 
 float coverOfBoxes(vec3 point, float width) {
@@ -58,26 +74,36 @@ float coverOfBoxes(vec3 point, float width) {
     return cover;
 }
 
-// Box filter two texels wide at the exact place: nine texels, weights that change continuously with the point.
+// Weights of three texels around the place in the middle one, from -0.5 to 0.5 off its middle.
+#ifdef SOFT
+// A quadratic B-spline, three texels wide.
+vec3 texelWeights(float off) {
+    return vec3(0.5 * (0.5 - off) * (0.5 - off), 0.75 - off * off, 0.5 * (0.5 + off) * (0.5 + off));
+}
+#else
+// A box two texels wide.
+vec3 texelWeights(float off) { return vec3(0.25 - 0.5 * off, 0.5, 0.25 + 0.5 * off); }
+#endif
+
+// Nine texels at the exact place, weights that change continuously with the point.
 float coverOfField(vec3 point, vec3 normal) {
     // Off the surface by as much as the filter reaches sideways, so that a slope does not shade itself.
     vec3 raised = point + normal * (1.5 * depthMap.w);
     vec2 at = (vec2(dot(raised, lightU.xyz), dot(raised, lightV.xyz)) - depthMap.xy) * depthMap.z;
     float height = dot(raised, toLight.xyz) + 0.5 * depthMap.w;
     vec2 corner = floor(at);
-    vec2 part = at - corner;
     ivec2 texel = ivec2(corner);
     bool inMap = all(greaterThanEqual(texel, ivec2(1))) && all(lessThan(texel, lightCells.zw - 1));
     texel = inMap ? texel : ivec2(1);
+    vec3 across = texelWeights(at.x - corner.x - 0.5);
+    vec3 along = texelWeights(at.y - corner.y - 0.5);
     float sum = 0.0;
-    for (int row = -1; row <= 1; ++row) {
-        int start = (texel.y + row) * lightCells.z + texel.x;
-        float line = (texelFetch(lightDepths, start - 1).x > height ? 1.0 - part.x : 0.0) +
-                     (texelFetch(lightDepths, start).x > height ? 1.0 : 0.0) +
-                     (texelFetch(lightDepths, start + 1).x > height ? part.x : 0.0);
-        sum += line * (row < 0 ? 1.0 - part.y : (row > 0 ? part.y : 1.0));
+    for (int row = 0; row < 3; ++row) {
+        int start = (texel.y + row - 1) * lightCells.z + texel.x;
+        vec3 heights = vec3(texelFetch(lightDepths, start - 1).x, texelFetch(lightDepths, start).x, texelFetch(lightDepths, start + 1).x);
+        sum += along[row] * dot(across, mix(vec3(0.0), vec3(1.0), greaterThan(heights, vec3(height))));
     }
-    return inMap ? 0.25 * sum : 0.0;
+    return inMap ? sum : 0.0;
 }
 
 float visibility(Point point, bool facing) {

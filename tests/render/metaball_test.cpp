@@ -24,7 +24,9 @@ render::View blobs(int count) {
 
 // View depths of the cast, pixel by pixel; 0 where nothing is hit.
 std::vector<double> castDepths(const render::View& view) {
-    const render::FieldPicture picture = render::castPicture(render::cameraFrame(view.camera, kSize), view, {});
+    const std::vector<render::SkinBall> skin = render::skinOf(view);
+    const render::FieldPicture picture =
+        render::castPicture(render::cameraFrame(view.camera, kSize), {view, skin, {}}, {});
     const int columns = (kSize.width + render::kTileSize - 1) / render::kTileSize;
     std::vector<double> depths;
     for (int y = 0; y < kSize.height; ++y) {
@@ -140,17 +142,24 @@ TEST_CASE("Every instruction set gives the same bits") {
     view.particles.push_back({view.camera.eye, 0.3F, {0.1F, 0.2F, 0.3F}});  // and a ray that starts inside
     const render::CameraFrame frame = render::cameraFrame(view.camera, {200, 150});
     const render::LightBasis light = render::lightBasis(view.light.toLight);
+    std::vector<render::Openness> open;
+    for (std::size_t k = 0; k < view.particles.size(); ++k) {
+        const float part = 0.001F * static_cast<float>(k);
+        open.push_back({part, 1.0F - part, 0.5F, 0.5F + part, 0.9F, 0.1F});
+    }
+    const std::vector<render::SkinBall> skin = render::skinOf(view);
     std::vector<std::uint32_t> first;
     std::vector<float> firstHeights;
     int sets = 0;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        const render::FieldPicture picture = render::castPicture(frame, view, {glm::vec2(0.0F), true});
+        const render::FieldPicture picture = render::castPicture(frame, {view, skin, open}, {glm::vec2(0.0F), true});
         std::vector<std::uint32_t> bits;
         for (const render::FieldSample& s : picture.samples)
             bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.extra});
-        const std::vector<float> heights = render::castDepthMap(light, view, 256).heights;
+        bits.insert(bits.end(), picture.open.begin(), picture.open.end());
+        const std::vector<float> heights = render::castDepthMap(light, {view, skin, {}}, 256).heights;
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;
         if (sets == 1) firstHeights = heights;

@@ -10,7 +10,7 @@
 
 #include "tests/catch.h"
 
-#include "tests/render/oracle.h"
+#include "studies/oracle.h"
 #include "tests/render/oracle_near.h"
 
 namespace {

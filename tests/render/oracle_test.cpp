@@ -1,15 +1,16 @@
 // The oracle's rays and shadows against closed forms and values worked by hand, so that render_tests may trust it; its
 // metaballs and colours are tested in oracle_shading_test.cpp.
-#include "tests/render/oracle.h"
+#include "studies/oracle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include "tests/catch.h"
 
+#include "studies/polynomial.h"
 #include "tests/render/oracle_near.h"
-#include "tests/render/polynomial.h"
 
 namespace {
 
@@ -30,6 +31,23 @@ oracle::Quartic withRoots(const std::vector<double>& roots) {
 }
 
 }  // namespace
+
+TEST_CASE("oracle: a polynomial said to stay negative does, and most that do are said to") {
+    int said = 0;
+    for (int k = 0; k < 2000; ++k) {
+        oracle::Quartic c{};
+        for (std::size_t power = 0; power < 5; ++power)
+            c[power] = std::sin(12.9898 * k + 78.233 * double(power)) - (power == 0 ? 1.5 : 0.0);
+        double largest = -10.0;
+        for (int step = 0; step <= 400; ++step) largest = std::max(largest, oracle::valueAt(c, step / 200.0 - 1.0));
+        INFO("polynomial " << k << ", largest " << largest);
+        if (oracle::staysNegative(c)) REQUIRE(largest < 0.0);
+        said += oracle::staysNegative(c) ? 1 : 0;
+    }
+    CHECK(said > 100);
+    CHECK(oracle::staysNegative({-1.0, 0.0, 0.0, 0.0, 0.0}));
+    CHECK_FALSE(oracle::staysNegative({-1.0, 1.0, 0.0, 0.0, 0.0}));  // 0 at 1
+}
 
 TEST_CASE("oracle: polynomial roots are those the polynomial was made from") {
     const std::vector<double> made{0.1, 0.2, 0.5, 0.9};
@@ -197,7 +215,7 @@ TEST_CASE("oracle: the shadow of a ball on the ground is the analytic ellipse, f
         const double excess = 1.0 - along * along - point.z * point.z / 0.25;
         INFO("point " << point.x << ", " << point.z << ", excess " << excess);
         REQUIRE(std::abs(excess) > 1e-6);  // not so near that 0.6 and 0.8 in float (1e-7) or the lift (1e-9) decide
-        REQUIRE(oracle::inShadow(view, point, {0.0, 1.0, 0.0}) == (excess > 0.0));
+        REQUIRE(oracle::inShadow(oracle::Scene(view), point, {0.0, 1.0, 0.0}) == (excess > 0.0));
         shadowedCount += excess > 0.0 ? 1 : 0;
     }
     CHECK(shadowedCount > 300);  // the area pi 0.5 0.625 over 0.0501^2 is 391 points
@@ -214,8 +232,8 @@ TEST_CASE("oracle: a convex body hides the light from its far side only, and the
         const double angle = i * 3.14159265358979 / 180.0;
         const dvec3 normal{std::sin(angle), std::cos(angle), 0.0};
         CAPTURE(i);
-        CHECK(oracle::inShadow(view, dvec3{0.0, -5.0, 0.0} + normal, normal) == (i > 90));
+        CHECK(oracle::inShadow(oracle::Scene(view), dvec3{0.0, -5.0, 0.0} + normal, normal) == (i > 90));
     }
     view.boxObstacles = {{{-1.0F, -3.0F, -1.0F}, {1.0F, -2.0F, 1.0F}, {}}};
-    CHECK(oracle::inShadow(view, {0.0, -4.0, 0.0}, {0.0, 1.0, 0.0}));
+    CHECK(oracle::inShadow(oracle::Scene(view), {0.0, -4.0, 0.0}, {0.0, 1.0, 0.0}));
 }

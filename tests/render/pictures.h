@@ -10,7 +10,7 @@
 #include "render/image.h"
 #include "render/renderer.h"
 #include "render/view.h"
-#include "tests/render/oracle.h"
+#include "studies/oracle.h"
 
 namespace pictures {
 

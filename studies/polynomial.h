@@ -1,4 +1,4 @@
-// Real roots of polynomials up to degree four inside an interval, for the oracle's metaballs (tests/render/oracle.cpp).
+// Real roots of polynomials up to degree four inside an interval, for the oracle's metaballs (studies/oracle.cpp).
 // Between two neighbouring zeros of its derivative a polynomial is monotone, so it has at most one root there and
 // bisection finds it; the derivative's zeros are found the same way, starting from the linear one. Header only.
 #pragma once
@@ -46,6 +46,25 @@ inline std::vector<double> rootsBetweenKnots(const Quartic& c, const std::vector
         }
     }
     return roots;
+}
+
+/// Whether no root lies in [-1, 1] for certain: with s = 2 t - 1 the polynomial is a mean of its five coefficients in
+/// Bernstein's basis, so it is negative where they all are. False proves nothing.
+inline bool staysNegative(const Quartic& c) {
+    // Powers of t of c(2 t - 1), by Horner's rule: q <- q (2 t - 1) + c[k].
+    Quartic q{};
+    for (std::size_t k = c.size(); k-- > 0;) {
+        for (std::size_t power = q.size() - 1; power > 0; --power) q[power] = 2.0 * q[power - 1] - q[power];
+        q[0] = c[k] - q[0];
+    }
+    // b_k = sum over j <= k of (k choose j) / (4 choose j) q_j.
+    const double b1 = q[0] + q[1] / 4.0;
+    const double b2 = q[0] + q[1] / 2.0 + q[2] / 6.0;
+    const double b3 = q[0] + 3.0 * q[1] / 4.0 + q[2] / 2.0 + q[3] / 4.0;
+    const double b4 = q[0] + q[1] + q[2] + q[3] + q[4];
+    // A margin for the rounding of some twenty operations on numbers of the size of q[0] and smaller.
+    const double below = -1e-13;
+    return q[0] < below && b1 < below && b2 < below && b3 < below && b4 < below;
 }
 
 /// All distinct roots in [low, high], ascending. A root where c only touches zero is found if it touches in double

@@ -1,6 +1,6 @@
-// The oracle of the renderer's tests: a slow, exact, obvious ray caster in double precision. It shares nothing with
-// render/ but the input, render/view.h, whose comments are the shading model that it realises. Used by the suite
-// render_tests only.
+// The oracle of pictures: a slow, exact, obvious ray caster in double precision. It shares nothing with render/ but the
+// input, render/view.h, whose comments are the shading model that it realises. Used by the renderer's tests and by the
+// study of pictures.
 //
 // Conventions where view.h leaves room:
 //   - Spheres, boxes and the metaball surface are solid: a ray that starts inside one hits it at distance 0. The normal
@@ -19,15 +19,12 @@
 #include <glm/glm.hpp>
 
 #include "render/view.h"
+#include "studies/crowd.h"
+#include "studies/oracle_sky.h"
 
 namespace oracle {
 
 using glm::dvec3;
-
-struct Ray {
-    dvec3 origin{0.0};
-    dvec3 direction{0.0, 0.0, -1.0};  ///< unit length
-};
 
 /// What a ray meets first.
 struct Hit {
@@ -37,15 +34,46 @@ struct Hit {
     dvec3 point{0.0};
     dvec3 normal{0.0};  ///< unit length, outwards
     dvec3 albedo{0.0};
+    SixValues open = kAllOpen;
 };
 
-/// A picture without the lines of View::edges; row by row from the top left.
+/// A ball of the metaball field.
+struct Ball {
+    dvec3 center{0.0};
+    double reach = 0.0;
+    double weight = 1.0;
+};
+
+/// The balls of a view, one a particle, by its skin.
+std::vector<Ball> ballsOf(const render::View& view);
+
+/// A view with what takes long to find for each ray anew. The view must outlive it.
+struct Scene {
+    /// Balls sorted by place, or, everyone, each tried for each ray.
+    explicit Scene(const render::View& view_, bool everyone = false);
+
+    const render::View& view;
+    std::vector<Ball> balls;
+    Crowd crowd;
+    Sky sky;
+};
+
+/// A part of a picture: columns and rows from (x, y) on.
+struct Window {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+/// A picture, or a window of it, without the lines of View::edges; row by row from the top left.
 struct Picture {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> rgb;  ///< sRGB, 3 bytes a pixel
     std::vector<Hit::Kind> kinds;   ///< what the ray through the pixel's centre meets
     std::vector<double> distances;  ///< its Hit::distance, infinity where it meets nothing
+    std::vector<dvec3> normals;     ///< its Hit::normal
 };
 
 /// The ray through the point (px, py) of the picture in pixels: (0, 0) is the picture's top left corner, (0.5, 0.5)
@@ -55,6 +83,7 @@ Ray pixelRay(const render::View& view, render::PictureSize size, double px, doub
 
 /// The nearest surface along a ray, every surface tried; Kind::none where there is none.
 Hit trace(const render::View& view, const Ray& ray);
+Hit trace(const Scene& scene, const Ray& ray);
 
 /// The metaball field at a point; the surface is where it equals fieldThreshold.
 double fieldAt(const render::View& view, const dvec3& point);
@@ -62,11 +91,16 @@ double fieldThreshold(const render::View& view);
 
 /// Whether particles (spheres or the metaball surface, by style) or obstacles, but not the ground, hide the light from
 /// a point of a surface with this normal; a hard shadow. Light::shadows is not looked at: shade does that.
-bool inShadow(const render::View& view, const dvec3& point, const dvec3& normal);
+bool inShadow(const Scene& scene, const dvec3& point, const dvec3& normal);
+
+/// How much of the light reaches a point of a surface with this normal, by view.h's soft shadows, or 0 or 1 by
+/// inShadow.
+double visibility(const Scene& scene, const dvec3& point, const dvec3& normal);
 
 /// Linear colour of what a ray meets, before the clamp to [0,1]; screenT runs from 0 at the picture's bottom edge
 /// to 1 at its top edge.
 dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT);
+dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT);
 
 /// Linear [0,1] to 8-bit sRGB by the standard's formula, rounded to nearest; anything else is an error.
 std::uint8_t encodeSrgb(double linear);
@@ -74,5 +108,7 @@ std::uint8_t encodeSrgb(double linear);
 /// The picture, each pixel the mean in linear light of samplesPerAxis^2 samples on a regular grid, each clamped
 /// before the mean.
 Picture draw(const render::View& view, render::PictureSize size, int samplesPerAxis);
+/// A window of that picture.
+Picture drawWindow(const Scene& scene, render::PictureSize size, const Window& window, int samplesPerAxis);
 
 }  // namespace oracle

@@ -1,4 +1,4 @@
-// Where the oracle's rays (tests/render/oracle.cpp) meet balls, boxes and the ground, in double precision. The hits
+// Where the oracle's rays (studies/oracle.cpp) meet balls, boxes and the ground, in double precision. The hits
 // returned here lack their kind and albedo. Header only: the oracle is its only user.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "tests/render/oracle.h"
+#include "studies/oracle.h"
 
 namespace oracle {
 

@@ -1,0 +1,33 @@
+// Where the time of a picture goes, stage by stage. Filled in by the Renderer and its passes, read by the studies.
+#pragma once
+
+#include <chrono>
+
+namespace render {
+
+/// Wall-clock seconds of one picture; a stage that the view does not need takes next to nothing.
+struct DrawTimes {
+    double bin = 0.0;        ///< spheres, boxes and lines to tiles, and their upload
+    double occlusion = 0.0;  ///< how open to the sky the particles are
+    double shadow = 0.0;     ///< the light's grid of spheres and its map of the metaballs
+    double cast = 0.0;       ///< ray casting of metaballs on the CPU
+    double shade = 0.0;      ///< OpenGL: what the rays see, lit
+    double readBack = 0.0;
+
+    double all() const { return bin + occlusion + shadow + cast + shade + readBack; }
+};
+
+/// Adds the time since its last call, or since it was made, to a stage.
+class StageClock {
+ public:
+    void add(double& seconds) {
+        const auto now = std::chrono::steady_clock::now();
+        seconds += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+ private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace render

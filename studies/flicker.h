@@ -1,0 +1,34 @@
+// Whether pictures are steady: a still scene under a camera that moves slowly. Used by the study of pictures.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "render/context.h"
+#include "render/view.h"
+
+namespace studies {
+
+/// In 8-bit steps. With I_k the pictures of successive frames:
+struct FlickerRow {
+    render::Style style = render::Style::spheres;
+    render::Quality quality = render::Quality::normal;
+    double change = 0.0;  ///< RMSE of I_(k+1) - I_k, mean over the frames: what moves
+    double jerk = 0.0;    ///< RMSE of I_(k+1) - 2 I_k + I_(k-1), likewise: what does not move smoothly
+};
+
+struct FlickerSettings {
+    std::size_t particles = 10000;
+    render::PictureSize size{640, 360};
+    int frames = 8;                 ///< at least 3
+    double pixelsPerFrame = 0.125;  ///< that the middle of the picture moves
+    render::Backend backend = render::Backend::osmesa;
+};
+
+/// Every style and quality. Throws render::SystemError.
+std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings);
+
+std::string flickerCsv(const std::vector<FlickerRow>& rows);
+
+}  // namespace studies

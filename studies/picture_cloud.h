@@ -1,0 +1,15 @@
+// The scene that pictures are measured on: a dam of liquid that has run to the far wall of its tank and splashes, as
+// many particles as one likes in the same outline. Used by the study of pictures.
+#pragma once
+
+#include <cstddef>
+
+#include "render/view.h"
+
+namespace studies {
+
+/// The dam with ground, soft shadows, occlusion and wet reflections, particles coloured from left to right. The same numbers give the same
+/// view. Shape: count > 0.
+render::View pictureCloud(std::size_t count, render::Style style);
+
+}  // namespace studies

@@ -1,0 +1,196 @@
+// Draws the cloud again and again, and compares windows of it with the oracle's.
+#include "studies/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "render/png.h"
+#include "render/renderer.h"
+#include "render/video.h"
+#include "studies/crowd.h"
+#include "studies/picture_cloud.h"
+#include "studies/quad_baseline.h"
+#include "studies/timing.h"
+
+namespace studies {
+namespace {
+
+using render::DrawTimes;
+using render::Quality;
+using render::Style;
+
+/// The same view from a place a little further on a circle, so that no two frames are alike.
+render::View seenFrom(render::View view, int frame) {
+    const float angle = 0.002F * static_cast<float>(frame);
+    const glm::vec3 off = view.camera.eye - view.camera.target;
+    view.camera.eye = view.camera.target + glm::vec3(off.x * std::cos(angle) + off.z * std::sin(angle), off.y,
+                                                     off.z * std::cos(angle) - off.x * std::sin(angle));
+    return view;
+}
+
+std::vector<render::View> framesOf(const render::View& view, int count) {
+    std::vector<render::View> frames;
+    for (int frame = 0; frame < count; ++frame) frames.push_back(seenFrom(view, frame));
+    return frames;
+}
+
+/// Median seconds of drawing, the first frame (which compiles shaders) left out.
+template <typename Draw>
+double medianSeconds(const std::vector<render::View>& frames, const Draw& draw) {
+    std::vector<double> seconds;
+    draw(frames.front());
+    for (const render::View& view : frames) seconds.push_back(secondsOf([&] { draw(view); }, 1));
+    return median(seconds);
+}
+
+DrawTimes medianStages(const std::vector<DrawTimes>& times) {
+    const auto of = [&times](double DrawTimes::*stage) {
+        std::vector<double> values;
+        for (const DrawTimes& time : times) values.push_back(time.*stage);
+        return median(values);
+    };
+    return {of(&DrawTimes::bin),  of(&DrawTimes::occlusion), of(&DrawTimes::shadow),
+            of(&DrawTimes::cast), of(&DrawTimes::shade),     of(&DrawTimes::readBack)};
+}
+
+/// Seconds a frame of drawing frames while the one before is encoded, as the render loop does.
+double overlapped(render::Renderer& renderer, const std::vector<render::View>& frames, int count,
+                  const std::function<void(const render::Image&)>& encode) {
+    using Picture = std::shared_ptr<render::Image>;
+    constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+    int next = 0;
+    const auto drawNext = [&](tbb::flow_control& flow) -> Picture {
+        if (next == count) {
+            flow.stop();
+            return nullptr;
+        }
+        const render::View& view = frames[static_cast<std::size_t>(next++) % frames.size()];
+        auto image = std::make_shared<render::Image>();
+        tbb::this_task_arena::isolate([&] { *image = renderer.draw(view); });
+        return image;
+    };
+    const auto all = [&] {
+        tbb::parallel_pipeline(
+            3, tbb::make_filter<void, Picture>(kInOrder, drawNext) &
+                   tbb::make_filter<Picture, void>(kInOrder, [&](const Picture& image) { encode(*image); }));
+    };
+    return secondsOf(all, 1) / count;
+}
+
+render::VideoOptions videoOptions(const PictureSettings& settings, render::PictureSize size) {
+    render::VideoOptions options;
+    options.path = settings.videoPath;
+    options.size = size;
+    return options;
+}
+
+void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
+                     render::Renderer& renderer, PictureRow& row) {
+    // Slow frames are alike; a second of them is enough.
+    const int count = std::clamp(static_cast<int>(1.5 / row.draw), 3, settings.encodedFrames);
+    const render::Image image = renderer.draw(frames.front());
+    row.png = secondsOf([&] { render::encodePng(image); }, 3);
+    row.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); });
+    std::vector<render::Image> images;
+    for (int k = 0; k < count; ++k)
+        images.push_back(renderer.draw(frames[static_cast<std::size_t>(k) % frames.size()]));
+    {
+        render::VideoWriter video(videoOptions(settings, row.size));
+        row.mp4 = secondsOf(
+                      [&] {
+                          for (const render::Image& i : images) video.add(i);
+                          video.finish();
+                      },
+                      1) /
+                  count;
+    }
+    render::VideoWriter video(videoOptions(settings, row.size));
+    row.withMp4 = overlapped(renderer, frames, count, [&](const render::Image& i) { video.add(i); });
+    row.withMp4 += secondsOf([&] { video.finish(); }, 1) / count;
+}
+
+std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const render::View& view,
+                                      render::PictureSize size) {
+    std::vector<ExactWindow> windows;
+    for (int row = 0; row < settings.windowRows; ++row)
+        for (int column = 0; column < settings.windowColumns; ++column)
+            windows.push_back({{(2 * column + 1) * size.width / (2 * settings.windowColumns) - settings.windowSide / 2,
+                                (2 * row + 1) * size.height / (2 * settings.windowRows) - settings.windowSide / 2,
+                                settings.windowSide, settings.windowSide},
+                               {}});
+    const oracle::Scene scene(view);
+    tbb::parallel_for(std::size_t{0}, windows.size(), [&](std::size_t k) {
+        windows[k].picture = oracle::drawWindow(scene, size, windows[k].window, settings.samplesPerAxis);
+    });
+    return windows;
+}
+
+/// The qualities of one style, number and size.
+struct Subject {
+    Style style;
+    std::size_t particles;
+    render::PictureSize size;
+};
+
+PictureRow measureQuality(const PictureSettings& settings, render::Context& context, const Subject& subject,
+                          Quality quality, const std::vector<render::View>& frames) {
+    PictureRow row;
+    row.style = subject.style;
+    row.particles = subject.particles;
+    row.size = subject.size;
+    row.quality = quality;
+    render::Renderer renderer(context, subject.size, quality);
+    std::vector<DrawTimes> times;
+    row.draw = medianSeconds(frames, [&](const render::View& view) {
+        renderer.draw(view);
+        times.push_back(renderer.times());
+    });
+    times.erase(times.begin());
+    row.stages = medianStages(times);
+    measureEncoding(settings, frames, renderer, row);
+    return row;
+}
+
+void measureSubject(const PictureSettings& settings, render::Context& context, const Subject& subject,
+                    const PictureListener& listener, std::vector<PictureRow>& rows) {
+    const render::View view = pictureCloud(subject.particles, subject.style);
+    const std::vector<render::View> frames = framesOf(view, settings.frames);
+    QuadBaseline quads(context, subject.size);
+    const double baseline = medianSeconds(frames, [&](const render::View& frame) { quads.draw(frame); });
+    const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
+    for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
+        PictureRow row = measureQuality(settings, context, subject, quality, frames);
+        row.baseline = baseline;
+        render::Renderer renderer(context, subject.size, quality);
+        row.error = errorOf(renderer.draw(view), renderer.surfaces(view), view, exact);
+        listener(row);
+        rows.push_back(row);
+    }
+}
+
+}  // namespace
+
+const char* nameOf(Style style) {
+    return style == Style::spheres ? "spheres" : "metaballs";
+}
+
+const char* nameOf(Quality quality) {
+    return quality == Quality::draft ? "draft" : quality == Quality::normal ? "normal" : "final";
+}
+
+std::vector<PictureRow> measurePictures(const PictureSettings& settings, const PictureListener& listener) {
+    render::Context context(settings.backend);
+    std::vector<PictureRow> rows;
+    for (const Style style : {Style::spheres, Style::metaballs})
+        for (const render::PictureSize size : settings.sizes)
+            for (const std::size_t particles : settings.particles)
+                measureSubject(settings, context, {style, particles, size}, listener, rows);
+    return rows;
+}
+
+}  // namespace studies

@@ -1,0 +1,62 @@
+// What pictures cost and how exact they are: milliseconds of each stage, of whole frames with their encoding, the error
+// against the oracle, and the ratio to the baseline drawn in the same run. Called by `globular study pictures`.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/context.h"
+#include "render/draw_times.h"
+#include "render/view.h"
+#include "studies/picture_error.h"
+
+namespace studies {
+
+/// One style, number of particles, size and quality.
+struct PictureRow {
+    render::Style style = render::Style::spheres;
+    std::size_t particles = 0;
+    render::PictureSize size;
+    render::Quality quality = render::Quality::normal;
+    render::DrawTimes stages;  ///< medians over the frames, s
+    double png = 0.0;          ///< of encoding alone, s
+    double mp4 = 0.0;
+    double draw = 0.0;      ///< one frame, drawn and read back, s; median
+    double withPng = 0.0;   ///< a frame of many, one encoded while the next is drawn, s
+    double withMp4 = 0.0;   ///< likewise
+    double baseline = 0.0;  ///< the lit quads of the same spheres and size, drawn and read back, s; median
+    PictureError error;
+
+    double ratio() const { return draw / baseline; }
+};
+
+struct PictureSettings {
+    std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};
+    std::vector<render::PictureSize> sizes = {{1280, 720}, {1920, 1080}};
+    int frames = 7;          ///< to take medians of
+    int encodedFrames = 20;  ///< of the runs with encoding
+    int windowColumns = 6;   ///< of windows over the picture, in which the error is taken
+    int windowRows = 4;
+    int windowSide = 32;     ///< pixels
+    int samplesPerAxis = 4;  ///< of the exact picture
+    std::string videoPath;   ///< a file to encode to, overwritten
+    render::Backend backend = render::Backend::osmesa;
+};
+
+const char* nameOf(render::Style style);
+const char* nameOf(render::Quality quality);
+
+using PictureListener = std::function<void(const PictureRow&)>;
+
+/// Measures every style, number, size and quality. Throws render::SystemError.
+std::vector<PictureRow> measurePictures(const PictureSettings& settings, const PictureListener& listener);
+
+std::string picturesCsv(const std::vector<PictureRow>& rows);
+
+/// gnuplot scripts: milliseconds a frame against particles, and error against milliseconds.
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows);
+std::string pictureErrorsPlot(const std::vector<PictureRow>& rows);
+
+}  // namespace studies

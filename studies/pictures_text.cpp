@@ -1,0 +1,110 @@
+// What the study of pictures writes: the table and the scripts of the plots.
+#include <fmt/format.h>
+
+#include "studies/pictures.h"
+
+namespace studies {
+namespace {
+
+constexpr const char* kFrame = R"(set terminal svg size 860,600 enhanced font "DejaVu Sans,15" background "white"
+set logscale xy
+set grid xtics ytics mxtics mytics linewidth 1 linecolor rgb "#d9d9d9", linewidth 0.5 linecolor rgb "#eeeeee"
+set border linecolor rgb "#444444"
+set lmargin 11
+)";
+
+struct Curve {
+    std::string title;
+    std::string look;  ///< gnuplot's words for it
+    std::string points;
+};
+
+/// All curves of a plot, each with its points inline.
+std::string plotOf(const std::vector<Curve>& curves) {
+    std::string data;
+    std::string list;
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        if (curves[k].points.empty()) continue;
+        data += fmt::format("$c{} << EOD\n{}EOD\n", k, curves[k].points);
+        list += fmt::format("{}$c{} using 1:2 with {} title \"{}\"", list.empty() ? "" : ", \\\n  ", k, curves[k].look,
+                            curves[k].title);
+    }
+    return data + "plot " + list + "\n";
+}
+
+constexpr render::Style kStyles[] = {render::Style::spheres, render::Style::metaballs};
+constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal, render::Quality::final};
+
+std::string lookOf(render::Style style, render::Quality quality) {
+    const char* color = style == render::Style::spheres ? "#0072b2" : "#d55e00";
+    const int point = quality == render::Quality::draft ? 6 : quality == render::Quality::normal ? 7 : 5;
+    return fmt::format("linespoints pointtype {} pointsize 0.8 linewidth 1.5 linecolor rgb '{}'", point, color);
+}
+
+bool firstSize(const std::vector<PictureRow>& rows, const PictureRow& row) {
+    return row.size.width == rows.front().size.width && row.size.height == rows.front().size.height;
+}
+
+template <typename Point>
+std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& point) {
+    std::vector<Curve> curves;
+    for (const render::Style style : kStyles) {
+        for (const render::Quality quality : kQualities) {
+            Curve curve{fmt::format("{}, {}", nameOf(style), nameOf(quality)), lookOf(style, quality), ""};
+            for (const PictureRow& row : rows)
+                if (row.style == style && row.quality == quality && firstSize(rows, row)) curve.points += point(row);
+            curves.push_back(curve);
+        }
+    }
+    return curves;
+}
+
+}  // namespace
+
+std::string picturesCsv(const std::vector<PictureRow>& rows) {
+    std::string csv =
+        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,shade_ms,read_back_ms,png_ms,mp4_"
+        "ms,"
+        "draw_ms,with_png_ms,with_mp4_ms,baseline_ms,ratio,rmse,ssim,wrong_hits,depth_error_radii,normal_error_"
+        "degrees\n";
+    for (const PictureRow& row : rows) {
+        csv += fmt::format("{},{},{},{},{}", nameOf(row.style), row.particles, row.size.width, row.size.height,
+                           nameOf(row.quality));
+        for (const double seconds :
+             {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.shade,
+              row.stages.readBack, row.png, row.mp4, row.draw, row.withPng, row.withMp4, row.baseline})
+            csv += fmt::format(",{:.4g}", 1e3 * seconds);
+        csv += fmt::format(",{:.3g},{:.4g},{:.5f},{:.3g},{:.3g},{:.3g}\n", row.ratio(), row.error.rmse, row.error.ssim,
+                           row.error.wrongHits, row.error.depth, row.error.normal);
+    }
+    return csv;
+}
+
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows) {
+    std::vector<Curve> curves =
+        curvesOf(rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw); });
+    Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2", ""};
+    for (const PictureRow& row : rows)
+        if (row.style == render::Style::spheres && row.quality == render::Quality::draft && firstSize(rows, row))
+            quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
+    curves.push_back(quads);
+    return std::string(kFrame) +
+           fmt::format(
+               "set xlabel \"particles\"\nset ylabel \"milliseconds a frame\"\n"
+               "set title \"A frame of {} x {}, drawn and read back\"\n"
+               "set key top left reverse Left samplen 2 font \",13\"\n",
+               rows.front().size.width, rows.front().size.height) +
+           plotOf(curves);
+}
+
+std::string pictureErrorsPlot(const std::vector<PictureRow>& rows) {
+    return std::string(kFrame) +
+           "set xlabel \"milliseconds a frame\"\nset ylabel \"1 - SSIM\"\n"
+           "set title \"Error against the exact picture, and what it costs\"\n"
+           "set key top right samplen 2 font \",13\"\n" +
+           plotOf(curvesOf(rows, [](const PictureRow& row) {
+               return fmt::format("{:.6g} {:.6g}\n", 1e3 * row.draw, 1.0 - row.error.ssim);
+           }));
+}
+
+}  // namespace studies

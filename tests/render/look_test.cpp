@@ -1,0 +1,224 @@
+// Every term of the shading model, soft shadows and the smooth skin against the oracle, one at a time and together.
+#include "tests/catch.h"
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include <tbb/global_control.h>
+
+#include "render/openness.h"
+#include "render/skin.h"
+#include "tests/render/pictures.h"
+
+using namespace pictures;
+using render::Quality;
+using render::Style;
+
+namespace {
+
+constexpr render::PictureSize kSize{121, 75};
+constexpr double kPixels = 121.0 * 75.0;
+
+struct Term {
+    std::string name;
+    std::function<void(render::View&)> add;
+};
+
+std::vector<Term> terms() {
+    return {{"occlusion", [](render::View& v) { v.ambient.occlusion = 0.9F; }},
+            {"roughness", [](render::View& v) { v.surface.roughness = 0.8F; }},
+            {"reflection", [](render::View& v) { v.surface.reflection = 1.5F; }},
+            {"metal", [](render::View& v) { v.surface.metal = 0.7F; }},
+            {"translucency", [](render::View& v) { v.surface.translucency = 0.6F; }},
+            {"absorption", [](render::View& v) { v.surface.absorption = 0.8F; }},
+            {"glow", [](render::View& v) { v.surface.glow = 0.5F; }},
+            {"exposure", [](render::View& v) { v.exposure = 1.6F; }}};
+}
+
+/// A crowd, so that some of it is hidden from the sky, with obstacles.
+render::View crowded(Style style) {
+    render::View view = cloudWithObstacles(250);
+    view.style = style;
+    view.surroundings = {{0.9F, 0.8F, 1.0F}, {0.6F, 0.6F, 0.5F}, {0.2F, 0.3F, 0.1F}};
+    return view;
+}
+
+Difference differenceOf(const render::View& view, int limit) {
+    return compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), limit);
+}
+
+}  // namespace
+
+TEST_CASE("Each term of the shading is the oracle's, and changes the picture") {
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        const render::View plain = crowded(style);
+        const render::Image without = drawn(plain, kSize, Quality::draft);
+        for (const Term& term : terms()) {
+            render::View view = plain;
+            term.add(view);
+            const Difference difference = differenceOf(view, 2);
+            INFO(term.name << ", style " << int(style) << ": " << difference);
+            // 2 steps: packed normals and openness of metaballs; outlines, where single precision decides otherwise.
+            CHECK(difference.share <= 10.0 / kPixels);
+            CHECK(difference.mean < 0.05);  // rounding
+            CHECK(compare(without, drawn(view, kSize, Quality::draft), 2).share > 0.02);
+        }
+    }
+}
+
+TEST_CASE("All terms together are the oracle's, in parallel projection too") {
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        render::View view = crowded(style);
+        for (const Term& term : terms()) term.add(view);
+        view.camera.projection = render::Projection::orthographic;
+        view.camera.halfHeight = 2.0F;
+        const Difference difference = differenceOf(view, 3);
+        INFO("style " << int(style) << ": " << difference);
+        CHECK(difference.share <= 15.0 / kPixels);  // 3 steps: the packings of all terms; outlines
+    }
+}
+
+TEST_CASE("Soft shadows of spheres and boxes are the oracle's") {
+    render::View view = cloudWithObstacles(120);
+    view.light.shadows = true;
+    for (const float softness : {0.3F, 1.0F}) {
+        view.light.softness = softness;
+        const Difference difference = differenceOf(view, 2);
+        INFO("softness " << softness << ": " << difference);
+        // Where a caster touches, its edge is a pixel wide here and sharp there; counted once: 0.0022.
+        CHECK(difference.share < 0.005);
+        CHECK(difference.mean < 0.05);  // rounding, and half the contrast of those
+    }
+    render::View sharp = view;
+    sharp.light.softness = 0.0F;
+    CHECK(compare(drawn(view, kSize, Quality::draft), drawn(sharp, kSize, Quality::draft), 2).share > 0.03);
+}
+
+TEST_CASE("Soft shadows of metaballs are the oracle's up to their map's texels") {
+    render::View view = cloud(150);
+    view.style = Style::metaballs;
+    view.light.shadows = true;
+    view.light.softness = 1.0F;
+    const Difference difference = differenceOf(view, 12);
+    INFO(difference);
+    // The oracle takes nine rays for each edge, so that single samples are a ninth of the light (some 14 steps) off.
+    CHECK(difference.share < 0.05);  // counted once: 0.032
+    CHECK(difference.mean < 1.2);    // counted once: 0.87
+    render::View sharp = view;
+    sharp.light.softness = 0.0F;
+    CHECK(compare(drawn(view, kSize, Quality::draft), drawn(sharp, kSize, Quality::draft), 12).share > 0.02);
+}
+
+TEST_CASE("A strength of zero leaves the picture as it was") {
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        render::View view = crowded(style);
+        view.light.shadows = true;
+        const render::Image before = drawn(view, kSize, Quality::normal);
+        view.surroundings.top = {5.0F, 0.0F, 0.0F};  // mirrors nothing
+        CHECK(drawn(view, kSize, Quality::normal).rgb == before.rgb);
+    }
+}
+
+TEST_CASE("Openness: a lone particle sees the sky, one in a block does not, one on top sees it upwards") {
+    const auto openOf = [](const std::vector<render::Sphere>& particles, glm::vec3 place) {
+        return render::opennessAt(render::opennessGrid(particles), place);
+    };
+    // Its own volume, 0.52 of a cube, reaches a cube's width beyond its own cube at most.
+    for (const float value : openOf({{{0.3F, 1.0F, 0.2F}, 0.1F, {}}}, {0.3F, 1.0F, 0.2F})) CHECK(value > 0.8F);
+    std::vector<render::Sphere> block;
+    for (int k = 0; k < 12 * 12 * 12; ++k) block.push_back({0.2F * glm::vec3(k % 12, k / 12 % 12, k / 144), 0.1F, {}});
+    for (const float value : openOf(block, {1.1F, 1.1F, 1.1F})) CHECK(value < 0.3F);
+    const render::Openness top = openOf(block, {1.1F, 2.2F, 1.1F});
+    CHECK(top[2] > 0.8F);
+    CHECK(top[3] < 0.3F);
+    CHECK(openOf(block, {50.0F, 1.0F, 1.0F}) == render::kOpen);
+    CHECK(openOf({}, {0.0F, 0.0F, 0.0F}) == render::kOpen);
+}
+
+TEST_CASE("Openness does not depend on where the cubes lie by more than a little") {
+    std::vector<render::Sphere> block;
+    for (int k = 0; k < 10 * 10 * 10; ++k) block.push_back({0.2F * glm::vec3(k % 10, k / 10 % 10, k / 100), 0.1F, {}});
+    float least = 1.0F;
+    float most = 0.0F;
+    for (int shift = 0; shift < 20; ++shift) {
+        std::vector<render::Sphere> moved = block;
+        const glm::vec3 off(0.011F * static_cast<float>(shift), 0.007F * static_cast<float>(shift), 0.0F);
+        for (render::Sphere& particle : moved) particle.center += off;
+        const render::Openness open = render::opennessAt(render::opennessGrid(moved), moved[905].center);
+        least = std::min(least, open[0]);
+        most = std::max(most, open[0]);
+    }
+    CAPTURE(least, most);
+    CHECK(most - least < 0.1F);  // chosen: a tenth of the ambient light, over a whole cube's width of motion
+}
+
+TEST_CASE("Thread counts change neither openness nor skin") {
+    render::View view = cloud(3000);
+    view.style = Style::metaballs;
+    view.field.skin = render::Skin::smooth;
+    std::vector<render::SkinBall> first;
+    std::vector<float> open;
+    for (const std::size_t threads : {1U, 2U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const std::vector<render::SkinBall> skin = render::skinOf(view);
+        const std::vector<float> values = render::opennessGrid(view.particles).values[3];
+        if (first.empty()) first = skin;
+        if (open.empty()) open = values;
+        CHECK(open == values);
+        for (std::size_t k = 0; k < skin.size(); ++k) {
+            REQUIRE(skin[k].center == first[k].center);
+            REQUIRE(skin[k].weight == first[k].weight);
+        }
+    }
+}
+
+TEST_CASE("A smooth skin is the oracle's") {
+    render::View view = crowded(Style::metaballs);
+    view.field.skin = render::Skin::smooth;
+    for (const float reach : {2.0F, 3.5F}) {
+        view.field.reach = reach;
+        const Difference difference = differenceOf(view, 2);
+        INFO("reach " << reach << ": " << difference);
+        CHECK(difference.share <= 10.0 / kPixels);  // outlines
+    }
+}
+
+TEST_CASE("In a smooth skin a lone ball keeps its place and radius, and a flat pile is flatter than the plain one") {
+    render::View view = cloud(0);
+    view.style = Style::metaballs;
+    view.field = {3.2F, render::Skin::smooth};
+    view.particles.push_back({{0.1F, 1.0F, 0.2F}, 0.3F, {0.5F, 0.5F, 0.5F}});
+    CHECK(render::skinOf(view)[0].center == view.particles[0].center);
+    CHECK(render::skinOf(view)[0].weight == 1.0F);
+
+    view.particles.clear();
+    for (int k = 0; k < 20 * 20 * 5; ++k) {
+        const glm::vec3 shake(0.02F * std::sin(12.9F * float(k)), 0.03F * std::sin(7.3F * float(k)), 0.0F);
+        view.particles.push_back(
+            {0.18F * glm::vec3(k % 20 - 10, k / 400, k / 20 % 20 - 10) + shake, 0.1F, {0.5F, 0.5F, 0.5F}});
+    }
+    view.ground.reset();
+    view.camera.eye = {0.0F, 6.0F, 0.01F};
+    view.camera.target = {0.0F, 0.0F, 0.0F};
+    view.camera.verticalFov = 0.25F;
+    render::Context context(render::Backend::osmesa);
+    render::Renderer renderer(context, kSize, Quality::draft);
+    const auto meanSlant = [&] {
+        double sum = 0.0;
+        for (const render::SurfacePoint& point : renderer.surfaces(view)) {
+            REQUIRE(point.depth > 0.0F);
+            sum += 1.0 - double(point.normal.y);
+        }
+        return sum / kPixels;
+    };
+    const double smooth = meanSlant();
+    const double height = 6.0 - double(renderer.surfaces(view)[kSize.width * 37 + 60].depth);
+    view.field.skin = render::Skin::plain;
+    const double plain = meanSlant();
+    CAPTURE(smooth, plain, height);
+    CHECK(smooth < 0.85 * plain);  // at the same reach; counted once: 0.74
+    // The top layer's middles lie at 0.72, the surface about a radius above them (counted once: 0.75 radii).
+    CHECK(height > 0.77);
+    CHECK(height < 0.87);
+}

@@ -1,0 +1,168 @@
+// The study of pictures: its cloud, its measures of error, its baseline, and a small run of it.
+#include "studies/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+#include "tests/catch.h"
+
+#include "studies/crowd.h"
+#include "studies/flicker.h"
+#include "studies/picture_cloud.h"
+#include "studies/quad_baseline.h"
+
+using namespace studies;
+using render::Quality;
+using render::Style;
+
+namespace {
+
+constexpr render::PictureSize kSize{160, 90};
+
+std::vector<double> ramp(int count) {
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k) values.push_back(double(k * 37 % 200));
+    return values;
+}
+
+std::vector<ExactWindow> exactPicture(const render::View& view) {
+    const oracle::Window whole{0, 0, kSize.width, kSize.height};
+    return {{whole, oracle::drawWindow(oracle::Scene(view), kSize, whole, 1)}};
+}
+
+}  // namespace
+
+TEST_CASE("The cloud has as many particles as asked, the same each time, at the spacing of its radius", "[pictures]") {
+    for (const std::size_t count : {1000U, 10000U}) {
+        const render::View view = pictureCloud(count, Style::spheres);
+        REQUIRE(view.particles.size() == count);
+        const render::View again = pictureCloud(count, Style::metaballs);
+        CHECK(again.style == Style::metaballs);
+        for (std::size_t k = 0; k < count; ++k) REQUIRE(view.particles[k].center == again.particles[k].center);
+    }
+}
+
+TEST_CASE("SSIM is 1 for the same picture, less for another, and 0.5 for a constant pair worked by hand",
+          "[pictures]") {
+    const std::vector<double> a = ramp(20 * 15);
+    CHECK(structuralSimilarity(a, a, 20, 15) == Approx(1.0).epsilon(1e-12));  // a quotient of equal sums
+    std::vector<double> b = a;
+    for (double& value : b) value = 200.0 - value;
+    CHECK(structuralSimilarity(a, b, 20, 15) < 0.0);  // every contrast turned around
+    // Constants x and y: (2 x y + c) / (x^2 + y^2 + c), c = 2.55^2; the other factor is 1.
+    const std::vector<double> x(121, 100.0);
+    const std::vector<double> y(121, 50.0);
+    CHECK(structuralSimilarity(x, y, 11, 11) ==
+          Approx((2.0 * 5000.0 + 6.5025) / (12500.0 + 6.5025)).epsilon(1e-9));  // rounding of sums near 1e4
+    CHECK_THROWS(structuralSimilarity(x, y, 10, 11));
+}
+
+TEST_CASE("A crowd knows every particle that a ray meets", "[pictures]") {
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        const render::View view = pictureCloud(1500, style);
+        const oracle::Scene scene(view);
+        const oracle::Scene everyone(view, true);
+        int hits = 0;
+        std::size_t most = 0;
+        for (int k = 0; k < 200; ++k) {
+            const oracle::Ray ray = oracle::pixelRay(view, kSize, k * 0.79 + 0.3, (k * 53 % 90) + 0.4);
+            const oracle::Hit brute = oracle::trace(everyone, ray);
+            const oracle::Hit quick = oracle::trace(scene, ray);
+            REQUIRE(brute.kind == quick.kind);
+            REQUIRE(brute.distance == quick.distance);
+            REQUIRE(brute.normal == quick.normal);
+            hits += brute.kind == oracle::Hit::Kind::particle ? 1 : 0;
+            most = std::max(most, scene.crowd.along(ray).size());
+        }
+        CHECK(hits > 50);
+        CHECK(most < 750);  // it does leave out most
+    }
+    // A ray along an axis, on the border of cells.
+    const render::View view = pictureCloud(1500, Style::spheres);
+    const oracle::Ray ray{glm::dvec3(view.particles[7].center) + glm::dvec3(0.0, 50.0, 0.0), {0.0, -1.0, 0.0}};
+    CHECK(oracle::trace(oracle::Scene(view), ray).distance == oracle::trace(view, ray).distance);
+    CHECK(oracle::Crowd(std::vector<oracle::Extent>{}).along(ray).empty());
+}
+
+TEST_CASE("The error of a picture is small for the right view and large for another", "[pictures]") {
+    const render::View view = pictureCloud(1500, Style::spheres);
+    const std::vector<ExactWindow> exact = exactPicture(view);
+    render::Context context(render::Backend::osmesa);
+    render::Renderer renderer(context, kSize, Quality::draft);
+    const PictureError right = errorOf(renderer.draw(view), renderer.surfaces(view), view, exact);
+    CHECK(right.pixels == 160 * 90);
+    CHECK(right.wrongHits <= 4.0 / 14400.0);  // outlines, where single precision decides otherwise
+    CHECK(right.depth < 1e-4);                // radii: 1e-7 of 12 m over 0.2 m
+    CHECK(right.normal < 0.1);                // degrees; the same over the slope at outlines
+    CHECK(right.ssim > 0.98);
+    render::View moved = view;
+    moved.camera.eye.x += 0.3F;
+    const PictureError wrong = errorOf(renderer.draw(moved), renderer.surfaces(moved), moved, exact);
+    CHECK(wrong.wrongHits > 0.2);
+    CHECK(wrong.ssim < 0.9);
+    CHECK(wrong.rmse > 2.0 * right.rmse);
+}
+
+TEST_CASE("The quads of the baseline show the spheres that the oracle sees", "[pictures]") {
+    const render::View view = pictureCloud(1500, Style::spheres);
+    render::Context context(render::Backend::osmesa);
+    const render::Image image = QuadBaseline(context, kSize).draw(view);
+    const oracle::Picture exact = exactPicture(view).front().picture;
+    int other = 0;
+    for (std::size_t k = 0; k < exact.kinds.size(); ++k) {
+        const bool background = image.rgb[3 * k] == 204 && image.rgb[3 * k + 1] == 209;  // 0.8 and 0.82 of 255
+        other += background == (exact.kinds[k] == oracle::Hit::Kind::particle) ? 1 : 0;
+    }
+    CHECK(other < 20);  // of 14400: outlines
+}
+
+TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictures]") {
+    FlickerSettings settings;
+    settings.particles = 1500;
+    settings.size = {320, 180};
+    settings.frames = 5;
+    const std::vector<FlickerRow> rows = measureFlicker(settings);
+    REQUIRE(rows.size() == 6);
+    for (std::size_t k = 0; k < rows.size(); k += 3) {  // draft, normal, final of a style
+        CAPTURE(k, rows[k].jerk, rows[k + 1].jerk, rows[k + 2].jerk);
+        CHECK(rows[k].change > 0.0);
+        CHECK(rows[k + 1].jerk < 0.8 * rows[k].jerk);
+        CHECK(rows[k + 2].jerk < rows[k + 1].jerk);
+    }
+    settings.pixelsPerFrame = 0.0;
+    for (const FlickerRow& row : measureFlicker(settings)) CHECK(row.change == 0.0);
+    const std::string csv = flickerCsv(rows);
+    CHECK(std::count(csv.begin(), csv.end(), '\n') == 7);
+}
+
+TEST_CASE("A small study has a row for each style, number, size and quality", "[pictures]") {
+    PictureSettings settings;
+    settings.particles = {500};
+    settings.sizes = {kSize};
+    settings.frames = 2;
+    settings.encodedFrames = 2;
+    settings.windowColumns = 2;
+    settings.windowRows = 2;
+    settings.samplesPerAxis = 1;
+    settings.videoPath = (std::filesystem::temp_directory_path() / "globular-pictures-test.mp4").string();
+    int told = 0;
+    const auto rows = measurePictures(settings, [&](const PictureRow&) { ++told; });
+    std::filesystem::remove(settings.videoPath);
+    REQUIRE(rows.size() == 6);
+    CHECK(told == 6);
+    for (const PictureRow& row : rows) {
+        CHECK(row.draw > 0.0);
+        CHECK(row.baseline > 0.0);
+        CHECK(row.stages.shade > 0.0);
+        CHECK(row.stages.all() < 2.0 * row.draw);
+        CHECK((row.stages.cast > 1e-4) == (row.style == Style::metaballs));  // s; less is the clock itself
+        CHECK(row.error.ssim > 0.9);
+    }
+    const std::string csv = picturesCsv(rows);
+    CHECK(std::count(csv.begin(), csv.end(), '\n') == 7);
+    CHECK(csv.find("metaballs,500,160,90,final,") != std::string::npos);
+    CHECK(pictureTimesPlot(rows).find("500 ") != std::string::npos);
+    CHECK(pictureErrorsPlot(rows).find("metaballs, normal") != std::string::npos);
+}

@@ -1,0 +1,101 @@
+// HTML by hand: two plots, two tables.
+#include "tools/pictures_page.h"
+
+#include <fmt/format.h>
+
+#include "tools/html.h"
+
+namespace tools {
+namespace {
+
+constexpr const char* kHead = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>globular: what pictures cost and how exact they are</title>
+<style>
+body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 80rem; padding: 2rem 1rem; color: #222; background: #f6f6f4; }
+img { max-width: 100%; background: #fff; border: 1px solid #ddd; }
+table { border-collapse: collapse; font-size: 0.85rem; background: #fff; font-variant-numeric: tabular-nums; }
+th, td { border: 1px solid #ddd; padding: 0.2rem 0.6rem; text-align: right; vertical-align: top; }
+th { background: #eee; }
+code { background: #f0f0ec; padding: 0 0.2rem; }
+</style></head><body>
+<h1>globular: what pictures cost and how exact they are</h1>
+)";
+
+std::string milliseconds(double seconds) {
+    return seconds == 0.0 ? "" : fmt::format("{:.3g}", 1e3 * seconds);
+}
+
+Cells subjectOf(const studies::PictureRow& row) {
+    return {studies::nameOf(row.style), fmt::format("{}", row.particles),
+            fmt::format("{} x {}", row.size.width, row.size.height), studies::nameOf(row.quality)};
+}
+
+std::string timeTable(const std::vector<studies::PictureRow>& rows) {
+    std::vector<Cells> table_;
+    for (const studies::PictureRow& row : rows) {
+        Cells cells = subjectOf(row);
+        const render::DrawTimes& t = row.stages;
+        for (const double seconds : {t.bin, t.occlusion, t.shadow, t.cast, t.shade, t.readBack, row.png, row.mp4,
+                                     row.draw, row.withPng, row.withMp4, row.baseline})
+            cells.push_back(milliseconds(seconds));
+        cells.push_back(fmt::format("{:.2f}", row.ratio()));
+        table_.push_back(cells);
+    }
+    return table({"style", "particles", "size", "quality", "bin", "occlusion", "shadow", "cast", "shade", "read back",
+                  "PNG", "MP4", "frame", "with PNG", "with MP4", "quads", "frame over quads"},
+                 table_);
+}
+
+std::string errorTable(const std::vector<studies::PictureRow>& rows) {
+    std::vector<Cells> table_;
+    for (const studies::PictureRow& row : rows) {
+        Cells cells = subjectOf(row);
+        cells.push_back(fmt::format("{:.2f}", row.error.rmse));
+        cells.push_back(fmt::format("{:.5f}", row.error.ssim));
+        cells.push_back(fmt::format("{:.4f} %", 100.0 * row.error.wrongHits));
+        cells.push_back(fmt::format("{:.2g}", row.error.depth));
+        cells.push_back(fmt::format("{:.2g}", row.error.normal));
+        cells.push_back(fmt::format("{}", row.error.pixels));
+        table_.push_back(cells);
+    }
+    return table({"style", "particles", "size", "quality", "RMSE, steps of 255", "SSIM", "wrong hits", "depth, radii",
+                  "normal, degrees", "pixels compared"},
+                 table_);
+}
+
+std::string flickerTable(const std::vector<studies::FlickerRow>& rows) {
+    std::vector<Cells> table_;
+    for (const studies::FlickerRow& row : rows)
+        table_.push_back({studies::nameOf(row.style), studies::nameOf(row.quality), fmt::format("{:.3f}", row.change),
+                          fmt::format("{:.3f}", row.jerk)});
+    return table({"style", "quality", "change", "jerk"}, table_);
+}
+
+}  // namespace
+
+std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command) {
+    const std::vector<studies::PictureRow>& rows = results.rows;
+    std::string html = kHead;
+    html += fmt::format(
+        "<p>Made by <code>{}</code>. A dam that splashes, as many particles as the table says, in its full look. "
+        "<em>Frame</em> is drawing and reading back; <em>quads</em> is what one would write first, a quad that faces "
+        "the eye for each sphere, with its depth written by the fragment shader, lit and nothing else, drawn in the "
+        "same run. <em>With PNG</em> and <em>with MP4</em> are milliseconds a frame of a run in which one frame is "
+        "encoded while the next is drawn. Medians.</p>\n",
+        escaped(command));
+    html += picture("milliseconds a frame against particles", plots.times) + timeTable(rows);
+    html +=
+        "<h2>Error</h2>\n<p>Against a ray caster in double precision, in windows spread evenly over the picture; depth "
+        "and normal are means over the right hits on particles.</p>\n";
+    html += picture("error against milliseconds", plots.errors) + errorTable(rows);
+    html +=
+        "<h2>Steadiness</h2>\n<p>A still scene while the camera moves an eighth of a pixel a frame: RMSE in steps of "
+        "255 "
+        "between one frame and the next (<em>change</em>), and between one such difference and the next "
+        "(<em>jerk</em>: what flickers rather than moves).</p>\n" +
+        flickerTable(results.flicker);
+    return html + "</body></html>\n";
+}
+
+}  // namespace tools

@@ -1,0 +1,26 @@
+// The page of the study of pictures: plots, the table, and how to have them again, in one HTML file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/flicker.h"
+#include "studies/pictures.h"
+
+namespace tools {
+
+/// The plots as SVG.
+struct PicturePlots {
+    std::string times;
+    std::string errors;
+};
+
+/// All that the study found.
+struct PictureResults {
+    std::vector<studies::PictureRow> rows;
+    std::vector<studies::FlickerRow> flicker;
+};
+
+std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command);
+
+}  // namespace tools

@@ -1,0 +1,149 @@
+// globular study pictures: what frames cost, stage by stage, and how far they are from the exact picture.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "scenes/input_error.h"
+#include "studies/pictures.h"
+#include "tools/commands.h"
+#include "tools/gnuplot.h"
+#include "tools/output_file.h"
+#include "tools/pictures_page.h"
+#include "tools/scene_options.h"
+#include "tools/threads.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PicturesOptions {
+    RunOptions run;
+    std::string folder = "out/study-pictures";
+    bool quick = false;
+    std::vector<std::size_t> particles;
+    std::string size;  ///< WxH
+};
+
+render::PictureSize sizeOf(const std::string& text) {
+    render::PictureSize size{0, 0};
+    char rest = 0;
+    const bool whole = std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) == 2;
+    // The windows of the error lie side by side.
+    if (!whole || size.width < 256 || size.height < 144 || size.width > 8192 || size.height > 8192)
+        throw scenes::InputError(
+            {{"--size", 0, 0, fmt::format("{} must be WxH from 256x144 to 8192x8192 pixels", text)}});
+    return size;
+}
+
+studies::PictureSettings settingsFor(const PicturesOptions& options) {
+    studies::PictureSettings settings;
+    settings.videoPath = (fs::path(options.folder) / "timing.mp4").string();
+    if (options.quick) {
+        settings.particles = {2000, 10000};
+        settings.sizes = {{640, 360}};
+        settings.frames = 3;
+        settings.encodedFrames = 4;
+        settings.windowColumns = 3;
+        settings.windowRows = 2;
+        settings.samplesPerAxis = 2;
+    }
+    if (!options.particles.empty()) settings.particles = options.particles;
+    if (!options.size.empty()) settings.sizes = {sizeOf(options.size)};
+    return settings;
+}
+
+studies::FlickerSettings flickerSettingsFor(const PicturesOptions& options) {
+    studies::FlickerSettings settings;
+    if (options.quick) {
+        settings.particles = 2000;
+        settings.size = {320, 180};
+        settings.frames = 3;
+    }
+    return settings;
+}
+
+studies::PictureListener reporter(Talk talk) {
+    return [talk](const studies::PictureRow& row) {
+        if (talk == Talk::json)
+            fmt::print("{}\n", nlohmann::ordered_json{{"event", "row"},
+                                                      {"style", studies::nameOf(row.style)},
+                                                      {"particles", row.particles},
+                                                      {"width", row.size.width},
+                                                      {"quality", studies::nameOf(row.quality)},
+                                                      {"seconds", row.draw},
+                                                      {"ratio", row.ratio()},
+                                                      {"ssim", row.error.ssim}}
+                                   .dump());
+        else if (talk == Talk::normal)
+            fmt::print(stderr, "{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
+                       studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
+                       studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim);
+    };
+}
+
+void print(const std::vector<studies::PictureRow>& rows) {
+    fmt::print("{:9} {:>9} {:>9} {:7} {:>9} {:>9} {:>9} {:>9} {:>6} {:>9} {:>8} {:>9}\n", "style", "particles", "size",
+               "quality", "frame, ms", "+PNG, ms", "+MP4, ms", "quads, ms", "ratio", "RMSE", "SSIM", "wrong, %");
+    for (const studies::PictureRow& row : rows)
+        fmt::print("{:9} {:>9} {:>9} {:7} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>6.2f} {:>9.3f} {:>8.5f} {:>9.4f}\n",
+                   studies::nameOf(row.style), row.particles, fmt::format("{}x{}", row.size.width, row.size.height),
+                   studies::nameOf(row.quality), 1e3 * row.draw, 1e3 * row.withPng, 1e3 * row.withMp4,
+                   1e3 * row.baseline, row.ratio(), row.error.rmse, row.error.ssim, 100.0 * row.error.wrongHits);
+}
+
+void study(const PicturesOptions& options) {
+    const int threads = threadCount(options.run);
+    ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+    const fs::path folder = options.folder;
+    createFolder(folder);
+    const studies::PictureSettings settings = settingsFor(options);
+    PictureResults results;
+    onThreads(threads, [&] {
+        results.rows = studies::measurePictures(settings, reporter(options.run.talk()));
+        results.flicker = studies::measureFlicker(flickerSettingsFor(options));
+    });
+    const std::vector<studies::PictureRow>& rows = results.rows;
+    fs::remove(settings.videoPath);
+    writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
+    writeFile(folder / "flicker.csv", studies::flickerCsv(results.flicker));
+    const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows)), drawPlot(studies::pictureErrorsPlot(rows))};
+    writeFile(folder / "times.svg", plots.times);
+    writeFile(folder / "errors.svg", plots.errors);
+    std::string command = fmt::format("globular study pictures{}", options.quick ? " --quick" : "");
+    if (!options.particles.empty()) command += fmt::format(" --particles {}", fmt::join(options.particles, " "));
+    if (!options.size.empty()) command += " --size " + options.size;
+    command += fmt::format(" --threads {}", threads);
+    writeFile(folder / "index.html", picturesPage(results, plots, command));
+    if (options.run.talk() != Talk::normal) return;
+    print(rows);
+    for (const studies::FlickerRow& row : results.flicker)
+        fmt::print("{} {}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n", studies::nameOf(row.style),
+                   studies::nameOf(row.quality), row.change, row.jerk);
+    fmt::print("all of it: {}\n", (folder / "index.html").string());
+}
+
+}  // namespace
+
+void addStudyPictures(CLI::App& study) {
+    CLI::App* command =
+        study.add_subcommand("pictures", "time of each stage of a frame, and its error against the exact picture");
+    const auto options = std::make_shared<PicturesOptions>();
+    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-pictures)")
+        ->type_name("DIR");
+    command->add_option("--particles", options->particles, "how many (default: 2000 10000 50000 200000)")
+        ->check(CLI::Range(100, 10000000))
+        ->type_name("N...");
+    command->add_option("--size", options->size, "of the picture (default: 1280x720 and 1920x1080)")->type_name("WxH");
+    command->add_flag("--quick", options->quick, "fewer particles, small pictures");
+    addTo(*command, options->run);
+    command->footer("Example: globular study pictures --quick -o out/pictures");
+    command->callback([options] { tools::study(*options); });
+}
+
+}  // namespace tools
