@@ -9,6 +9,7 @@
 #include "render/system_error.h"
 #include "scenes/input_error.h"
 #include "tools/commands.h"
+#include "tools/ended.h"
 
 namespace {
 
@@ -34,6 +35,8 @@ int run(CLI::App& program, int argc, char** argv) {
         return report(error.what(), kInputWrong);
     } catch (const engine::InstabilityError& error) {
         return report(error.what(), kUnstable);
+    } catch (const tools::Ended& ended) {
+        return report(ended.what(), ended.exitCode());
     } catch (const std::exception& error) {
         return report(error.what(), kOutsideFailed);
     }
@@ -50,6 +53,8 @@ int main(int argc, char** argv) {
     tools::addSimulateCommand(program);
     tools::addFiguresCommand(program);
     tools::addVideoCommand(program);
+    tools::addCompareCommand(program);
+    tools::addApproveCommand(program);
     tools::addCheckCommand(program);
     tools::addScenesCommand(program);
     tools::addSchemaCommand(program);
