@@ -9,14 +9,13 @@
 #include "render/system_error.h"
 #include "scenes/input_error.h"
 #include "tools/commands.h"
-#include "tools/interrupt.h"
+#include "tools/ended.h"
 
 namespace {
 
 constexpr int kOutsideFailed = 1;
 constexpr int kInputWrong = 2;
 constexpr int kUnstable = 3;
-constexpr int kSignalled = 128;  ///< and the signal's number, as shells have it
 
 int report(const std::string& problems, int exitCode) {
     std::istringstream lines(problems);
@@ -36,8 +35,8 @@ int run(CLI::App& program, int argc, char** argv) {
         return report(error.what(), kInputWrong);
     } catch (const engine::InstabilityError& error) {
         return report(error.what(), kUnstable);
-    } catch (const tools::Interrupted& error) {
-        return report(error.what(), kSignalled + error.signal());
+    } catch (const tools::Ended& ended) {
+        return report(ended.what(), ended.exitCode());
     } catch (const std::exception& error) {
         return report(error.what(), kOutsideFailed);
     }
@@ -55,6 +54,8 @@ int main(int argc, char** argv) {
     tools::addSimulateCommand(program);
     tools::addFiguresCommand(program);
     tools::addVideoCommand(program);
+    tools::addCompareCommand(program);
+    tools::addApproveCommand(program);
     tools::addCheckCommand(program);
     tools::addScenesCommand(program);
     tools::addSchemaCommand(program);

@@ -12,12 +12,15 @@
 #include "engine/steppers.h"
 #include "render/metaball_cast.h"
 #include "render/system_error.h"
-#include "tools/interrupt.h"
+#include "tools/ended.h"
 
 namespace tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Exit codes of programs that a signal ended, as shells have them, come after this.
+constexpr int kSignalled = 128;
 
 Json vectorJson(const engine::Vec3& vector) {
     return {vector.x(), vector.y(), vector.z()};
@@ -108,10 +111,10 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
 void requireWhole(const RunReport& report, const std::string& folder) {
     if (!report.unstable.empty()) throw engine::InstabilityError(report.unstable);
     if (report.interruptedBy == 0) return;
-    throw Interrupted(report.interruptedBy,
-                      fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume "
-                                  "goes on from there",
-                                  report.frames, folder));
+    throw Ended(kSignalled + report.interruptedBy,
+                fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume "
+                            "goes on from there",
+                            report.frames, folder));
 }
 
 Json sceneIdentity(const scenes::Scene& scene) {

@@ -54,7 +54,7 @@ struct FinishedRun {
 /// What of a scene decides what its frames show: the first fields of run.json, and of a folder's manifest.
 nlohmann::ordered_json sceneIdentity(const scenes::Scene& scene);
 
-/// Throws engine::InstabilityError or Interrupted for a run that ended early, with what to do about it.
+/// Throws engine::InstabilityError or Ended for a run that ended early, with what to do about it.
 void requireWhole(const RunReport& report, const std::string& folder);
 
 /// The content of run.json for a run that has come to the given state.

@@ -1,12 +1,18 @@
-# embed_files(OUTPUT NAME...): writes a C++ file that defines render::shaderSource(name) for shaders/NAME..., again whenever one
-# of them changes.
-function(embed_files output)
+# embed_texts(OUTPUT FOLDER HEADER FUNCTION NAME...): writes a C++ file that defines FUNCTION(std::string_view name), declared in
+# HEADER, to return the text of FOLDER/NAME..., again whenever one of them changes.
+set(EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/write_embedded.cmake)
+function(embed_texts output folder header function)
     set(paths "")
     foreach(name IN LISTS ARGN)
-        list(APPEND paths ${CMAKE_CURRENT_SOURCE_DIR}/shaders/${name})
+        list(APPEND paths ${folder}/${name})
     endforeach()
     add_custom_command(OUTPUT ${output}
-        COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} "-DPATHS=${paths}" -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/write_embedded.cmake
-        DEPENDS ${paths} ${CMAKE_CURRENT_SOURCE_DIR}/cmake/write_embedded.cmake
+        COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} -DFUNCTION=${function} "-DPATHS=${paths}" -P ${EMBED_SCRIPT}
+        DEPENDS ${paths} ${EMBED_SCRIPT}
         VERBATIM)
+endfunction()
+
+# embed_files(OUTPUT NAME...): shaders/NAME... by render::shaderSource(name).
+function(embed_files output)
+    embed_texts(${output} ${CMAKE_CURRENT_SOURCE_DIR}/shaders render/program_cache.h render::shaderSource ${ARGN})
 endfunction()

@@ -1,19 +1,15 @@
-# Run by embed_files: -DOUTPUT=file -DPATHS=list of shaders.
+# Run by embed_texts: -DOUTPUT=file -DHEADER=that declares it -DFUNCTION=qualified name -DPATHS=list of files.
 set(cases "")
 foreach(path IN LISTS PATHS)
     get_filename_component(name ${path} NAME)
     file(READ ${path} text)
-    string(APPEND cases "    if (name == \"${name}\") return R\"shader(${text})shader\";\n")
+    string(APPEND cases "    if (name == \"${name}\") return R\"embedded(${text})embedded\";\n")
 endforeach()
 file(WRITE ${OUTPUT}
-"// Written by the build from render/shaders.
-#include \"render/program_cache.h\"
+"// Written by the build.
+#include \"${HEADER}\"
 
-namespace render {
-
-std::string_view shaderSource(std::string_view name) {
+std::string_view ${FUNCTION}(std::string_view name) {
 ${cases}    return {};
 }
-
-}  // namespace render
 ")

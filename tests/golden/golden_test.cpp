@@ -1,92 +1,83 @@
-// A golden frame for each of the paper's figures: the whole way from scene file to pixels. On failure the actual
-// picture, the expected one and their difference are left in the build folder; tests/golden/approve.sh makes the
-// actuals the new goldens.
+// Every built-in scene at two times and in both styles: the whole way from scene file to pixels. The actual pictures
+// and, when one is not as expected, a report stay in the build folder; tests/golden/approve.sh makes the actuals the
+// new goldens.
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <set>
 
 #include "render/png.h"
-#include "render/renderer.h"
-#include "scenes/frame_steps.h"
-#include "scenes/frame_view.h"
+#include "scenes/library.h"
 #include "tests/catch.h"
-#include "tests/golden/golden_compare.h"
+#include "tests/golden/draw_goldens.h"
+#include "tools/approve.h"
+#include "tools/compare_page.h"
 #include "tools/output_file.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-render::Image drawStill(const std::string& name) {
-    const std::string path = std::string(GLOBULAR_SOURCE) + "/scenes/paper/" + name + ".toml";
-    scenes::Scene scene = scenes::loadScene(path, {});
-    // Half size: particles are still seven to ten pixels wide, and the goldens stay small.
-    scene.size = {scene.size.width / 2, scene.size.height / 2};
-    engine::Simulation simulation = engine::start(scene.setup);
-    scenes::advanceToFrame(scene, simulation, scenes::stillFrame(scene));
-    render::Context context(render::Backend::osmesa);
-    render::Renderer renderer(context, scene.size, render::Quality::normal);
-    return renderer.draw(scenes::frameView(scene, simulation));
-}
+const fs::path kExpected = fs::path(GLOBULAR_SOURCE) / "tests/golden/frames";
+const fs::path kActual = fs::path(GOLDEN_OUTPUT) / "actual";
+const fs::path kReport = fs::path(GOLDEN_OUTPUT) / "report";
 
-void keep(const std::string& name, const render::Image& image) {
-    tools::createFolder(GOLDEN_OUTPUT);
-    tools::writeFile(fs::path(GOLDEN_OUTPUT) / name, render::encodePng(image));
-}
-
-void checkGolden(const std::string& name) {
-    const render::Image actual = drawStill(name);
-    keep(name + ".png", actual);
-    const fs::path path = fs::path(GLOBULAR_SOURCE) / "tests" / "golden" / (name + ".png");
-    INFO(path.string() << " against " << GOLDEN_OUTPUT << "/" << name << ".png; approve with tests/golden/approve.sh");
-    REQUIRE(fs::exists(path));
-    const render::Image expected = render::decodePng(tools::readFile(path), path.string());
-    const std::string reasons = golden::verdict(golden::differenceOf(actual, expected));
-    if (!reasons.empty()) {
-        keep(name + "-expected.png", expected);
-        keep(name + "-difference.png", golden::differenceImage(actual, expected));
-    }
-    CHECK(reasons == "");
+std::string saidOf(const tools::PictureResult& result) {
+    std::string text = result.name;
+    for (const std::string& reason : result.reasons) text += ": " + reason;
+    if (result.explanation) text += "; " + result.explanation->text;
+    return text;
 }
 
 }  // namespace
 
-TEST_CASE("Figure 1 looks as it did", "[golden]") {
-    checkGolden("figure-1");
+TEST_CASE("Every built-in scene looks as it did", "[golden]") {
+    fs::remove_all(kActual);
+    golden::draw(golden::scenes(), kActual);
+    const tools::CompareJob job{kActual, kExpected, render::limitsOf("vendor"), {}};
+    tools::ComparePage page;
+    std::vector<std::string> failed;
+    const tools::CompareCounts counts = tools::comparePictures(job, [&](const tools::PictureResult& result) {
+        if (!result.passed()) failed.push_back(result.name);
+        page.add(result, result.passed() ? "" : tools::approvalLine(kActual, kExpected, {result.name}));
+        INFO(saidOf(result) << "\nThe report: " << (kReport / "index.html").string()
+                            << "\nTo approve: tests/golden/approve.sh [PRESET] [NAME...]");
+        CHECK(result.passed());
+        // States are the same bits everywhere: another state is a change, even one that nobody sees.
+        CHECK_FALSE((result.explanation && result.explanation->cause == tools::Cause::simulation));
+    });
+    CHECK(counts.pictures == 4 * static_cast<int>(golden::scenes().size()));
+    tools::createFolder(kReport);
+    tools::writeFile(kReport / "index.html", page.html({kActual.string(), kExpected.string(), "vendor", job.limits,
+                                                        counts, tools::approvalLine(kActual, kExpected, failed)}));
 }
-TEST_CASE("Figure 2 looks as it did", "[golden]") {
-    checkGolden("figure-2");
+
+TEST_CASE("No built-in scene is without goldens", "[golden]") {
+    std::set<std::string> wanted, known;
+    for (const auto& entry : scenes::listScenes({std::string(GLOBULAR_SOURCE) + "/scenes"}))
+        if (!entry.name.starts_with("hard/")) wanted.insert(entry.name);
+    for (const golden::GoldenScene& scene : golden::scenes()) {
+        known.insert(scene.name);
+        CHECK(scene.first < scene.second);
+    }
+    CHECK(known == wanted);
 }
-TEST_CASE("Figure 3 looks as it did", "[golden]") {
-    checkGolden("figure-3");
-}
-TEST_CASE("Figure 4 looks as it did", "[golden]") {
-    checkGolden("figure-4");
-}
 
-TEST_CASE("Known-bad pictures are noticed", "[golden]") {
-    const fs::path path = fs::path(GLOBULAR_SOURCE) / "tests" / "golden" / "figure-2.png";
-    const render::Image good = render::decodePng(tools::readFile(path), path.string());
-    CHECK(golden::verdict(golden::differenceOf(good, good)) == "");
-
-    render::Image onePixel = good;
-    onePixel.rgb[3 * 1000 + 1] = static_cast<std::uint8_t>(onePixel.rgb[3 * 1000 + 1] ^ 0x40);
-    CHECK(golden::verdict(golden::differenceOf(onePixel, good)) != "");
-
-    render::Image shifted = good;
-    std::copy(good.rgb.begin(), good.rgb.end() - 3, shifted.rgb.begin() + 3);
-    CHECK(golden::verdict(golden::differenceOf(shifted, good)) != "");
-
-    render::Image brighter = good;  // by one step everywhere: no pixel is noticeable, the mean is
-    for (std::uint8_t& channel : brighter.rgb) channel = static_cast<std::uint8_t>(channel + (channel < 255 ? 1 : 0));
-    CHECK(golden::verdict(golden::differenceOf(brighter, good)) != "");
-
-    render::Image blank = good;
-    std::fill(blank.rgb.begin(), blank.rgb.end(), std::uint8_t{0});
-    CHECK(golden::verdict(golden::differenceOf(blank, good)) != "");
-
-    render::Image rounding = good;  // the last bit of one channel in fifty
-    for (std::size_t k = 0; k < rounding.rgb.size(); k += 50)
-        rounding.rgb[k] = static_cast<std::uint8_t>(rounding.rgb[k] ^ 1);
-    CHECK(golden::verdict(golden::differenceOf(rounding, good)) == "");
-
-    CHECK_THROWS_AS(golden::differenceOf(render::Image{1, 1, {0, 0, 0}}, good), std::invalid_argument);
+TEST_CASE("A golden of another moment, and one of the other style, are noticed", "[golden]") {
+    const auto picture = [](const std::string& name) {
+        const fs::path path = kExpected / name;
+        return render::decodePng(tools::readFile(path), path.string());
+    };
+    for (const golden::GoldenScene& scene : golden::scenes()) {
+        // A powder and a liquid at rest do not move, and particles apart look the same in both styles.
+        if (scene.name == "paper/attraction-1" || scene.name == "paper/attraction-2") continue;
+        INFO(scene.name);
+        const auto frame = [&](const char* style, int number) {
+            return picture(fmt::format("{}/{}/frame-{:05}.png", scene.name, style, number));
+        };
+        const render::Image good = frame("spheres", scene.second);
+        const render::CompareLimits limits = render::limitsOf("vendor");
+        CHECK_FALSE(render::compare(frame("spheres", scene.first), good, limits).passed());
+        CHECK_FALSE(render::compare(frame("metaballs", scene.second), good, limits).passed());
+    }
 }

@@ -1,0 +1,76 @@
+// One context and one renderer for all: pictures have one size.
+#include "tests/golden/draw_goldens.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "engine/diagnostics.h"
+#include "render/png.h"
+#include "render/renderer.h"
+#include "scenes/frame_steps.h"
+#include "scenes/frame_view.h"
+#include "tools/output_file.h"
+#include "tools/picture_facts.h"
+
+namespace golden {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr render::PictureSize kSize = {320, 180};
+constexpr std::array kStyles = {"spheres", "metaballs"};
+
+scenes::Scene sceneIn(const GoldenScene& golden, const std::string& style) {
+    std::vector<std::string> overrides = golden.overrides;
+    overrides.push_back("look.style=" + style);
+    overrides.push_back(fmt::format("look.size=[{}, {}]", kSize.width, kSize.height));
+    return scenes::loadScene(fmt::format("{}/scenes/{}.toml", GLOBULAR_SOURCE, golden.name), overrides);
+}
+
+class Drawing {
+ public:
+    explicit Drawing(const fs::path& folder)
+        : folder_(folder), context_(render::Backend::osmesa), renderer_(context_, kSize, render::Quality::normal) {}
+
+    void draw(const GoldenScene& golden) {
+        const std::array scenes = {sceneIn(golden, kStyles[0]), sceneIn(golden, kStyles[1])};
+        engine::Simulation simulation = engine::start(scenes[0].setup);
+        for (const int frame : {golden.first, golden.second}) {
+            scenes::advanceToFrame(scenes[0], simulation, frame);
+            for (std::size_t k = 0; k < kStyles.size(); ++k) {
+                const fs::path folder = folder_ / golden.name / kStyles[k];
+                write(folder / fmt::format("frame-{:05}.png", frame), scenes[k], simulation);
+            }
+        }
+    }
+
+ private:
+    void write(const fs::path& path, const scenes::Scene& scene, const engine::Simulation& simulation) {
+        const auto png = render::encodePng(renderer_.draw(scenes::frameView(scene, simulation)));
+        tools::PictureFacts facts;
+        facts.sceneHash = scene.sceneHash;
+        facts.stateHash = engine::stateHash(simulation.particles);
+        facts.version = GLOBULAR_VERSION;
+        facts.glRenderer = context_.rendererName();
+        facts.quality = "normal";
+        tools::createFolder(path.parent_path());
+        tools::writeFile(path, png);
+        tools::writeFile(tools::sidecarPath(path),
+                         tools::sidecarJson(facts, tools::checksumOf(png), kSize.width, kSize.height).dump(2) + "\n");
+    }
+
+    fs::path folder_;
+    render::Context context_;
+    render::Renderer renderer_;
+};
+
+}  // namespace
+
+void draw(const std::vector<GoldenScene>& scenes, const fs::path& folder) {
+    Drawing drawing(folder);
+    for (const GoldenScene& scene : scenes) drawing.draw(scene);
+}
+
+}  // namespace golden

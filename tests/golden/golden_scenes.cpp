@@ -1,0 +1,38 @@
+// Where overrides stand the automatic stepper would take longer over its first looks than the whole suite may; a fixed
+// step shows the same things.
+#include "tests/golden/golden_scenes.h"
+
+namespace golden {
+
+const std::vector<GoldenScene>& scenes() {
+    static const std::vector<GoldenScene> kScenes = {
+        {"fountain", 20, 75, {}},
+        {"honey", 30, 90, {}},
+        {"jam", 5, 30, {"physics.stepper=linearly-implicit", "physics.step=0.01"}},
+        {"lava", 30, 90, {}},
+        {"liquid", 5, 30, {"physics.stepper=velocity-verlet", "physics.step=0.004"}},
+        {"molten-metal", 30, 90, {}},
+        {"mud", 6, 24, {"physics.error=2"}},
+        {"oil", 10, 30, {}},
+        {"paper/attraction-1", 25, 400, {}},
+        {"paper/attraction-2", 25, 400, {}},
+        {"paper/attraction-3", 25, 400, {}},
+        {"paper/figure-1", 100, 300, {}},
+        {"paper/figure-2", 150, 375, {}},
+        {"paper/figure-3", 400, 1400, {}},
+        {"paper/figure-4", 100, 300, {}},
+        {"paper/issue-high-b1", 800, 2500, {}},
+        {"paper/issue-high-bd", 400, 1400, {}},
+        {"paper/liquid-thick", 400, 1100, {}},
+        {"paper/liquid-thin", 400, 1100, {}},
+        {"paper/repulsion-1", 5, 100, {}},
+        {"paper/repulsion-2", 5, 100, {}},
+        {"paper/repulsion-3", 5, 100, {}},
+        {"powder", 30, 100, {}},
+        {"sand", 30, 100, {}},
+        {"solid", 6, 24, {"physics.stepper=velocity-verlet", "physics.step=0.004"}},
+    };
+    return kScenes;
+}
+
+}  // namespace golden

@@ -1,0 +1,247 @@
+// globular compare: exit codes, reasons, machine-readable results, and whether the simulation or the renderer changed.
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/catch.h"
+#include "tests/tools/golden_files.h"
+#include "tests/tools/program.h"
+
+using namespace golden_files;
+using namespace test_pictures;
+using program::run;
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// A folder with actual and expected pictures, and `compare` on it.
+class Two {
+ public:
+    void actual(const std::string& name, const render::Image& image) {
+        writePicture(folder_ / ("actual/" + name), image);
+    }
+    void expected(const std::string& name, const render::Image& image) {
+        writePicture(folder_ / ("expected/" + name), image);
+    }
+    void both(const std::string& name, const render::Image& image) {
+        actual(name, image);
+        expected(name, image);
+    }
+    fs::path operator/(const std::string& name) const { return folder_ / name; }
+    program::Outcome compare(const std::string& more = "") const {
+        return run("compare " + (folder_ / "actual").string() + " " + (folder_ / "expected").string() + " " + more);
+    }
+    /// The object of each picture by its name, and the last one under "done".
+    std::map<std::string, Json> results(const std::string& more = "") const {
+        std::istringstream lines(compare("--json " + more).out);
+        std::map<std::string, Json> results;
+        for (std::string line; std::getline(lines, line);) {
+            const Json json = Json::parse(line);
+            results[json["event"] == "done" ? "done" : json["name"].get<std::string>()] = json;
+        }
+        return results;
+    }
+
+ private:
+    program::Folder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("compare: 0 within limits, 1 different, 2 trouble", "[compare]") {
+    Two two;
+    two.both("frame-00000.png", balls());
+    CHECK(two.compare("--profile strict").code == 0);
+    two.both("deeper/frame-00001.png", balls());
+    two.actual("frame-00002.png", onePixel(balls(), 30, 40, 10));
+    two.expected("frame-00002.png", balls());
+    const auto vendor = two.compare();
+    CHECK(vendor.code == 0);
+    CHECK(vendor.out.find("3 pictures: 2 identical, 1 within limits (vendor), 0 different") != std::string::npos);
+    const auto strict = two.compare("--profile strict");
+    CHECK(strict.code == 1);
+    CHECK(strict.err == "");
+    CHECK(strict.out.find("frame-00002.png: different (largest)") != std::string::npos);
+    CHECK(strict.out.find("off by 10 at (30, 40), allowed are 0") != std::string::npos);
+    CHECK(two.compare("--profile strict --quiet").out == "");
+
+    CHECK(two.compare("--profile exact").code == 2);
+    CHECK(run("compare " + (two / "nothing").string() + " " + (two / "expected").string()).code == 2);
+    const auto mixed = run("compare " + (two / "actual/frame-00000.png").string() + " " + (two / "expected").string());
+    CHECK(mixed.code == 2);
+    CHECK(mixed.err.find("error: one side is a single picture") == 0);
+    fs::create_directories(two / "empty");
+    const auto empty = run("compare " + (two / "empty").string() + " " + (two / "empty").string());
+    CHECK(empty.code == 2);
+    CHECK(empty.err.find("there are no PNG files") != std::string::npos);
+}
+
+TEST_CASE("compare: two files, whatever their names", "[compare]") {
+    Two two;
+    two.actual("a.png", darker(balls(), 0.5));
+    two.expected("b.png", balls());
+    const auto outcome = run("compare " + (two / "actual/a.png").string() + " " + (two / "expected/b.png").string());
+    CHECK(outcome.code == 1);
+    CHECK(outcome.out.find("b.png: different (largest)") == 0);
+    CHECK(run("compare " + (two / "actual/a.png").string() + " " + (two / "actual/a.png").string()).code == 0);
+    const auto missing = run("compare " + (two / "actual/a.png").string() + " " + (two / "expected/none.png").string());
+    CHECK(missing.code == 1);
+    CHECK(missing.out.find("there is no golden for") != std::string::npos);
+}
+
+TEST_CASE("compare: missing, extra, unreadable and differently sized pictures are reasons of their own", "[compare]") {
+    Two two;
+    two.both("frame-00000.png", balls());
+    two.actual("extra.png", balls());
+    CHECK(two.compare().code == 1);
+    fs::remove(two / "actual/extra.png");
+    two.expected("missing.png", balls());
+    CHECK(two.compare().code == 1);
+    two.actual("size.png", balls(90, 160));
+    two.expected("size.png", balls());
+    CHECK(two.compare().code == 1);
+    two.actual("extra.png", balls());
+    two.both("broken.png", balls());
+    auto bytes = tools::readFile(two / "actual/broken.png");
+    bytes.resize(bytes.size() / 2);
+    tools::writeFile(two / "actual/broken.png", bytes);
+    CHECK(two.compare().code == 2);
+
+    auto results = two.results();
+    REQUIRE(results.size() == 6);
+    CHECK(results["frame-00000.png"]["status"] == "identical");
+    CHECK(results["extra.png"]["status"] == "extra");
+    CHECK(results["missing.png"]["status"] == "missing");
+    CHECK(results["broken.png"]["status"] == "unreadable");
+    CHECK(results["broken.png"]["reasons"][0].get<std::string>().find("actual/broken.png as PNG") != std::string::npos);
+    CHECK(results["size.png"]["rule"] == "size");
+    CHECK(results["done"]["pictures"] == 5);
+    for (const char* count : {"identical", "different", "missing", "extra", "unreadable"})
+        CHECK(results["done"][count] == 1);
+    const std::string approval = results["done"]["approve"];
+    CHECK(approval ==
+          "globular approve " + (two / "actual").string() + " " + (two / "expected").string() + " extra.png size.png");
+}
+
+TEST_CASE("compare: each threshold can be set, and a mask given", "[compare]") {
+    Two two;
+    two.actual("a.png", noisy(balls(), 4));
+    two.expected("a.png", balls());
+    CHECK(two.results()["a.png"]["rule"] == "share");
+    CHECK(two.results("--threshold 4")["a.png"]["rule"] == "mean");
+    CHECK(two.results("--max-share 100")["a.png"]["rule"] == "mean");
+    CHECK(two.results("--max-share 100 --max-mean 3")["a.png"]["rule"] == "within-limits");
+    CHECK(two.results("--max-share 100 --max-mean 3 --min-ssim 0.9999")["a.png"]["rule"] == "ssim");
+    CHECK(two.results("--max-difference 3")["a.png"]["rule"] == "largest");
+    CHECK(two.compare("--max-share 101").code == 2);
+
+    two.actual("a.png", onePixel(balls(), 30, 40, 99));
+    render::Image mask = flat(160, 90, {255, 255, 255});
+    const std::string file = (two / "mask.png").string();
+    writePicture(file, mask);
+    CHECK(two.compare("--mask " + file).code == 1);
+    std::fill_n(mask.rgb.begin() + 3 * (40 * 160 + 30), 3, std::uint8_t{0});
+    writePicture(file, mask);
+    CHECK(two.compare("--profile strict --mask " + file).code == 0);
+    writePicture(file, balls(32, 32));
+    const auto wrong = two.compare("--mask " + file);
+    CHECK(wrong.code == 2);
+    CHECK(wrong.err.find("error: the mask is 32x32") == 0);
+    writePicture(file, blank(mask));
+    CHECK(two.compare("--mask " + file).code == 2);
+}
+
+TEST_CASE("compare: the state's hash tells whether the simulation or the renderer changed", "[compare]") {
+    Two two;
+    two.actual("frame-00007.png", darker(balls(), 0.5));
+    two.expected("frame-00007.png", balls());
+    const auto result = [&] { return two.results()["frame-00007.png"]; };
+    CHECK(result()["changed"] == "unknown");
+    writeManifest(two / "actual", "1111111111111111");
+    CHECK(result()["changed"] == "unknown");
+    CHECK(result()["explanation"].get<std::string>().find("the expected picture's state is not recorded") !=
+          std::string::npos);
+    writeManifest(two / "expected", "1111111111111111", {.renderer = "another"});
+    CHECK(result()["changed"] == "renderer");
+    CHECK(result()["explanation"].get<std::string>().find("GL renderer llvmpipe (test) instead of another") !=
+          std::string::npos);
+    writeManifest(two / "expected", "2222222222222222");
+    CHECK(result()["changed"] == "simulation");
+    CHECK(result()["actual"]["state_hash"] == "1111111111111111");
+    CHECK(result()["expected"]["state_hash"] == "2222222222222222");
+
+    // A manifest about other bytes says nothing about these.
+    two.actual("frame-00007.png", darker(balls(), 0.6));
+    CHECK(result()["changed"] == "unknown");
+    CHECK(result()["explanation"].get<std::string>().find("manifest.json is about another picture") !=
+          std::string::npos);
+
+    // The same picture of another state passes, and says so.
+    two.actual("frame-00007.png", balls());
+    writeManifest(two / "actual", "1111111111111111");
+    CHECK(result()["status"] == "identical");
+    CHECK(result()["changed"] == "simulation");
+    const auto said = two.compare();
+    CHECK(said.code == 0);
+    CHECK(said.out.find("the simulation changed: state 1111111111111111 instead of 2222222222222222") !=
+          std::string::npos);
+
+    tools::writeFile(two / "actual/manifest.json", std::string("{\"frames\": {\"00007\": 3}"));
+    tools::writeFile(two / "actual/run.json",
+                     std::string("{\"scene_hash\": \"abc\", \"gl_renderer\": null, \"version\": 3}"));
+    CHECK(result()["actual"]["scene_hash"] == "abc");
+    CHECK_FALSE(result()["actual"].contains("gl_renderer"));
+}
+
+TEST_CASE("compare: JUnit's XML counts failures and errors, and stays XML", "[compare]") {
+    Two two;
+    two.both("frame-00000.png", balls());
+    two.actual("a<b>&\".png", blank(balls()));
+    two.expected("a<b>&\".png", balls());
+    two.both("broken.png", balls());
+    tools::writeFile(two / "actual/broken.png", std::string("no PNG"));
+    CHECK(two.compare("--junit " + (two / "junit.xml").string()).code == 2);
+    const std::string xml = program::textOf(two / "junit.xml");
+    CHECK(xml.find("<?xml") == 0);
+    CHECK(xml.find("tests=\"3\" failures=\"1\" errors=\"1\"") != std::string::npos);
+    CHECK(xml.find("name=\"frame-00000.png\"/>") != std::string::npos);
+    CHECK(xml.find("name=\"a&lt;b&gt;&amp;&quot;.png\">\n    <failure type=\"largest\"") != std::string::npos);
+    CHECK(xml.find("<error type=\"unreadable\"") != std::string::npos);
+    CHECK(two.compare("--junit " + (two / "no/folder.xml").string()).code == 2);
+}
+
+TEST_CASE("compare: frames of two videos", "[compare]") {
+    Two two;
+    for (int k = 0; k < 3; ++k) two.actual("frame-0000" + std::to_string(k) + ".png", noisy(balls(), 2 * k));
+    const auto film = [&](const std::string& folder, const std::string& name) {
+        return run("video " + (two / folder).string() + " --quiet -o " + (two / name).string()).code;
+    };
+    REQUIRE(film("actual", "a.mp4") == 0);
+    REQUIRE(film("actual", "same.mp4") == 0);
+    two.actual("frame-00002.png", shifted(balls()));
+    REQUIRE(film("actual", "other.mp4") == 0);
+    const std::string compare = "compare --json ";
+    const auto same = run(compare + (two / "same.mp4").string() + " " + (two / "a.mp4").string() + " --profile strict");
+    CHECK(same.code == 0);
+    CHECK(same.out.find("\"pictures\":3,\"identical\":3") != std::string::npos);
+    const auto other =
+        run(compare + (two / "other.mp4").string() + " " + (two / "a.mp4").string() + " --profile loose");
+    CHECK(other.code == 1);
+    CHECK(other.out.find("\"name\":\"frame-00002.png\",\"status\":\"different\"") != std::string::npos);
+    // A film against the frames it was made of. Flat colours keep their places through 4:2:0; luma has 219 steps and
+    // chroma 224 for 255, whose rounding reaches a channel as at most 0.5 (1.17 + 2 * 1.14) < 2 steps, twice. Another
+    // matrix would cost twenty.
+    int number = 0;
+    for (const std::array<std::uint8_t, 3>& color :
+         {std::array<std::uint8_t, 3>{200, 60, 40}, {30, 180, 90}, {20, 60, 220}})
+        two.expected("frame-0000" + std::to_string(number++) + ".png", flat(160, 90, color));
+    REQUIRE(film("expected", "flat.mp4") == 0);
+    const auto own = run(compare + (two / "flat.mp4").string() + " " + (two / "expected").string() +
+                         " --max-difference 4 --max-share 100 --max-mean 4");
+    INFO(own.out);
+    CHECK(own.code == 0);
+    tools::writeFile(two / "broken.mp4", std::string("no film"));
+    const auto broken = run(compare + (two / "broken.mp4").string() + " " + (two / "a.mp4").string());
+    CHECK(broken.code == 2);
+    CHECK(broken.err.find("error: ffmpeg cannot decode") == 0);
+}

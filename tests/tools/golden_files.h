@@ -1,0 +1,47 @@
+// Folders of pictures as runs and approvals leave them, written by hand.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "render/png.h"
+#include "tests/render/test_pictures.h"
+#include "tools/manifest.h"
+#include "tools/output_file.h"
+#include "tools/picture_facts.h"
+
+namespace golden_files {
+
+namespace fs = std::filesystem;
+
+inline void writePicture(const fs::path& path, const render::Image& image) {
+    tools::createFolder(path.parent_path());
+    tools::writeFile(path, render::encodePng(image));
+}
+
+/// What the manifest of a run says besides its frames.
+struct RunFacts {
+    std::string scene = "5ce4e00000000000";
+    std::string renderer = "llvmpipe (test)";
+    std::string version = "0.2.0";
+};
+
+/// manifest.json for the frames in a folder, all of which show the same state.
+inline void writeManifest(const fs::path& folder, const std::string& state, const RunFacts& run = {}) {
+    tools::Manifest manifest;
+    manifest.identity = {{"scene_hash", run.scene},
+                         {"version", run.version},
+                         {"gl_renderer", run.renderer},
+                         {"quality", "normal"},
+                         {"size", {160, 90}},
+                         {"seed", 1},
+                         {"fps", 30}};
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".png")
+            manifest.frames[std::stoi(entry.path().stem().string().substr(6))] = {
+                tools::checksumOf(tools::readFile(entry.path())), state};
+    tools::writeFile(folder / "manifest.json", tools::encodeManifest(manifest));
+}
+
+}  // namespace golden_files

@@ -1,0 +1,50 @@
+// globular approve: actual pictures become goldens.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/approve.h"
+#include "tools/commands.h"
+
+namespace tools {
+namespace {
+
+struct ApproveOptions {
+    ApproveJob job;
+    bool json = false;
+    bool quiet = false;
+};
+
+void approve(const ApproveOptions& options) {
+    const std::vector<Approved> approved = approvePictures(options.job);
+    for (const Approved& picture : approved) {
+        if (options.json)
+            fmt::print(
+                "{}\n",
+                nlohmann::ordered_json{{"event", "approved"}, {"name", picture.name}, {"new", picture.isNew}}.dump(
+                    -1, ' ', false, nlohmann::json::error_handler_t::replace));
+        else if (!options.quiet)
+            fmt::print("{} {}\n", picture.isNew ? "new golden:" : "approved:", picture.name);
+    }
+    if (approved.empty() && !options.json && !options.quiet)
+        fmt::print("nothing to approve: the goldens are the same\n");
+}
+
+}  // namespace
+
+void addApproveCommand(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("approve", "actual pictures become goldens, each with where it comes from beside it");
+    const auto options = std::make_shared<ApproveOptions>();
+    command->add_option("ACTUAL", options->job.actual, "a PNG or a folder of PNGs")->required();
+    command->add_option("EXPECTED", options->job.expected, "the golden one, or their folder")->required();
+    command->add_option("NAME", options->job.names, "which, as compare prints them (default: all of ACTUAL)");
+    command->add_flag("--force", options->job.force, "also where another GL renderer drew the golden");
+    command->add_flag("--json", options->json, "one JSON object a line");
+    command->add_flag("--quiet", options->quiet, "print nothing");
+    command->footer("Example: globular approve out/liquid golden/liquid frame-00030.png");
+    command->callback([options] { approve(*options); });
+}
+
+}  // namespace tools
