@@ -31,6 +31,7 @@ const std::vector<GoldenScene>& scenes() {
         {"powder", 30, 100, {}},
         {"sand", 30, 100, {}},
         {"solid", 6, 24, {"physics.stepper=velocity-verlet", "physics.step=0.004"}},
+        {"splash", 12, 40, {}},
     };
     return kScenes;
 }

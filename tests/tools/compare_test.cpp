@@ -245,3 +245,18 @@ TEST_CASE("compare: frames of two videos", "[compare]") {
     CHECK(broken.code == 2);
     CHECK(broken.err.find("error: ffmpeg cannot decode") == 0);
 }
+
+TEST_CASE("compare: runs of the program say themselves what changed", "[compare]") {
+    Two two;
+    const auto draw = [&](const char* folder, const std::string& more) {
+        return program::run("render fountain --size 96x54 --frames 9 --quality draft --quiet --overwrite -o " +
+                            (two / folder).string() + more)
+            .code;
+    };
+    const auto changed = [&] { return two.results()["frame-00009.png"]["changed"]; };
+    REQUIRE(draw("expected", "") == 0);
+    REQUIRE(draw("actual", " --set look.specular=0.5") == 0);
+    CHECK(changed() == "renderer");
+    REQUIRE(draw("actual", " --set physics.drag=3") == 0);
+    CHECK(changed() == "simulation");
+}
