@@ -245,7 +245,7 @@ FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const Fi
     return picture;
 }
 
-DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexels) {
+DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthMapSampling& sampling) {
     const View& view = skin.view;
     DepthMap map;
     std::vector<ViewSphere> reaches;
@@ -265,7 +265,8 @@ DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexe
     const auto mean = static_cast<float>(sum / static_cast<double>(reaches.size()));
     const float soft = view.light.softness;
     map = emptyMap(bounds, basis.toLightSpace(view.camera.eye),
-                   soft > 0.0F ? 0.5F * soft * mean : smallest / kTexelsPerRadius, mostTexels);
+                   soft > 0.0F ? 0.5F * soft * mean : smallest / kTexelsPerRadius, sampling.mostTexels);
+    map.origin += sampling.shift * map.texelSize;
     CameraFrame frame = lightFrame(basis, map, bounds.high.z);
     frame.eye += view.camera.eye;
 

@@ -54,7 +54,11 @@ std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin)
 /// Half a radius of the smallest ball per step: metaball_test.cpp finds no hit missed against the oracle's exact roots.
 FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling);
 
-/// mostTexels: along the longer side.
-DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexels);
+struct DepthMapSampling {
+    int mostTexels = 1024;  ///< along the longer side
+    glm::vec2 shift{0.0F};  ///< of the texels, in texels, less than a half: pictures of several maps average them
+};
+
+DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthMapSampling& sampling);
 
 }  // namespace render

@@ -109,7 +109,8 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     uploadLines(view);
     uploadBoxes(view);
     clock.add(times.bin);
-    castLight(view, depthMapTexels);
+    depthMapTexels_ = depthMapTexels;
+    castLight(view);
     clock.add(times.shadow);
     sortGround(view);
     clock.add(times.bin);
@@ -152,13 +153,24 @@ void PicturePass::binSpheres(const View& view) {
     sphereOpen_.upload(bytesOf(drawn_.open));
 }
 
-void PicturePass::castLight(const View& view, int depthMapTexels) {
+void PicturePass::castLight(const View& view) {
     lightGrid_ = view.light.shadows ? lightGrid(light_, drawn_.spheres, view.light.softness) : LightGrid{};
     lightLists_.upload(bytesOf(lightGrid_.cells));
     lightSpheres_.upload(bytesOf(lightGrid_.spheres));
-    depthMap_ =
-        castsField_ && view.light.shadows ? castDepthMap(light_, {view, skin_, {}}, depthMapTexels) : DepthMap{};
+    castDepths(view, glm::vec2(0.0F));
+}
+
+void PicturePass::castDepths(const View& view, glm::vec2 shift) {
+    depthMapShift_ = shift;
+    depthMap_ = castsField_ && view.light.shadows ? castDepthMap(light_, {view, skin_, {}}, {depthMapTexels_, shift})
+                                                  : DepthMap{};
     lightDepths_.upload(bytesOf(depthMap_.heights));
+}
+
+// Rays moved by a third of a pixel look at texels moved by a third of a texel, so that the mean of the pictures has the
+// mean of the maps.
+void PicturePass::castShadow(const View& view, const Sampling& sampling) {
+    if (castsField_ && view.light.shadows && sampling.offset != depthMapShift_) castDepths(view, sampling.offset);
 }
 
 void PicturePass::uploadLines(const View& view) {
@@ -202,7 +214,9 @@ void PicturePass::sortGround(const View& view) {
         const glm::vec2 gridSize(lightGrid_.columns, lightGrid_.rows);
         if (!lightGrid_.spheres.empty()) cover(lightGrid_.origin, lightGrid_.origin + lightGrid_.cellSize * gridSize);
         const glm::vec2 mapSize(depthMap_.columns, depthMap_.rows);
-        if (depthMap_.heights.size() > 1) cover(depthMap_.origin, depthMap_.origin + depthMap_.texelSize * mapSize);
+        // A texel more on each side: the map may be shifted.
+        const float texel = depthMap_.texelSize;
+        if (depthMap_.heights.size() > 1) cover(depthMap_.origin - texel, depthMap_.origin + texel * (mapSize + 1.0F));
         for (const BoxObstacle& box : view.boxObstacles) {
             // Half the width of an edge: a soft one's, or a pixel's, which far away is wider than anything.
             const glm::vec3 size = box.maximum - box.minimum;

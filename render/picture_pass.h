@@ -53,6 +53,9 @@ class PicturePass {
     /// Fills and uploads everything that does not depend on where in the pixel the rays go.
     void prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times);
 
+    /// Casts the metaballs' shadows anew where these rays ask for other texels than the last ones.
+    void castShadow(const View& view, const Sampling& sampling);
+
     /// Casts the metaballs for these rays; draws nothing yet. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
 
@@ -64,7 +67,8 @@ class PicturePass {
  private:
     void binSpheres(const View& view);
     void findOpenness(const View& view);
-    void castLight(const View& view, int depthMapTexels);
+    void castLight(const View& view);
+    void castDepths(const View& view, glm::vec2 shift);
     void uploadLines(const View& view);
     void uploadBoxes(const View& view);
     void sortGround(const View& view);
@@ -88,6 +92,8 @@ class PicturePass {
     std::vector<GroundTile> groundTiles_;
     LightBasis light_;
     LightGrid lightGrid_;
+    int depthMapTexels_ = 1024;
+    glm::vec2 depthMapShift_{0.0F};
     DepthMap depthMap_;
     bool opens_ = false;  // the look asks for openness
     std::vector<Openness> particleOpen_;

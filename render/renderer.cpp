@@ -74,6 +74,8 @@ struct Renderer::Parts {
 
     void drawOnce(const View& view, const Sampling& sampling) {
         StageClock clock;
+        pass.castShadow(view, sampling);
+        clock.add(times.shadow);
         pass.castField(view, sampling);
         clock.add(times.cast);
         pass.draw(view, sampling, padded);

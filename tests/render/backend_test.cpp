@@ -22,7 +22,15 @@ std::vector<render::View> views() {
     spheres.edges.push_back({{-1.5F, 0.0F, -1.5F}, {1.5F, 2.0F, 1.5F}});
     render::View balls = spheres;
     balls.style = render::Style::metaballs;
-    return {spheres, balls};
+    render::View full = balls;
+    full.light.softness = 0.7F;
+    full.ambient.occlusion = 0.8F;
+    full.surface = {0.04F, 8, 1.0F, 0.3F, 0.4F, 0.5F, 0.6F, 0.2F};
+    full.exposure = 1.2F;
+    full.field.skin = render::Skin::smooth;
+    render::View fullSpheres = full;
+    fullSpheres.style = render::Style::spheres;
+    return {spheres, balls, full, fullSpheres};
 }
 
 }  // namespace

@@ -110,6 +110,32 @@ TEST_CASE("Soft shadows of metaballs are the oracle's up to their map's texels")
     CHECK(compare(drawn(view, kSize, Quality::draft), drawn(sharp, kSize, Quality::draft), 12).share > 0.02);
 }
 
+TEST_CASE("Better quality is nearer to the exact picture in the full look") {
+    render::View view = cloud(150);
+    view.style = Style::metaballs;
+    view.light.shadows = true;
+    view.light.softness = 1.0F;
+    for (const Term& term : terms()) term.add(view);
+    const render::Image exact = fromOracle(view, kSize, 4);
+    const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;
+    const double final = compare(drawn(view, kSize, Quality::final), exact, 0).mean;
+    CAPTURE(normal, final);
+    CHECK(normal < 1.5);  // steps
+    CHECK(final < 0.8 * normal);
+}
+
+TEST_CASE("Tiles of plain ground and of background leave nothing out") {
+    // The same surfaces with a caster far away below the ground, which dims nothing but whose bounds are everywhere.
+    render::View view = crowded(Style::spheres);
+    view.light.shadows = true;
+    view.light.softness = 0.5F;
+    view.ambient.occlusion = 0.8F;
+    const render::Image plain = drawn(view, {400, 225}, Quality::normal);
+    view.sphereObstacles.push_back({{-300.0F, -400.0F, -300.0F}, 1.0F, {}});
+    view.sphereObstacles.push_back({{300.0F, -400.0F, 300.0F}, 1.0F, {}});
+    CHECK(drawn(view, {400, 225}, Quality::normal).rgb == plain.rgb);
+}
+
 TEST_CASE("A strength of zero leaves the picture as it was") {
     for (const Style style : {Style::spheres, Style::metaballs}) {
         render::View view = crowded(style);

@@ -159,7 +159,7 @@ TEST_CASE("Every instruction set gives the same bits") {
         for (const render::FieldSample& s : picture.samples)
             bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.extra});
         bits.insert(bits.end(), picture.open.begin(), picture.open.end());
-        const std::vector<float> heights = render::castDepthMap(light, {view, skin, {}}, 256).heights;
+        const std::vector<float> heights = render::castDepthMap(light, {view, skin, {}}, {256, {}}).heights;
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;
         if (sets == 1) firstHeights = heights;
