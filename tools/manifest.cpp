@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "engine/fnv.h"
 #include "render/system_error.h"
@@ -25,6 +26,13 @@ int frameNumber(const std::string& text) {
     return number;
 }
 
+/// What is no whole number, or a huge one, would not survive the conversion.
+int frameIn(const Json& json) {
+    if (!json.is_number_integer() || json < 0 || json > std::numeric_limits<int>::max())
+        throw render::SystemError(fmt::format("{} is no frame number", json.dump()));
+    return json.get<int>();
+}
+
 Manifest parsed(const Json& json) {
     if (json.at("format") != kFormat)
         throw render::SystemError(fmt::format("its format is {}, not {}", json.at("format").dump(), kFormat));
@@ -36,7 +44,7 @@ Manifest parsed(const Json& json) {
                                                 frame.at("state_hash").get<std::string>()};
     for (const Json& checkpoint : json.at("checkpoints"))
         manifest.checkpoints.push_back(
-            {checkpoint.at("frame").get<int>(), checkpoint.at("checksum").get<std::string>(), checkpoint.at("report")});
+            {frameIn(checkpoint.at("frame")), checkpoint.at("checksum").get<std::string>(), checkpoint.at("report")});
     return manifest;
 }
 

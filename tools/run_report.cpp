@@ -19,6 +19,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// More frames than any run has.
+constexpr int kMostSamples = 1 << 30;
+
 /// Exit codes of programs that a signal ended, as shells have them, come after this.
 constexpr int kSignalled = 128;
 
@@ -89,7 +92,10 @@ Json encodeErrors(const ErrorSamples& errors) {
 
 ErrorSamples decodeErrors(const Json& json) {
     try {
-        return {json.at("count").get<int>(), json.at("sum").get<double>(), json.at("largest").get<double>()};
+        const Json& count = json.at("count");
+        if (!count.is_number_integer() || count < 0 || count > kMostSamples)
+            throw render::SystemError(fmt::format("{} is no number of samples", count.dump()));
+        return {count.get<int>(), json.at("sum").get<double>(), json.at("largest").get<double>()};
     } catch (const std::exception& error) {
         throw render::SystemError(fmt::format("a checkpoint's report of errors cannot be read: {}", error.what()));
     }
