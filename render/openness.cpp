@@ -14,8 +14,8 @@ namespace {
 constexpr int kReach = 6;  // cubes
 // Cubes around the particles: one for the spread, one for the blur, the reach, and one for the places between.
 constexpr int kMargin = kReach + 4;
-// 64 MB of values; coarser cubes beyond.
-constexpr double kMostCells = 4e6;
+// 24 MB of values; wider cubes beyond, for the sake of a drop that flies far.
+constexpr double kMostCells = 1e6;
 constexpr float kAhead = 0.75F;  // sides that a place is moved along the direction it looks in
 
 constexpr std::array<glm::vec3, 6> kDirections = {{{1.0F, 0.0F, 0.0F},

@@ -27,7 +27,8 @@
 //
 // Openness. open(d) = sum over the axes a of d_a^2 O(a, sign of d_a), of six values O between 0 and 1: space is divided
 // into cubes of side s, the least power of 2^(1/4) m not below twice the particles' mean radius, with corners at
-// multiples of s. Every particle spreads its volume, in units of s^3, over the eight cubes whose middles surround its
+// multiples of s (s is doubled until a box around all particles, ten cubes wider on each side, has at most a million).
+// Every particle spreads its volume, in units of s^3, over the eight cubes whose middles surround its
 // centre, by trilinear weights; blurred with weights 1/4, 1/2, 1/4 along each of the three axes that is F. Along an
 // axis' direction d,
 //   O = 1/(1 + tau)^2,   tau = sum over j = 1...6 of (1 - (j - 1/2)/6) F(j cubes further along d),

@@ -1,5 +1,5 @@
 // Openness as render/view.h defines it, term by term in double precision, cubes kept in a table that has only those
-// that are not empty. Used by the oracle alone.
+// that are not empty; particles so scattered that view.h widens the cubes are not for it. Used by the oracle alone.
 #pragma once
 
 #include <array>
