@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "scenes/frame_steps.h"
 #include "scenes/frame_view.h"
+#include "tools/manifest.h"
 #include "tools/output_file.h"
 #include "tools/picture_facts.h"
 
