@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes everything that reads bytes from outside, all targets side by side, with AddressSanitizer and
 # UndefinedBehaviorSanitizer. Usage: run.sh [SECONDS] (default: 60). What is found is left in build/fuzz/found; the corpora
-# in tests/fuzz/corpus are read and not changed.
+# in tests/fuzz/corpus are read and not changed. Needs Debian's clang and libclang-rt-14-dev.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
