@@ -1,7 +1,11 @@
 // The ffmpeg command line, and what can go wrong around it.
 #include "render/video.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -47,18 +51,29 @@ void requireX264(const VideoOptions& options) {
 
 // Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes on any processor. The encoder's
 // threads are fixed, because its bytes depend on their number. Without the BT.709 conversion and tags ffmpeg assumes
-// BT.601 and colours shift. An even size is what yuv420p takes.
+// BT.601 and colours shift. An even size is what yuv420p takes. Without -xerror an end that could not be written would
+// count as success.
 std::vector<std::string> commandLine(const VideoOptions& options) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
-    return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt",
-            "rgb24", "-video_size", fmt::format("{}x{}", even(options.size.width), even(options.size.height)),
-            "-framerate", fmt::format("{}", options.fps), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset",
-            "veryfast", "-crf", "18", "-pix_fmt", "yuv420p", "-threads", "2", "-sws_flags", "+accurate_rnd+bitexact",
-            "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-fflags",
-            "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v", "filter_units=remove_types=6",
-            "-movflags", "+faststart", "-f", "mp4",
+    return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",
+            "-pix_fmt", "rgb24", "-video_size",
+            fmt::format("{}x{}", even(options.size.width), even(options.size.height)), "-framerate",
+            fmt::format("{}", options.fps), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset", "veryfast", "-crf",
+            "18", "-pix_fmt", "yuv420p", "-threads", "2", "-sws_flags", "+accurate_rnd+bitexact", "-color_range", "tv",
+            "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-fflags", "+bitexact",
+            "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v", "filter_units=remove_types=6", "-movflags",
+            "+faststart", "-f", "mp4",
             // A path that begins with a dash or looks like a protocol is still a file.
             "file:" + partialPath(options)};
+}
+
+/// To the disk, before it takes the place of an older film.
+void flush(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool isFlushed = file >= 0 && ::fsync(file) == 0;
+    const int error = errno;
+    if (file >= 0) ::close(file);
+    if (!isFlushed) throw SystemError(fmt::format("cannot flush {}: {}", path, std::generic_category().message(error)));
 }
 
 VideoOptions checked(VideoOptions options) {
@@ -126,6 +141,7 @@ void VideoWriter::finish() {
     const std::string ended = parts_->process->wait();
     if (!ended.empty()) parts_->fail(ended);
     const std::string partial = partialPath(parts_->options);
+    flush(partial);
     std::error_code error;
     std::filesystem::rename(partial, parts_->options.path, error);
     if (error)

@@ -22,6 +22,9 @@ namespace fs = std::filesystem;
 /// One to go on from, and one more for when the newest is damaged or lies after a damaged frame.
 constexpr std::size_t kCheckpoints = 2;
 
+/// Chosen: what a kill may leave unlisted, and is made again.
+constexpr std::chrono::seconds kBetweenListings{1};
+
 constexpr const char* kCheckpointPrefix = "checkpoint-";
 constexpr const char* kCheckpointExtension = ".state";
 
@@ -40,6 +43,20 @@ void removeFile(const fs::path& path) {
     if (error) throw render::SystemError(fmt::format("cannot remove {}: {}", path.string(), error.message()));
 }
 
+bool isFrame(const fs::path& file) {
+    return isNumbered(file, kPictureNames.prefix, kPictureNames.extension) ||
+           isNumbered(file, kStateNames.prefix, kStateNames.extension);
+}
+
+bool isCheckpoint(const fs::path& file) {
+    return isNumbered(file, kCheckpointPrefix, kCheckpointExtension);
+}
+
+/// Every file that a run leaves in its folder.
+bool isOurs(const fs::path& file) {
+    return isFrame(file) || isCheckpoint(file) || file.filename() == "manifest.json" || file.filename() == "run.json";
+}
+
 std::vector<fs::path> filesIn(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> files;
@@ -50,11 +67,28 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
 
 }  // namespace
 
+FolderLock::FolderLock(const fs::path& folder) {
+    createFolder(folder);
+    descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0)
+        throw render::SystemError(fmt::format("cannot open folder {}: {}", folder.string(), std::strerror(errno)));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    const int error = errno;
+    ::close(descriptor_);
+    if (error == EWOULDBLOCK) throw render::SystemError(fmt::format("another run is writing into {}", folder.string()));
+    throw render::SystemError(fmt::format("cannot lock folder {}: {}", folder.string(), std::strerror(error)));
+}
+
+FolderLock::~FolderLock() {
+    ::close(descriptor_);
+}
+
 FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const nlohmann::ordered_json& identity)
-    : folder_(options.path), names_(std::move(names)), warn_(options.warn) {
-    createFolder(folder_);
-    hold();
-    removeHalfWritten();
+    : folder_(options.path),
+      lock_(folder_),
+      resumes_(options.existing == Existing::keep),
+      names_(names),
+      warn_(options.warn) {
     const fs::path path = folder_ / "manifest.json";
     if (options.existing == Existing::overwrite) {
         removeAll();
@@ -72,58 +106,47 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const n
                         folder_.string()));
     }
     manifest_.identity = identity;
-    if (options.existing == Existing::keep) keepWhole();
+    removeHalfWritten();
+    if (resumes_) keepWhole();
     writeManifest();
 }
 
 FrameFolder::~FrameFolder() {
-    if (hold_ >= 0) ::close(hold_);
-}
-
-/// The lock is the system's: it goes with the process, however that ends.
-void FrameFolder::hold() {
-    hold_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (hold_ < 0)
-        throw render::SystemError(fmt::format("cannot open folder {}: {}", folder_.string(), std::strerror(errno)));
-    if (::flock(hold_, LOCK_EX | LOCK_NB) == 0) return;
-    const int error = errno;
-    ::close(hold_);
-    if (error == EWOULDBLOCK)
-        throw render::SystemError(fmt::format("another run is writing into {}", folder_.string()));
-    throw render::SystemError(fmt::format("cannot lock folder {}: {}", folder_.string(), std::strerror(error)));
+    try {
+        if (!isListed_) writeManifest();
+    } catch (const render::SystemError&) {
+        // Frames that are not listed are made again.
+    }
 }
 
 /// What a run that was killed was writing.
 void FrameFolder::removeHalfWritten() const {
+    constexpr std::string_view kPartial = ".partial";
     for (const fs::path& file : filesIn(folder_)) {
         const std::string name = file.filename().string();
-        if (name.starts_with(".") && name.ends_with(".partial")) removeFile(file);
+        if (name.starts_with(".") && name.ends_with(kPartial) &&
+            isOurs(name.substr(1, name.size() - 1 - kPartial.size())))
+            removeFile(file);
     }
-}
-
-bool FrameFolder::isFrame(const fs::path& file) const {
-    return isNumbered(file, names_.prefix, names_.extension);
 }
 
 bool FrameFolder::hasFrames() const {
     const auto files = filesIn(folder_);
-    return std::any_of(files.begin(), files.end(), [&](const fs::path& file) { return isFrame(file); });
+    return std::any_of(files.begin(), files.end(), isFrame);
 }
 
 void FrameFolder::removeAll() {
     for (const fs::path& file : filesIn(folder_))
-        if (isFrame(file) || isNumbered(file, kCheckpointPrefix, kCheckpointExtension)) removeFile(file);
-    removeFile(folder_ / "run.json");
-    removeFile(folder_ / "manifest.json");
+        if (isOurs(file)) removeFile(file);
 }
 
 void FrameFolder::keepWhole() {
     for (const auto& [frame, record] : manifest_.frames) {
         const fs::path path = pathOf(frame);
         if (!fs::exists(path))
-            warn_(fmt::format("{} is missing and will be made again", path.string()));
+            warn_(fmt::format("{} is missing: it does not count as done", path.string()));
         else if (checksumOf(readFile(path)) != record.checksum)
-            warn_(fmt::format("{} is damaged and will be made again", path.string()));
+            warn_(fmt::format("{} is damaged: it does not count as done", path.string()));
         else
             kept_[frame] = record;
     }
@@ -139,6 +162,7 @@ fs::path FrameFolder::checkpointPath(int frame) const {
 }
 
 std::optional<Restart> FrameFolder::restart(const engine::Setup& setup, int latest) const {
+    if (!resumes_) return std::nullopt;
     for (auto record = manifest_.checkpoints.rbegin(); record != manifest_.checkpoints.rend(); ++record) {
         if (record->frame > latest) continue;
         const fs::path path = checkpointPath(record->frame);
@@ -156,26 +180,36 @@ std::optional<Restart> FrameFolder::restart(const engine::Setup& setup, int late
 void FrameFolder::write(int frame, std::span<const std::uint8_t> bytes, const std::string& stateHash) {
     writeFile(pathOf(frame), bytes);
     manifest_.frames[frame] = {checksumOf(bytes), stateHash};
+    isListed_ = false;
+    if (std::chrono::steady_clock::now() - lastListing_ > kBetweenListings) writeManifest();
 }
 
 void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes,
                                   const nlohmann::ordered_json& report) {
     writeFile(checkpointPath(frame), bytes);
-    auto& checkpoints = manifest_.checkpoints;
-    std::erase_if(checkpoints, [&](const CheckpointRecord& record) { return record.frame >= frame; });
-    checkpoints.push_back({frame, checksumOf(bytes), report});
-    if (checkpoints.size() > kCheckpoints) checkpoints.erase(checkpoints.begin());
+    auto& all = manifest_.checkpoints;
+    std::erase_if(all, [&](const CheckpointRecord& record) { return record.frame == frame; });
+    const auto isBefore = [&](const CheckpointRecord& record) { return record.frame < frame; };
+    const auto place = std::partition_point(all.begin(), all.end(), isBefore);
+    const auto added = all.insert(place, {frame, checksumOf(bytes), report});
+    // Those of a run that had come further stay of use to it: the newest.
+    if (added + 1 != all.end()) all.erase(added + 1, all.end() - 1);
+    const auto upTo =
+        static_cast<std::size_t>(std::partition_point(all.begin(), all.end(), isBefore) - all.begin()) + 1;
+    if (upTo > kCheckpoints) all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(upTo - kCheckpoints));
     writeManifest();
     removeUnlistedCheckpoints();
 }
 
-void FrameFolder::writeManifest() const {
+void FrameFolder::writeManifest() {
     writeFile(folder_ / "manifest.json", encodeManifest(manifest_));
+    isListed_ = true;
+    lastListing_ = std::chrono::steady_clock::now();
 }
 
 void FrameFolder::removeUnlistedCheckpoints() const {
     for (const fs::path& file : filesIn(folder_)) {
-        if (!isNumbered(file, kCheckpointPrefix, kCheckpointExtension)) continue;
+        if (!isCheckpoint(file)) continue;
         if (std::none_of(manifest_.checkpoints.begin(), manifest_.checkpoints.end(),
                          [&](const CheckpointRecord& record) { return checkpointPath(record.frame) == file; }))
             removeFile(file);

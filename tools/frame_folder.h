@@ -2,10 +2,12 @@
 // all that is needed to go on after any end. Used by `render` and `simulate`.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/simulation.h"
@@ -20,10 +22,26 @@ enum class Existing {
     overwrite  ///< all of them are removed
 };
 
-/// How the files of a folder's frames are called: "frame-" and ".png" make frame-00042.png.
+/// How the files of a folder's frames are called: frame-00042.png, or particles-00042.ply.
 struct FrameNames {
-    std::string prefix;
-    std::string extension;
+    std::string_view prefix;
+    std::string_view extension;
+};
+inline constexpr FrameNames kPictureNames = {"frame-", ".png"};
+inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
+
+/// A folder that no other run may write into meanwhile. The lock is the system's: it goes with the process, however
+/// that ends.
+class FolderLock {
+ public:
+    /// Throws: render::SystemError where another run holds it.
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+    int descriptor_ = -1;
 };
 
 /// A folder as the command line says it.
@@ -48,6 +66,7 @@ class FrameFolder {
     /// Shape:  identity as in Manifest.
     /// Throws: render::SystemError where another run is at work in it, or its frames are of another run.
     FrameFolder(const FolderOptions& options, FrameNames names, const nlohmann::ordered_json& identity);
+    /// Lists what was written.
     ~FrameFolder();
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
@@ -57,33 +76,35 @@ class FrameFolder {
 
     std::filesystem::path pathOf(int frame) const;
 
-    /// The newest state at or before a frame that can be gone on from; nothing for a run that starts at the start.
+    /// The newest state at or before a frame that can be gone on from; nothing for a run that starts at the start, as
+    /// all do but those that keep what is there.
     std::optional<Restart> restart(const engine::Setup& setup, int latest) const;
 
     /// Puts a frame's file in its place.
     void write(int frame, std::span<const std::uint8_t> bytes, const std::string& stateHash);
 
     /// Puts a checkpoint (encodeCheckpoint) of a frame in its place, when all frames up to it are in theirs. The last
-    /// two stay.
+    /// two up to it stay, and the newest of all.
     void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const nlohmann::ordered_json& report);
 
  private:
-    void hold();
     void removeHalfWritten() const;
-    bool isFrame(const std::filesystem::path& file) const;
     bool hasFrames() const;
     void removeAll();
     void keepWhole();
-    void writeManifest() const;
+    void writeManifest();
     std::filesystem::path checkpointPath(int frame) const;
     void removeUnlistedCheckpoints() const;
 
     std::filesystem::path folder_;
+    FolderLock lock_;
+    bool resumes_ = false;
     FrameNames names_;
     std::function<void(const std::string&)> warn_;
     Manifest manifest_;
     std::map<int, FrameRecord> kept_;
-    int hold_ = -1;  ///< descriptor of the folder, locked
+    bool isListed_ = true;  ///< the manifest's file has all frames
+    std::chrono::steady_clock::time_point lastListing_;
 };
 
 }  // namespace tools

@@ -18,6 +18,11 @@ int sampleStride(const FrameRange& frames) {
     return (frames.last - frames.first + kErrorSamples) / kErrorSamples;
 }
 
+/// Which frames are sampled depends on it.
+nlohmann::ordered_json rangeOf(const FrameRange& frames) {
+    return {frames.first, frames.last};
+}
+
 }  // namespace
 
 FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, FrameFolder* folder,
@@ -35,12 +40,12 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, Fram
 void FrameSequence::begin() {
     int firstToMake = frames_.first;
     while (folder_ != nullptr && firstToMake <= frames_.last && folder_->isKept(firstToMake)) ++firstToMake;
-    const int latest = std::min(firstToMake <= frames_.last ? firstToMake - 1 : frames_.last, frames_.last);
     if (folder_ != nullptr) {
-        if (auto restart = folder_->restart(scene_.setup, latest)) {
+        if (auto restart = folder_->restart(scene_.setup, firstToMake - 1)) {
             position_ = restart->frame;
             run_.simulation = std::move(restart->simulation);
-            run_.report.errors = decodeErrors(restart->report);
+            if (restart->report.value("range", nlohmann::ordered_json()) == rangeOf(frames_))
+                run_.report.errors = decodeErrors(restart->report);
             run_.report.resumedFrom = restart->frame;
             next_ = std::min(frames_.first, position_ + 1);
             return;
@@ -50,7 +55,8 @@ void FrameSequence::begin() {
 }
 
 std::optional<SequencedFrame> FrameSequence::next() {
-    if (interrupts_) run_.report.interruptedBy = interrupts_->signal();
+    // Frames that are only passed on cost little, and a film of some of them would be worth less than the one there is.
+    if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
     if (next_ > frames_.last || run_.report.interruptedBy != 0) return std::nullopt;
     SequencedFrame frame;
     frame.number = next_;
@@ -64,7 +70,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     if (frame.isWanted && !frame.isKept) frame.stateHash = engine::stateHash(run_.simulation.particles);
     if (isNew && isCheckpointDue()) {
         frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
-        frame.report = encodeErrors(run_.report.errors);
+        frame.report = checkpointReport();
         lastCheckpoint_ = std::chrono::steady_clock::now();
     }
     return frame;
@@ -85,6 +91,12 @@ bool FrameSequence::advanceTo(int frame) {
     return true;
 }
 
+nlohmann::ordered_json FrameSequence::checkpointReport() const {
+    nlohmann::ordered_json report = encodeErrors(run_.report.errors);
+    report["range"] = rangeOf(frames_);
+    return report;
+}
+
 bool FrameSequence::isCheckpointDue() const {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - lastCheckpoint_;
     return since.count() >= checkpointSeconds_;
@@ -97,8 +109,7 @@ void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint
 
 void FrameSequence::finish() {
     if (run_.report.unstable.empty() && folder_ != nullptr && position_ >= 0)
-        folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation),
-                                 encodeErrors(run_.report.errors));
+        folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation), checkpointReport());
     run_.report.stateHash = engine::stateHash(run_.simulation.particles);
 }
 

@@ -1,18 +1,20 @@
-// A handler may do no more than note the signal.
+// A handler may do no more than note the signal and step back.
 #include "tools/interrupt.h"
 
-#include <array>
-#include <csignal>
+#include <atomic>
 
 namespace tools {
 namespace {
 
-volatile std::sig_atomic_t noted = 0;
-
 constexpr std::array kSignals = {SIGINT, SIGTERM};
+
+std::atomic<int> noted = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a handler must not wait");
 
 void note(int signal) {
     noted = signal;
+    // A user who insists is obeyed.
+    for (const int each : kSignals) ::signal(each, SIG_DFL);
 }
 
 }  // namespace
@@ -21,13 +23,12 @@ InterruptWatch::InterruptWatch() {
     noted = 0;
     struct sigaction action = {};
     action.sa_handler = note;
-    // Back to the default after the first: a user who insists is obeyed.
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-    for (const int signal : kSignals) ::sigaction(signal, &action, nullptr);
+    action.sa_flags = SA_RESTART;
+    for (std::size_t s = 0; s < kSignals.size(); ++s) ::sigaction(kSignals[s], &action, &before_[s]);
 }
 
 InterruptWatch::~InterruptWatch() {
-    for (const int signal : kSignals) ::signal(signal, SIG_DFL);
+    for (std::size_t s = 0; s < kSignals.size(); ++s) ::sigaction(kSignals[s], &before_[s], nullptr);
 }
 
 int InterruptWatch::signal() const {

@@ -2,6 +2,9 @@
 // second signal ends it at once.
 #pragma once
 
+#include <array>
+#include <csignal>
+
 namespace tools {
 
 /// While one lives, the first SIGINT or SIGTERM is noted instead of ending the program.
@@ -14,6 +17,9 @@ class InterruptWatch {
 
     /// The signal that came, or 0.
     int signal() const;
+
+ private:
+    std::array<struct sigaction, 2> before_ = {};
 };
 
 }  // namespace tools

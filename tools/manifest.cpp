@@ -42,9 +42,13 @@ Manifest parsed(const Json& json) {
     for (const auto& [number, frame] : json.at("frames").items())
         manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
                                                 frame.at("state_hash").get<std::string>()};
-    for (const Json& checkpoint : json.at("checkpoints"))
+    for (const Json& checkpoint : json.at("checkpoints")) {
+        if (!checkpoint.at("report").is_object()) throw render::SystemError("a checkpoint's report is no object");
         manifest.checkpoints.push_back(
             {frameIn(checkpoint.at("frame")), checkpoint.at("checksum").get<std::string>(), checkpoint.at("report")});
+    }
+    std::sort(manifest.checkpoints.begin(), manifest.checkpoints.end(),
+              [](const CheckpointRecord& a, const CheckpointRecord& b) { return a.frame < b.frame; });
     return manifest;
 }
 

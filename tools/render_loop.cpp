@@ -75,7 +75,7 @@ class Run {
  private:
     static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
         if (!job.folder) return nullptr;
-        return std::make_unique<FrameFolder>(*job.folder, FrameNames{"frame-", ".png"}, identityOf(job, glRenderer));
+        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {

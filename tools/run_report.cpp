@@ -91,14 +91,11 @@ Json encodeErrors(const ErrorSamples& errors) {
 }
 
 ErrorSamples decodeErrors(const Json& json) {
-    try {
-        const Json& count = json.at("count");
-        if (!count.is_number_integer() || count < 0 || count > kMostSamples)
-            throw render::SystemError(fmt::format("{} is no number of samples", count.dump()));
-        return {count.get<int>(), json.at("sum").get<double>(), json.at("largest").get<double>()};
-    } catch (const std::exception& error) {
-        throw render::SystemError(fmt::format("a checkpoint's report of errors cannot be read: {}", error.what()));
-    }
+    const auto isNumber = [&](const char* key) { return json.contains(key) && json[key].is_number(); };
+    if (!isNumber("count") || !json["count"].is_number_integer() || !isNumber("sum") || !isNumber("largest")) return {};
+    const auto count = json["count"].get<std::int64_t>();
+    if (count < 0 || count > kMostSamples) return {};
+    return {static_cast<int>(count), json["sum"].get<double>(), json["largest"].get<double>()};
 }
 
 void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation) {
@@ -118,8 +115,8 @@ void requireWhole(const RunReport& report, const std::string& folder) {
     if (!report.unstable.empty()) throw engine::InstabilityError(report.unstable);
     if (report.interruptedBy == 0) return;
     throw Ended(kSignalled + report.interruptedBy,
-                fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume "
-                            "goes on from there",
+                fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume, and "
+                            "without --overwrite, goes on from there",
                             report.frames, folder));
 }
 

@@ -25,7 +25,7 @@ struct ErrorSamples {
     double largest = 0.0;
 };
 
-/// As JSON, for a checkpoint, and back. Throws: render::SystemError for JSON that is none.
+/// As JSON, for a checkpoint, and back; none for JSON that is something else.
 nlohmann::ordered_json encodeErrors(const ErrorSamples& errors);
 ErrorSamples decodeErrors(const nlohmann::ordered_json& json);
 
@@ -36,7 +36,7 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
 struct RunReport {
     StageSeconds seconds;
     ErrorSamples errors;
-    int frames = 0;  ///< written
+    int frames = 0;  ///< of those asked for, written by this run or kept
     int threads = 1;
     std::string glRenderer;          ///< empty where nothing was drawn
     std::string stateHash;           ///< of the last frame

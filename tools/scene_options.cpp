@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 }
 
 /// A whole number that fills the text.
-std::optional<int> wholeNumber(std::string_view text) {
-    int value = 0;
+template <class Integer = int>
+std::optional<Integer> wholeNumber(std::string_view text) {
+    Integer value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
@@ -41,9 +42,10 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
                                                   : nullptr;
         if (limit == nullptr)
             failFlag("--limit " + flag, "must be particles=N, frames=N or pixels=N, e.g. particles=5000000");
-        const auto number = wholeNumber(std::string_view(flag).substr(std::min(equals, flag.size() - 1) + 1));
+        const std::string_view text = std::string_view(flag).substr(std::min(equals, flag.size() - 1) + 1);
+        const auto number = wholeNumber<std::int64_t>(text);
         if (!number || *number < 1) failFlag("--limit " + flag, fmt::format("{} must be a whole number > 0", name));
-        *limit = *number;
+        *limit = static_cast<double>(*number);
     }
     return limits;
 }

@@ -30,7 +30,7 @@ struct SimulateOptions {
 
 FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const FolderOptions& options,
                            Progress& progress) {
-    FrameFolder folder(options, {"particles-", ".ply"}, sceneIdentity(scene));
+    FrameFolder folder(options, kStateNames, sceneIdentity(scene));
     FrameSequence sequence(scene, frames, &folder, options.checkpointSeconds);
     while (const auto frame = sequence.next()) {
         std::string ply;

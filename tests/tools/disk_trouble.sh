@@ -55,6 +55,14 @@ for percent in 10 30 60 80; do
     umount "$work/disk"
 done
 
+# The end of a film is most of a short one: it is there that the disk runs full.
+mount -t tmpfs -o size=$(($(stat -c %s "$work/whole.mp4") / 2)) tmpfs "$work/disk"
+code=0
+"$program" video "$work/whole" -o "$work/disk/a.mp4" --quiet 2>"$work/log" || code=$?
+check_trouble 'disk too small for a film' "$code" 'No space left on device'
+[ ! -e "$work/disk/a.mp4" ] || fail "a film that is not whole was left"
+umount "$work/disk"
+
 mount -t tmpfs -o size=50m tmpfs "$work/disk"
 run -o "$work/disk/a" --video "$work/disk/a.mp4" 2>"$work/log" &
 child=$!
@@ -72,4 +80,4 @@ check_trouble 'read-only disk' "$code" 'Read-only file system'
 mount -o remount,rw "$work/disk"
 check_resume 'read-only disk'
 
-echo "six troubles: every run said what it was, kept its frames, and went on"
+echo "seven troubles: every run said what it was, kept its frames, and went on"

@@ -34,7 +34,7 @@ differing() { # whole, resumed: names of the files that differ
 
 for scene in "${scenes[@]}"; do (run "$scene" "$work/$scene"); done
 
-kills=0 runs=0 differ=0
+kills=0 runs=0 differ=0 resumed=0
 while [ "$kills" -lt "$wanted" ]; do
     scene=${scenes[runs % ${#scenes[@]}]}
     folder=$work/again-$scene
@@ -63,10 +63,15 @@ while [ "$kills" -lt "$wanted" ]; do
         exit 1
     fi
     runs=$((runs + 1))
+    if grep -q '"resumed_from": [0-9]' "$folder/run.json"; then resumed=$((resumed + 1)); fi
+    if ls -A "$folder" | grep -v -x -E '(frame-[0-9]+\.png|checkpoint-[0-9]+\.state|manifest\.json|run\.json)'; then
+        echo "$scene left something behind" >&2
+        exit 1
+    fi
     for file in $(differing "$work/$scene" "$folder"); do
         echo "$scene: $file differs" >&2
         differ=$((differ + 1))
     done
 done
-echo "$kills kills in $runs runs: $differ files differ"
-[ "$differ" -eq 0 ]
+echo "$kills kills in $runs runs, $resumed of which went on from a checkpoint at last: $differ files differ"
+[ "$differ" -eq 0 ] && [ "$resumed" -gt 0 ]

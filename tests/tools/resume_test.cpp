@@ -204,6 +204,52 @@ TEST_CASE("Frames of different runs are never mixed", "[resume]") {
     CHECK(run(base + " --resume --overwrite").code == 2);
 }
 
+TEST_CASE("A short run leaves the newest checkpoint of a longer one", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    fs::remove(folder / "a/frame-00003.png");
+    REQUIRE(
+        run("render fountain --size 96x54 --frames 0-5 --quiet --checkpoint 0 --resume -o " + (folder / "a").string())
+            .code == 0);
+    CHECK(runOf(folder / "a")["resumed_from"].is_null());
+    CHECK(checkpointsIn(folder / "a").size() == 3);  // 4, 5 and 19
+    REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
+    CHECK(runOf(folder / "a")["resumed_from"] == 19);
+}
+
+TEST_CASE("Only --resume goes on", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    CHECK(runOf(folder / "a")["resumed_from"].is_null());
+}
+
+TEST_CASE("Frames are kept without any checkpoint", "[resume]") {
+    const Folder folder;
+    const std::string arguments =
+        "render fountain --size 96x54 --quiet --checkpoint 3600 -o " + (folder / "a").string();
+    REQUIRE(interrupted(arguments, "KILL", 2500, folder / "log") == 137);
+    REQUIRE(checkpointsIn(folder / "a").empty());
+    const auto manifest = nlohmann::json::parse(textOf(folder / "a/manifest.json"));
+    REQUIRE(manifest["frames"].contains("00000"));
+    const auto before = fs::last_write_time(folder / "a/frame-00000.png");
+    REQUIRE(run(arguments + " --frames 0-3 --resume").code == 0);
+    CHECK(fs::last_write_time(folder / "a/frame-00000.png") == before);
+}
+
+TEST_CASE("What is overwritten is every file of a run, of pictures or of states", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    std::ofstream(folder / "a/notes.txt") << "mine";
+    const std::string states = "simulate powder --frames 0-2 --quiet -o " + (folder / "a").string();
+    CHECK(run(states).code == 1);
+    REQUIRE(run(states + " --overwrite").code == 0);
+    CHECK(filesOf(folder / "a").size() == 4);  // three states and the film beside the folder
+    CHECK(textOf(folder / "a/notes.txt") == "mine");
+    fs::remove(folder / "a/manifest.json");
+    CHECK(run(fountain(folder / "a")).code == 1);
+}
+
 TEST_CASE("Frames without a manifest are nobody's", "[resume]") {
     const Folder folder;
     fs::create_directory(folder / "a");
@@ -230,8 +276,10 @@ TEST_CASE("What a killed run was writing is cleared away", "[resume]") {
     const Folder folder;
     fs::create_directory(folder / "a");
     std::ofstream(folder / "a/.frame-00003.png.partial") << "half";
+    std::ofstream(folder / "a/.letter.partial") << "somebody else's";
     REQUIRE(run(fountain(folder / "a")).code == 0);
     CHECK_FALSE(fs::exists(folder / "a/.frame-00003.png.partial"));
+    CHECK(fs::exists(folder / "a/.letter.partial"));
 }
 
 TEST_CASE("An encoder that dies midway costs the film and no frame", "[resume]") {
