@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 #include <type_traits>
 
 #include "engine/fnv.h"
@@ -23,10 +22,6 @@ constexpr std::size_t kChecksumBytes = 8;
 /// Of a neighbour list, m: the world counted in less would not fit the cell grid's numbers.
 constexpr double kLeastReach = 1e-9;
 
-std::uint64_t checksumOf(std::span<const std::uint8_t> bytes) {
-    return fnv1a({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
-
 class Writer {
  public:
     static constexpr bool kReads = false;
@@ -43,7 +38,7 @@ class Writer {
     }
 
     std::vector<std::uint8_t> finish() {
-        (*this)(checksumOf(bytes_));
+        (*this)(fnv1aOf(bytes_));
         return std::move(bytes_);
     }
 
@@ -65,7 +60,7 @@ class Reader {
         bytes_ = bytes.first(bytes.size() - kChecksumBytes);
         std::uint64_t checksum = 0;
         std::memcpy(&checksum, bytes.data() + bytes_.size(), kChecksumBytes);
-        if (checksum != checksumOf(bytes_)) throw CheckpointError("its checksum is wrong: it is damaged or cut short");
+        if (checksum != fnv1aOf(bytes_)) throw CheckpointError("its checksum is wrong: it is damaged or cut short");
     }
 
     template <class Number>

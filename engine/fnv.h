@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,11 @@ constexpr std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xCBF
         hash *= 0x100000001B3ULL;
     }
     return hash;
+}
+
+/// FNV-1a of a file's bytes.
+inline std::uint64_t fnv1aOf(std::span<const std::uint8_t> bytes) {
+    return fnv1a(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 /// Continues a hash with the eight bytes of a word, lowest first on every machine.

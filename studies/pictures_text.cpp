@@ -1,36 +1,11 @@
 // What the study of pictures writes: the table and the scripts of the plots.
 #include <fmt/format.h>
 
+#include "studies/curves.h"
 #include "studies/pictures.h"
 
 namespace studies {
 namespace {
-
-constexpr const char* kFrame = R"(set terminal svg size 860,600 enhanced font "DejaVu Sans,15" background "white"
-set logscale xy
-set grid xtics ytics mxtics mytics linewidth 1 linecolor rgb "#d9d9d9", linewidth 0.5 linecolor rgb "#eeeeee"
-set border linecolor rgb "#444444"
-set lmargin 11
-)";
-
-struct Curve {
-    std::string title;
-    std::string look;  ///< gnuplot's words for it
-    std::string points;
-};
-
-/// All curves of a plot, each with its points inline.
-std::string plotOf(const std::vector<Curve>& curves) {
-    std::string data;
-    std::string list;
-    for (std::size_t k = 0; k < curves.size(); ++k) {
-        if (curves[k].points.empty()) continue;
-        data += fmt::format("$c{} << EOD\n{}EOD\n", k, curves[k].points);
-        list += fmt::format("{}$c{} using 1:2 with {} title \"{}\"", list.empty() ? "" : ", \\\n  ", k, curves[k].look,
-                            curves[k].title);
-    }
-    return data + "plot " + list + "\n";
-}
 
 constexpr render::Style kStyles[] = {render::Style::spheres, render::Style::metaballs};
 constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal, render::Quality::final};
@@ -88,7 +63,7 @@ std::string pictureTimesPlot(const std::vector<PictureRow>& rows) {
         if (row.style == render::Style::spheres && row.quality == render::Quality::draft && firstSize(rows, row))
             quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
     curves.push_back(quads);
-    return std::string(kFrame) +
+    return std::string(kPlotFrame) +
            fmt::format(
                "set xlabel \"particles\"\nset ylabel \"milliseconds a frame\"\n"
                "set title \"A frame of {} x {}, drawn and read back\"\n"
@@ -98,7 +73,7 @@ std::string pictureTimesPlot(const std::vector<PictureRow>& rows) {
 }
 
 std::string pictureErrorsPlot(const std::vector<PictureRow>& rows) {
-    return std::string(kFrame) +
+    return std::string(kPlotFrame) +
            "set xlabel \"milliseconds a frame\"\nset ylabel \"1 - SSIM\"\n"
            "set title \"Error against the exact picture, and what it costs\"\n"
            "set key top right samplen 2 font \",13\"\n" +

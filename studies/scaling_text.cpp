@@ -1,6 +1,7 @@
 // What the study of scaling writes: tables and the script of the plot.
 #include <fmt/format.h>
 
+#include "studies/curves.h"
 #include "studies/scaling.h"
 
 namespace studies {
@@ -10,25 +11,13 @@ std::string milliseconds(const std::optional<double>& seconds) {
     return seconds ? fmt::format("{:.5g}", 1e3 * *seconds) : "";
 }
 
-constexpr const char* kFrame = R"(set terminal svg size 860,600 enhanced font "DejaVu Sans,15" background "white"
-set logscale xy
-set format x "10^{%L}"
+constexpr const char* kAxes = R"(set format x "10^{%L}"
 set format y "10^{%L}"
 set xlabel "particles"
 set ylabel "milliseconds a step"
 set title "Time per step against the number of particles"
-set grid xtics ytics mxtics mytics linewidth 1 linecolor rgb "#d9d9d9", linewidth 0.5 linecolor rgb "#eeeeee"
-set border linecolor rgb "#444444"
 set key top left reverse Left samplen 2 font ",13"
-set lmargin 11
 )";
-
-/// Particles and milliseconds of one method.
-struct Curve {
-    std::string title;
-    std::string look;  ///< gnuplot's words for it
-    std::string points;
-};
 
 void addPoint(Curve& curve, const ScalingRow& row, const std::optional<double>& seconds) {
     if (seconds) curve.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * *seconds);
@@ -68,17 +57,7 @@ std::string scalingPlot(const std::vector<ScalingRow>& rows) {
         addPoint(list, row, row.list);
         addPoint(inFloat, row, row.listInFloat);
     }
-    std::string data;
-    std::string plots;
-    int number = 0;
-    for (const Curve& curve : {published, everyPair, list, inFloat}) {
-        if (curve.points.empty()) continue;
-        data += fmt::format("$curve{} << END\n{}END\n", number, curve.points);
-        plots +=
-            fmt::format("{}$curve{} with {} title \"{}\"", plots.empty() ? "" : ", ", number, curve.look, curve.title);
-        ++number;
-    }
-    return kFrame + data + "plot " + plots + "\n";
+    return std::string(kPlotFrame) + kAxes + plotOf({published, everyPair, list, inFloat});
 }
 
 }  // namespace studies

@@ -12,22 +12,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string dataUri(const std::vector<std::uint8_t>& png) {
-    return "data:image/png;base64," + base64(png);
+std::string inlined(const std::vector<std::uint8_t>& png) {
+    return dataUri("image/png", png);
 }
 
 /// What can be seen of a result, by the names that the page's script knows.
 Json imagesOf(const PictureResult& result) {
     Json images = Json::object();
-    if (result.actual.image) images["actual"] = dataUri(result.actual.bytes);
+    if (result.actual.image) images["actual"] = inlined(result.actual.bytes);
     if (result.expected.image && result.status != PictureStatus::identical)
-        images["expected"] = dataUri(result.expected.bytes);
+        images["expected"] = inlined(result.expected.bytes);
     if (!result.comparison || result.comparison->rule == render::CompareRule::size ||
         result.comparison->metrics.differing == 0)
         return images;
     images["difference"] =
-        dataUri(render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
-    images["heat"] = dataUri(render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
+        inlined(render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
+    images["heat"] = inlined(render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
     return images;
 }
 

@@ -28,8 +28,8 @@ code { background: #f0f0ec; padding: 0 0.2rem; }
 <p>The figures of &ldquo;Exploration of Globular Dynamic Particle Systems&rdquo; (J. Cote), simulated and drawn anew by globular.</p>
 )";
 
-std::string dataUri(const std::string& type, const std::string& path) {
-    return "data:" + type + ";base64," + base64(readFile(path));
+std::string inlined(const std::string& type, const std::string& path) {
+    return dataUri(type, readFile(path));
 }
 
 std::string parameterTable(const FigureEntry& figure) {
@@ -49,8 +49,8 @@ std::string section(const FigureEntry& figure) {
         "<code>{}</code></p>\n"
         "<details><summary>All parameters</summary>\n{}</details></section>\n",
         escaped(figure.title), escaped(figure.description), escaped(figure.constants), figure.number,
-        dataUri("image/png", figure.stillPath), figure.stillTime, dataUri("video/mp4", figure.videoPath), figure.number,
-        dataUri("image/png", figure.stripPath), fmt::join(figure.stripTimes, ", "), escaped(figure.command),
+        inlined("image/png", figure.stillPath), figure.stillTime, inlined("video/mp4", figure.videoPath), figure.number,
+        inlined("image/png", figure.stripPath), fmt::join(figure.stripTimes, ", "), escaped(figure.command),
         figure.stateHash, parameterTable(figure));
 }
 

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
+#include <set>
 
 #include "engine/checkpoint.h"
 #include "render/system_error.h"
@@ -20,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One to go on from, and one more for when the newest is damaged or lies after a damaged frame.
-constexpr std::size_t kCheckpoints = 2;
+constexpr std::ptrdiff_t kCheckpoints = 2;
 
 /// Chosen: what a kill may leave unlisted, and is made again.
 constexpr std::chrono::seconds kBetweenListings{1};
@@ -163,13 +165,13 @@ fs::path FrameFolder::checkpointPath(int frame) const {
 
 std::optional<Restart> FrameFolder::restart(const engine::Setup& setup, int latest) const {
     if (!resumes_) return std::nullopt;
-    for (auto record = manifest_.checkpoints.rbegin(); record != manifest_.checkpoints.rend(); ++record) {
-        if (record->frame > latest) continue;
-        const fs::path path = checkpointPath(record->frame);
+    for (auto next = manifest_.checkpoints.upper_bound(latest); next != manifest_.checkpoints.begin();) {
+        const auto& [frame, record] = *--next;
+        const fs::path path = checkpointPath(frame);
         try {
             const auto bytes = readFile(path);
-            if (checksumOf(bytes) != record->checksum) throw engine::CheckpointError("it is damaged or cut short");
-            return Restart{record->frame, engine::decodeCheckpoint(setup, bytes), record->report};
+            if (checksumOf(bytes) != record.checksum) throw engine::CheckpointError("it is damaged or cut short");
+            return Restart{frame, engine::decodeCheckpoint(setup, bytes), record.report};
         } catch (const std::exception& error) {
             warn_(fmt::format("cannot go on from {}: {}", path.string(), error.what()));
         }
@@ -188,15 +190,11 @@ void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes
                                   const nlohmann::ordered_json& report) {
     writeFile(checkpointPath(frame), bytes);
     auto& all = manifest_.checkpoints;
-    std::erase_if(all, [&](const CheckpointRecord& record) { return record.frame == frame; });
-    const auto isBefore = [&](const CheckpointRecord& record) { return record.frame < frame; };
-    const auto place = std::partition_point(all.begin(), all.end(), isBefore);
-    const auto added = all.insert(place, {frame, checksumOf(bytes), report});
-    // Those of a run that had come further stay of use to it: the newest.
-    if (added + 1 != all.end()) all.erase(added + 1, all.end() - 1);
-    const auto upTo =
-        static_cast<std::size_t>(std::partition_point(all.begin(), all.end(), isBefore) - all.begin()) + 1;
-    if (upTo > kCheckpoints) all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(upTo - kCheckpoints));
+    all[frame] = {checksumOf(bytes), report};
+    // Of those of a run that had come further the newest stays of use to it.
+    const auto later = all.upper_bound(frame);
+    if (later != all.end()) all.erase(later, std::prev(all.end()));
+    while (std::distance(all.begin(), all.upper_bound(frame)) > kCheckpoints) all.erase(all.begin());
     writeManifest();
     removeUnlistedCheckpoints();
 }
@@ -208,12 +206,10 @@ void FrameFolder::writeManifest() {
 }
 
 void FrameFolder::removeUnlistedCheckpoints() const {
-    for (const fs::path& file : filesIn(folder_)) {
-        if (!isCheckpoint(file)) continue;
-        if (std::none_of(manifest_.checkpoints.begin(), manifest_.checkpoints.end(),
-                         [&](const CheckpointRecord& record) { return checkpointPath(record.frame) == file; }))
-            removeFile(file);
-    }
+    std::set<fs::path> listed;
+    for (const auto& [frame, record] : manifest_.checkpoints) listed.insert(checkpointPath(frame));
+    for (const fs::path& file : filesIn(folder_))
+        if (isCheckpoint(file) && listed.count(file) == 0) removeFile(file);
 }
 
 }  // namespace tools

@@ -33,25 +33,23 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, Fram
       checkpointSeconds_(checkpointSeconds),
       lastCheckpoint_(std::chrono::steady_clock::now()) {
     if (folder_ != nullptr) interrupts_.emplace();
-    begin();
+    if (folder_ == nullptr || !goOn()) run_.simulation = engine::start(scene_.setup);
 }
 
-/// The newest checkpoint before the first frame that has to be made; where none has, the last frame's own.
-void FrameSequence::begin() {
+/// From the newest checkpoint before the first frame that has to be made; where none has, from the last frame's own.
+/// False where there is none.
+bool FrameSequence::goOn() {
     int firstToMake = frames_.first;
-    while (folder_ != nullptr && firstToMake <= frames_.last && folder_->isKept(firstToMake)) ++firstToMake;
-    if (folder_ != nullptr) {
-        if (auto restart = folder_->restart(scene_.setup, firstToMake - 1)) {
-            position_ = restart->frame;
-            run_.simulation = std::move(restart->simulation);
-            if (restart->report.value("range", nlohmann::ordered_json()) == rangeOf(frames_))
-                run_.report.errors = decodeErrors(restart->report);
-            run_.report.resumedFrom = restart->frame;
-            next_ = std::min(frames_.first, position_ + 1);
-            return;
-        }
-    }
-    run_.simulation = engine::start(scene_.setup);
+    while (firstToMake <= frames_.last && folder_->isKept(firstToMake)) ++firstToMake;
+    auto restart = folder_->restart(scene_.setup, firstToMake - 1);
+    if (!restart) return false;
+    position_ = restart->frame;
+    run_.simulation = std::move(restart->simulation);
+    if (restart->report.value("range", nlohmann::ordered_json()) == rangeOf(frames_))
+        run_.report.errors = decodeErrors(restart->report);
+    run_.report.resumedFrom = restart->frame;
+    next_ = std::min(frames_.first, position_ + 1);
+    return true;
 }
 
 std::optional<SequencedFrame> FrameSequence::next() {

@@ -48,7 +48,7 @@ class FrameSequence {
     FinishedRun take() { return std::move(run_); }
 
  private:
-    void begin();
+    bool goOn();
     bool advanceTo(int frame);
     bool isCheckpointDue() const;
     nlohmann::ordered_json checkpointReport() const;

@@ -54,9 +54,29 @@ std::string table(const Cells& head, const std::vector<Cells>& rows) {
     return html + "</table>\n";
 }
 
+std::string dataUri(const std::string& type, const std::vector<unsigned char>& bytes) {
+    return "data:" + type + ";base64," + base64(bytes);
+}
+
+std::string studyHead(const std::string& title, const std::string& style) {
+    return fmt::format(R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>{0}</title>
+<style>
+body {{ font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; padding: 2rem 1rem; color: #222; background: #f6f6f4; }}
+img {{ max-width: 100%; background: #fff; border: 1px solid #ddd; }}
+table {{ border-collapse: collapse; font-size: 0.85rem; background: #fff; font-variant-numeric: tabular-nums; }}
+th, td {{ border: 1px solid #ddd; vertical-align: top; }}
+th {{ background: #eee; }}
+code {{ background: #f0f0ec; padding: 0 0.2rem; }}
+{1}</style></head><body>
+<h1>{0}</h1>
+)",
+                       title, style);
+}
+
 std::string picture(const std::string& alt, const std::string& svg) {
-    return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", alt,
-                       base64({svg.begin(), svg.end()}));
+    return fmt::format("<img alt=\"{}\" src=\"{}\">\n", alt, dataUri("image/svg+xml", {svg.begin(), svg.end()}));
 }
 
 }  // namespace tools

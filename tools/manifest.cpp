@@ -44,11 +44,9 @@ Manifest parsed(const Json& json) {
                                                 frame.at("state_hash").get<std::string>()};
     for (const Json& checkpoint : json.at("checkpoints")) {
         if (!checkpoint.at("report").is_object()) throw render::SystemError("a checkpoint's report is no object");
-        manifest.checkpoints.push_back(
-            {frameIn(checkpoint.at("frame")), checkpoint.at("checksum").get<std::string>(), checkpoint.at("report")});
+        manifest.checkpoints[frameIn(checkpoint.at("frame"))] = {checkpoint.at("checksum").get<std::string>(),
+                                                                 checkpoint.at("report")};
     }
-    std::sort(manifest.checkpoints.begin(), manifest.checkpoints.end(),
-              [](const CheckpointRecord& a, const CheckpointRecord& b) { return a.frame < b.frame; });
     return manifest;
 }
 
@@ -59,7 +57,7 @@ std::string textOf(const Json& identity, const std::string& key) {
 }  // namespace
 
 std::string checksumOf(std::span<const std::uint8_t> bytes) {
-    return engine::hexadecimal(engine::fnv1a({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+    return engine::hexadecimal(engine::fnv1aOf(bytes));
 }
 
 std::string encodeManifest(const Manifest& manifest) {
@@ -67,9 +65,8 @@ std::string encodeManifest(const Manifest& manifest) {
     for (const auto& [number, frame] : manifest.frames)
         frames[fmt::format("{:05}", number)] = {{"checksum", frame.checksum}, {"state_hash", frame.stateHash}};
     Json checkpoints = Json::array();
-    for (const CheckpointRecord& checkpoint : manifest.checkpoints)
-        checkpoints.push_back(
-            {{"frame", checkpoint.frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
+    for (const auto& [frame, checkpoint] : manifest.checkpoints)
+        checkpoints.push_back({{"frame", frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
     const Json json = {
         {"format", kFormat}, {"run", manifest.identity}, {"checkpoints", checkpoints}, {"frames", frames}};
     return json.dump(1) + "\n";

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace tools {
 
@@ -19,7 +18,6 @@ struct FrameRecord {
 
 /// A state to go on from.
 struct CheckpointRecord {
-    int frame = 0;
     std::string checksum;           ///< of the file's bytes
     nlohmann::ordered_json report;  ///< what the run had measured by then
 };
@@ -27,7 +25,7 @@ struct CheckpointRecord {
 struct Manifest {
     nlohmann::ordered_json identity;  ///< an object; what decides the bytes of the frames
     std::map<int, FrameRecord> frames;
-    std::vector<CheckpointRecord> checkpoints;  ///< the newest last
+    std::map<int, CheckpointRecord> checkpoints;  ///< by the frame whose state they hold
 };
 
 /// FNV-1a of the bytes as 16 hexadecimal digits.

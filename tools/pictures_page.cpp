@@ -8,18 +8,10 @@
 namespace tools {
 namespace {
 
-constexpr const char* kHead = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>globular: what pictures cost and how exact they are</title>
-<style>
-body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 80rem; padding: 2rem 1rem; color: #222; background: #f6f6f4; }
-img { max-width: 100%; background: #fff; border: 1px solid #ddd; }
-table { border-collapse: collapse; font-size: 0.85rem; background: #fff; font-variant-numeric: tabular-nums; }
-th, td { border: 1px solid #ddd; padding: 0.2rem 0.6rem; text-align: right; vertical-align: top; }
-th { background: #eee; }
-code { background: #f0f0ec; padding: 0 0.2rem; }
-</style></head><body>
-<h1>globular: what pictures cost and how exact they are</h1>
+constexpr const char* kTitle = "globular: what pictures cost and how exact they are";
+
+constexpr const char* kStyle = R"(body { max-width: 80rem; }
+th, td { padding: 0.2rem 0.6rem; text-align: right; }
 )";
 
 std::string milliseconds(double seconds) {
@@ -76,7 +68,7 @@ std::string flickerTable(const std::vector<studies::FlickerRow>& rows) {
 
 std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command) {
     const std::vector<studies::PictureRow>& rows = results.rows;
-    std::string html = kHead;
+    std::string html = studyHead(kTitle, kStyle);
     html += fmt::format(
         "<p>Made by <code>{}</code>. A dam that splashes, as many particles as the table says, in its full look. "
         "<em>Frame</em> is drawing and reading back; <em>quads</em> is what one would write first, a quad that faces "

@@ -39,9 +39,7 @@ void printSummary(const RenderOptions& options, const fs::path& folder, const nl
 }
 
 void render(const RenderOptions& options) {
-    SceneOptions sceneOptions = options.scene;
-    for (const std::string& change : overridesOf(options.draw)) sceneOptions.overrides.push_back(change);
-    const scenes::Scene scene = load(sceneOptions);
+    const scenes::Scene scene = load(options.scene, options.draw);
 
     RenderJob job;
     job.scene = &scene;

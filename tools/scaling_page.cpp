@@ -8,18 +8,10 @@
 namespace tools {
 namespace {
 
-constexpr const char* kHead = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>globular: time against the number of particles</title>
-<style>
-body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 70rem; padding: 2rem 1rem; color: #222; background: #f6f6f4; }
-img { max-width: 100%; background: #fff; border: 1px solid #ddd; }
-table { border-collapse: collapse; font-size: 0.85rem; background: #fff; font-variant-numeric: tabular-nums; }
-th, td { border: 1px solid #ddd; padding: 0.2rem 0.7rem; text-align: left; vertical-align: top; }
-th { background: #eee; }
-code { background: #f0f0ec; padding: 0 0.2rem; }
-</style></head><body>
-<h1>globular: time against the number of particles</h1>
+constexpr const char* kTitle = "globular: time against the number of particles";
+
+constexpr const char* kStyle = R"(body { max-width: 70rem; }
+th, td { padding: 0.2rem 0.7rem; text-align: left; }
 )";
 
 std::string milliseconds(const std::optional<double>& seconds) {
@@ -59,7 +51,7 @@ std::string peerTable(const std::vector<studies::PeerRow>& peers) {
 }  // namespace
 
 std::string scalingPage(const ScalingResults& results, const std::string& plot, const std::string& command) {
-    std::string html = kHead;
+    std::string html = studyHead(kTitle, kStyle);
     html += fmt::format(
         "<p>Made by <code>{}</code>. Milliseconds of one step: in the scenes of the paper's figures of 0.01 s, as the "
         "paper takes one for every frame, in packed blocks of 0.002 s; medians of rounds that took turns. "

@@ -50,6 +50,20 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
     return limits;
 }
 
+/// Size and style as overrides of the scene's look.
+std::vector<std::string> overridesOf(const DrawOptions& options) {
+    std::vector<std::string> overrides;
+    if (!options.style.empty()) overrides.push_back("look.style=" + options.style);
+    if (options.size.empty()) return overrides;
+    const std::size_t cross = options.size.find('x');
+    const auto width = wholeNumber(std::string_view(options.size).substr(0, cross));
+    const auto height =
+        cross == std::string::npos ? std::nullopt : wholeNumber(std::string_view(options.size).substr(cross + 1));
+    if (!width || !height) failFlag("--size " + options.size, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
+    overrides.push_back(fmt::format("look.size=[{}, {}]", *width, *height));
+    return overrides;
+}
+
 }  // namespace
 
 void addTo(CLI::App& command, RunOptions& options) {
@@ -112,17 +126,9 @@ scenes::Scene load(const SceneOptions& options) {
                              limitsOf(options.limits));
 }
 
-std::vector<std::string> overridesOf(const DrawOptions& options) {
-    std::vector<std::string> overrides;
-    if (!options.style.empty()) overrides.push_back("look.style=" + options.style);
-    if (options.size.empty()) return overrides;
-    const std::size_t cross = options.size.find('x');
-    const auto width = wholeNumber(std::string_view(options.size).substr(0, cross));
-    const auto height =
-        cross == std::string::npos ? std::nullopt : wholeNumber(std::string_view(options.size).substr(cross + 1));
-    if (!width || !height) failFlag("--size " + options.size, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
-    overrides.push_back(fmt::format("look.size=[{}, {}]", *width, *height));
-    return overrides;
+scenes::Scene load(SceneOptions options, const DrawOptions& draw) {
+    for (const std::string& change : overridesOf(draw)) options.overrides.push_back(change);
+    return load(options);
 }
 
 render::Quality qualityOf(const DrawOptions& options) {

@@ -60,8 +60,8 @@ FolderOptions folderOf(const FolderFlags& flags, const std::string& name);
 /// The scene with its overrides. Throws scenes::InputError.
 scenes::Scene load(const SceneOptions& options);
 
-/// Size and style as overrides of the scene's look.
-std::vector<std::string> overridesOf(const DrawOptions& options);
+/// The scene with its overrides, and the size and style of how it is drawn.
+scenes::Scene load(SceneOptions options, const DrawOptions& draw);
 
 render::Quality qualityOf(const DrawOptions& options);
 

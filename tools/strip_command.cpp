@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "render/png.h"
 #include "tools/commands.h"
@@ -26,9 +27,8 @@ struct StripOptions {
 
 scenes::Scene loadFor(const StripOptions& options) {
     SceneOptions sceneOptions = options.scene;
-    for (const std::string& change : overridesOf(options.draw)) sceneOptions.overrides.push_back(change);
     if (!options.times.empty()) sceneOptions.overrides.push_back(fmt::format("still.strip=[{}]", options.times));
-    return load(sceneOptions);
+    return load(std::move(sceneOptions), options.draw);
 }
 
 void printResult(const StripOptions& options, const fs::path& path, const nlohmann::ordered_json& json) {

@@ -70,7 +70,7 @@ std::vector<std::uint8_t> checkpointOf(const Setup& setup, int frames) {
 /// Puts the checksum right after the bytes were changed.
 void sign(std::vector<std::uint8_t>& bytes) {
     const std::size_t size = bytes.size() - 8;
-    const std::uint64_t checksum = engine::fnv1a({reinterpret_cast<const char*>(bytes.data()), size});
+    const std::uint64_t checksum = engine::fnv1aOf(std::span(bytes).first(size));
     std::memcpy(bytes.data() + size, &checksum, 8);
 }
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <string_view>
 #include <vector>
 
 #include "engine/checkpoint.h"
@@ -29,7 +28,7 @@ engine::Setup setup() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::vector<std::uint8_t> bytes(data, data + size);
-    const std::uint64_t checksum = engine::fnv1a({reinterpret_cast<const char*>(bytes.data()), size});
+    const std::uint64_t checksum = engine::fnv1aOf(bytes);
     bytes.resize(size + 8);
     std::memcpy(bytes.data() + size, &checksum, 8);
     try {
