@@ -26,8 +26,9 @@ std::array<std::int64_t, 3> chooseDimensions(const std::vector<Vec3>& positions,
     std::array<std::int64_t, 3> dimensions{};
     for (int axis = 0; axis < 3; ++axis) {
         const double along = std::floor((high[axis] - low[axis]) / width) + 2.0;
+        // In this order a width that is not a number is the limit.
         dimensions[static_cast<std::size_t>(axis)] =
-            static_cast<std::int64_t>(std::min(along, static_cast<double>(limit)));
+            static_cast<std::int64_t>(std::min(static_cast<double>(limit), along));
     }
     // Any size is correct; halving the longest axis keeps cells that share storage far apart.
     const auto cells = [&] {
@@ -46,6 +47,14 @@ std::int64_t wrapped(std::int64_t index, std::int64_t size) {
     return rest < 0 ? rest + size : rest;
 }
 
+/// The cell of a coordinate along one axis. What has left every world, or is no number, shares the last cell: the audit
+/// after the step says what happened.
+std::int64_t cellAlong(double coordinate, double width, std::int64_t size) {
+    constexpr double kFarthest = 1e15;  // a whole number in double
+    const double cell = std::max(-kFarthest, std::min(kFarthest, std::floor(coordinate / width)));
+    return wrapped(static_cast<std::int64_t>(cell), size);
+}
+
 }  // namespace
 
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth) {
@@ -60,9 +69,9 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     const auto [nx, ny, nz] = grid.dimensions;
     grid.start.assign(static_cast<std::size_t>(nx * ny * nz) + 1, 0);
     for (std::size_t p = 0; p < positions.size(); ++p) {
-        const auto x = wrapped(static_cast<std::int64_t>(std::floor(positions[p].x() / width)), nx);
-        const auto y = wrapped(static_cast<std::int64_t>(std::floor(positions[p].y() / width)), ny);
-        const auto z = wrapped(static_cast<std::int64_t>(std::floor(positions[p].z() / width)), nz);
+        const std::int64_t x = cellAlong(positions[p].x(), width, nx);
+        const std::int64_t y = cellAlong(positions[p].y(), width, ny);
+        const std::int64_t z = cellAlong(positions[p].z(), width, nz);
         grid.cellOf[p] = static_cast<std::uint32_t>((z * ny + y) * nx + x);
         ++grid.start[grid.cellOf[p] + 1];
     }

@@ -10,7 +10,8 @@ namespace render {
 namespace {
 
 std::uint32_t packedNormal(glm::vec3 n) {
-    const float scale = 1.0F / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    const float length = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    const float scale = length > 0.0F ? 1.0F / length : 0.0F;  // where the field has no slope: towards +z
     glm::vec2 folded(n.x * scale, n.y * scale);
     if (n.z < 0.0F) {
         folded = {(1.0F - std::abs(n.y * scale)) * (n.x >= 0.0F ? 1.0F : -1.0F),

@@ -2,6 +2,7 @@
 #include "engine/neighbours.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include "tests/catch.h"
 
@@ -75,4 +76,19 @@ TEST_CASE("No particles, no cells to visit", "[neighbours]") {
     build(grid, {}, 0.6);
     CHECK(grid.order.empty());
     CHECK(neighbourhood(grid, 0).count == 0);
+}
+
+TEST_CASE("Positions that are no numbers or beyond all cells do no harm to the others", "[neighbours]") {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Vec3> positions = clouds::strewn(100, 3.0).position;
+    const std::size_t sound = positions.size();
+    positions.emplace_back(1e300, 0.0, -1e300);
+    positions.emplace_back(kNan, 0.0, 0.0);
+    CellGrid grid;
+    build(grid, positions, 0.6);
+    for (std::size_t p = 0; p < sound; ++p) {
+        const auto found = candidates(grid, p);
+        for (std::uint32_t i = 0; i < sound; ++i)
+            if (squaredLength(positions[p] - positions[i]) < 0.36) CHECK(found.count(i) == 1);
+    }
 }
