@@ -79,19 +79,18 @@ void bench(const BenchOptions& options) {
 
 }  // namespace
 
-void addBenchCommand(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("bench", "how fast forces, lists and steps run, with hashes of the results");
+void addBenchCommand(const Command& program) {
+    const Command command =
+        program.command("bench", "how fast forces, lists and steps run, with hashes of the results");
     const auto options = std::make_shared<BenchOptions>();
-    command->add_option("--filter", options->settings.filter, "only rows whose name and material contain this text")
-        ->type_name("TEXT");
-    command->add_option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)")
-        ->type_name("N ...");
-    command->add_option("--rounds", options->settings.rounds, "how often each is timed (default: 5)")
-        ->check(CLI::PositiveNumber);
-    addTo(*command, options->run);
-    command->footer("Example: globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
-    command->callback([options] { bench(*options); });
+    command.option("--filter", options->settings.filter, "only rows whose name and material contain this text")
+        .of("TEXT");
+    command.option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)")
+        .of("N");
+    command.option("--rounds", options->settings.rounds, "how often each is timed (default: 5)").aboveZero();
+    addTo(command, options->run);
+    command.example("globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
+    command.run([options] { bench(*options); });
 }
 
 }  // namespace tools

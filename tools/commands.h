@@ -2,27 +2,27 @@
 // it is called; failures come back to main as exceptions.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "tools/command_line.h"
 
 namespace tools {
 
-void addRenderCommand(CLI::App& program);
-void addStripCommand(CLI::App& program);
-void addSimulateCommand(CLI::App& program);
-void addFiguresCommand(CLI::App& program);
-void addVideoCommand(CLI::App& program);
-void addCompareCommand(CLI::App& program);
-void addApproveCommand(CLI::App& program);
-void addCheckCommand(CLI::App& program);
-void addScenesCommand(CLI::App& program);
-void addSchemaCommand(CLI::App& program);
-void addStudyCommand(CLI::App& program);
-void addBenchCommand(CLI::App& program);
+void addRenderCommand(const Command& program);
+void addStripCommand(const Command& program);
+void addSimulateCommand(const Command& program);
+void addFiguresCommand(const Command& program);
+void addVideoCommand(const Command& program);
+void addCompareCommand(const Command& program);
+void addApproveCommand(const Command& program);
+void addCheckCommand(const Command& program);
+void addScenesCommand(const Command& program);
+void addSchemaCommand(const Command& program);
+void addStudyCommand(const Command& program);
+void addBenchCommand(const Command& program);
 
 /// Subcommands of `globular study`.
-void addStudyAccuracy(CLI::App& study);
-void addStudyPictures(CLI::App& study);
-void addStudyScaling(CLI::App& study);
-void addStudyStability(CLI::App& study);
+void addStudyAccuracy(const Command& study);
+void addStudyPictures(const Command& study);
+void addStudyScaling(const Command& study);
+void addStudyStability(const Command& study);
 
 }  // namespace tools

@@ -1,7 +1,6 @@
 // The program: subcommands in, exit codes out. Errors are caught here and nowhere else, one line for each problem.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <sstream>
 
@@ -23,13 +22,11 @@ int report(const std::string& problems, int exitCode) {
     return exitCode;
 }
 
-int run(CLI::App& program, int argc, char** argv) {
+int run(const tools::CommandLine& line, int argc, char** argv) {
     try {
-        program.parse(argc, argv);
-        if (!program.get_subcommands().empty()) return 0;
+        if (line.run(argc, argv)) return 0;
         return report("which command? See globular --help", kInputWrong);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    } catch (const tools::UsageError& error) {
         return report(error.what(), kInputWrong);
     } catch (const scenes::InputError& error) {
         return report(error.what(), kInputWrong);
@@ -45,10 +42,11 @@ int run(CLI::App& program, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App program{"globular: a scene file to an animation of globular dynamics, without a display", "globular"};
-    program.set_version_flag("--version", "globular " GLOBULAR_VERSION);
-    program.require_subcommand(0, 1);
-    program.footer("Example: globular render liquid -o out/liquid --video out/liquid.mp4");
+    const tools::CommandLine line("globular",
+                                  "globular: a scene file to an animation of globular dynamics, without a display",
+                                  "globular " GLOBULAR_VERSION);
+    const tools::Command program = line.program();
+    program.example("globular render liquid -o out/liquid --video out/liquid.mp4");
     tools::addRenderCommand(program);
     tools::addStripCommand(program);
     tools::addSimulateCommand(program);
@@ -61,7 +59,7 @@ int main(int argc, char** argv) {
     tools::addSchemaCommand(program);
     tools::addStudyCommand(program);
     tools::addBenchCommand(program);
-    const int code = run(program, argc, argv);
+    const int code = run(line, argc, argv);
     // Results go to stdout; a full disk behind it is a failure like any other.
     if (std::fflush(stdout) != 0 && code == 0) return report("cannot write to standard output", kOutsideFailed);
     return code;

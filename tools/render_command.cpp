@@ -64,17 +64,17 @@ void render(const RenderOptions& options) {
 
 }  // namespace
 
-void addRenderCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("render", "simulate and draw a scene: PNG frames, run.json, a video");
+void addRenderCommand(const Command& program) {
+    const Command command = program.command("render", "simulate and draw a scene: PNG frames, run.json, a video");
     const auto options = std::make_shared<RenderOptions>();
-    addTo(*command, options->scene);
-    addTo(*command, options->folder);
-    command->add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
-    command->add_option("--frames", options->frames, "draw only these frames")->type_name("A-B");
-    addTo(*command, options->draw);
-    addTo(*command, options->run);
-    command->footer("Example: globular render liquid -o out/liquid --video out/liquid.mp4");
-    command->callback([options] { render(*options); });
+    addTo(command, options->scene);
+    addTo(command, options->folder);
+    command.option("--video", options->video, "also write an MP4").of("FILE.mp4");
+    command.option("--frames", options->frames, "draw only these frames").of("A-B");
+    addTo(command, options->draw);
+    addTo(command, options->run);
+    command.example("globular render liquid -o out/liquid --video out/liquid.mp4");
+    command.run([options] { render(*options); });
 }
 
 }  // namespace tools

@@ -1,7 +1,6 @@
 // The flags that several commands share, and what they mean together. One place, so that they read alike everywhere.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "render/context.h"
 #include "render/view.h"
 #include "scenes/scene.h"
+#include "tools/command_line.h"
 #include "tools/frame_folder.h"
 #include "tools/progress.h"
 
@@ -46,10 +46,10 @@ struct FolderFlags {
     double checkpointSeconds = 5.0;
 };
 
-void addTo(CLI::App& command, RunOptions& options);
-void addTo(CLI::App& command, SceneOptions& options);
-void addTo(CLI::App& command, DrawOptions& options);
-void addTo(CLI::App& command, FolderFlags& options);
+void addTo(const Command& command, RunOptions& options);
+void addTo(const Command& command, SceneOptions& options);
+void addTo(const Command& command, DrawOptions& options);
+void addTo(const Command& command, FolderFlags& options);
 
 /// The number of threads to use, at least 1.
 int threadCount(const RunOptions& options);

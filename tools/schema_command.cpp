@@ -9,13 +9,13 @@
 
 namespace tools {
 
-void addSchemaCommand(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("schema", "every key of a scene file with type, unit, default, range, help");
+void addSchemaCommand(const Command& program) {
+    const Command command =
+        program.command("schema", "every key of a scene file with type, unit, default, range, help");
     const auto json = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "one JSON object a line");
-    command->footer("Example: globular schema");
-    command->callback([json] {
+    command.flag("--json", *json, "one JSON object a line");
+    command.example("globular schema");
+    command.run([json] {
         if (!*json) {
             fmt::print("{}", scenes::schemaText());
             return;

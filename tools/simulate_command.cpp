@@ -76,16 +76,16 @@ void simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-void addSimulateCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("simulate", "particle states only: one PLY file a frame, and run.json");
+void addSimulateCommand(const Command& program) {
+    const Command command = program.command("simulate", "particle states only: one PLY file a frame, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
-    addTo(*command, options->scene);
-    addTo(*command, options->folder);
-    command->add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
-    command->add_option("--frames", options->frames, "write only these frames")->type_name("A-B");
-    addTo(*command, options->run);
-    command->footer("Example: globular simulate powder -o out/states --frames 0-59");
-    command->callback([options] { simulate(*options); });
+    addTo(command, options->scene);
+    addTo(command, options->folder);
+    command.option("--format", options->format, "ply: binary little-endian PLY").oneOf({"ply"});
+    command.option("--frames", options->frames, "write only these frames").of("A-B");
+    addTo(command, options->run);
+    command.example("globular simulate powder -o out/states --frames 0-59");
+    command.run([options] { simulate(*options); });
 }
 
 }  // namespace tools

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -57,7 +58,8 @@ Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) 
     std::string suffix;
     if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
         const std::string seconds = text.substr(colon + 1);
-        if (!CLI::detail::lexical_cast(seconds, subject.window) || !(subject.window > 0.0))
+        const auto [end, error] = std::from_chars(seconds.data(), seconds.data() + seconds.size(), subject.window);
+        if (error != std::errc() || end != seconds.data() + seconds.size() || !(subject.window > 0.0))
             throw scenes::InputError({{text, 0, 0, "after the colon comes how long to run, in seconds: powder:2"}});
         scene = text.substr(0, colon);
         suffix = "-" + seconds + "s";
@@ -179,25 +181,21 @@ void study(const StudyAccuracyOptions& options) {
 
 }  // namespace
 
-void addStudyAccuracy(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("accuracy", "speed against error: every stepper against a reference");
+void addStudyAccuracy(const Command& program) {
+    const Command command = program.command("accuracy", "speed against error: every stepper against a reference");
     const auto options = std::make_shared<StudyAccuracyOptions>();
-    command->add_option(
-        "SCENE", options->scenes,
-        "scene files or names, with an own window as powder:2 (default: liquid solid powder fountain honey; "
-        "powder:2 too unless quick)");
-    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-accuracy)")
-        ->type_name("DIR");
-    command->add_option("--set", options->overrides, "change a key of every scene")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->add_option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--window", options->window, "how long they run, s (default: 0.2)")->check(CLI::PositiveNumber);
-    command->add_flag("--quick", options->quick, "a coarse look: fewer runs, timed once");
-    addTo(*command, options->run);
-    command->footer("Example: globular study accuracy liquid powder -o out/accuracy --threads 2");
-    command->callback([options] {
+    command.option("SCENE", options->scenes,
+                   "scene files or names, with an own window as powder:2 (default: liquid solid powder fountain honey; "
+                   "powder:2 too unless quick)");
+    command.option("-o,--output", options->folder, "folder to write to (default: out/study-accuracy)").of("DIR");
+    command.option("--set", options->overrides, "change a key of every scene").of("KEY=VALUE").oneAtATime();
+    command.option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
+        .atLeastZero();
+    command.option("--window", options->window, "how long they run, s (default: 0.2)").aboveZero();
+    command.flag("--quick", options->quick, "a coarse look: fewer runs, timed once");
+    addTo(command, options->run);
+    command.example("globular study accuracy liquid powder -o out/accuracy --threads 2");
+    command.run([options] {
         if (options->scenes.empty()) {
             options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
             // Long enough for chaos: statistics instead of positions.

@@ -3,14 +3,14 @@
 
 namespace tools {
 
-void addStudyCommand(CLI::App& program) {
-    CLI::App* study = program.add_subcommand("study", "measurements: tables, plots, one page");
-    study->require_subcommand(1);
-    study->footer("Example: globular study accuracy liquid -o out/accuracy");
-    addStudyAccuracy(*study);
-    addStudyPictures(*study);
-    addStudyScaling(*study);
-    addStudyStability(*study);
+void addStudyCommand(const Command& program) {
+    const Command study = program.command("study", "measurements: tables, plots, one page");
+    study.needsCommand();
+    study.example("globular study accuracy liquid -o out/accuracy");
+    addStudyAccuracy(study);
+    addStudyPictures(study);
+    addStudyScaling(study);
+    addStudyStability(study);
 }
 
 }  // namespace tools

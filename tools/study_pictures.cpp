@@ -130,20 +130,19 @@ void study(const PicturesOptions& options) {
 
 }  // namespace
 
-void addStudyPictures(CLI::App& study) {
-    CLI::App* command =
-        study.add_subcommand("pictures", "time of each stage of a frame, and its error against the exact picture");
+void addStudyPictures(const Command& study) {
+    const Command command =
+        study.command("pictures", "time of each stage of a frame, and its error against the exact picture");
     const auto options = std::make_shared<PicturesOptions>();
-    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-pictures)")
-        ->type_name("DIR");
-    command->add_option("--particles", options->particles, "how many (default: 2000 10000 50000 200000)")
-        ->check(CLI::Range(100, 10000000))
-        ->type_name("N...");
-    command->add_option("--size", options->size, "of the picture (default: 1280x720 and 1920x1080)")->type_name("WxH");
-    command->add_flag("--quick", options->quick, "fewer particles, small pictures");
-    addTo(*command, options->run);
-    command->footer("Example: globular study pictures --quick -o out/pictures");
-    command->callback([options] { tools::study(*options); });
+    command.option("-o,--output", options->folder, "folder to write to (default: out/study-pictures)").of("DIR");
+    command.option("--particles", options->particles, "how many (default: 2000 10000 50000 200000)")
+        .within(100, 10000000)
+        .of("N");
+    command.option("--size", options->size, "of the picture (default: 1280x720 and 1920x1080)").of("WxH");
+    command.flag("--quick", options->quick, "fewer particles, small pictures");
+    addTo(command, options->run);
+    command.example("globular study pictures --quick -o out/pictures");
+    command.run([options] { tools::study(*options); });
 }
 
 }  // namespace tools

@@ -168,18 +168,17 @@ void study(const ScalingOptions& options) {
 
 }  // namespace
 
-void addStudyScaling(CLI::App& study) {
-    CLI::App* command =
-        study.add_subcommand("scaling", "time per step against the number of particles, beside the paper's Table 2");
+void addStudyScaling(const Command& study) {
+    const Command command =
+        study.command("scaling", "time per step against the number of particles, beside the paper's Table 2");
     const auto options = std::make_shared<ScalingOptions>();
-    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-scaling)")
-        ->type_name("DIR");
-    command->add_option("--peer", options->peer, "another program to measure in the same run, if it is installed")
-        ->check(CLI::IsMember({"lammps"}));
-    command->add_flag("--quick", options->quick, "fewer sizes, one round");
-    addTo(*command, options->run);
-    command->footer("Example: globular study scaling --peer lammps -o out/scaling");
-    command->callback([options] { tools::study(*options); });
+    command.option("-o,--output", options->folder, "folder to write to (default: out/study-scaling)").of("DIR");
+    command.option("--peer", options->peer, "another program to measure in the same run, if it is installed")
+        .oneOf({"lammps"});
+    command.flag("--quick", options->quick, "fewer sizes, one round");
+    addTo(command, options->run);
+    command.example("globular study scaling --peer lammps -o out/scaling");
+    command.run([options] { tools::study(*options); });
 }
 
 }  // namespace tools

@@ -106,26 +106,25 @@ void study(const StabilityOptions& options) {
     if (!problems.empty()) throw std::runtime_error(problems);
 }
 
-std::string footer() {
+std::string notes() {
     std::string text = "Observables:\n";
     for (const scenes::ObservableInfo& info : scenes::observables())
         text += fmt::format("  {:<18} {}\n", info.name, info.help);
-    return text + "\nExample: globular study stability honey rigid -o out/stability";
+    return text;
 }
 
 }  // namespace
 
-void addStudyStability(CLI::App& study) {
-    CLI::App* command = study.add_subcommand(
+void addStudyStability(const Command& study) {
+    const Command command = study.command(
         "stability", "the hard cases, with the paper's stepper and with ours; fails unless all come out as they must");
     const auto options = std::make_shared<StabilityOptions>();
-    command->add_option("CASE", options->cases, "which hard cases (default: all)");
-    command->add_option("-o,--output", options->folder, "folder to write to (default: out/study-stability)")
-        ->type_name("DIR");
-    command->add_flag("--quick", options->quick, "fewer variants and particles");
-    addTo(*command, options->run);
-    command->footer(footer());
-    command->callback([options] { tools::study(*options); });
+    command.option("CASE", options->cases, "which hard cases (default: all)");
+    command.option("-o,--output", options->folder, "folder to write to (default: out/study-stability)").of("DIR");
+    command.flag("--quick", options->quick, "fewer variants and particles");
+    addTo(command, options->run);
+    command.example("globular study stability honey rigid -o out/stability", notes());
+    command.run([options] { tools::study(*options); });
 }
 
 }  // namespace tools
