@@ -53,6 +53,8 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     grid.cells.resize(1);
     if (spheres.empty()) return grid;
 
+    // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see shaders/shadow.glsl.
+    const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
     std::vector<LightSphere> seen(spheres.size());
     std::vector<float> keys(spheres.size());
     glm::vec2 low(std::numeric_limits<float>::max());
@@ -62,8 +64,8 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
         const float radius = spheres[k].radius;
         seen[k] = {at.x, at.y, at.z, radius};
         keys[k] = -(at.z + radius);
-        low = min(low, glm::vec2(at) - radius);
-        high = max(high, glm::vec2(at) + radius);
+        low = min(low, glm::vec2(at) - margin * radius);
+        high = max(high, glm::vec2(at) + margin * radius);
     }
     grid.origin = low;
     grid.cellSize = wantedCellSize(spheres, high - low);
@@ -72,8 +74,6 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
 
     std::vector<BinItem> items(spheres.size());
     const std::vector<std::uint32_t> order = orderByKey(keys);
-    // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see shaders/shadow.glsl.
-    const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
     for (std::size_t place = 0; place < order.size(); ++place) {
         const LightSphere& sphere = seen[order[place]];
         const float reach = margin * sphere.radius;

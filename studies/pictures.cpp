@@ -92,7 +92,7 @@ render::VideoOptions videoOptions(const PictureSettings& settings, render::Pictu
 void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
                      render::Renderer& renderer, PictureRow& row) {
     // Slow frames are alike; a second of them is enough.
-    const int count = std::clamp(static_cast<int>(1.5 / row.draw), 3, settings.encodedFrames);
+    const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.draw)));
     const render::Image image = renderer.draw(frames.front());
     row.png = secondsOf([&] { render::encodePng(image); }, 3);
     row.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); });

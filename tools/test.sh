@@ -1,11 +1,26 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds with warnings as errors, and runs every test. Takes the name of a CMake preset: release (the
-# default), debug, asan-ubsan or tsan.
+# Sets the machine up, builds with warnings as errors, and runs the tests: all of them as users build the program; those of the
+# libraries again under AddressSanitizer and UndefinedBehaviorSanitizer; the fuzzers, a minute each; the engine's under
+# ThreadSanitizer. With the name of a CMake preset (release, debug, asan-ubsan or tsan): all tests of that preset.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-preset=${1:-release}
+build() { # preset, targets...
+    cmake --preset "$1" -DGLOBULAR_TESTS=ON -DGLOBULAR_WERROR=ON
+    cmake --build --preset "$1" ${2:+--target "${@:2}"}
+}
+
 tools/setup.sh
-cmake --preset "$preset" -DGLOBULAR_TESTS=ON -DGLOBULAR_WERROR=ON
-cmake --build --preset "$preset"
-ctest --preset "$preset"
+if [ $# -gt 0 ]; then
+    build "$1"
+    exec ctest --preset "$1"
+fi
+
+build release
+ctest --preset release
+libraries=(engine render scenes)
+build asan-ubsan "${libraries[@]/%/_tests}"
+ctest --preset asan-ubsan --parallel 2 -R "^($(IFS='|'; echo "${libraries[*]}"))_tests$"
+tests/fuzz/run.sh 60
+build tsan
+ctest --preset tsan

@@ -1,21 +1,21 @@
 #!/usr/bin/env bash
 # Fuzzes everything that reads bytes from outside, all targets side by side, with AddressSanitizer and
-# UndefinedBehaviorSanitizer. Usage: run.sh [SECONDS] (default: 60). What is found is left in build/fuzz/found; the corpora
-# in tests/fuzz/corpus are read and not changed. Needs Debian's clang and libclang-rt-14-dev.
+# UndefinedBehaviorSanitizer. Usage: run.sh [SECONDS] (default: 60). What is found is left in build/asan-ubsan/fuzz/found;
+# the corpora in tests/fuzz/corpus are read and not changed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 seconds=${1:-60}
 targets=(scene overrides particle_file checkpoint png manifest)
-cmake --preset fuzz
-cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"
+cmake --preset asan-ubsan
+cmake --build --preset asan-ubsan --target "${targets[@]/#/fuzz_}"
 
-mkdir -p build/fuzz/found
-cd build/fuzz
+mkdir -p build/asan-ubsan/fuzz/found
+cd build/asan-ubsan/fuzz
 for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
     # What was learned in earlier runs comes first; the repository's corpus is the seed.
-    "tests/fuzz/fuzz_$target" "corpus/$target" "../../tests/fuzz/corpus/$target" -max_total_time="$seconds" \
+    "../tests/fuzz/fuzz_$target" "corpus/$target" "../../../tests/fuzz/corpus/$target" -max_total_time="$seconds" \
         -rss_limit_mb=2048 -timeout=10 -max_len=16384 -artifact_prefix="found/$target-" -print_final_stats=1 \
         -verbosity=0 >"$target.log" 2>&1 &
 done

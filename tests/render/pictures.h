@@ -71,7 +71,8 @@ inline render::View cloud(int count, unsigned seed = 7) {
     std::mt19937 random(seed);
     const auto uniform = [&random] { return static_cast<float>(random()) / 4294967296.0F; };
     for (int k = 0; k < count; ++k) {
-        const glm::vec3 at(3.0F * uniform() - 1.5F, 2.0F * uniform() + 0.2F, 3.0F * uniform() - 1.5F);
+        // In braces, where every compiler draws the numbers in this order.
+        const glm::vec3 at{3.0F * uniform() - 1.5F, 2.0F * uniform() + 0.2F, 3.0F * uniform() - 1.5F};
         view.particles.push_back({at, 0.08F + 0.1F * uniform(), {uniform(), uniform(), uniform()}});
     }
     view.camera.eye = {2.0F, 3.0F, 5.0F};
