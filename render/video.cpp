@@ -1,29 +1,20 @@
 // The ffmpeg command line, and what can go wrong around it.
 #include "render/video.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "render/child_process.h"
+#include "render/partial_film.h"
 #include "render/system_error.h"
 
 namespace render {
 
 namespace {
-
-std::string partialPath(const VideoOptions& options) {
-    return options.path + ".partial";
-}
 
 int even(int pixels) {
     return pixels + pixels % 2;
@@ -37,23 +28,11 @@ ChildProcess started(const std::vector<std::string>& arguments, const VideoOptio
     }
 }
 
-// Distributions that leave libx264 out of ffmpeg let a film fail only after the first frames.
-void requireX264(const VideoOptions& options) {
-    ChildProcess probe =
-        started({options.ffmpeg, "-hide_banner", "-loglevel", "error", "-h", "encoder=libx264"}, options);
-    const std::string ended = probe.wait();
-    const std::string words = probe.output(100000);
-    if (!ended.empty()) throw SystemError(fmt::format("{} ended with {}: {}", options.ffmpeg, ended, words));
-    if (words.find("Encoder libx264") == std::string::npos) {
-        throw SystemError(fmt::format("{} has no libx264 encoder; install an ffmpeg that has one", options.ffmpeg));
-    }
-}
-
 // Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes on any processor. The encoder's
 // threads are fixed, because its bytes depend on their number. Without the BT.709 conversion and tags ffmpeg assumes
 // BT.601 and colours shift. An even size is what yuv420p takes. Without -xerror an end that could not be written would
 // count as success.
-std::vector<std::string> commandLine(const VideoOptions& options) {
+std::vector<std::string> commandLine(const VideoOptions& options, const std::string& path) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",
             "-pix_fmt", "rgb24", "-video_size",
@@ -64,16 +43,7 @@ std::vector<std::string> commandLine(const VideoOptions& options) {
             "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v", "filter_units=remove_types=6", "-movflags",
             "+faststart", "-f", "mp4",
             // A path that begins with a dash or looks like a protocol is still a file.
-            "file:" + partialPath(options)};
-}
-
-/// To the disk, before it takes the place of an older film.
-void flush(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool isFlushed = file >= 0 && ::fsync(file) == 0;
-    const int error = errno;
-    if (file >= 0) ::close(file);
-    if (!isFlushed) throw SystemError(fmt::format("cannot flush {}: {}", path, std::generic_category().message(error)));
+            "file:" + path};
 }
 
 VideoOptions checked(VideoOptions options) {
@@ -84,22 +54,23 @@ VideoOptions checked(VideoOptions options) {
 
 }  // namespace
 
+void requireEncoder(const VideoOptions& options) {
+    ChildProcess probe =
+        started({options.ffmpeg, "-hide_banner", "-loglevel", "error", "-h", "encoder=libx264"}, options);
+    const std::string ended = probe.wait();
+    const std::string words = probe.output(100000);
+    if (!ended.empty()) throw SystemError(fmt::format("{} ended with {}: {}", options.ffmpeg, ended, words));
+    if (words.find("Encoder libx264") == std::string::npos) {
+        throw SystemError(fmt::format("{} has no libx264 encoder; install an ffmpeg that has one", options.ffmpeg));
+    }
+}
+
 struct VideoWriter::Parts {
     explicit Parts(VideoOptions options_) : options(checked(std::move(options_))) {
-        requireX264(options);
-        // The encoder of a run that was killed may still be writing there: it keeps its file, we begin another.
-        std::error_code ignored;
-        std::filesystem::remove(partialPath(options), ignored);
-        process.emplace(commandLine(options), options.patience);
+        requireEncoder(options);
+        film.emplace(options.path);
+        process.emplace(commandLine(options, film->path()), options.patience);
     }
-
-    ~Parts() {
-        process.reset();
-        std::error_code ignored;
-        if (!finished) std::filesystem::remove(partialPath(options), ignored);
-    }
-    Parts(const Parts&) = delete;
-    Parts& operator=(const Parts&) = delete;
 
     [[noreturn]] void fail(const std::string& ended) const {
         const std::string words = process->output();
@@ -109,9 +80,9 @@ struct VideoWriter::Parts {
     }
 
     VideoOptions options;
-    std::optional<ChildProcess> process;
+    std::optional<PartialFilm> film;
+    std::optional<ChildProcess> process;  // ends before its file is removed
     std::vector<std::uint8_t> padded;
-    bool finished = false;
 };
 
 VideoWriter::VideoWriter(VideoOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {}
@@ -140,13 +111,7 @@ void VideoWriter::add(const Image& image) {
 void VideoWriter::finish() {
     const std::string ended = parts_->process->wait();
     if (!ended.empty()) parts_->fail(ended);
-    const std::string partial = partialPath(parts_->options);
-    flush(partial);
-    std::error_code error;
-    std::filesystem::rename(partial, parts_->options.path, error);
-    if (error)
-        throw SystemError(fmt::format("cannot rename {} to {}: {}", partial, parts_->options.path, error.message()));
-    parts_->finished = true;
+    parts_->film->becomeFilm();
 }
 
 }  // namespace render

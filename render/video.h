@@ -20,11 +20,15 @@ struct VideoOptions {
     std::chrono::duration<double> patience = kPatience;  ///< with a program that does not go on, s
 };
 
+/// Throws SystemError: ffmpeg cannot be started, or has no libx264. Distributions that leave it out of ffmpeg let a
+/// film fail only after the first frames.
+void requireEncoder(const VideoOptions& options);
+
 /// Writes one film: H.264, yuv420p, BT.709. Odd sizes are padded to even by repeating the last column or row.
 /// Holds:  the same frames give the same bytes on any machine: the encoder always has two threads.
 class VideoWriter {
  public:
-    /// Throws SystemError: ffmpeg cannot be started, or has no libx264.
+    /// Throws SystemError: as requireEncoder, or the file cannot be written.
     explicit VideoWriter(VideoOptions options);
     /// Without finish() the film is given up: ffmpeg is ended and the partial file removed.
     ~VideoWriter();

@@ -80,4 +80,16 @@ check_trouble 'read-only disk' "$code" 'Read-only file system'
 mount -o remount,rw "$work/disk"
 check_resume 'read-only disk'
 
-echo "seven troubles: every run said what it was, kept its frames, and went on"
+# Midway: nothing but the film is open for writing between two frames, so this run makes none.
+rm -rf "$work/disk/a" "$work/disk/a.mp4"
+run -o "$work/disk/a" 2>"$work/log" &
+child=$!
+while [ ! -e "$work/disk/a/frame-00005.png" ]; do sleep 0.02; done
+until mount -o remount,ro "$work/disk" 2>/dev/null; do :; done
+code=0
+wait "$child" || code=$?
+check_trouble 'disk that became read-only' "$code" 'Read-only file system'
+mount -o remount,rw "$work/disk"
+check_resume 'disk that became read-only'
+
+echo "eight troubles: every run said what it was, kept its frames, and went on"

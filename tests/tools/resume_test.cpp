@@ -272,6 +272,29 @@ TEST_CASE("Two runs cannot write into one folder", "[resume]") {
     CHECK(run(fountain(folder / "a")).code == 0);
 }
 
+TEST_CASE("Two runs cannot write one film", "[resume]") {
+    const Folder folder;
+    const fs::path partial = folder / "a.mp4.partial";
+    std::ofstream(partial) << "half";
+    const int other = ::open(partial.c_str(), O_RDONLY);
+    REQUIRE(::flock(other, LOCK_EX) == 0);
+    const auto outcome = run(fountain(folder / "a"));
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("a.mp4.partial: another run is writing it") != std::string::npos);
+    CHECK(textOf(partial) == "half");
+    ::close(other);
+    CHECK(run(fountain(folder / "a")).code == 0);
+    CHECK_FALSE(fs::exists(partial));
+}
+
+TEST_CASE("Frames are not removed for a film that cannot be made", "[resume]") {
+    const Folder folder;
+    REQUIRE(run(fountain(folder / "a")).code == 0);
+    const auto before = filesOf(folder / "a");
+    CHECK(run(fountain(folder / "a", "--overwrite --set seed=5"), "PATH=/nonexistent").code == 1);
+    CHECK(filesOf(folder / "a") == before);
+}
+
 TEST_CASE("What a killed run was writing is cleared away", "[resume]") {
     const Folder folder;
     fs::create_directory(folder / "a");
