@@ -17,7 +17,7 @@ if [ $# -gt 0 ]; then
 fi
 
 build release
-ctest --preset release
+ctest --preset release --parallel 2
 libraries=(engine render scenes)
 build asan-ubsan "${libraries[@]/%/_tests}"
 ctest --preset asan-ubsan --parallel 2 -R "^($(IFS='|'; echo "${libraries[*]}"))_tests$"
