@@ -1,8 +1,9 @@
-// Any bytes are a state that a simulation can go on from, or are refused. The checksum is put right first: it would
+// Any bytes are a state that can be written and read again, or are refused. The checksum is put right first: it would
 // keep everything else from being tried.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "engine/checkpoint.h"
@@ -24,16 +25,6 @@ engine::Setup setup() {
     return setup;
 }
 
-/// A state from the far future, or grains of the size of atoms or of the speed of light, would take as many steps as
-/// that is out of proportion: audited steps are never longer than what keeps a grain from jumping over another.
-bool isInProportion(const engine::Simulation& simulation) {
-    const engine::Particles& particles = simulation.particles;
-    for (std::size_t p = 0; p < particles.count(); ++p)
-        if (!(particles.radius[p] > 1e-3 && particles.mass[p] > 1e-3 && particles.velocity[p].norm() < 1e3))
-            return false;
-    return simulation.time < 10.0;
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -41,11 +32,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint64_t checksum = engine::fnv1aOf(bytes);
     bytes.resize(size + 8);
     std::memcpy(bytes.data() + size, &checksum, 8);
+    std::optional<engine::Simulation> simulation;
     try {
-        engine::Simulation simulation = engine::decodeCheckpoint(setup(), bytes);
-        if (isInProportion(simulation)) engine::advance(simulation, simulation.time + 0.01);
+        simulation = engine::decodeCheckpoint(setup(), bytes);
     } catch (const engine::CheckpointError&) {
-    } catch (const engine::InstabilityError&) {
+        return 0;
     }
+    // Not stepped: grains as small as atoms or as fast as light would take as many steps as that is out of proportion.
+    engine::decodeCheckpoint(setup(), engine::encodeCheckpoint(*simulation));
     return 0;
 }
