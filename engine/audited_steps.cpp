@@ -13,10 +13,7 @@ namespace engine {
 namespace {
 
 /// Chosen: good steps in a row before a longer one is tried again.
-constexpr int kPatience = 8;
-
-/// Chosen: shorter than anything that a motion within the world's limits asks for, s.
-constexpr double kShortest = 1e-12;
+constexpr std::uint32_t kPatience = 8;
 
 /// Chosen: how many steps a run can go back. A step may leave a state that no further step from it can pass.
 constexpr std::size_t kHistory = 4;
@@ -98,7 +95,7 @@ void advanceAudited(Simulation& simulation, double time, double longest, StepLim
         takeStep(simulation, h);
         if (count == 1.0 && stop == time) lookAtEnd(simulation);
         if (const auto reason = objection(simulation, history.latest())) {
-            if (h < kShortest) reportInstability(simulation, h);
+            if (h < kShortestStep) reportInstability(simulation, h);
             // Two refusals in a row speak against the step that led here.
             history.goBack(simulation, ++refused % 2 == 0);
             ++simulation.steps.rejected;

@@ -5,6 +5,9 @@
 
 namespace engine {
 
+/// Chosen: shorter than anything that a motion within the world's limits asks for, s. No shorter step is retried.
+inline constexpr double kShortestStep = 1e-12;
+
 /// Brings the simulation to the given time (s) by its stepper in use, in steps no longer than `longest` (s), which
 /// `why` is the reason for. A step that the audit objects to is retried at half the length; after a few good ones the
 /// length is doubled again. Throws: InstabilityError when even the shortest steps do not pass.

@@ -76,7 +76,7 @@ bool isSettled(double share) {
 /// What a measurement makes of a choice.
 void choose(AutoChoice& choice, const Trial& trial, double wantedError, double interval) {
     const double wanted = wantedStep(trial, wantedError);
-    choice.step = std::min(wanted, interval);
+    choice.step = std::clamp(wanted, kShortestStep, interval);
     choice.cost = trial.cost / shareOf(trial, choice.step);
     choice.reason = trial.restricted && wanted >= trial.step ? *trial.reason
                     : wanted >= interval                     ? StepLimit::frame
@@ -167,7 +167,7 @@ void lookFar(Simulation& simulation, double time, const Trial& near) {
     const double change = std::sqrt(state.growth / growth);
     for (const StepperKind candidate : kCandidates) {
         AutoChoice& other = choiceOf(simulation, candidate);
-        const double fitting = std::min(other.step * change, interval);
+        const double fitting = std::clamp(other.step * change, kShortestStep, interval);
         other.cost *= other.step / fitting;
         other.step = fitting;
     }

@@ -1,13 +1,13 @@
 // One function lists what is kept, for both directions. What is read back is checked before anything is indexed by it.
 #include "engine/checkpoint.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
 
 #include "engine/fnv.h"
+#include "engine/state_flaw.h"
 
 namespace engine {
 namespace {
@@ -196,42 +196,6 @@ void require(bool condition, const char* otherwise) {
     if (!condition) throw CheckpointError(otherwise);
 }
 
-bool isInWorld(const std::vector<Vec3>& positions) {
-    return std::all_of(positions.begin(), positions.end(), [](const Vec3& position) {
-        return position.allFinite() && position.cwiseAbs().maxCoeff() <= kWorldLimit;
-    });
-}
-
-bool isPositive(const std::vector<double>& numbers) {
-    return std::all_of(numbers.begin(), numbers.end(),
-                       [](double number) { return number > 0.0 && std::isfinite(number); });
-}
-
-bool isLimit(StepLimit limit) {
-    return static_cast<std::uint64_t>(limit) < kStepLimits;
-}
-
-void requireWhole(const Simulation& simulation) {
-    const Particles& particles = simulation.particles;
-    const std::size_t count = particles.count();
-    require(particles.velocity.size() == count && particles.radius.size() == count && particles.mass.size() == count &&
-                particles.birthTime.size() == count && particles.material.size() == count &&
-                particles.id.size() == count && (!simulation.forcesCurrent || simulation.forces.size() == count),
-            "its arrays are of different lengths");
-    require(isInWorld(particles.position), "a particle is not in the world");
-    require(isPositive(particles.radius) && isPositive(particles.mass), "a radius or a mass is not positive");
-    const std::size_t materials = simulation.setup.materials.size();
-    require(std::all_of(particles.material.begin(), particles.material.end(),
-                        [&](std::uint32_t material) { return material < materials; }),
-            "a particle is of a material that the scene does not have");
-    require(std::isfinite(simulation.time) && simulation.time >= 0.0, "its time is not a time");
-    require(static_cast<std::uint64_t>(simulation.stepper) < static_cast<std::uint64_t>(StepperKind::automatic) &&
-                isLimit(simulation.restriction.reason) &&
-                std::all_of(simulation.automatic.choices.begin(), simulation.automatic.choices.end(),
-                            [](const AutoChoice& choice) { return isLimit(choice.reason); }),
-            "it names a stepper or a limit that does not exist");
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation) {
@@ -254,7 +218,7 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     reader(shape);
     require(shape == shapeOf(simulation), "it is of another scene");
     exchange(reader, simulation);
-    requireWhole(simulation);
+    if (const char* const flaw = flawOf(simulation)) throw CheckpointError(flaw);
     std::vector<Vec3> builtAt;
     double reach = 0.0;
     reader(builtAt);

@@ -80,6 +80,12 @@ NewParticle newbornOf(const Emitter& emitter, const BirthContext& context, const
     return newborn;
 }
 
+/// Of a schedule's next birth where nothing delays it, s. Counting from the start keeps the due times of an undisturbed
+/// schedule free of accumulated rounding.
+double dueTime(const Emitter& emitter, const Schedule& schedule) {
+    return schedule.origin + static_cast<double>(schedule.births) * emitter.interval;
+}
+
 /// Where a newborn's free flight has taken it this long after its birth was due, in seconds.
 void fly(NewParticle& newborn, const Vec3& gravity, double duration) {
     newborn.position += duration * newborn.velocity + 0.5 * duration * duration * gravity;
@@ -114,6 +120,17 @@ EmitterState initialState(const Emitter& emitter) {
     return state;
 }
 
+bool isReachable(const Emitter& emitter, const EmitterState& state) {
+    std::uint64_t births = 0;
+    for (const Schedule& schedule : state.schedules) {
+        const double undisturbed = dueTime(emitter, schedule);
+        if (!std::isfinite(schedule.due) || schedule.origin < emitter.start - kSameMoment) return false;
+        if (schedule.delayed ? schedule.due <= undisturbed : schedule.due != undisturbed) return false;
+        births += schedule.births;
+    }
+    return births == state.births && births <= emitter.limit;
+}
+
 double nextBirth(const Emitter& emitter, const EmitterState& state) {
     double next = std::numeric_limits<double>::infinity();
     if (state.births >= emitter.limit) return next;
@@ -139,12 +156,11 @@ std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext
                 continue;
             }
             append(particles, newborn);
-            // A delay shifts the schedule, or its births would come in a burst. Counting from the start keeps the
-            // due times of an undisturbed schedule free of accumulated rounding.
+            // A delay shifts the schedule, or its births would come in a burst.
             ++schedule.births;
             if (schedule.delayed)
                 schedule.origin = schedule.due - static_cast<double>(schedule.births - 1) * emitter.interval;
-            schedule.due = schedule.origin + static_cast<double>(schedule.births) * emitter.interval;
+            schedule.due = dueTime(emitter, schedule);
             schedule.delayed = false;
             ++state.births;
             ++born;

@@ -55,6 +55,9 @@ std::vector<Vec3> discSites(const Vec3& center, const Vec3& direction, double ra
 /// Schedules at their first birth.
 EmitterState initialState(const Emitter& emitter);
 
+/// Whether births can have led to a state: it is a finite one, on or behind schedule, and its counts agree.
+bool isReachable(const Emitter& emitter, const EmitterState& state);
+
 /// When the next birth is due or tried again, s; infinity when there will be none.
 double nextBirth(const Emitter& emitter, const EmitterState& state);
 

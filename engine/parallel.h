@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <thread>
 #include <vector>
+
+#ifdef GLOBULAR_SANITIZES_THREADS
+#include <thread>
+#endif
 
 namespace engine {
 

@@ -70,7 +70,7 @@ struct StepStatistics {
 struct StepRestriction {
     double seconds = std::numeric_limits<double>::infinity();
     StepLimit reason = StepLimit::audit;
-    int passed = 0;  ///< good steps since it was set
+    std::uint32_t passed = 0;  ///< good steps since it was set
 };
 
 /// Memory of the implicit steppers, kept between steps.

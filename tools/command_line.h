@@ -45,8 +45,8 @@ class Command {
 
     Command command(const std::string& name, const std::string& help) const;
 
-    /// Shape: names as in "-o,--output", or "SCENE" for an argument; value: std::string, int, double, std::optional of
-    /// a number, or std::vector of any of these.
+    /// Shape: names as in "-o,--output", or "SCENE" for an argument; value: std::string, std::filesystem::path, int,
+    /// double, std::optional of a number, or std::vector of strings or whole numbers.
     template <class Value>
     Flag option(const std::string& names, Value& value, const std::string& help) const;
     Flag flag(const std::string& names, bool& value, const std::string& help) const;

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
 #include "engine/fnv.h"
 #include "render/system_error.h"
+#include "tools/number_in.h"
 
 namespace tools {
 namespace {
@@ -19,11 +19,9 @@ using Json = nlohmann::ordered_json;
 constexpr int kFormat = 1;
 
 int frameNumber(const std::string& text) {
-    int number = -1;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || number < 0)
-        throw render::SystemError(fmt::format("\"{}\" is no frame number", text));
-    return number;
+    const auto number = numberIn(text);
+    if (!number || *number < 0) throw render::SystemError(fmt::format("\"{}\" is no frame number", text));
+    return *number;
 }
 
 /// What is no whole number, or a huge one, would not survive the conversion.

@@ -76,7 +76,8 @@ class Run {
     static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
         if (!job.folder) return nullptr;
         // Before frames of another run are removed for a film that cannot be made.
-        if (!job.videoPath.empty()) render::requireEncoder(videoOptions(job));
+        if (!job.videoPath.empty() && job.folder->existing == Existing::overwrite)
+            render::requireEncoder(videoOptions(job));
         return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
     }
 

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <thread>
 
 #include "render/system_error.h"
 #include "scenes/input_error.h"
 #include "scenes/library.h"
+#include "tools/number_in.h"
 
 namespace tools {
 namespace {
@@ -19,15 +19,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void failFlag(const std::string& flag, const std::string& message) {
     throw scenes::InputError({{flag, 0, 0, message}});
-}
-
-/// A whole number that fills the text.
-template <class Integer = int>
-std::optional<Integer> wholeNumber(std::string_view text) {
-    Integer value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
 }
 
 /// The limits of the flags: names and whole numbers, at least 1.
@@ -43,7 +34,7 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
         if (limit == nullptr)
             failFlag("--limit " + flag, "must be particles=N, frames=N or pixels=N, e.g. particles=5000000");
         const std::string_view text = std::string_view(flag).substr(std::min(equals, flag.size() - 1) + 1);
-        const auto number = wholeNumber<std::int64_t>(text);
+        const auto number = numberIn<std::int64_t>(text);
         if (!number || *number < 1) failFlag("--limit " + flag, fmt::format("{} must be a whole number > 0", name));
         *limit = static_cast<double>(*number);
     }
@@ -56,9 +47,9 @@ std::vector<std::string> overridesOf(const DrawOptions& options) {
     if (!options.style.empty()) overrides.push_back("look.style=" + options.style);
     if (options.size.empty()) return overrides;
     const std::size_t cross = options.size.find('x');
-    const auto width = wholeNumber(std::string_view(options.size).substr(0, cross));
+    const auto width = numberIn(std::string_view(options.size).substr(0, cross));
     const auto height =
-        cross == std::string::npos ? std::nullopt : wholeNumber(std::string_view(options.size).substr(cross + 1));
+        cross == std::string::npos ? std::nullopt : numberIn(std::string_view(options.size).substr(cross + 1));
     if (!width || !height) failFlag("--size " + options.size, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
     overrides.push_back(fmt::format("look.size=[{}, {}]", *width, *height));
     return overrides;
@@ -153,8 +144,8 @@ std::vector<std::string> sceneFolders() {
 FrameRange frameRange(const std::string& text, int count) {
     if (text.empty()) return {0, count - 1};
     const std::size_t dash = text.find('-');
-    const auto first = wholeNumber(std::string_view(text).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : wholeNumber(std::string_view(text).substr(dash + 1));
+    const auto first = numberIn(std::string_view(text).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : numberIn(std::string_view(text).substr(dash + 1));
     const std::string flag = "--frames " + text;
     if (!first || !last) failFlag(flag, "must be FIRST-LAST or a single frame, e.g. 0-119");
     if (*first > *last) failFlag(flag, fmt::format("the first frame, {}, comes after the last, {}", *first, *last));

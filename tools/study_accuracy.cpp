@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "tools/accuracy_page.h"
 #include "tools/commands.h"
 #include "tools/gnuplot.h"
+#include "tools/number_in.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
 #include "tools/threads.h"
@@ -58,8 +58,8 @@ Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) 
     std::string suffix;
     if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
         const std::string seconds = text.substr(colon + 1);
-        const auto [end, error] = std::from_chars(seconds.data(), seconds.data() + seconds.size(), subject.window);
-        if (error != std::errc() || end != seconds.data() + seconds.size() || !(subject.window > 0.0))
+        subject.window = numberIn<double>(seconds).value_or(0.0);
+        if (!(subject.window > 0.0))
             throw scenes::InputError({{text, 0, 0, "after the colon comes how long to run, in seconds: powder:2"}});
         scene = text.substr(0, colon);
         suffix = "-" + seconds + "s";

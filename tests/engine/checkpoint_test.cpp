@@ -2,6 +2,7 @@
 #include "engine/checkpoint.h"
 
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include "engine/diagnostics.h"
@@ -160,6 +161,47 @@ TEST_CASE("A checkpoint with a right checksum and wrong contents is refused", "[
     fill(nowhere, 24);  // the first coordinate: not a number
     sign(nowhere);
     CHECK(complaint(setup, nowhere).find("world") != std::string::npos);
+}
+
+TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoint]") {
+    const Setup setup = busySetup(StepperKind::automatic);
+    Simulation whole = engine::start(setup);
+    advanceFrames(whole, 0, 3);
+    REQUIRE(birthCount(whole) > 0);
+    REQUIRE(complaint(setup, encodeCheckpoint(whole)).empty());
+    const auto complaintAfter = [&](const auto& change) {
+        Simulation other = whole;
+        change(other);
+        return complaint(setup, encodeCheckpoint(other));
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+
+    const std::string particles = "its particles are not the scene's";
+    CHECK(complaintAfter([](Simulation& s) { s.particles.radius.front() *= 1.001; }) == particles);
+    CHECK(complaintAfter([](Simulation& s) { s.particles.mass.back() = 1e-20; }) == particles);
+    CHECK(complaintAfter([](Simulation& s) { s.particles.material.back() = 1; }) == particles);
+    CHECK(complaintAfter([](Simulation& s) { s.particles.id.back() = 0; }) == particles);
+    CHECK(complaintAfter([](Simulation& s) {
+              truncate(s.particles, s.particles.count() - 1);
+              s.forcesCurrent = false;
+          }) == particles);
+
+    const std::string schedule = "a birth is not on its schedule";
+    CHECK(complaintAfter([](Simulation& s) { s.emitters[0].schedules[0].due = -1e300; }) == schedule);
+    CHECK(complaintAfter([](Simulation& s) { s.emitters[0].schedules[0].due += 1e-6; }) == schedule);
+    CHECK(complaintAfter([](Simulation& s) { s.emitters[0].schedules[0].origin = -1.0; }) == schedule);
+    CHECK(complaintAfter([](Simulation& s) { s.time += 1.0; }) == schedule);
+    CHECK(complaintAfter([](Simulation& s) { ++s.emitters[0].schedules[0].births; }) == schedule);
+
+    const std::string steps = "its steps are none that the scene's stepper takes";
+    CHECK(complaintAfter([](Simulation& s) { s.stepper = StepperKind::symplecticEuler; }) == steps);
+    CHECK(complaintAfter([](Simulation& s) { s.restriction.seconds = 1e-300; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.restriction.seconds = nan; }) == steps);
+    CHECK(complaintAfter([](Simulation& s) { s.automatic.choices[1].step = 1e-300; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.automatic.choices[1].cost = nan; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.automatic.growth = nan; }) == steps);
+
+    CHECK(complaintAfter([&](Simulation& s) { s.particles.velocity[0].y() = nan; }) == "a velocity is not finite");
 }
 
 TEST_CASE("A checkpoint of other emitters or materials is refused", "[checkpoint]") {

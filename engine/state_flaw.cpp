@@ -1,0 +1,100 @@
+// One group of members after the other.
+#include "engine/state_flaw.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/audited_steps.h"
+
+namespace engine {
+namespace {
+
+bool areFinite(const std::vector<Vec3>& vectors) {
+    return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& vector) { return vector.allFinite(); });
+}
+
+bool haveEqualLengths(const Simulation& simulation) {
+    const Particles& particles = simulation.particles;
+    const std::size_t count = particles.count();
+    return particles.velocity.size() == count && particles.radius.size() == count && particles.mass.size() == count &&
+           particles.birthTime.size() == count && particles.material.size() == count && particles.id.size() == count &&
+           (!simulation.forcesCurrent || simulation.forces.size() == count);
+}
+
+/// Whether a particle still is what the set-up made it: one of those at the start, or one of an emitter.
+bool isOfSetup(const Simulation& simulation, std::size_t p) {
+    const Particles& particles = simulation.particles;
+    const Particles& initial = simulation.setup.initial;
+    if (particles.id[p] != p) return false;
+    if (p < initial.count())
+        return particles.radius[p] == initial.radius[p] && particles.mass[p] == initial.mass[p] &&
+               particles.material[p] == initial.material[p];
+    const std::vector<Material>& materials = simulation.setup.materials;
+    const std::uint32_t material = particles.material[p];
+    return material < materials.size() && particles.radius[p] == materials[material].radius &&
+           particles.mass[p] == materials[material].mass;
+}
+
+bool areOfSetup(const Simulation& simulation) {
+    if (simulation.particles.count() != simulation.setup.initial.count() + birthCount(simulation)) return false;
+    for (std::size_t p = 0; p < simulation.particles.count(); ++p)
+        if (!isOfSetup(simulation, p)) return false;
+    return true;
+}
+
+bool areOnSchedule(const Simulation& simulation) {
+    for (std::size_t e = 0; e < simulation.emitters.size(); ++e) {
+        const Emitter& emitter = simulation.setup.emitters[e];
+        const EmitterState& state = simulation.emitters[e];
+        if (!isReachable(emitter, state) || nextBirth(emitter, state) <= simulation.time) return false;
+    }
+    return true;
+}
+
+/// Whether a setup's stepper is, or could choose, the one in use.
+bool isStepperOf(const Setup& setup, StepperKind stepper) {
+    if (setup.stepper != StepperKind::automatic) return stepper == setup.stepper;
+    return stepper == StepperKind::velocityVerlet || stepper == StepperKind::implicitDamping ||
+           stepper == StepperKind::linearlyImplicit;
+}
+
+bool isLimit(StepLimit limit) {
+    return static_cast<std::uint64_t>(limit) < kStepLimits;
+}
+
+// Comparisons are written so that a NaN fails.
+
+bool isChoice(const AutoChoice& choice) {
+    const bool isUnknown = choice.step == 0.0;
+    return (isUnknown || choice.step >= kShortestStep) && std::isfinite(choice.step) && choice.cost >= 0.0 &&
+           isLimit(choice.reason);
+}
+
+bool areStepsPossible(const Simulation& simulation) {
+    const AutoState& automatic = simulation.automatic;
+    return isStepperOf(simulation.setup, simulation.stepper) && isLimit(simulation.restriction.reason) &&
+           simulation.restriction.seconds >= 0.5 * kShortestStep &&
+           std::all_of(automatic.choices.begin(), automatic.choices.end(), isChoice) && automatic.growth > 0.0 &&
+           std::isfinite(automatic.growth) && automatic.agitation >= 0.0;
+}
+
+}  // namespace
+
+bool isInWorld(const std::vector<Vec3>& positions) {
+    return areFinite(positions) && std::all_of(positions.begin(), positions.end(), [](const Vec3& position) {
+               return position.cwiseAbs().maxCoeff() <= kWorldLimit;
+           });
+}
+
+const char* flawOf(const Simulation& simulation) {
+    if (!haveEqualLengths(simulation)) return "its arrays are of different lengths";
+    if (!isInWorld(simulation.particles.position)) return "a particle is not in the world";
+    if (!areFinite(simulation.particles.velocity)) return "a velocity is not finite";
+    if (!(simulation.time >= 0.0) || !std::isfinite(simulation.time)) return "its time is not a time";
+    if (!areOfSetup(simulation)) return "its particles are not the scene's";
+    if (!areOnSchedule(simulation)) return "a birth is not on its schedule";
+    if (!areStepsPossible(simulation)) return "its steps are none that the scene's stepper takes";
+    return nullptr;
+}
+
+}  // namespace engine
