@@ -224,7 +224,22 @@ bool isSurprised(const Simulation& simulation, const BeforeStep& before) {
     return agitationSince(simulation, before) > kSurprise * std::max(simulation.automatic.agitation, least);
 }
 
+/// Whether a choice is one; a NaN is not.
+bool isChoice(const AutoChoice& choice) {
+    const bool isUnknown = choice.step == 0.0;
+    return (isUnknown || choice.step >= kShortestStep) && std::isfinite(choice.step) && choice.cost >= 0.0 &&
+           static_cast<std::uint64_t>(choice.reason) < kStepLimits;
+}
+
 }  // namespace
+
+bool isReachable(const AutoState& state, StepperKind inUse) {
+    if (std::find(kCandidates.begin(), kCandidates.end(), inUse) == kCandidates.end()) return false;
+    const bool isKnown = state.choices[static_cast<std::size_t>(inUse)].step > 0.0;
+    return std::all_of(state.choices.begin(), state.choices.end(), isChoice) &&
+           (isKnown || state.intervals >= state.nextLook) && state.growth >= kLeastGrowth &&
+           state.growth <= kMostGrowth && state.agitation >= 0.0;
+}
 
 void advanceAutomatically(Simulation& simulation, double time) {
     giveBirth(simulation);

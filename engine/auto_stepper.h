@@ -14,4 +14,7 @@ inline constexpr std::uint64_t kLongestPause = 16;
 /// Holds:  what it chooses depends on the states alone, never on a clock.
 void advanceAutomatically(Simulation& simulation, double time);
 
+/// Whether looks can have led to what the stepper knows, and to the candidate that is in use.
+bool isReachable(const AutoState& state, StepperKind inUse);
+
 }  // namespace engine

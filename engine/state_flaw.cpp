@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/audited_steps.h"
+#include "engine/auto_stepper.h"
 
 namespace engine {
 namespace {
@@ -51,31 +52,14 @@ bool areOnSchedule(const Simulation& simulation) {
     return true;
 }
 
-/// Whether a setup's stepper is, or could choose, the one in use.
-bool isStepperOf(const Setup& setup, StepperKind stepper) {
-    if (setup.stepper != StepperKind::automatic) return stepper == setup.stepper;
-    return stepper == StepperKind::velocityVerlet || stepper == StepperKind::implicitDamping ||
-           stepper == StepperKind::linearlyImplicit;
-}
-
-bool isLimit(StepLimit limit) {
-    return static_cast<std::uint64_t>(limit) < kStepLimits;
-}
-
-// Comparisons are written so that a NaN fails.
-
-bool isChoice(const AutoChoice& choice) {
-    const bool isUnknown = choice.step == 0.0;
-    return (isUnknown || choice.step >= kShortestStep) && std::isfinite(choice.step) && choice.cost >= 0.0 &&
-           isLimit(choice.reason);
-}
-
 bool areStepsPossible(const Simulation& simulation) {
-    const AutoState& automatic = simulation.automatic;
-    return isStepperOf(simulation.setup, simulation.stepper) && isLimit(simulation.restriction.reason) &&
-           simulation.restriction.seconds >= 0.5 * kShortestStep &&
-           std::all_of(automatic.choices.begin(), automatic.choices.end(), isChoice) && automatic.growth > 0.0 &&
-           std::isfinite(automatic.growth) && automatic.agitation >= 0.0;
+    const StepRestriction& restriction = simulation.restriction;
+    const bool isOfSetup = simulation.setup.stepper == StepperKind::automatic
+                               ? isReachable(simulation.automatic, simulation.stepper)
+                               : simulation.stepper == simulation.setup.stepper;
+    // Written so that a NaN fails.
+    return isOfSetup && restriction.seconds >= 0.5 * kShortestStep &&
+           static_cast<std::uint64_t>(restriction.reason) < kStepLimits;
 }
 
 }  // namespace

@@ -26,14 +26,14 @@ engine::Setup setupOf(engine::StepperKind stepper) {
     return setup;
 }
 
-/// Motion and steps that a scene could have led to. Grains as fast as light are sound, but take as many steps as they
-/// are radii on their way, and after a million years a step is less than the clock tells apart.
+/// Motion and steps that a scene could have led to. Grains faster than sound are no mistake, but take as many steps as
+/// they are radii on their way, and after a million years a step is less than the clock tells apart.
 bool isPlausible(const engine::Simulation& simulation) {
     const auto& velocities = simulation.particles.velocity;
     const auto& choices = simulation.automatic.choices;
     return simulation.time < 1e4 &&
            std::all_of(velocities.begin(), velocities.end(),
-                       [](const engine::Vec3& velocity) { return engine::squaredLength(velocity) < 1e6; }) &&
+                       [](const engine::Vec3& velocity) { return engine::squaredLength(velocity) < 1e4; }) &&
            std::all_of(choices.begin(), choices.end(),
                        [](const engine::AutoChoice& choice) { return choice.step == 0.0 || choice.step > 1e-6; });
 }
