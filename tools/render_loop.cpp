@@ -27,14 +27,11 @@ namespace {
 /// Frames in flight: one a stage, and one to even out their times.
 constexpr std::size_t kTokens = 4;
 
-struct FramePlan {
+/// A frame on its way through the stages.
+struct FrameInFlight {
     SequencedFrame frame;
-    std::optional<render::View> view;  ///< of a frame that is to be drawn
-};
-
-struct FramePicture {
-    SequencedFrame frame;
-    std::optional<render::Image> image;
+    std::optional<render::View> view;    ///< of a frame that is to be drawn, until it is
+    std::optional<render::Image> image;  ///< of one that was drawn
 };
 
 /// What decides the bytes of the frames of a run.
@@ -91,48 +88,51 @@ class Run {
 
     void runPipeline() {
         constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
-        using PlanPointer = std::shared_ptr<FramePlan>;
-        using PicturePointer = std::shared_ptr<FramePicture>;
-        tbb::parallel_pipeline(kTokens, tbb::make_filter<void, PlanPointer>(
-                                            kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); }) &
-                                            tbb::make_filter<PlanPointer, PicturePointer>(
-                                                kInOrder, [this](const PlanPointer& plan) { return draw(*plan); }) &
-                                            tbb::make_filter<PicturePointer, void>(
-                                                kInOrder, [this](const PicturePointer& picture) { encode(*picture); }));
+        tbb::parallel_pipeline(
+            kTokens, tbb::make_filter<void, FrameInFlight*>(
+                         kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); }) &
+                         tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder,
+                                                                          [this](FrameInFlight* frame) {
+                                                                              draw(*frame);
+                                                                              return frame;
+                                                                          }) &
+                         tbb::make_filter<FrameInFlight*, void>(kInOrder,
+                                                                [this](FrameInFlight* frame) { encode(*frame); }));
     }
 
-    std::shared_ptr<FramePlan> simulate(tbb::flow_control& flow) {
+    FrameInFlight* simulate(tbb::flow_control& flow) {
         auto frame = frames_.next();
         if (!frame) {
             flow.stop();
             return nullptr;
         }
-        auto plan = std::make_shared<FramePlan>(FramePlan{std::move(*frame), std::nullopt});
-        if (plan->frame.isWanted && !plan->frame.isKept)
-            plan->view = scenes::frameView(*job_.scene, frames_.simulation());
-        return plan;
+        // Stages are in order, so the frame that was here before has left them.
+        FrameInFlight& flight = flights_[started_++ % kTokens];
+        flight = {std::move(*frame), std::nullopt, std::nullopt};
+        if (flight.frame.isWanted && !flight.frame.isKept)
+            flight.view = scenes::frameView(*job_.scene, frames_.simulation());
+        return &flight;
     }
 
-    std::shared_ptr<FramePicture> draw(FramePlan& plan) {
-        auto picture = std::make_shared<FramePicture>(FramePicture{std::move(plan.frame), std::nullopt});
-        if (!plan.view) return picture;
+    void draw(FrameInFlight& flight) {
+        if (!flight.view) return;
         const Stopwatch watch(report().seconds.drawing);
         // Isolated: a thread that waits for others here must not take up a frame's simulation and hold the context
         // meanwhile.
-        tbb::this_task_arena::isolate([&] { picture->image = renderer_.draw(*plan.view); });
-        return picture;
+        tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view); });
+        flight.view.reset();
     }
 
-    void encode(const FramePicture& picture) {
+    void encode(FrameInFlight& flight) {
         const Stopwatch watch(report().seconds.encoding);
-        const SequencedFrame& frame = picture.frame;
-        const auto elsewhere = picture.image ? job_.pngPath(frame.number) : std::nullopt;
+        const SequencedFrame& frame = flight.frame;
+        const auto elsewhere = flight.image ? job_.pngPath(frame.number) : std::nullopt;
         std::vector<std::uint8_t> png;
-        if (picture.image && (folder_ || elsewhere)) png = render::encodePng(*picture.image);
+        if (flight.image && (folder_ || elsewhere)) png = render::encodePng(*flight.image);
         if (folder_) frames_.store(frame, png);
         if (elsewhere) writeFile(*elsewhere, png);
         if (!frame.isWanted) return;
-        if (video_) video_->add(picture.image ? *picture.image : kept(frame.number));
+        if (video_) video_->add(flight.image ? *flight.image : kept(frame.number));
         ++report().frames;
         progress_.frameDone(frame.number, frame.time);
     }
@@ -150,6 +150,8 @@ class Run {
     std::unique_ptr<FrameFolder> folder_;
     render::Renderer renderer_;
     FrameSequence frames_;
+    std::array<FrameInFlight, kTokens> flights_;
+    std::size_t started_ = 0;
     std::unique_ptr<render::VideoWriter> video_;
     Progress progress_;
 };
