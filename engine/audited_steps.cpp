@@ -7,6 +7,7 @@
 
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
+#include "engine/step_cost.h"
 #include "engine/steppers.h"
 
 namespace engine {
@@ -78,12 +79,14 @@ class History {
 
 }  // namespace
 
-void advanceAudited(Simulation& simulation, double time, double longest, StepLimit why) {
+bool advanceAudited(Simulation& simulation, double time, double longest, StepLimit why, double mostPasses) {
     History history;
     int refused = 0;
     giveBirth(simulation);
     if (!simulation.energy) establishEnergy(simulation);
+    const double passesBefore = passesOf(simulation.steps);
     while (simulation.time < time) {
+        if (passesOf(simulation.steps) - passesBefore > mostPasses) return false;
         StepRestriction& restriction = simulation.restriction;
         const double stop = nextStop(simulation, time);
         const double remaining = stop - simulation.time;
@@ -109,6 +112,7 @@ void advanceAudited(Simulation& simulation, double time, double longest, StepLim
         giveBirth(simulation);
         if (++restriction.passed % kPatience == 0) restriction.seconds *= 2.0;
     }
+    return true;
 }
 
 }  // namespace engine

@@ -1,13 +1,16 @@
-// Looking, choosing, going on.
+// Looking, choosing, going on. Passes over all pairs are counted for everything, so that what hardly pays is left out.
 #include "engine/auto_stepper.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/audited_steps.h"
 #include "engine/error_look.h"
+#include "engine/far_look.h"
 #include "engine/parallel.h"
 #include "engine/step_audit.h"
+#include "engine/step_cost.h"
 #include "engine/steppers.h"
 
 namespace engine {
@@ -22,51 +25,32 @@ constexpr std::uint64_t kLooksPerComparison = 5;
 /// Chosen: an interval in which the acceleration has grown by this factor since the last look is run again, as a look.
 constexpr double kSurprise = 2.0;
 
-/// One look changes the step by at most this factor; further away the error no longer goes like its square.
-constexpr double kMostChange = 3.0;
-
 /// A change of less is not worth a different rounding of the interval; hunting is.
 constexpr double kGoodEnough = 1.5;
 
-/// Chosen: intervals over which the growth of errors is measured: as long as a collision or the time between births.
-constexpr double kFarLook = 4.0;
-
 /// Measured on the scenes of `globular study accuracy`: beyond these, growth tells of one event and not of the motion.
-constexpr double kLeastGrowth = 0.6;
-constexpr double kMostGrowth = 2.5;
+constexpr double kLeastGrowth = 0.5;
+constexpr double kMostGrowth = 16.0;
 
 /// Chosen: looks in a row at a candidate until its step has settled, the first time and later.
 constexpr int kMostFirstLooks = 6;
 constexpr int kMostLooks = 2;
 
-/// Steps at least 1.5 times shorter should err 2.2 times less. Where they err more than this share, something else than
-/// the step makes the error, such as the sweep past an obstacle, and shorter ones are wasted.
-constexpr double kWasted = 0.7;
-
-/// Chosen: a candidate this much dearer than another is not followed to where its step settles.
+/// Chosen: a candidate this much dearer than another is not followed any further.
 constexpr double kHopeless = 3.0;
+
+/// Chosen: passes over all pairs that a candidate may take over the interval, at first; twice as many where none gets
+/// through with them.
+constexpr double kFirstPasses = 16.0;
 
 /// Chosen: no look is worth more intervals.
 constexpr double kMostWorth = 64.0;
 
-/// Chosen: intervals until the next look where a step has not settled.
+/// Chosen: intervals until the next look where a step has not settled, or has only just changed.
 constexpr std::uint64_t kShortPause = 2;
 
 AutoChoice& choiceOf(Simulation& simulation, StepperKind stepper) {
     return simulation.automatic.choices[static_cast<std::size_t>(stepper)];
-}
-
-/// The step at which the measured error would be the wanted one, as far as the measurement reaches.
-double wantedStep(const Trial& trial, double wanted) {
-    const double change = trial.error > 0.0 ? std::sqrt(wanted / trial.error) : kMostChange;
-    // Steps that the audit did not let grow will not grow for a better error either; those that births ended may.
-    if (trial.restricted || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
-    return trial.asked * std::min(change, kMostChange);
-}
-
-/// What a step (s) of the candidate's is to those that were measured.
-double shareOf(const Trial& trial, double step) {
-    return step / (step > trial.step ? trial.asked : trial.step);
 }
 
 bool isSettled(double share) {
@@ -91,23 +75,29 @@ double cheapestCost(const Simulation& simulation) {
 }
 
 /// Measures a candidate and updates what is known of it, again and again while its step has to become much shorter, the
-/// first time until it has settled, or until it costs far more than another candidate does.
-Trial look(Simulation& simulation, double time, StepperKind stepper, Simulation* finer) {
+/// first time until it has settled, or until it costs far more than another candidate does or than it may.
+Trial look(Simulation& simulation, double time, StepperKind stepper, double mostPasses, Simulation* finer) {
     AutoChoice& choice = choiceOf(simulation, stepper);
     const double interval = time - simulation.time;
     const double wantedError = simulation.setup.error / simulation.automatic.growth;
+    const auto measured = [&] {
+        const Trial trial = measure(simulation, {time, stepper, choice.step, kErrorHorizon, mostPasses}, finer);
+        simulation.automatic.trials += trial.spent;
+        if (!trial.finished) choice = {};  // asked afresh next time
+        return trial;
+    };
     const bool first = choice.step == 0.0;
     if (first) choice.step = 0.25 * interval;
-    Trial trial = measure(simulation, time, stepper, choice.step, finer);
-    simulation.automatic.trials += trial.spent;
+    Trial trial = measured();
+    if (!trial.finished) return trial;
     choose(choice, trial, wantedError, interval);
     for (int round = 1; round < (first ? kMostFirstLooks : kMostLooks); ++round) {
         const double share = shareOf(trial, choice.step);
         if (isSettled(share) || choice.step == interval || (share > 1.0 && !first)) break;
         if (choice.cost > kHopeless * cheapestCost(simulation)) break;
         const Trial before = trial;
-        trial = measure(simulation, time, stepper, choice.step, finer);
-        simulation.automatic.trials += trial.spent;
+        trial = measured();
+        if (!trial.finished) break;
         if (share < 1.0 && trial.error > kWasted * before.error) {
             trial = before;
             choice = {before.asked, before.cost, StepLimit::error};
@@ -149,61 +139,91 @@ void goOnFrom(Simulation& simulation, Simulation&& finer) {
     simulation.steps = steps;
 }
 
-/// What an error made in one interval has become some intervals later, by damping or by collisions, is measured too,
-/// and the choices are made to fit it.
-void lookFar(Simulation& simulation, double time, const Trial& near) {
+/// Makes the choices fit what becomes of errors after a while.
+void heedFar(Simulation& simulation, double time, const Trial& near) {
     AutoState& state = simulation.automatic;
-    const AutoChoice& choice = choiceOf(simulation, near.stepper);
     const double interval = time - simulation.time;
-    const double step = std::min(2.0 * choice.step, interval);  // cheaper, and the order is known
-    const Trial far = measure(simulation, simulation.time + kFarLook * interval, near.stepper, step);
+    AutoChoice& chosen = choiceOf(simulation, near.stepper);
+    const FarLook far = lookFar(simulation, near.stepper, chosen.step, interval);
     state.trials += far.spent;
     const double share = shareOf(near, far.step);
     const double nearError = near.error * share * share;
     if (!(nearError > 0.0)) return;
+    const double seen = simulation.setup.error / nearError;
     // What was known counts as much as the new: one birth or collision may happen to fall into this look.
-    const double measured = std::clamp(far.error / nearError, kLeastGrowth, kMostGrowth);
-    const double growth = state.looks == 0 ? measured : std::sqrt(state.growth * measured);
-    const double change = std::sqrt(state.growth / growth);
+    const double likely = std::clamp(seen, kLeastGrowth, kMostGrowth);
+    const double growth = state.looks == 0 ? likely : std::sqrt(state.growth * likely);
+    const auto fit = [&](AutoChoice& choice, double step) {
+        const double fitting = std::clamp(step, kShortestStep, interval);
+        choice.cost *= choice.step / fitting;
+        choice.step = fitting;
+    };
     for (const StepperKind candidate : kCandidates) {
-        AutoChoice& other = choiceOf(simulation, candidate);
-        const double fitting = std::clamp(other.step * change, kShortestStep, interval);
-        other.cost *= other.step / fitting;
-        other.step = fitting;
+        AutoChoice& choice = choiceOf(simulation, candidate);
+        if (choice.step > 0.0 && &choice != &chosen) fit(choice, choice.step * std::sqrt(state.growth / growth));
     }
+    fit(chosen, far.step * std::sqrt(seen / growth));
     state.growth = growth;
 }
 
 /// Intervals to run before the next look: a look must not cost more than they do, but for the first.
-std::uint64_t pauseAfter(std::uint64_t looks, double spent, const Trial& trial, const AutoChoice& choice,
-                         double interval) {
-    const bool settled = isSettled(shareOf(trial, choice.step));
-    const std::uint64_t pause = settled ? std::min(kLongestPause, 2 * looks) : kShortPause;
+std::uint64_t pauseAfter(std::uint64_t looks, bool isSteady, double lookIntervals) {
+    const std::uint64_t pause = isSteady ? std::min(kLongestPause, 2 * looks) : kShortPause;
     if (looks == 1) return pause;
-    const double worth = std::min(kMostWorth, spent / (choice.cost * interval));
-    return std::max(pause, static_cast<std::uint64_t>(worth));
+    return std::max(pause, static_cast<std::uint64_t>(std::min(kMostWorth, lookIntervals)));
+}
+
+/// A candidate that was looked at, and the run that goes on from there.
+struct Looked {
+    Trial trial;
+    Simulation finer;
+};
+
+/// Looks at all candidates, the one in use first, and returns the cheapest.
+Looked compare(Simulation& simulation, double time) {
+    AutoState& state = simulation.automatic;
+    const double interval = time - simulation.time;
+    const AutoChoice& inUse = choiceOf(simulation, simulation.stepper);
+    double most = std::max(kFirstPasses, inUse.step > 0.0 ? kHopeless * inUse.cost * interval : 0.0);
+    for (AutoChoice& choice : state.choices) choice.cost = std::numeric_limits<double>::infinity();
+    std::array<Looked, kCandidates.size()> looked;
+    std::array<std::size_t, kCandidates.size()> order = {0, 1, 2};
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t c) { return kCandidates[c] == simulation.stepper; });
+    for (; std::isinf(cheapestCost(simulation)); most *= 2.0)
+        for (const std::size_t c : order) {
+            const double mostNow = std::min(most, kHopeless * cheapestCost(simulation) * interval);
+            looked[c].trial = look(simulation, time, kCandidates[c], mostNow, &looked[c].finer);
+        }
+    const StepperKind best = cheapest(simulation);
+    return std::move(looked[static_cast<std::size_t>(std::find(kCandidates.begin(), kCandidates.end(), best) -
+                                                     kCandidates.begin())]);
 }
 
 void lookAround(Simulation& simulation, double time) {
     AutoState& state = simulation.automatic;
     const double interval = time - simulation.time;
     const double spentBefore = state.trials;
-    const bool compare = state.looks % kLooksPerComparison == 0;
-    std::array<Simulation, kCandidates.size()> finer;
-    std::array<Trial, kCandidates.size()> trials;
-    for (std::size_t c = 0; c < kCandidates.size(); ++c)
-        if (compare || kCandidates[c] == simulation.stepper)
-            trials[c] = look(simulation, time, kCandidates[c], &finer[c]);
-    const StepperKind best = compare ? cheapest(simulation) : simulation.stepper;
-    const auto chosen =
-        static_cast<std::size_t>(std::find(kCandidates.begin(), kCandidates.end(), best) - kCandidates.begin());
-    if (compare) lookFar(simulation, time, trials[chosen]);
-    state.trials -= passesOf(finer[chosen].steps);  // the run goes on with these; they are not lost
-    const AutoChoice& choice = choiceOf(simulation, best);
-    note(state, trials[chosen], choice.step);
-    const double spent = state.trials - spentBefore;
-    state.nextLook = state.intervals + pauseAfter(state.looks, spent, trials[chosen], choice, interval);
-    goOnFrom(simulation, std::move(finer[chosen]));
+    const auto known = state.choices;
+    Looked looked;
+    if (state.looks % kLooksPerComparison == 0) {
+        looked = compare(simulation, time);
+        heedFar(simulation, time, looked.trial);
+    } else {
+        constexpr double kAny = std::numeric_limits<double>::infinity();
+        looked.trial = look(simulation, time, simulation.stepper, kAny, &looked.finer);
+    }
+    const Trial& trial = looked.trial;
+    state.trials -= passesOf(looked.finer.steps);  // the run goes on with these; they are not lost
+    const AutoChoice& choice = choiceOf(simulation, trial.stepper);
+    note(state, trial, choice.step);
+    // One collision that asks for a much shorter step must not set those of many frames.
+    const double knownStep = known[static_cast<std::size_t>(trial.stepper)].step;
+    const bool isSteady =
+        isSettled(shareOf(trial, choice.step)) && (knownStep == 0.0 || isSettled(choice.step / knownStep));
+    state.nextLook = state.intervals +
+                     pauseAfter(state.looks, isSteady, (state.trials - spentBefore) / (choice.cost * interval));
+    goOnFrom(simulation, std::move(looked.finer));
 }
 
 /// rms over the particles of the mean acceleration since `before`, gravity left out, in m/s^2.
@@ -244,8 +264,10 @@ bool isReachable(const AutoState& state, StepperKind inUse) {
 void advanceAutomatically(Simulation& simulation, double time) {
     giveBirth(simulation);
     const AutoState& state = simulation.automatic;
-    if (simulation.particles.count() == 0)
-        return advanceAudited(simulation, time, time - simulation.time, StepLimit::frame);
+    if (simulation.particles.count() == 0) {
+        advanceAudited(simulation, time, time - simulation.time, StepLimit::frame);
+        return;
+    }
     BeforeStep before;
     keep(simulation, before);
     bool looks = state.intervals >= state.nextLook;

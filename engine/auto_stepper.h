@@ -1,13 +1,14 @@
-// The automatic stepper: now and then it measures on the next interval what each candidate errs and costs, and goes on
-// with the cheapest one, at the step that just meets the wanted error. Called by advance().
+// The automatic stepper: now and then it measures on the next interval what each candidate errs and costs, looks ahead at
+// what becomes of the errors of the cheapest one, and goes on with it, at the step that just meets the wanted error.
+// Called by advance().
 #pragma once
 
 #include "engine/simulation.h"
 
 namespace engine {
 
-/// Chosen: a look costs two intervals more than none, a comparison of all candidates eight. Looks are close together at
-/// the start and spread out to every so many intervals.
+/// Chosen: a look costs two intervals more than none, a comparison of all candidates some dozens. Looks are close
+/// together at the start and spread out to every so many intervals.
 inline constexpr std::uint64_t kLongestPause = 16;
 
 /// Brings the simulation to the given time (s); one call is one interval, e.g. a frame.

@@ -1,9 +1,11 @@
 // Two runs from one state.
 #include "engine/error_look.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/audited_steps.h"
+#include "engine/step_cost.h"
 #include "engine/steppers.h"
 
 namespace engine {
@@ -12,29 +14,27 @@ namespace {
 /// Two runs whose mean steps differ by less tell nothing about the order; the audit shortened both.
 constexpr double kLeastContrast = 0.3;
 
-Simulation run(const Simulation& from, double time, StepperKind stepper, double step) {
-    Simulation simulation = from;
-    if (simulation.stepper != stepper) {
-        simulation.stepper = stepper;
+/// Returns whether it got to the look's end.
+bool run(Simulation& simulation, const Look& look, double step, double mostPasses) {
+    if (simulation.stepper != look.stepper) {
+        simulation.stepper = look.stepper;
         simulation.energy.reset();  // steppers know it at different moments of a step
         simulation.restriction = {};
     }
     simulation.steps = {};
-    if (stepper == StepperKind::symplecticEuler) {
-        simulation.setup.step = step;
-        advance(simulation, time);
-    } else {
-        advanceAudited(simulation, time, step, StepLimit::error);
-    }
-    return simulation;
+    if (look.stepper != StepperKind::symplecticEuler)
+        return advanceAudited(simulation, look.time, step, StepLimit::error, mostPasses);
+    simulation.setup.step = step;
+    advance(simulation, look.time);
+    return true;
 }
 
 /// rms of dx + T dv over the particles that were there at the start, in radii.
-double difference(const Simulation& a, const Simulation& b, std::size_t count) {
+double difference(const Simulation& a, const Simulation& b, std::size_t count, double horizon) {
     double sumSq = 0.0;
     for (std::size_t p = 0; p < count; ++p) {
         const Vec3 apart = a.particles.position[p] - b.particles.position[p] +
-                           kErrorHorizon * (a.particles.velocity[p] - b.particles.velocity[p]);
+                           horizon * (a.particles.velocity[p] - b.particles.velocity[p]);
         sumSq += squaredLength(apart) / (a.particles.radius[p] * a.particles.radius[p]);
     }
     return count == 0 ? 0.0 : std::sqrt(sumSq / static_cast<double>(count));
@@ -42,34 +42,40 @@ double difference(const Simulation& a, const Simulation& b, std::size_t count) {
 
 }  // namespace
 
-double passesOf(const StepStatistics& steps) {
-    const auto takenBy = [&](StepperKind stepper) {
-        return static_cast<double>(steps.takenBy[static_cast<std::size_t>(stepper)]);
-    };
-    const double matrices = takenBy(StepperKind::implicitDamping) + takenBy(StepperKind::linearlyImplicit);
-    return static_cast<double>(steps.forceEvaluations) + kMatrixCost * matrices +
-           kProductCost * static_cast<double>(steps.products);
-}
-
-Trial measure(const Simulation& simulation, double time, StepperKind stepper, double step, Simulation* finer) {
-    const double interval = time - simulation.time;
-    const Simulation whole = run(simulation, time, stepper, step);
+Trial measure(const Simulation& simulation, const Look& look, Simulation* finer) {
+    const double interval = look.time - simulation.time;
+    Trial trial;
+    trial.stepper = look.stepper;
+    Simulation whole = simulation;
+    trial.finished = run(whole, look, look.step, look.mostPasses);
+    trial.spent = passesOf(whole.steps);
+    if (!trial.finished) return trial;
     const auto meanStep = [&](const Simulation& s) { return interval / static_cast<double>(s.steps.count); };
     // Where the audit or births shortened the steps of the first run, those of the second are half as long again.
-    Simulation halves = run(simulation, time, stepper, 0.5 * meanStep(whole));
+    Simulation halves = simulation;
+    run(halves, look, 0.5 * meanStep(whole), std::numeric_limits<double>::infinity());
     const double ratio = meanStep(halves) / meanStep(whole);
-    const double contrast = std::max(kLeastContrast, 1.0 - (orderOf(stepper) == 1 ? ratio : ratio * ratio));
-    Trial trial;
-    trial.stepper = stepper;
-    trial.asked = interval / std::ceil(interval / step * (1.0 - 1e-9));
+    const double contrast = std::max(kLeastContrast, 1.0 - (orderOf(look.stepper) == 1 ? ratio : ratio * ratio));
+    trial.asked = interval / std::ceil(interval / look.step * (1.0 - 1e-9));
     trial.step = meanStep(whole);
-    trial.error = difference(whole, halves, simulation.particles.count()) / contrast / interval;
+    trial.error = difference(whole, halves, simulation.particles.count(), look.horizon) / contrast / interval;
     trial.cost = passesOf(whole.steps) / interval;
-    trial.spent = passesOf(whole.steps) + passesOf(halves.steps);
-    trial.restricted = whole.steps.rejected > 0 || whole.restriction.seconds < step;
+    trial.spent += passesOf(halves.steps);
+    trial.restricted = whole.steps.rejected > 0 || whole.restriction.seconds < look.step;
     if (trial.restricted) trial.reason = whole.restriction.reason;
     if (finer != nullptr) *finer = std::move(halves);
     return trial;
+}
+
+double wantedStep(const Trial& trial, double wanted) {
+    const double change = trial.error > 0.0 ? std::sqrt(wanted / trial.error) : kMostChange;
+    // Steps that the audit did not let grow will not grow for a better error either; those that births ended may.
+    if (trial.restricted || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
+    return trial.asked * std::min(change, kMostChange);
+}
+
+double shareOf(const Trial& trial, double step) {
+    return step / (step > trial.step ? trial.asked : trial.step);
 }
 
 }  // namespace engine

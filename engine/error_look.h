@@ -2,28 +2,31 @@
 // Called by the automatic stepper to choose, and by the loops over frames to report.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "engine/simulation.h"
 
 namespace engine {
 
-/// What an implicit step pays for its matrix and for a product with it, in passes over all pairs. Measured: the seconds
-/// of steps of liquid, solid and honey against their counts in `globular study accuracy`.
-inline constexpr double kMatrixCost = 0.3;
-inline constexpr double kProductCost = 0.27;
-
 /// A wrong velocity goes on to move a particle wrongly until damping or a collision has eaten it, after this time, s.
 /// Measured: with it the estimate is within a factor of two of the error against a reference on liquid, solid, fountain
 /// and honey (`globular study accuracy`).
 inline constexpr double kErrorHorizon = 0.0125;
 
-/// What steps cost, in passes over all pairs.
-double passesOf(const StepStatistics& steps);
+/// What is to be measured.
+struct Look {
+    double time = 0.0;  ///< where it ends, s
+    StepperKind stepper = StepperKind::velocityVerlet;
+    double step = 0.0;                 ///< longest, s
+    double horizon = kErrorHorizon;    ///< how long a wrong velocity counts, s
+    double mostPasses = std::numeric_limits<double>::infinity();  ///< of the first run; given up beyond
+};
 
 /// One way over an interval, with what it cost.
 struct Trial {
     StepperKind stepper = StepperKind::velocityVerlet;
+    bool finished = true;             ///< otherwise only `spent` is known
     double asked = 0.0;               ///< longest step it could take, s
     double step = 0.0;                ///< mean length of the steps it took, s: births and the audit shorten them
     double error = 0.0;               ///< of these steps, radii per second of motion
@@ -33,13 +36,27 @@ struct Trial {
     std::optional<StepLimit> reason;  ///< why
 };
 
-/// Measures a stepper on the way from the present state to a time (s).
+/// Measures a stepper on the way from the present state to a time.
 /// Shape:  the error is the rms over the particles of dx + T dv, in radii, divided by the interval: dx and dv are what
-///         half the step changes at the end, T is kErrorHorizon.
+///         half the step changes at the end, T is the look's horizon.
 /// Source: Richardson: with order p, a run of steps h errs by the difference to one of steps h' divided by
 ///         1 - (h'/h)^p.
 /// `finer`, if given, receives the simulation at the end as the finer of the two runs left it.
 /// Throws: InstabilityError.
-Trial measure(const Simulation& simulation, double time, StepperKind stepper, double step, Simulation* finer = nullptr);
+Trial measure(const Simulation& simulation, const Look& look, Simulation* finer = nullptr);
+
+/// One measurement says at most that a step should change by this factor; further away the error no longer goes like
+/// its square.
+inline constexpr double kMostChange = 3.0;
+
+/// Steps at least 1.5 times shorter should err 2.2 times less. Where they err more than this share, something else than
+/// the step makes the error, such as the sweep past an obstacle, and shorter ones are wasted.
+inline constexpr double kWasted = 0.7;
+
+/// The step (s) at which the error would be the wanted one (radii per second), as far as a measurement reaches.
+double wantedStep(const Trial& trial, double wanted);
+
+/// What a step (s) of the same stepper is to those that were measured.
+double shareOf(const Trial& trial, double step);
 
 }  // namespace engine

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/error_look.h"
+#include "engine/step_cost.h"
 #include "engine/steppers.h"
 
 namespace studies {

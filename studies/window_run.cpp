@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "engine/auto_stepper.h"
-#include "engine/error_look.h"
+#include "engine/step_cost.h"
 #include "engine/steppers.h"
 #include "scenes/frame_steps.h"
 

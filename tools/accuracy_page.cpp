@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/error_look.h"
+#include "engine/step_cost.h"
 #include "engine/steppers.h"
 #include "tools/html.h"
 

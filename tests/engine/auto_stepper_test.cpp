@@ -6,6 +6,7 @@
 
 #include "engine/diagnostics.h"
 #include "engine/error_look.h"
+#include "engine/far_look.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -28,16 +29,17 @@ Simulation afterFrames(const Setup& setup, int frames) {
 }
 
 /// rms over the particles of dx + T dv in radii, for a second of motion: what measure() estimates.
-double realError(const Simulation& run, const Simulation& reference, double interval) {
+double realError(const Simulation& run, const Simulation& reference, double interval, double horizon = kErrorHorizon) {
     double sumSq = 0.0;
     for (std::size_t p = 0; p < run.particles.count(); ++p) {
         const Vec3 apart = run.particles.position[p] - reference.particles.position[p] +
-                           kErrorHorizon * (run.particles.velocity[p] - reference.particles.velocity[p]);
+                           horizon * (run.particles.velocity[p] - reference.particles.velocity[p]);
         sumSq += squaredLength(apart) / (run.particles.radius[p] * run.particles.radius[p]);
     }
     return std::sqrt(sumSq / static_cast<double>(run.particles.count())) / interval;
 }
 
+/// From the particles of a simulation, at time zero, to a time.
 Simulation fixedRun(const Simulation& from, StepperKind stepper, double step, double time) {
     Setup setup = from.setup;
     setup.initial = from.particles;
@@ -62,7 +64,7 @@ TEST_CASE("The measured error is what the stepper really errs by", "[auto-steppe
             setup.solverTolerance = 1e-8;
             const Simulation simulation = start(setup);
             const std::string before = stateHash(simulation.particles);
-            const Trial trial = measure(simulation, interval, stepper, interval / 32);
+            const Trial trial = measure(simulation, {interval, stepper, interval / 32});
             const Simulation coarse = fixedRun(simulation, stepper, interval / 32, interval);
             const double real = realError(coarse, fixedRun(simulation, stepper, interval / 2048, interval), interval);
             INFO(material.name << ", b_d = " << material.damping << ", " << nameOf(stepper) << ": measured "
@@ -73,6 +75,55 @@ TEST_CASE("The measured error is what the stepper really errs by", "[auto-steppe
             CHECK(trial.error < 1.5 * real);  // issued factor: Richardson's next order is a tenth or so here
             CHECK(trial.error > real / 1.5);  // same
         }
+}
+
+TEST_CASE("A look that would take too many passes is given up, and says so", "[auto-stepper]") {
+    Simulation simulation = start(fallingBlock(runs::honey(), {3, 3, 3}));
+    const Look whole{1.0 / 30, StepperKind::velocityVerlet, 1.0 / 60};  // the audit makes hundreds of steps of two
+    const Trial free = measure(simulation, whole);
+    REQUIRE(free.finished);
+    Look limited = whole;
+    limited.mostPasses = 20;
+    const Trial trial = measure(simulation, limited);
+    CHECK_FALSE(trial.finished);
+    CHECK(trial.spent > 20);
+    CHECK(trial.spent < 23);  // the last step's own
+    limited.mostPasses = free.cost / 30 + 1;
+    CHECK(measure(simulation, limited).error == free.error);
+}
+
+TEST_CASE("A far look finds the step that meets the error over its time", "[auto-stepper]") {
+    // Powder that has landed: errors of one interval multiply by collisions, and the near look does not see it.
+    for (const char* preset : {"liquid", "powder"}) {
+        Setup setup = fallingBlock(*materialPreset(preset), {5, 5, 5});
+        setup.error = 0.02;
+        const Simulation landed = afterFrames(setup, 9);
+        const double interval = 1.0 / 30;
+        const Trial near = measure(landed, {landed.time + interval, StepperKind::velocityVerlet, 1.0 / 480});
+        const FarLook far =
+            lookFar(landed, StepperKind::velocityVerlet, std::min(wantedStep(near, setup.error), interval), interval);
+        const Simulation run = fixedRun(landed, StepperKind::velocityVerlet, far.step, kFarSeconds);
+        const Simulation reference = fixedRun(landed, StepperKind::velocityVerlet, far.step / 64, kFarSeconds);
+        const double real = realError(run, reference, kFarSeconds, 0.0);
+        INFO(preset << ": step " << far.step << " s, real error " << real);
+        CHECK(far.spent > 0.0);
+        CHECK(real < 2.0 * setup.error);  // the factor that the automatic stepper is held to
+        CHECK(real > setup.error / 4.0);  // of the steps that were looked at
+    }
+}
+
+TEST_CASE("Candidates that are far too dear are given up", "[auto-stepper]") {
+    const auto check = [](const Material& material, StepperKind tooDear) {
+        Setup setup = fallingBlock(material);
+        setup.error = 0.05;
+        const AutoState state = afterFrames(setup, 1).automatic;
+        REQUIRE(state.looks == 1);
+        const AutoChoice& givenUp = state.choices[static_cast<std::size_t>(tooDear)];
+        CHECK(givenUp.step == 0.0);
+        CHECK(std::isinf(givenUp.cost));
+    };
+    check(*materialPreset("liquid"), StepperKind::linearlyImplicit);
+    check(runs::honey(), StepperKind::velocityVerlet);
 }
 
 TEST_CASE("Honey is stepped implicitly, plain liquid is not", "[auto-stepper]") {

@@ -6,7 +6,6 @@
 
 #include "engine/decay.h"
 #include "engine/diagnostics.h"
-#include "engine/error_look.h"
 #include "engine/step_bound.h"
 #include "tests/engine/runs.h"
 

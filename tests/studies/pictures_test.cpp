@@ -21,12 +21,6 @@ namespace {
 
 constexpr render::PictureSize kSize{160, 90};
 
-std::vector<double> ramp(int count) {
-    std::vector<double> values;
-    for (int k = 0; k < count; ++k) values.push_back(double(k * 37 % 200));
-    return values;
-}
-
 std::vector<ExactWindow> exactPicture(const render::View& view) {
     const oracle::Window whole{0, 0, kSize.width, kSize.height};
     return {{whole, oracle::drawWindow(oracle::Scene(view), kSize, whole, 1)}};
@@ -42,21 +36,6 @@ TEST_CASE("The cloud has as many particles as asked, the same each time, at the 
         CHECK(again.style == Style::metaballs);
         for (std::size_t k = 0; k < count; ++k) REQUIRE(view.particles[k].center == again.particles[k].center);
     }
-}
-
-TEST_CASE("SSIM is 1 for the same picture, less for another, and 0.5 for a constant pair worked by hand",
-          "[pictures]") {
-    const std::vector<double> a = ramp(20 * 15);
-    CHECK(structuralSimilarity(a, a, 20, 15) == Approx(1.0).epsilon(1e-12));  // a quotient of equal sums
-    std::vector<double> b = a;
-    for (double& value : b) value = 200.0 - value;
-    CHECK(structuralSimilarity(a, b, 20, 15) < 0.0);  // every contrast turned around
-    // Constants x and y: (2 x y + c) / (x^2 + y^2 + c), c = 2.55^2; the other factor is 1.
-    const std::vector<double> x(121, 100.0);
-    const std::vector<double> y(121, 50.0);
-    CHECK(structuralSimilarity(x, y, 11, 11) ==
-          Approx((2.0 * 5000.0 + 6.5025) / (12500.0 + 6.5025)).epsilon(1e-9));  // rounding of sums near 1e4
-    CHECK_THROWS(structuralSimilarity(x, y, 10, 11));
 }
 
 TEST_CASE("A crowd knows every particle that a ray meets", "[pictures]") {

@@ -1,0 +1,56 @@
+// At most two measurements, and a line through them.
+#include "engine/far_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/error_look.h"
+
+namespace engine {
+namespace {
+
+/// Chosen: a step may change by these factors unseen. Near a stepper's limit of stability a third more has been seen to
+/// err fifteen times as much (solid, error 0.03).
+constexpr double kSafeLess = 1.0 / 1.5;
+constexpr double kSafeMore = 1.15;
+
+/// Chosen: what a longer step would save is worth another look from this factor on.
+constexpr double kWorthMore = 1.4;
+
+/// The step whose error is the wanted one on the line through two measurements, one less and one more, in logarithms.
+double between(const Trial& less, const Trial& more, double wanted) {
+    const double order = std::log(more.error / less.error) / std::log(more.step / less.step);
+    return less.step * std::pow(wanted / less.error, 1.0 / order);
+}
+
+}  // namespace
+
+FarLook lookFar(const Simulation& simulation, StepperKind stepper, double step, double interval) {
+    const double wanted = simulation.setup.error;
+    const double intervals = std::ceil(kFarSeconds / interval * (1.0 - 1e-9));
+    FarLook look;
+    const auto lookAt = [&](double asked) {
+        // What a wrong velocity leads to is seen, and not to be foreseen.
+        const Trial trial = measure(simulation, {simulation.time + intervals * interval, stepper, asked, 0.0});
+        look.spent += trial.spent;
+        look.step = std::min(wantedStep(trial, wanted), interval);
+        return trial;
+    };
+    const Trial first = lookAt(step);
+    const double next = look.step;
+    if (first.error <= wanted && next < kWorthMore * step) {
+        look.step = std::clamp(next, step, std::min(kSafeMore * step, interval));
+        return look;
+    }
+    if (first.error > wanted && next > kSafeLess * step) return look;
+    const Trial second = lookAt(next);
+    const Trial& less = next < step ? second : first;
+    const Trial& more = next < step ? first : second;
+    if (less.error > 0.0 && less.error <= wanted && more.error > wanted)
+        look.step = between(less, more, wanted);
+    else if (second.error <= wanted || second.error > kWasted * first.error)
+        look.step = next;  // a longer one was not looked at; a shorter one does not help
+    return look;
+}
+
+}  // namespace engine
