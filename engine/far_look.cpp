@@ -14,6 +14,9 @@ namespace {
 constexpr double kSafeLess = 1.0 / 1.5;
 constexpr double kSafeMore = 1.15;
 
+/// Chosen: a far look costs three or six times as many; where frames are close together it does not reach as far.
+constexpr double kMostIntervals = 12.0;
+
 /// Chosen: what a longer step would save is worth another look from this factor on.
 constexpr double kWorthMore = 1.4;
 
@@ -27,7 +30,7 @@ double between(const Trial& less, const Trial& more, double wanted) {
 
 FarLook lookFar(const Simulation& simulation, StepperKind stepper, double step, double interval) {
     const double wanted = simulation.setup.error;
-    const double intervals = std::ceil(kFarSeconds / interval * (1.0 - 1e-9));
+    const double intervals = std::min(kMostIntervals, std::ceil(kFarSeconds / interval * (1.0 - 1e-9)));
     FarLook look;
     const auto lookAt = [&](double asked) {
         // What a wrong velocity leads to is seen, and not to be foreseen.

@@ -14,8 +14,9 @@ struct FarLook {
     double spent = 0.0;  ///< passes over all pairs
 };
 
-/// Looks for the step at which a stepper's error over kFarSeconds, in whole intervals (s), is the set-up's. It begins at
-/// the step (s) that meets the error over one interval, at most one interval; a much different one is looked at too.
+/// Looks for the step at which a stepper's error over kFarSeconds, in whole intervals (s) and no more than twelve, is the
+/// set-up's. It begins at the step (s) that meets the error over one interval, at most one interval; a much different one
+/// is looked at too.
 /// Throws: InstabilityError.
 FarLook lookFar(const Simulation& simulation, StepperKind stepper, double step, double interval);
 

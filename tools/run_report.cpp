@@ -70,7 +70,7 @@ Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples
                  {"obtained", "frames run again at half the step: mean and largest over the samples"},
                  {"samples", errors.count}};
     if (simulation.setup.stepper == engine::StepperKind::automatic) {
-        json["obtained"] = "frames run again at half the step, times what 0.2 s of motion make of an error: mean and "
+        json["obtained"] = "frames run again at half the step, times what up to 0.2 s of motion make of an error: mean and "
                            "largest over the samples";
         json["wanted"] = simulation.setup.error;
         json["force_evaluations_spent"] = simulation.automatic.trials;

@@ -112,6 +112,13 @@ TEST_CASE("A far look finds the step that meets the error over its time", "[auto
     }
 }
 
+TEST_CASE("A far look among frames that are close together does not cost more of them", "[auto-stepper]") {
+    const Simulation landed = afterFrames(fallingBlock(*materialPreset("liquid"), {3, 3, 3}), 9);
+    const double interval = 1.0 / 2000;
+    // Twelve intervals at a step each and at two, twice at most; and the first step's own forces.
+    CHECK(lookFar(landed, StepperKind::velocityVerlet, interval, interval).spent <= 2 * (12 + 24 + 2));
+}
+
 TEST_CASE("Candidates that are far too dear are given up", "[auto-stepper]") {
     const auto check = [](const Material& material, StepperKind tooDear) {
         Setup setup = fallingBlock(material);
