@@ -26,6 +26,19 @@ unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, 
     return output;
 }
 
+/// Whether every chunk ends within the file: the decoder would reserve whatever length one claims.
+bool holdsItsChunks(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kSignature = 8;
+    constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+    for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t byte = at; byte < at + 4; ++byte) length = length << 8 | bytes[byte];
+        if (length > bytes.size() - at - kAround) return false;
+        at += kAround + length;
+    }
+    return true;
+}
+
 }  // namespace
 
 #pragma GCC diagnostic push
@@ -61,6 +74,7 @@ std::vector<std::uint8_t> encodePng(const Image& image) {
 }
 
 Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name) {
+    if (!holdsItsChunks(bytes)) throw SystemError(fmt::format("cannot read {} as PNG: it is cut short", name));
     Image image;
     int channels = 0;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(

@@ -49,7 +49,7 @@ void tryGoingOn(engine::StepperKind stepper, const std::vector<std::uint8_t>& by
     engine::decodeCheckpoint(setup, engine::encodeCheckpoint(*simulation));
     if (!isPlausible(*simulation)) return;
     try {
-        engine::advance(*simulation, simulation->time + 0.01);
+        engine::advance(*simulation, simulation->time + 0.001);
     } catch (const engine::InstabilityError&) {
         return;
     }

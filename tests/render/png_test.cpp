@@ -39,4 +39,7 @@ TEST_CASE("A broken PNG is a SystemError that names it") {
     bytes.resize(bytes.size() / 2);
     CHECK_THROWS_WITH(render::decodePng(bytes, "golden/half.png"), Catch::Contains("golden/half.png"));
     CHECK_THROWS_AS(render::decodePng({}, "empty.png"), render::SystemError);
+    auto endless = render::encodePng({2, 2, std::vector<std::uint8_t>(12, 7)});
+    endless.at(33) = 0x7F;  // the length of the chunk after the header's: two gigabytes
+    CHECK_THROWS_WITH(render::decodePng(endless, "endless.png"), Catch::Contains("cut short"));
 }
