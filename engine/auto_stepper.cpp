@@ -248,7 +248,7 @@ bool isSurprised(const Simulation& simulation, const BeforeStep& before) {
 bool isChoice(const AutoChoice& choice) {
     const bool isUnknown = choice.step == 0.0;
     return (isUnknown || choice.step >= kShortestStep) && std::isfinite(choice.step) && choice.cost >= 0.0 &&
-           static_cast<std::uint64_t>(choice.reason) < kStepLimits;
+           isLimit(choice.reason);
 }
 
 }  // namespace

@@ -14,6 +14,10 @@ namespace {
 /// Two runs whose mean steps differ by less tell nothing about the order; the audit shortened both.
 constexpr double kLeastContrast = 0.3;
 
+/// One measurement says at most that a step should change by this factor; further away the error no longer goes like
+/// its square.
+constexpr double kMostChange = 3.0;
+
 /// Returns whether it got to the look's end.
 bool run(Simulation& simulation, const Look& look, double step, double mostPasses) {
     if (simulation.stepper != look.stepper) {

@@ -45,10 +45,6 @@ struct Trial {
 /// Throws: InstabilityError.
 Trial measure(const Simulation& simulation, const Look& look, Simulation* finer = nullptr);
 
-/// One measurement says at most that a step should change by this factor; further away the error no longer goes like
-/// its square.
-inline constexpr double kMostChange = 3.0;
-
 /// Steps at least 1.5 times shorter should err 2.2 times less. Where they err more than this share, something else than
 /// the step makes the error, such as the sweep past an obstacle, and shorter ones are wasted.
 inline constexpr double kWasted = 0.7;

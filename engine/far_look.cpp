@@ -9,8 +9,8 @@
 namespace engine {
 namespace {
 
-/// Chosen: a step may change by these factors unseen. Near a stepper's limit of stability a third more has been seen to
-/// err fifteen times as much (solid, error 0.03).
+/// Chosen: a step may change by these factors unseen. Near a stepper's limit of stability twice the step has been
+/// seen to err fifty times as much (`study accuracy solid`, velocity Verlet at 1/480 and 1/240 s).
 constexpr double kSafeLess = 1.0 / 1.5;
 constexpr double kSafeMore = 1.15;
 

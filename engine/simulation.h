@@ -54,6 +54,11 @@ enum class StepLimit {
 };
 inline constexpr std::size_t kStepLimits = 5;
 
+/// Whether a value read from outside is one of the limits.
+constexpr bool isLimit(StepLimit limit) {
+    return static_cast<std::size_t>(limit) < kStepLimits;
+}
+
 /// What the steps of a run looked like.
 struct StepStatistics {
     std::uint64_t count = 0;

@@ -54,12 +54,11 @@ bool areOnSchedule(const Simulation& simulation) {
 
 bool areStepsPossible(const Simulation& simulation) {
     const StepRestriction& restriction = simulation.restriction;
-    const bool isOfSetup = simulation.setup.stepper == StepperKind::automatic
+    const bool isKnown = simulation.setup.stepper == StepperKind::automatic
                                ? isReachable(simulation.automatic, simulation.stepper)
                                : simulation.stepper == simulation.setup.stepper;
     // Written so that a NaN fails.
-    return isOfSetup && restriction.seconds >= 0.5 * kShortestStep &&
-           static_cast<std::uint64_t>(restriction.reason) < kStepLimits;
+    return isKnown && restriction.seconds >= 0.5 * kShortestStep && isLimit(restriction.reason);
 }
 
 }  // namespace

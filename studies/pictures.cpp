@@ -2,8 +2,8 @@
 #include "studies/pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
@@ -61,23 +61,24 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
 /// Seconds a frame of drawing frames while the one before is encoded, as the render loop does.
 double overlapped(render::Renderer& renderer, const std::vector<render::View>& frames, int count,
                   const std::function<void(const render::Image&)>& encode) {
-    using Picture = std::shared_ptr<render::Image>;
     constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+    std::array<render::Image, 3> places;  // in flight
     int next = 0;
-    const auto drawNext = [&](tbb::flow_control& flow) -> Picture {
+    const auto drawNext = [&](tbb::flow_control& flow) -> render::Image* {
         if (next == count) {
             flow.stop();
             return nullptr;
         }
-        const render::View& view = frames[static_cast<std::size_t>(next++) % frames.size()];
-        auto image = std::make_shared<render::Image>();
-        tbb::this_task_arena::isolate([&] { *image = renderer.draw(view); });
-        return image;
+        const auto frame = static_cast<std::size_t>(next++);
+        render::Image& image = places[frame % places.size()];
+        tbb::this_task_arena::isolate([&] { image = renderer.draw(frames[frame % frames.size()]); });
+        return &image;
     };
     const auto all = [&] {
         tbb::parallel_pipeline(
-            3, tbb::make_filter<void, Picture>(kInOrder, drawNext) &
-                   tbb::make_filter<Picture, void>(kInOrder, [&](const Picture& image) { encode(*image); }));
+            places.size(),
+            tbb::make_filter<void, render::Image*>(kInOrder, drawNext) &
+                tbb::make_filter<render::Image*, void>(kInOrder, [&](render::Image* image) { encode(*image); }));
     };
     return secondsOf(all, 1) / count;
 }

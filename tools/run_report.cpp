@@ -9,6 +9,7 @@
 
 #include "engine/diagnostics.h"
 #include "engine/error_look.h"
+#include "engine/far_look.h"
 #include "engine/steppers.h"
 #include "render/metaball_cast.h"
 #include "render/system_error.h"
@@ -70,8 +71,10 @@ Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples
                  {"obtained", "frames run again at half the step: mean and largest over the samples"},
                  {"samples", errors.count}};
     if (simulation.setup.stepper == engine::StepperKind::automatic) {
-        json["obtained"] = "frames run again at half the step, times what up to 0.2 s of motion make of an error: mean and "
-                           "largest over the samples";
+        json["obtained"] = fmt::format(
+            "frames run again at half the step, times what up to {} s of motion make of an error: mean and largest over "
+            "the samples",
+            engine::kFarSeconds);
         json["wanted"] = simulation.setup.error;
         json["force_evaluations_spent"] = simulation.automatic.trials;
     }
