@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -83,6 +84,10 @@ studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccurac
         settings.runLimit = 20.0;
         settings.referenceBudget = 20.0;
     }
+    std::vector<double>& errors = settings.errors;
+    const double own = scene.setup.error;
+    if (scene.setup.stepper == engine::StepperKind::automatic && std::ranges::find(errors, own) == errors.end())
+        errors.insert(std::ranges::lower_bound(errors, own, std::greater{}), own);
     return settings;
 }
 

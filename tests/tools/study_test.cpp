@@ -12,6 +12,7 @@ namespace fs = std::filesystem;
 
 std::string commandOn(const program::Folder& folder) {
     std::ofstream(folder / "pair.toml") << "title = \"two <particles>\"\nduration = 1\nfps = 30\n"
+                                           "[physics]\nstepper = \"auto\"\nerror = 0.05\n"
                                            "[material]\npreset = \"liquid\"\n"
                                            "[[body]]\nshape = \"grid\"\ncenter = [0, 0, 0]\ncounts = [2, 1, 1]\n"
                                            "spacing = 0.2\n";
@@ -29,6 +30,8 @@ TEST_CASE("A study writes tables, plots and a page that stands alone", "[tools]"
     CHECK(outcome.out.find("pair: reference ") != std::string::npos);
     for (const char* name : {"accuracy.csv", "orders.csv", "auto.csv", "references.csv"})
         CHECK(program::lineCount(program::textOf(folder / "study" / name)) >= 2);
+    // The error that the scene asks for, between the study's own.
+    CHECK(program::textOf(folder / "study" / "auto.csv").find("\npair,0.05,") != std::string::npos);
     for (const char* name : {"pair-seconds.svg", "pair-evaluations.svg"}) {
         const std::string svg = program::textOf(folder / "study" / name);
         CHECK(svg.rfind("<?xml", 0) == 0);
