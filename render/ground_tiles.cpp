@@ -2,6 +2,7 @@
 // show.
 #include "render/ground_tiles.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -12,8 +13,10 @@ namespace render {
 namespace {
 
 struct Corner {
-    bool ground = false;
-    glm::vec3 place{0.0F};  // relative to the eye
+    float depth = std::numeric_limits<float>::infinity();  // in view, of the ground
+    glm::vec3 place{0.0F};                                 // there, relative to the eye
+
+    bool isGround() const { return depth < std::numeric_limits<float>::infinity(); }
 };
 
 Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
@@ -24,7 +27,7 @@ Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
     const glm::vec3 direction = frame.perspective ? frame.forward + off : frame.forward;
     const float depth = (height - origin.y) / direction.y;
     if (!(depth > 0.0F && depth < 1e30F)) return {};
-    return {true, origin + depth * direction};
+    return {depth, origin + depth * direction};
 }
 
 struct Bounds {
@@ -43,21 +46,27 @@ struct Bounds {
     }
 };
 
-GroundTile kindOf(const std::array<Corner, 4>& corners, const Dimming& dimming) {
+GroundKind kindOf(const std::array<Corner, 4>& corners, const Dimming& dimming) {
     int seen = 0;
     Bounds onLight;
     Bounds onGround;
     for (const Corner& corner : corners) {
-        seen += corner.ground ? 1 : 0;
+        seen += corner.isGround() ? 1 : 0;
         onLight.add(glm::vec2(dimming.light.toLightSpace(corner.place)));
         onGround.add({corner.place.x, corner.place.z});
     }
-    if (seen == 0) return GroundTile::none;
-    // Across the horizon the piece has no end.
-    if (seen < 4) return GroundTile::dimmed;
+    if (seen == 0) return GroundKind::none;
+    // Its piece has no end.
+    if (seen < 4) return GroundKind::horizon;
     const bool dimmed =
         onLight.overlaps(dimming.shadowLow, dimming.shadowHigh) || onGround.overlaps(dimming.openLow, dimming.openHigh);
-    return dimmed ? GroundTile::dimmed : GroundTile::plain;
+    return dimmed ? GroundKind::dimmed : GroundKind::plain;
+}
+
+GroundTile groundTile(const std::array<Corner, 4>& corners, const Dimming& dimming) {
+    // The depth or its inverse is linear on the picture: it is least at a corner.
+    const auto isNearer = [](const Corner& a, const Corner& b) { return a.depth < b.depth; };
+    return {kindOf(corners, dimming), std::ranges::min(corners, isNearer).depth};
 }
 
 }  // namespace
@@ -70,15 +79,16 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
     for (int row = 0; row <= rows; ++row)
         for (int column = 0; column <= columns; ++column)
             corners.push_back(cornerAt(frame, height, column * kTileSize, row * kTileSize));
-    std::vector<GroundTile> kinds;
+    std::vector<GroundTile> tiles;
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
-            kinds.push_back(kindOf({corners[first], corners[first + 1], corners[below], corners[below + 1]}, dimming));
+            tiles.push_back(
+                groundTile({corners[first], corners[first + 1], corners[below], corners[below + 1]}, dimming));
         }
     }
-    return kinds;
+    return tiles;
 }
 
 }  // namespace render

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -21,7 +22,17 @@ struct Dimming {
     glm::vec2 openHigh{-1.0F};
 };
 
-enum class GroundTile : std::uint8_t { none, plain, dimmed };
+enum class GroundKind : std::uint8_t {
+    none,
+    plain,
+    dimmed,
+    horizon  ///< ends in it, and may be dimmed
+};
+
+struct GroundTile {
+    GroundKind kind = GroundKind::none;
+    float nearest = std::numeric_limits<float>::infinity();  ///< view depth of what is seen of it
+};
 
 /// Row by row. height: of the ground over the eye.
 /// Holds:  a tile called none shows no ground, one called plain no ground within the bounds.

@@ -168,6 +168,25 @@ void addExtras(const FieldCast& cast, float jump, FieldPicture& picture) {
     }
 }
 
+// What the picture shows of the surface, tile by tile.
+void sumUpTiles(FieldPicture& picture) {
+    constexpr float kNever = std::numeric_limits<float>::infinity();
+    picture.farthest.assign(picture.slots.size(), kNever);
+    tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
+        if (picture.slots[tile] < 0) return;
+        const FieldSample* samples = &picture.samples[static_cast<std::size_t>(picture.slots[tile]) * kBlockRays];
+        bool isSeen = false;
+        float farthest = 0.0F;
+        for (std::size_t k = 0; k < kBlockRays; ++k) {
+            const bool isWhole = samples[k].depthBits != 0 && samples[k].extra == 0;
+            isSeen = isSeen || samples[k].depthBits != 0 || samples[k].extra != 0;
+            farthest = std::max(farthest, isWhole ? std::bit_cast<float>(samples[k].depthBits) : kNever);
+        }
+        picture.farthest[tile] = farthest;
+        if (!isSeen) picture.slots[tile] = -1;
+    });
+}
+
 CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) {
     CameraFrame frame;
     frame.perspective = false;
@@ -242,6 +261,7 @@ FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const Fi
         }
     });
     if (sampling.extraAtOutlines) addExtras(cast, 0.5F * field.smallestRadius, picture);
+    sumUpTiles(picture);
     return picture;
 }
 

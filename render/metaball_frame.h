@@ -21,7 +21,9 @@ namespace render {
 struct FieldPicture {
     std::vector<FieldSample> samples;  ///< 256 a slot, row by row, then the extra samples
     std::vector<std::uint32_t> open;   ///< of each sample, as packedOpenness() has it; empty without
-    std::vector<std::int32_t> slots;   ///< per tile; -1 where no ball reaches
+    std::vector<std::int32_t> slots;   ///< per tile; -1 where nothing of the surface is seen
+    /// Per tile: the greatest view depth of the surface where it fills the tile without an outline, otherwise infinity.
+    std::vector<float> farthest;
 };
 
 /// Where in the pixel the rays go.

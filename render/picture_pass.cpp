@@ -8,20 +8,19 @@
 
 #include <tbb/parallel_for.h>
 
+#include "render/tile_class.h"
+
 namespace render {
 
 namespace {
 
-// A tile's class: which of these it shows. Tiles of one class are drawn together with a program that has only that.
-enum ClassBit {
-    kSphereBit = 1,
-    kFieldBit = 2,
-    kLineBit = 4,
-    kBoxBit = 8,
-    kGroundBit = 16,
-    kDimBit = 32,  // shadows or openness are looked up
-    kClassCount = 64
-};
+// What the shader of plain tiles reads.
+Backdrop backdropOf(const FrameBlock& block) {
+    return {block.right,       block.up,           block.forward,       block.picture,
+            block.toLight,     block.lightColor,   block.ambientSky,    block.ambientGround,
+            block.groundColor, block.groundCenter, block.backgroundTop, block.backgroundBottom,
+            block.tone};
+}
 
 struct TileRow {
     std::int32_t column, row, sphereBegin, sphereEnd, fieldSlot, lineBegin, lineEnd, unused;
@@ -200,7 +199,7 @@ void PicturePass::uploadBoxes(const View& view) {
 }
 
 void PicturePass::sortGround(const View& view) {
-    groundTiles_.assign(sphereTiles_.begin.size() - 1, GroundTile::none);
+    groundTiles_.assign(sphereTiles_.begin.size() - 1, {});
     if (!view.ground) return;
     Dimming dimming;
     dimming.light = light_;
@@ -242,11 +241,12 @@ void PicturePass::castField(const View& view, const Sampling& sampling) {
     const FieldPicture picture =
         castPicture(frame_, {view, skin_, particleOpen_}, {sampling.offset, sampling.samples > 1});
     fieldSlots_ = picture.slots;
+    fieldFarthest_ = picture.farthest;
     fieldSamples_.upload(bytesOf(picture.samples));
     fieldOpen_.upload(bytesOf(picture.open));
 }
 
-void PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
+FrameBlock PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
     const Ground ground = view.ground.value_or(Ground{});
     const float perspective = frame_.perspective ? 1.0F : 0.0F;
     FrameBlock block;
@@ -281,11 +281,13 @@ void PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
     block.soft = glm::vec4(view.light.softness, meanRadius_, 0.0F, 0.0F);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.get());
     gl_->BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+    return block;
 }
 
 Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int tileClass) const {
     Features features;
-    features.samples = sampling.samples;
+    features.plain = isPlain(tileClass) && sampling.output != Output::surface;
+    features.samples = hasOutlines(tileClass) ? sampling.samples : 1;
     features.output = sampling.output;
     features.spheres = (tileClass & kSphereBit) != 0;
     features.field = (tileClass & kFieldBit) != 0;
@@ -321,23 +323,38 @@ int PicturePass::classOf(std::size_t tile) const {
     if (!fieldSlots_.empty() && fieldSlots_[tile] >= 0) bits |= kFieldBit;
     if (lineList_.tiles.begin[tile + 1] > lineList_.tiles.begin[tile]) bits |= kLineBit;
     if (boxTiles_[tile] != 0) bits |= kBoxBit;
-    if (groundTiles_[tile] != GroundTile::none) bits |= kGroundBit;
+    const GroundTile& ground = groundTiles_[tile];
+    if (bits == kFieldBit && fieldFarthest_[tile] < ground.nearest) return kFieldBit | kWholeBit | kDimBit;
+    if (ground.kind != GroundKind::none) bits |= kGroundBit;
+    if (ground.kind == GroundKind::horizon) bits |= kHorizonBit;
     const bool surfaces = (bits & (kSphereBit | kFieldBit | kBoxBit)) != 0;
-    if (surfaces || groundTiles_[tile] == GroundTile::dimmed) bits |= kDimBit;
+    if (surfaces || ground.kind == GroundKind::dimmed || ground.kind == GroundKind::horizon) bits |= kDimBit;
     return bits;
 }
 
+// The class of each tile; kClassCount for one that the target still holds.
+std::vector<int> PicturePass::classesOfTiles(const FrameBlock& block, const Sampling& sampling) {
+    std::vector<int> classes(sphereTiles_.begin.size() - 1);
+    for (std::size_t tile = 0; tile < classes.size(); ++tile) classes[tile] = classOf(tile);
+    if (!sampling.keeps) return classes;
+    kept_.begin(backdropOf(block), classes.size());
+    for (std::size_t tile = 0; tile < classes.size(); ++tile) {
+        const int look = isPlain(classes[tile]) ? 1 + classes[tile] : 0;
+        if (kept_.keeps(tile, static_cast<std::uint8_t>(look))) classes[tile] = kClassCount;
+    }
+    return classes;
+}
+
 // Rows of the table class by class; returns how many rows come before each class, and the number of all.
-std::vector<int> PicturePass::uploadTileTable() {
-    const std::size_t tileCount = sphereTiles_.begin.size() - 1;
-    std::vector<int> first(kClassCount + 1, 0);
-    for (std::size_t tile = 0; tile < tileCount; ++tile) ++first[static_cast<std::size_t>(classOf(tile)) + 1];
-    for (std::size_t c = 0; c < kClassCount; ++c) first[c + 1] += first[c];
-    std::vector<TileRow> rows(tileCount);
+std::vector<int> PicturePass::uploadTileTable(const std::vector<int>& classes) {
+    std::vector<int> first(kClassCount + 2, 0);
+    for (const int tileClass : classes) ++first[static_cast<std::size_t>(tileClass) + 1];
+    for (std::size_t c = 0; c <= kClassCount; ++c) first[c + 1] += first[c];
+    std::vector<TileRow> rows(classes.size());
     std::vector<int> next = first;
-    for (std::size_t tile = 0; tile < tileCount; ++tile) {
+    for (std::size_t tile = 0; tile < classes.size(); ++tile) {
         const auto columns = static_cast<std::size_t>(sphereTiles_.columns);
-        rows[static_cast<std::size_t>(next[static_cast<std::size_t>(classOf(tile))]++)] = {
+        rows[static_cast<std::size_t>(next[static_cast<std::size_t>(classes[tile])]++)] = {
             static_cast<std::int32_t>(tile % columns),
             static_cast<std::int32_t>(tile / columns),
             beginOf(sphereTiles_, tile),
@@ -352,8 +369,8 @@ std::vector<int> PicturePass::uploadTileTable() {
 }
 
 void PicturePass::draw(const View& view, const Sampling& sampling, PictureSize target) {
-    uploadFrame(view, sampling);
-    const std::vector<int> first = uploadTileTable();
+    const FrameBlock block = uploadFrame(view, sampling);
+    const std::vector<int> first = uploadTileTable(classesOfTiles(block, sampling));
     boxes_.bind(kBoxesUnit);
     tileTable_.bind(kTileTableUnit);
     tileSpheres_.bind(kTileSpheresUnit);

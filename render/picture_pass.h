@@ -11,6 +11,7 @@
 #include "render/draw_times.h"
 #include "render/gl_objects.h"
 #include "render/ground_tiles.h"
+#include "render/kept_tiles.h"
 #include "render/light_space.h"
 #include "render/line_list.h"
 #include "render/metaball_frame.h"
@@ -37,6 +38,7 @@ struct Sampling {
     int samples = 1;         ///< 1 or 4
     glm::vec2 offset{0.0F};  ///< from the pixel's middle, pixels; with one sample only
     Output output = Output::bytes;
+    bool keeps = false;  ///< the target still holds the last picture that was drawn with `keeps`
 };
 
 /// Spheres that OpenGL draws: obstacles always, particles unless they are metaballs.
@@ -72,10 +74,11 @@ class PicturePass {
     void uploadLines(const View& view);
     void uploadBoxes(const View& view);
     void sortGround(const View& view);
-    void uploadFrame(const View& view, const Sampling& sampling);
+    FrameBlock uploadFrame(const View& view, const Sampling& sampling);
     Features featuresOf(const View& view, const Sampling& sampling, int tileClass) const;
     int classOf(std::size_t tile) const;
-    std::vector<int> uploadTileTable();
+    std::vector<int> classesOfTiles(const FrameBlock& block, const Sampling& sampling);
+    std::vector<int> uploadTileTable(const std::vector<int>& classes);
 
     const Gl* gl_;
     ProgramCache programs_;
@@ -90,6 +93,7 @@ class PicturePass {
     LineList lineList_;
     std::vector<std::uint8_t> boxTiles_;  // 1 where a box may be seen
     std::vector<GroundTile> groundTiles_;
+    KeptTiles kept_;
     LightBasis light_;
     LightGrid lightGrid_;
     int depthMapTexels_ = 1024;
@@ -102,6 +106,7 @@ class PicturePass {
     OpennessMap openMap_;
     float meanRadius_ = 0.0F;
     std::vector<std::int32_t> fieldSlots_;
+    std::vector<float> fieldFarthest_;
     bool castsField_ = false;
 };
 

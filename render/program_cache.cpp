@@ -38,6 +38,7 @@ std::string definesOf(const Features& features) {
     const auto define = [&text](const char* name, bool wanted) {
         if (wanted) text += fmt::format("#define {}\n", name);
     };
+    define("PLAIN", features.plain);
     define("SPHERES", features.spheres);
     define("FIELD", features.field);
     define("BOXES", features.boxes);
@@ -116,9 +117,14 @@ GLuint ProgramCache::keep(ProgramName& place, ProgramName program) const {
 GLuint ProgramCache::picture(const Features& features) {
     ProgramName& place = pictures_[features];
     if (place.get() != 0) return place.get();
-    const std::string vertex = joined("#version 330 core\n", {"tile.vert"});
-    std::string fragment = joined(definesOf(features), {"frame.glsl", "encode.glsl", "surfaces.glsl", "openness.glsl",
-                                                        "shadow.glsl", "shade.glsl"});
+    const std::string defines = definesOf(features);
+    if (features.plain)
+        return keep(place, buildProgram(*gl_, joined(defines, {"frame.glsl", "shade.glsl", "tile.vert"}),
+                                        joined(defines, {"frame.glsl", "encode.glsl", "surfaces.glsl", "shade.glsl",
+                                                         "plain.frag"})));
+    const std::string vertex = joined(defines, {"tile.vert"});
+    std::string fragment = joined(defines, {"frame.glsl", "encode.glsl", "surfaces.glsl", "openness.glsl", "shadow.glsl",
+                                            "shade.glsl"});
     if (features.lines) fragment = joined(fragment, {"lines.glsl"});
     return keep(place, buildProgram(*gl_, vertex, joined(fragment, {"picture.frag"})));
 }

@@ -23,6 +23,7 @@ enum class Output {
 /// What one draw of tiles needs.
 struct Features {
     int samples = 1;
+    bool plain = false;  ///< nothing but background, or ground that nothing dims
     bool spheres = false;
     bool field = false;
     bool boxes = false;       ///< boxes are seen

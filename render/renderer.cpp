@@ -123,7 +123,7 @@ struct Renderer::Parts {
 
     void drawDirectly(const View& view) {
         bytes.bindForDrawing();
-        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), Output::bytes});
+        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), Output::bytes, true});
     }
 
     void prepare(const View& view) {

@@ -39,6 +39,16 @@ std::vector<render::View> framesOf(const render::View& view, int count) {
     return frames;
 }
 
+/// The view with its particles a little further in each frame, seen by a camera at rest.
+std::vector<render::View> framesAtRest(const render::View& view, int count) {
+    std::vector<render::View> frames;
+    for (int frame = 0; frame < count; ++frame) {
+        frames.push_back(view);
+        for (render::Sphere& particle : frames.back().particles) particle.center.x += 0.02F * static_cast<float>(frame);
+    }
+    return frames;
+}
+
 /// Median seconds of drawing, the first frame (which compiles shaders) left out.
 template <typename Draw>
 double medianSeconds(const std::vector<render::View>& frames, const Draw& draw) {
@@ -75,10 +85,9 @@ double overlapped(render::Renderer& renderer, const std::vector<render::View>& f
         return &image;
     };
     const auto all = [&] {
-        tbb::parallel_pipeline(
-            places.size(),
-            tbb::make_filter<void, render::Image*>(kInOrder, drawNext) &
-                tbb::make_filter<render::Image*, void>(kInOrder, [&](render::Image* image) { encode(*image); }));
+        tbb::parallel_pipeline(places.size(), tbb::make_filter<void, render::Image*>(kInOrder, drawNext) &
+                                                  tbb::make_filter<render::Image*, void>(
+                                                      kInOrder, [&](render::Image* image) { encode(*image); }));
     };
     return secondsOf(all, 1) / count;
 }
@@ -153,6 +162,8 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
     });
     times.erase(times.begin());
     row.stages = medianStages(times);
+    row.atRest = medianSeconds(framesAtRest(frames.front(), settings.frames),
+                               [&](const render::View& view) { renderer.draw(view); });
     measureEncoding(settings, frames, renderer, row);
     return row;
 }

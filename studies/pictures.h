@@ -24,6 +24,7 @@ struct PictureRow {
     double png = 0.0;          ///< of encoding alone, s
     double mp4 = 0.0;
     double draw = 0.0;      ///< one frame, drawn and read back, s; median
+    double atRest = 0.0;    ///< likewise where the camera rests and the particles move, s
     double withPng = 0.0;   ///< a frame of many, one encoded while the next is drawn, s
     double withMp4 = 0.0;   ///< likewise
     double baseline = 0.0;  ///< the lit quads of the same spheres and size, drawn and read back, s; median

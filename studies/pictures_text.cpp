@@ -40,14 +40,15 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
     std::string csv =
         "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,shade_ms,read_back_ms,png_ms,mp4_"
         "ms,"
-        "draw_ms,with_png_ms,with_mp4_ms,baseline_ms,ratio,rmse,ssim,wrong_hits,depth_error_radii,normal_error_"
+        "draw_ms,draw_at_rest_ms,with_png_ms,with_mp4_ms,baseline_ms,ratio,rmse,ssim,wrong_hits,depth_error_radii,"
+        "normal_error_"
         "degrees\n";
     for (const PictureRow& row : rows) {
         csv += fmt::format("{},{},{},{},{}", nameOf(row.style), row.particles, row.size.width, row.size.height,
                            nameOf(row.quality));
         for (const double seconds :
              {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.shade,
-              row.stages.readBack, row.png, row.mp4, row.draw, row.withPng, row.withMp4, row.baseline})
+              row.stages.readBack, row.png, row.mp4, row.draw, row.atRest, row.withPng, row.withMp4, row.baseline})
             csv += fmt::format(",{:.4g}", 1e3 * seconds);
         csv += fmt::format(",{:.3g},{:.4g},{:.5f},{:.3g},{:.3g},{:.3g}\n", row.ratio(), row.error.rmse, row.error.ssim,
                            row.error.wrongHits, row.error.depth, row.error.normal);

@@ -29,13 +29,13 @@ std::string timeTable(const std::vector<studies::PictureRow>& rows) {
         Cells cells = subjectOf(row);
         const render::DrawTimes& t = row.stages;
         for (const double seconds : {t.bin, t.occlusion, t.shadow, t.cast, t.shade, t.readBack, row.png, row.mp4,
-                                     row.draw, row.withPng, row.withMp4, row.baseline})
+                                     row.draw, row.atRest, row.withPng, row.withMp4, row.baseline})
             cells.push_back(milliseconds(seconds));
         cells.push_back(fmt::format("{:.2f}", row.ratio()));
         table_.push_back(cells);
     }
     return table({"style", "particles", "size", "quality", "bin", "occlusion", "shadow", "cast", "shade", "read back",
-                  "PNG", "MP4", "frame", "with PNG", "with MP4", "quads", "frame over quads"},
+                  "PNG", "MP4", "frame", "at rest", "with PNG", "with MP4", "quads", "frame over quads"},
                  table_);
 }
 
@@ -73,7 +73,10 @@ std::string picturesPage(const PictureResults& results, const PicturePlots& plot
         "<p>Made by <code>{}</code>. A dam that splashes, as many particles as the table says, in its full look. "
         "<em>Frame</em> is drawing and reading back; <em>quads</em> is what one would write first, a quad that faces "
         "the eye for each sphere, with its depth written by the fragment shader, lit and nothing else, drawn in the "
-        "same run. <em>With PNG</em> and <em>with MP4</em> are milliseconds a frame of a run in which one frame is "
+        "same run. The camera moves from frame to frame, but <em>at rest</em> only the particles do, and the plain "
+        "parts of "
+        "the picture are kept. <em>With PNG</em> and <em>with MP4</em> are milliseconds a frame of a run in which one "
+        "frame is "
         "encoded while the next is drawn. Medians.</p>\n",
         escaped(command));
     html += picture("milliseconds a frame against particles", plots.times) + timeTable(rows);

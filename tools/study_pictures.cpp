@@ -88,13 +88,15 @@ studies::PictureListener reporter(Talk talk) {
 }
 
 void print(const std::vector<studies::PictureRow>& rows) {
-    fmt::print("{:9} {:>9} {:>9} {:7} {:>9} {:>9} {:>9} {:>9} {:>6} {:>9} {:>8} {:>9}\n", "style", "particles", "size",
-               "quality", "frame, ms", "+PNG, ms", "+MP4, ms", "quads, ms", "ratio", "RMSE", "SSIM", "wrong, %");
+    fmt::print("{:9} {:>9} {:>9} {:7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6} {:>9} {:>8} {:>9}\n", "style", "particles",
+               "size", "quality", "frame, ms", "rest, ms", "+PNG, ms", "+MP4, ms", "quads, ms", "ratio", "RMSE", "SSIM",
+               "wrong, %");
     for (const studies::PictureRow& row : rows)
-        fmt::print("{:9} {:>9} {:>9} {:7} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>6.2f} {:>9.3f} {:>8.5f} {:>9.4f}\n",
-                   studies::nameOf(row.style), row.particles, fmt::format("{}x{}", row.size.width, row.size.height),
-                   studies::nameOf(row.quality), 1e3 * row.draw, 1e3 * row.withPng, 1e3 * row.withMp4,
-                   1e3 * row.baseline, row.ratio(), row.error.rmse, row.error.ssim, 100.0 * row.error.wrongHits);
+        fmt::print(
+            "{:9} {:>9} {:>9} {:7} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>6.2f} {:>9.3f} {:>8.5f} {:>9.4f}\n",
+            studies::nameOf(row.style), row.particles, fmt::format("{}x{}", row.size.width, row.size.height),
+            studies::nameOf(row.quality), 1e3 * row.draw, 1e3 * row.atRest, 1e3 * row.withPng, 1e3 * row.withMp4,
+            1e3 * row.baseline, row.ratio(), row.error.rmse, row.error.ssim, 100.0 * row.error.wrongHits);
 }
 
 void study(const PicturesOptions& options) {

@@ -6,6 +6,9 @@ uniform int targetHeight;
 
 flat out ivec4 tile;
 flat out ivec4 tileExtra;
+#if defined(PLAIN) && defined(GROUND)
+flat out vec3 groundLit;
+#endif
 
 void main() {
     int row = firstTile + gl_VertexID;
@@ -15,4 +18,11 @@ void main() {
     // Row 0 of the target is the top row of the picture, so that reading back needs no flip.
     gl_Position = vec4(2.0 * center / vec2(targetWidth, targetHeight) - 1.0, 0.0, 1.0);
     gl_PointSize = 16.0;
+#if defined(PLAIN) && defined(GROUND)
+    Point point;
+    point.normal = vec3(0.0, 1.0, 0.0);
+    point.albedo = groundColor.xyz;
+    point.particle = 0.0;
+    groundLit = shade(point, vec3(0.0, 1.0, 0.0));
+#endif
 }

@@ -1,0 +1,30 @@
+// Tiles of background and of ground that nothing dims look the same from picture to picture while the camera rests:
+// what the target still holds is not drawn again. Used by the picture pass.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace render {
+
+/// Everything that such a tile's pixels are computed from.
+using Backdrop = std::array<glm::vec4, 13>;
+
+class KeptTiles {
+ public:
+    /// Begins a picture of so many tiles. Nothing is kept from one with another backdrop.
+    void begin(const Backdrop& backdrop, std::size_t tileCount);
+
+    /// Whether the tile still shows this, and notes that it will. look: 0 for what is always drawn again.
+    bool keeps(std::size_t tile, std::uint8_t look);
+
+ private:
+    Backdrop backdrop_{};
+    std::vector<std::uint8_t> looks_;
+};
+
+}  // namespace render

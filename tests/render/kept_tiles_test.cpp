@@ -1,0 +1,101 @@
+// What is kept from the picture before must be what would be drawn.
+#include "tests/catch.h"
+
+#include <functional>
+#include <string>
+
+#include "render/kept_tiles.h"
+#include "tests/render/pictures.h"
+
+using pictures::drawn;
+using render::Quality;
+
+namespace {
+
+constexpr render::PictureSize kSize{230, 130};
+
+struct Change {
+    std::string name;
+    std::function<void(render::View&)> make;
+};
+
+/// Each on top of those before.
+std::vector<Change> changes() {
+    return {{"nothing", [](render::View&) {}},
+            {"particles have moved",
+             [](render::View& v) {
+                 for (render::Sphere& particle : v.particles) particle.center += glm::vec3(0.7F, 0.2F, -0.4F);
+             }},
+            {"particles are gone", [](render::View& v) { v.particles.resize(3); }},
+            {"the background",
+             [](render::View& v) {
+                 v.background.top = {0.1F, 0.2F, 0.9F};
+             }},
+            {"the ground's color",
+             [](render::View& v) {
+                 v.ground->color = {0.7F, 0.2F, 0.1F};
+             }},
+            {"the ground's fading", [](render::View& v) { v.ground->fadeDistance = 3.0F; }},
+            {"the light's color",
+             [](render::View& v) {
+                 v.light.color = {0.2F, 0.9F, 0.4F};
+             }},
+            {"the light's direction",
+             [](render::View& v) {
+                 v.light.toLight = {0.1F, 1.0F, -0.6F};
+             }},
+            {"the sky",
+             [](render::View& v) {
+                 v.ambient.sky = {0.1F, 0.1F, 0.6F};
+             }},
+            {"the exposure", [](render::View& v) { v.exposure = 1.7F; }},
+            {"the eye", [](render::View& v) { v.camera.eye.x += 0.3F; }},
+            {"the target", [](render::View& v) { v.camera.target.y += 0.3F; }},
+            {"the field of view", [](render::View& v) { v.camera.verticalFov *= 1.2F; }},
+            {"the projection", [](render::View& v) { v.camera.projection = render::Projection::orthographic; }},
+            {"no shadows", [](render::View& v) { v.light.shadows = false; }},
+            {"no ground", [](render::View& v) { v.ground.reset(); }}};
+}
+
+}  // namespace
+
+TEST_CASE("Pictures drawn one after another are those drawn alone") {
+    render::Context context(render::Backend::osmesa);
+    for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
+        render::View view = pictures::cloud(60);
+        view.light.shadows = true;
+        render::Renderer renderer(context, kSize, quality);
+        renderer.draw(view);
+        for (const Change& change : changes()) {
+            INFO(change.name << ", quality " << static_cast<int>(quality));
+            const render::View before = view;
+            change.make(view);
+            const render::Image alone = drawn(view, kSize, quality);
+            CHECK((renderer.draw(view).rgb == alone.rgb));
+            // A drawing to another target in between.
+            renderer.surfaces(before);
+            CHECK((renderer.draw(view).rgb == alone.rgb));
+        }
+    }
+}
+
+TEST_CASE("A tile is kept while it shows the same before the same backdrop") {
+    render::Backdrop backdrop{};
+    render::KeptTiles kept;
+    kept.begin(backdrop, 2);
+    CHECK(!kept.keeps(0, 1));
+    CHECK(!kept.keeps(1, 2));
+    kept.begin(backdrop, 2);
+    CHECK(kept.keeps(0, 1));
+    CHECK(!kept.keeps(1, 1));
+    kept.begin(backdrop, 2);
+    CHECK(!kept.keeps(0, 0));
+    CHECK(kept.keeps(1, 1));
+    kept.begin(backdrop, 2);
+    CHECK(!kept.keeps(0, 0));
+    backdrop[12].w = 1.0F;
+    kept.begin(backdrop, 2);
+    CHECK(!kept.keeps(1, 1));
+    kept.begin(backdrop, 3);
+    CHECK(!kept.keeps(1, 1));
+}
