@@ -136,17 +136,17 @@ void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
 
 }  // namespace
 
-bool mayTouch(const Scenery& scenery, const Flight& flight, double duration) {
+double gapAround(const Scenery& scenery, const Flight& flight) {
     double gap = std::numeric_limits<double>::infinity();
     forEachSurface(scenery, flight.position,
                    [&](const Surface& surface) { gap = std::min(gap, surface.height - flight.radius); });
-    return duration * std::sqrt(squaredLength(flight.velocity)) > gap;
+    return gap;
 }
 
 bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit) {
-    if (!mayTouch(scenery, flight, duration)) return false;
     const Outlook ahead = lookAhead(scenery, flight);
     const double way = duration * std::sqrt(squaredLength(flight.velocity));
+    if (!(way > ahead.gap)) return false;
     if (way > kResolved * ahead.scale) return true;
     // The limit is h^2 w^2 + 2 h g = 4.
     const double phase = duration * ahead.frequency;

@@ -21,8 +21,8 @@ struct Flight {
 /// than a fraction of a contact's depth in it, or, where contacts act explicitly, comes near the limit of stability.
 bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit);
 
-/// Whether the particle may touch something in the coming step (s).
-bool mayTouch(const Scenery& scenery, const Flight& flight, double duration);
+/// Distance from the particle's surface to the nearest obstacle's, m; negative in contact.
+double gapAround(const Scenery& scenery, const Flight& flight);
 
 /// Flies on for a duration (s) under the forces of the obstacles alone, those of section 3.2.
 /// Holds:  at any finite speed the centre stays on the side of a plane, of a box's face and of a sphere that it came

@@ -1,6 +1,9 @@
 // Every particle on its own, shared out over the threads.
 #include "engine/drift.h"
 
+#include <cmath>
+#include <limits>
+
 #include "engine/contact_drift.h"
 #include "engine/decay.h"
 #include "engine/parallel.h"
@@ -31,28 +34,39 @@ Flight flightOf(const Simulation& simulation, std::size_t p) {
             materialOf(simulation, p).friction};
 }
 
-/// Calls body(p) for every particle that is not swept, if there is anything to touch.
-template <class Body>
-void forEachUnswept(const Simulation& simulation, const Body& body) {
-    if (simulation.setup.scenery.colliders.empty()) return;
-    inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
-        if (!simulation.swept[p]) body(p);
-    });
+constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+
+/// Share of a radius by which a clearance is taken too small: far above what roundings add up to.
+constexpr double kMargin = 1e-3;
+
+/// Whether a particle may be in the way (m) of an obstacle; measures its clearance where the one known is too small.
+bool mayTouch(Simulation& simulation, const Flight& flight, std::size_t p, double way) {
+    double& clearance = simulation.clearance[p];
+    if (way <= clearance) return false;
+    const double gap = gapAround(simulation.setup.scenery, flight);
+    clearance = gap - kMargin * flight.radius;
+    return way > gap;
 }
 
 }  // namespace
+
+bool isClear(const Simulation& simulation, std::size_t p) {
+    return p < simulation.clearance.size() && simulation.clearance[p] >= 0.0;
+}
 
 void chooseSwept(Simulation& simulation, double h) {
     const Scenery& scenery = simulation.setup.scenery;
     if (scenery.colliders.empty()) return;
     const bool isExplicit = simulation.stepper == StepperKind::velocityVerlet;
     simulation.swept.resize(simulation.particles.count());
+    simulation.clearance.resize(simulation.particles.count(), kUnknown);
     inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
+        const Flight flight = flightOf(simulation, p);
+        const double way = h * std::sqrt(squaredLength(flight.velocity));
         // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part
         // of what the whole heap does.
-        const Flight flight = flightOf(simulation, p);
-        const bool isSwept =
-            simulation.evaluator.isAlone(p) ? mayTouch(scenery, flight, h) : needsSweep(scenery, flight, h, isExplicit);
+        const bool isSwept = mayTouch(simulation, flight, p, way) &&
+                             (simulation.evaluator.isAlone(p) || needsSweep(scenery, flight, h, isExplicit));
         simulation.swept[p] = isSwept ? 1 : 0;
     });
 }
@@ -60,16 +74,22 @@ void chooseSwept(Simulation& simulation, double h) {
 void drift(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
     const Scenery& scenery = simulation.setup.scenery;
-    const bool canMeet = !scenery.colliders.empty();
+    if (scenery.colliders.empty()) {
+        inParallel(particles.count(), kParticleGrain,
+                   [&](std::size_t p) { particles.position[p] += h * particles.velocity[p]; });
+        return;
+    }
     inParallel(particles.count(), kContactGrain, [&](std::size_t p) {
-        if (!canMeet || !simulation.swept[p]) {
+        if (!simulation.swept[p]) {
             particles.position[p] += h * particles.velocity[p];
+            simulation.clearance[p] -= h * std::sqrt(squaredLength(particles.velocity[p]));
             return;
         }
         Flight flight = flightOf(simulation, p);
         fly(scenery, flight, h);
         particles.position[p] = flight.position;
         particles.velocity[p] = flight.velocity;
+        simulation.clearance[p] = kUnknown;
     });
 }
 
@@ -80,7 +100,9 @@ void applyDrag(Simulation& simulation, double h) {
 }
 
 void addContacts(const Simulation& simulation, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces) {
-    forEachUnswept(simulation, [&](std::size_t p) {
+    if (simulation.setup.scenery.colliders.empty()) return;
+    inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
+        if (simulation.swept[p] || isClear(simulation, p)) return;
         forces[p] += contactForce(simulation.setup.scenery, probeOf(simulation, p, velocities[p]));
     });
 }
@@ -95,7 +117,7 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
     inParallel(order.size(), kContactGrain, [&](std::size_t place) {
         const std::size_t p = order[place];
-        if (simulation.swept[p]) return;
+        if (simulation.swept[p] || isClear(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);
         forEachSurface(scenery, probe.position, [&](const Surface& surface) {
             if (surface.height >= probe.radius) return;

@@ -8,6 +8,9 @@ namespace engine {
 /// Decides which particles are swept past the obstacles in a step of h seconds; at its start, before anything moves.
 void chooseSwept(Simulation& simulation, double h);
 
+/// Whether a particle certainly touches no obstacle.
+bool isClear(const Simulation& simulation, std::size_t p);
+
 /// Moves all particles for h seconds; the velocities of swept ones change where they meet an obstacle.
 void drift(Simulation& simulation, double h);
 

@@ -115,6 +115,9 @@ struct Simulation {
     StepperKind stepper = StepperKind::velocityVerlet;  ///< in use; the automatic one is never
     std::vector<Vec3> forces;  ///< pairs and gravity, N; while forcesCurrent those that the next step starts with
     std::vector<std::uint8_t> swept;  ///< whether obstacles meet a particle along its way in this step, 0 or 1
+    /// Scratch of the drift: no obstacle's surface is nearer to a particle's than this, m, as long as steps alone move
+    /// it; empty where nothing is known.
+    std::vector<double> clearance;
     bool forcesCurrent = false;
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J

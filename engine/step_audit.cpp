@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/diagnostics.h"
+#include "engine/drift.h"
 #include "engine/parallel.h"
 
 namespace engine {
@@ -21,7 +22,7 @@ double ownEnergy(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
     const Vec3& x = particles.position[p];
     const double contacts =
-        simulation.setup.scenery.colliders.empty()
+        simulation.setup.scenery.colliders.empty() || isClear(simulation, p)
             ? 0.0
             : contactEnergy(simulation.evaluator.law().scenery, {x, Vec3::Zero(), particles.radius[p], 1.0});
     return contacts - particles.mass[p] * dot(simulation.setup.gravity, x);
@@ -102,6 +103,7 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
     simulation.emitters = kept.emitters;
     simulation.particles.position = kept.position;
     simulation.particles.velocity = kept.velocity;
+    simulation.clearance.clear();
     simulation.forcesCurrent = kept.forcesCurrent;
     if (kept.forcesCurrent) simulation.forces = kept.forces;
     simulation.energy = kept.energy;

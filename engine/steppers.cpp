@@ -17,6 +17,7 @@ void symplecticEulerStep(Simulation& simulation, double h) {
     simulation.evaluator.evaluate(particles, particles.velocity, simulation.forces);
     ++simulation.steps.forceEvaluations;
     const double decay = decayFactor(simulation.setup.drag, h);
+    simulation.clearance.clear();
     for (std::size_t p = 0; p < particles.count(); ++p) {
         particles.velocity[p] = decay * (particles.velocity[p] + h / particles.mass[p] * simulation.forces[p]);
         particles.position[p] += h * particles.velocity[p];

@@ -15,6 +15,7 @@ using render::Quality;
 namespace {
 
 constexpr render::PictureSize kSize{121, 75};
+constexpr render::PictureSize kManyRays{400, 267};  // so that some graze
 
 render::View blobs(int count) {
     render::View view = cloud(count);
@@ -26,11 +27,11 @@ render::View blobs(int count) {
 std::vector<double> castDepths(const render::View& view) {
     const std::vector<render::SkinBall> skin = render::skinOf(view);
     const render::FieldPicture picture =
-        render::castPicture(render::cameraFrame(view.camera, kSize), {view, skin, {}}, {});
-    const int columns = (kSize.width + render::kTileSize - 1) / render::kTileSize;
+        render::castPicture(render::cameraFrame(view.camera, kManyRays), {view, skin, {}}, {});
+    const int columns = (kManyRays.width + render::kTileSize - 1) / render::kTileSize;
     std::vector<double> depths;
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kManyRays.height; ++y) {
+        for (int x = 0; x < kManyRays.width; ++x) {
             const std::int32_t slot = picture.slots[static_cast<std::size_t>(y / 16 * columns + x / 16)];
             const auto place = static_cast<std::size_t>(slot * 256 + y % 16 * 16 + x % 16);
             depths.push_back(slot < 0 ? 0.0 : double(std::bit_cast<float>(picture.samples[place].depthBits)));
@@ -51,11 +52,11 @@ DepthCheck checkDepths(const render::View& view) {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(view.camera.target) - glm::dvec3(view.camera.eye));
     constexpr double kRadius = 0.08;  // the smallest of the cloud
     DepthCheck check;
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
-            const oracle::Ray ray = oracle::pixelRay(view, kSize, x + 0.5, y + 0.5);
+    for (int y = 0; y < kManyRays.height; ++y) {
+        for (int x = 0; x < kManyRays.width; ++x) {
+            const oracle::Ray ray = oracle::pixelRay(view, kManyRays, x + 0.5, y + 0.5);
             const oracle::Hit hit = oracle::trace(view, ray);
-            const double depth = depths[static_cast<std::size_t>(y * kSize.width + x)];
+            const double depth = depths[static_cast<std::size_t>(y * kManyRays.width + x)];
             const bool expected = hit.kind == oracle::Hit::Kind::particle;
             check.otherMask += expected != (depth > 0.0) ? 1 : 0;
             if (!expected || depth == 0.0) continue;
@@ -72,11 +73,11 @@ void requireSurface(render::View view) {
     view.ground.reset();
     const DepthCheck check = checkDepths(view);
     CAPTURE(check.hits, check.otherMask, check.otherSurface, check.largest);
-    CHECK(check.hits > 1000);        // the test looks at something
+    CHECK(check.hits > 20000);       // the test looks at something
     CHECK(check.otherMask <= 4);     // grazing rays: the field's maximum lies within a rounding of the threshold
     CHECK(check.otherSurface <= 4);  // the same at inner outlines
-    CHECK(check.largest <
-          5e-4);  // in single precision (1e-6 of the depth) over the root of a flat maximum at grazing rays
+    // Single precision (1e-6 of the depth) over the root of a flat maximum where a ray grazes: 9e-4 on these rays.
+    CHECK(check.largest < 2e-3);
 }
 
 }  // namespace

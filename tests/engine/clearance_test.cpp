@@ -1,0 +1,76 @@
+// What the drift knows of the way to the obstacles must never be more than there is, or contacts would be left out.
+#include "tests/catch.h"
+
+#include "engine/audited_steps.h"
+#include "engine/contact_drift.h"
+#include "engine/drift.h"
+#include "engine/step_audit.h"
+#include "tests/engine/runs.h"
+
+using namespace engine;
+
+namespace {
+
+/// A packing that falls onto a slab over a floor, beside a ball, in a tank.
+Simulation falling(StepperKind stepper, double step) {
+    Setup setup = runs::freeSetup(*materialPreset("powder"), stepper, step);
+    setup.gravity = Vec3(0.0, -9.81, 0.0);
+    runs::addPacking(setup, {6, 6, 6});
+    setup.scenery.colliders = {
+        Plane{Vec3(0.0, -2.5, 0.0), Vec3::UnitY()}, Box{Vec3(-1.0, -1.6, -1.0), Vec3(1.0, -1.3, 1.0)},
+        Sphere{Vec3(1.6, -1.5, 0.3), 0.4, false}, Container{Vec3(-2.5, -4.0, -2.5), Vec3(2.5, 4.0, 2.5)}};
+    return start(setup);
+}
+
+double gapOf(const Simulation& simulation, std::size_t p) {
+    const Particles& particles = simulation.particles;
+    return gapAround(simulation.setup.scenery,
+                     {.position = particles.position[p], .velocity = Vec3::Zero(), .radius = particles.radius[p]});
+}
+
+struct Count {
+    std::size_t clear = 0;     ///< known to touch nothing
+    std::size_t touching = 0;  ///< known to touch nothing, and wrongly so
+};
+
+Count countIn(const Simulation& simulation) {
+    Count count;
+    for (std::size_t p = 0; p < simulation.particles.count(); ++p) {
+        if (!isClear(simulation, p)) continue;
+        ++count.clear;
+        count.touching += gapOf(simulation, p) < 0.0 ? 1 : 0;
+    }
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("What is known to be clear of all obstacles touches none", "[clearance]") {
+    for (const StepperKind stepper :
+         {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::linearlyImplicit}) {
+        Simulation simulation = falling(stepper, 0.002);
+        std::size_t clear = 0;
+        for (int k = 0; k < 600; ++k) {
+            takeStep(simulation, 0.002);
+            const Count count = countIn(simulation);
+            REQUIRE(count.touching == 0);
+            clear += count.clear;
+        }
+        CHECK(clear > 600 * simulation.particles.count() / 4);  // it is worth something
+    }
+}
+
+TEST_CASE("Steps that are taken back, and the paper's, leave no clearance behind", "[clearance]") {
+    Simulation simulation = falling(StepperKind::velocityVerlet, 0.002);
+    for (int k = 0; k < 50; ++k) takeStep(simulation, 0.002);
+    BeforeStep kept;
+    keep(simulation, kept);
+    takeStep(simulation, 0.5);
+    takeBack(simulation, kept);
+    CHECK(countIn(simulation).clear == 0);
+    takeStep(simulation, 0.002);
+    REQUIRE(countIn(simulation).clear > 0);
+    simulation.stepper = StepperKind::symplecticEuler;
+    takeStep(simulation, 0.002);
+    CHECK(countIn(simulation).clear == 0);
+}
