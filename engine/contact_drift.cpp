@@ -71,15 +71,19 @@ struct Outlook {
     double decay = 0.0;                                      ///< the largest of their dampings over the mass, 1/s
 };
 
-Outlook lookAhead(const Scenery& scenery, const Flight& flight) {
+/// way: of the coming step, m. A scale far above it is underestimated: what it exactly is takes longer to tell.
+Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way = std::numeric_limits<double>::infinity()) {
     Outlook ahead;
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {
         const double gap = surface.height - flight.radius;
         ahead.gap = std::min(ahead.gap, gap);
-        const double depth = barrierDepth(surface, scenery.law, flight);
         // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
         const double least = 0.5 * std::min(flight.radius + surface.repulsorRadius, surface.halfThickness);
-        ahead.scale = std::min(ahead.scale, std::max(least, std::min(surface.height, flight.radius) + depth));
+        double scale = std::max(least, std::min(surface.height, flight.radius));
+        if (way > kResolved * scale)
+            scale =
+                std::max(least, std::min(surface.height, flight.radius) + barrierDepth(surface, scenery.law, flight));
+        ahead.scale = std::min(ahead.scale, scale);
         if (gap >= 0.0) return;
         const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
         ahead.scale = std::min(ahead.scale, contact.distance);
@@ -144,8 +148,8 @@ double gapAround(const Scenery& scenery, const Flight& flight) {
 }
 
 bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit) {
-    const Outlook ahead = lookAhead(scenery, flight);
     const double way = duration * std::sqrt(squaredLength(flight.velocity));
+    const Outlook ahead = lookAhead(scenery, flight, way);
     if (!(way > ahead.gap)) return false;
     if (way > kResolved * ahead.scale) return true;
     // The limit is h^2 w^2 + 2 h g = 4.
