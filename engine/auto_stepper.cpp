@@ -214,7 +214,7 @@ void lookAround(Simulation& simulation, double time) {
         looked.trial = look(simulation, time, simulation.stepper, kAny, &looked.finer);
     }
     const Trial& trial = looked.trial;
-    state.trials -= passesOf(looked.finer);  // the run goes on with these; they are not lost
+    state.trials -= passesOf(looked.finer.steps);  // the run goes on with these; they are not lost
     const AutoChoice& choice = choiceOf(simulation, trial.stepper);
     note(state, trial, choice.step);
     // One collision that asks for a much shorter step must not set those of many frames.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "engine/step_cost.h"
 #include "engine/steppers.h"
 
 namespace studies {
@@ -59,7 +58,6 @@ SceneAccuracy measureAccuracy(const std::string& name, const scenes::Scene& scen
     accuracy.particleCount = window.start.particles.count();
     accuracy.from = scenes::frameTime(scene, window.firstFrame);
     accuracy.window = window.seconds();
-    accuracy.productCost = engine::implicitCosts(scene.setup).product;
     accuracy.reference = reference.facts;
     for (const WindowRun& run : runs) accuracy.rows.push_back(rowOf(window, run, reference));
     accuracy.orders = ordersOf(accuracy.rows);

@@ -29,7 +29,6 @@ struct SceneAccuracy {
     std::size_t particleCount = 0;  ///< at the start of the window
     double from = 0.0;              ///< s
     double window = 0.0;            ///< s
-    double productCost = 0.0;  ///< of the implicit steppers' matrix with a vector, passes over all pairs
     ReferenceFacts reference;
     std::vector<AccuracyRow> rows;
     std::vector<OrderRow> orders;
