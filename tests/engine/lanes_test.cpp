@@ -62,7 +62,7 @@ std::string hashOfRun(const char* preset, StepperKind stepper, Precision precisi
     setup.precision = precision;
     runs::addPacking(setup, {7, 6, 9});
     Simulation simulation = start(setup);
-    advance(simulation, 0.1);
+    advance(simulation, 0.06);
     return stateHash(simulation.particles);
 }
 

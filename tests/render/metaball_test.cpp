@@ -15,7 +15,7 @@ using render::Quality;
 namespace {
 
 constexpr render::PictureSize kSize{121, 75};
-constexpr render::PictureSize kManyRays{400, 267};  // so that some graze
+constexpr render::PictureSize kManyRays{300, 200};  // so that some graze
 
 render::View blobs(int count) {
     render::View view = cloud(count);
@@ -73,7 +73,7 @@ void requireSurface(render::View view) {
     view.ground.reset();
     const DepthCheck check = checkDepths(view);
     CAPTURE(check.hits, check.otherMask, check.otherSurface, check.largest);
-    CHECK(check.hits > 20000);       // the test looks at something
+    CHECK(check.hits > 10000);       // the test looks at something
     CHECK(check.otherMask <= 4);     // grazing rays: the field's maximum lies within a rounding of the threshold
     CHECK(check.otherSurface <= 4);  // the same at inner outlines
     // Single precision (1e-6 of the depth) over the root of a flat maximum where a ray grazes: 9e-4 on these rays.
