@@ -71,7 +71,7 @@ struct Outlook {
     double decay = 0.0;                                      ///< the largest of their dampings over the mass, 1/s
 };
 
-/// way: of the coming step, m. A scale far above it is underestimated: what it exactly is takes longer to tell.
+/// way: of the coming step, m. A scale far above it leaves out the barrier, which takes longer to tell.
 Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way = std::numeric_limits<double>::infinity()) {
     Outlook ahead;
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {
@@ -79,11 +79,10 @@ Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way = std
         ahead.gap = std::min(ahead.gap, gap);
         // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
         const double least = 0.5 * std::min(flight.radius + surface.repulsorRadius, surface.halfThickness);
-        double scale = std::max(least, std::min(surface.height, flight.radius));
-        if (way > kResolved * scale)
-            scale =
-                std::max(least, std::min(surface.height, flight.radius) + barrierDepth(surface, scenery.law, flight));
-        ahead.scale = std::min(ahead.scale, scale);
+        const double above = std::min(surface.height, flight.radius);
+        const bool isFar = way <= kResolved * std::max(least, above);
+        const double depth = isFar ? 0.0 : barrierDepth(surface, scenery.law, flight);
+        ahead.scale = std::min(ahead.scale, std::max(least, above + depth));
         if (gap >= 0.0) return;
         const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
         ahead.scale = std::min(ahead.scale, contact.distance);

@@ -14,9 +14,8 @@ mkdir -p build/asan-ubsan/fuzz/found
 cd build/asan-ubsan/fuzz
 for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
-    # Where two grains meet hard, the automatic stepper takes some 70,000 passes for its first looks: with sanitizers, and
-    # three to a core, that is not yet an endless input.
-    # What was learned in earlier runs comes first; the repository's corpus is the seed.
+    # What was learned in earlier runs comes first; the repository's corpus is the seed. A minute for one input: where two
+    # grains meet hard, the automatic stepper takes some 70,000 passes for its first looks, which is not yet endless.
     "../tests/fuzz/fuzz_$target" "corpus/$target" "../../../tests/fuzz/corpus/$target" -max_total_time="$seconds" \
         -rss_limit_mb=2048 -timeout=60 -max_len=16384 -artifact_prefix="found/$target-" -print_final_stats=1 \
         -verbosity=0 >"$target.log" 2>&1 &
