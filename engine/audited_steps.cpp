@@ -84,9 +84,9 @@ bool advanceAudited(Simulation& simulation, double time, double longest, StepLim
     int refused = 0;
     giveBirth(simulation);
     if (!simulation.energy) establishEnergy(simulation);
-    const double passesBefore = passesOf(simulation.steps);
+    const double passesBefore = passesOf(simulation);
     while (simulation.time < time) {
-        if (passesOf(simulation.steps) - passesBefore > mostPasses) return false;
+        if (passesOf(simulation) - passesBefore > mostPasses) return false;
         StepRestriction& restriction = simulation.restriction;
         const double stop = nextStop(simulation, time);
         const double remaining = stop - simulation.time;

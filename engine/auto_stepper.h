@@ -1,5 +1,5 @@
-// The automatic stepper: now and then it measures on the next interval what each candidate errs and costs, looks ahead at
-// what becomes of the errors of the cheapest one, and goes on with it, at the step that just meets the wanted error.
+// The automatic stepper: now and then it measures on the next interval what each candidate errs and costs, looks ahead
+// at what becomes of the errors of the cheapest one, and goes on with it, at the step that just meets the wanted error.
 // Called by advance().
 #pragma once
 
@@ -14,6 +14,10 @@ inline constexpr std::uint64_t kLongestPause = 16;
 /// Brings the simulation to the given time (s); one call is one interval, e.g. a frame.
 /// Holds:  what it chooses depends on the states alone, never on a clock.
 void advanceAutomatically(Simulation& simulation, double time);
+
+/// rms over the mass of the acceleration that the implicit candidates' solver may leave out, m/s^2, at the wanted
+/// error.
+double acceptableResidual(const Simulation& simulation);
 
 /// Whether looks can have led to what the stepper knows, and to the candidate that is in use.
 bool isReachable(const AutoState& state, StepperKind inUse);

@@ -143,13 +143,13 @@ void exchangeAutomatic(Archive& archive, Of& state) {
         archive(choice.step);
         archive(choice.cost);
         archive(choice.reason);
+        archive(choice.growth);
     }
     archive(state.intervals);
     archive(state.nextLook);
     archive(state.looks);
     archive(state.errorSum);
     archive(state.largestError);
-    archive(state.growth);
     archive(state.agitation);
     archive(state.trials);
 }

@@ -1,6 +1,8 @@
 // Textbook conjugate gradients (Hestenes and Stiefel 1952); sums in fixed chunks.
 #include "engine/conjugate_gradient.h"
 
+#include <algorithm>
+
 #include "engine/parallel.h"
 
 namespace engine {
@@ -15,7 +17,7 @@ double weightedDot(const PairMatrix& matrix, const std::vector<Vec3>& a, const s
 
 }  // namespace
 
-int solve(PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
+int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch) {
     const std::size_t count = matrix.count();
     std::vector<Vec3>& residual = scratch.residual;
@@ -26,7 +28,8 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std:
     direction.resize(count);
     inParallel(count, kParticleGrain, [&](std::size_t p) { direction[p] = residual[p] / matrix.mass[p]; });
     double norm = weightedDot(matrix, residual, residual);
-    const double target = tolerance * tolerance * norm;
+    const double target =
+        std::max(tolerance.relative * tolerance.relative * norm, tolerance.absolute * tolerance.absolute);
     int iteration = 0;
     while (norm > target && iteration < kMostIterations) {
         multiply(matrix, direction, product);

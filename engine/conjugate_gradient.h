@@ -14,12 +14,17 @@ struct SolverScratch {
     std::vector<Vec3> product;
 };
 
-/// Conjugate gradients from x = 0, preconditioned with the mass, until the residual has fallen to `tolerance` times the
-/// right-hand side (both in the norm of the inverse mass). Returns the number of products with A.
+/// When a residual is small enough, in the norm of the inverse mass: either will do.
+struct Tolerance {
+    double relative = 0.0;  ///< share of the right-hand side
+    double absolute = 0.0;  ///< of right-hand sides in N s: kg^1/2 m/s
+};
+
+/// Conjugate gradients from x = 0, preconditioned with the mass, until the residual is small enough. Returns the number
+/// of products with A.
 /// Holds:  where b has neither a total nor a moment, M x has neither, to rounding, at any tolerance: every vector of
-/// the
-///         iteration is M^-1 times a sum of pair impulses. Any other preconditioner but the mass would lose that.
-int solve(PairMatrix& matrix, const std::vector<Vec3>& b, double tolerance, std::vector<Vec3>& x,
+///         the iteration is M^-1 times a sum of pair impulses. Any other preconditioner but the mass would lose that.
+int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch);
 
 }  // namespace engine

@@ -80,8 +80,9 @@ Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way = std
         // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
         const double least = 0.5 * std::min(flight.radius + surface.repulsorRadius, surface.halfThickness);
         const double above = std::min(surface.height, flight.radius);
-        const bool isFar = way <= kResolved * std::max(least, above);
-        const double depth = isFar ? 0.0 : barrierDepth(surface, scenery.law, flight);
+        const double shallow = std::max(least, above);
+        const bool isBarrierAsked = way > kResolved * shallow && shallow < ahead.scale;
+        const double depth = isBarrierAsked ? barrierDepth(surface, scenery.law, flight) : 0.0;
         ahead.scale = std::min(ahead.scale, std::max(least, above + depth));
         if (gap >= 0.0) return;
         const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
@@ -131,7 +132,7 @@ void kick(const Scenery& scenery, Flight& flight, double step) {
 
 void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {
-        if (surface.height >= -barrierDepth(surface, scenery.law, flight)) return;
+        if (surface.height >= 0.0 || surface.height >= -barrierDepth(surface, scenery.law, flight)) return;
         const double inwards = dot(flight.velocity, surface.normal);
         if (inwards < 0.0) flight.velocity -= 2.0 * inwards * surface.normal;
     });

@@ -52,7 +52,7 @@ Trial measure(const Simulation& simulation, const Look& look, Simulation* finer)
     trial.stepper = look.stepper;
     Simulation whole = simulation;
     trial.finished = run(whole, look, look.step, look.mostPasses);
-    trial.spent = passesOf(whole.steps);
+    trial.spent = passesOf(whole);
     if (!trial.finished) return trial;
     const auto meanStep = [&](const Simulation& s) { return interval / static_cast<double>(s.steps.count); };
     // Where the audit or births shortened the steps of the first run, those of the second are half as long again.
@@ -63,8 +63,8 @@ Trial measure(const Simulation& simulation, const Look& look, Simulation* finer)
     trial.asked = interval / std::ceil(interval / look.step * (1.0 - 1e-9));
     trial.step = meanStep(whole);
     trial.error = difference(whole, halves, simulation.particles.count(), look.horizon) / contrast / interval;
-    trial.cost = passesOf(whole.steps) / interval;
-    trial.spent += passesOf(halves.steps);
+    trial.cost = passesOf(whole) / interval;
+    trial.spent += passesOf(halves);
     trial.restricted = whole.steps.rejected > 0 || whole.restriction.seconds < look.step;
     if (trial.restricted) trial.reason = whole.restriction.reason;
     if (finer != nullptr) *finer = std::move(halves);

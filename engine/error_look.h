@@ -18,8 +18,8 @@ inline constexpr double kErrorHorizon = 0.0125;
 struct Look {
     double time = 0.0;  ///< where it ends, s
     StepperKind stepper = StepperKind::velocityVerlet;
-    double step = 0.0;                 ///< longest, s
-    double horizon = kErrorHorizon;    ///< how long a wrong velocity counts, s
+    double step = 0.0;                                            ///< longest, s
+    double horizon = kErrorHorizon;                               ///< how long a wrong velocity counts, s
     double mostPasses = std::numeric_limits<double>::infinity();  ///< of the first run; given up beyond
 };
 

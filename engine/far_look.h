@@ -1,5 +1,5 @@
-// What becomes of an error after a while, by damping or by collisions: the step that meets the wanted error where a look
-// at one interval would not see it. Called by the automatic stepper when it has compared its candidates.
+// What becomes of an error after a while, by damping or by collisions: the step that meets the wanted error where a
+// look at one interval would not see it. Called by the automatic stepper when it has compared its candidates.
 #pragma once
 
 #include "engine/simulation.h"
@@ -14,10 +14,9 @@ struct FarLook {
     double spent = 0.0;  ///< passes over all pairs
 };
 
-/// Looks for the step at which a stepper's error over kFarSeconds, in whole intervals (s) and no more than twelve, is the
-/// set-up's. It begins at the step (s) that meets the error over one interval, at most one interval; a much different one
-/// is looked at too.
-/// Throws: InstabilityError.
+/// Looks for the step at which a stepper's error over kFarSeconds, in whole intervals (s) and no more than twelve, is
+/// the set-up's. It begins at the step (s) that meets the error over one interval, at most one interval; a much
+/// different one is looked at too. Throws: InstabilityError.
 FarLook lookFar(const Simulation& simulation, StepperKind stepper, double step, double interval);
 
 }  // namespace engine

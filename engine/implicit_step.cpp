@@ -1,6 +1,8 @@
 // Assemble, solve, kick.
 #include "engine/implicit_step.h"
 
+#include <cmath>
+
 #include "engine/drift.h"
 #include "engine/parallel.h"
 #include "engine/soundness.h"
@@ -19,8 +21,10 @@ void solveForChange(Simulation& simulation, double h) {
         scratch.rightHandSide[place] = 0.5 * h * simulation.forces[order[place]] - scratch.matrix.mass[place] * fall;
         if (!scratch.matrix.own.empty()) scratch.rightHandSide[place] -= scratch.matrix.own[place] * fall;
     }
-    const int products =
-        solve(scratch.matrix, scratch.rightHandSide, simulation.setup.solverTolerance, scratch.change, scratch.solver);
+    const double mass = sumOver(order.size(), [&](std::size_t place) { return scratch.matrix.mass[place]; });
+    const Tolerance tolerance = {simulation.setup.solverTolerance,
+                                 0.5 * h * simulation.toleratedAcceleration * std::sqrt(mass)};
+    const int products = solve(scratch.matrix, scratch.rightHandSide, tolerance, scratch.change, scratch.solver);
     for (Vec3& change : scratch.change) change += fall;
     simulation.steps.products += static_cast<std::uint64_t>(products);
 }

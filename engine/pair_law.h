@@ -79,7 +79,8 @@ Scalar pairDampingOverSq(Scalar distanceSq, const PairConstants<Scalar>& c) {
 /// Holds:  unchanged when p and i are swapped, so that the force negates bit for bit.
 /// Source: Cote 2024, equations 2, 5, 6; departs from them only below the core distance.
 template <PairTerms terms, class Scalar>
-Scalar pairCoefficient(Scalar distanceSq, Scalar approach, const PairConstants<Scalar>& c) {
+[[gnu::always_inline]] inline Scalar pairCoefficient(Scalar distanceSq, Scalar approach,
+                                                     const PairConstants<Scalar>& c) {
     const Scalar guardedSq = std::max(distanceSq, c.coreSq);
     const Scalar inverseSq = Scalar(1) / guardedSq;
     Scalar coefficient = 0;
@@ -99,7 +100,7 @@ Scalar pairCoefficient(Scalar distanceSq, Scalar approach, const PairConstants<S
 ///   U = b1 { (D^-3 - R^-3)/3 - A (1/D - 1/R) + B (R - D) },  A = 1/D0^2 + 1/R^2,  B = 1/(D0^2 R^2)
 /// Below the core distance Dc, where F = F(Dc) D/Dc:  U = U(Dc) + F(Dc) (Dc^2 - D^2) / (2 Dc).
 template <class Scalar>
-Scalar pairEnergy(Scalar distance, const PairConstants<Scalar>& c) {
+[[gnu::always_inline]] inline Scalar pairEnergy(Scalar distance, const PairConstants<Scalar>& c) {
     if (distance * distance >= c.reachSq) return Scalar(0);
     const Scalar core = std::sqrt(c.coreSq);
     const Scalar guarded = std::max(distance, core);

@@ -24,8 +24,9 @@ struct Slip {
     double damping = 0.0;          ///< c_t, kg/s
 };
 
-Slip slipOf(const PairRecord& p, const PairRecord& i, const Vec3& separation, double distanceSq,
-            const PairConstants<double>& constants) {
+/// Inline, so that what the pair's coefficient has in common with it is computed once.
+[[gnu::always_inline]] inline Slip slipOf(const PairRecord& p, const PairRecord& i, const Vec3& separation,
+                                          double distanceSq, const PairConstants<double>& constants) {
     const double coefficient = pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, constants);
     if (!(coefficient > 0.0)) return {};
     const Vec3 velocity(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz);

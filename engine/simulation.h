@@ -92,6 +92,7 @@ struct AutoChoice {
     double cost =
         std::numeric_limits<double>::infinity();  ///< at that step, passes over all pairs for a second of motion
     StepLimit reason = StepLimit::error;          ///< what keeps the step from being longer
+    double growth = 1.0;  ///< of errors beyond one interval: what the measured rate is multiplied by
 };
 
 struct AutoState {
@@ -101,7 +102,6 @@ struct AutoState {
     std::uint64_t looks = 0;
     double errorSum = 0.0;      ///< over the looks, radii per second
     double largestError = 0.0;  ///< radii per second
-    double growth = 1.0;        ///< of errors beyond one interval: what the measured rate is multiplied by
     double agitation = 0.0;     ///< at the last look: rms of the acceleration beside gravity, m/s^2
     double trials = 0.0;        ///< passes over all pairs that looks have cost
 };
@@ -125,6 +125,9 @@ struct Simulation {
     AutoState automatic;
     std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
     std::vector<Vec3> kickForces;           ///< scratch of velocity Verlet, N: forces with the slow contacts
+    /// rms over the mass of the acceleration that the implicit steppers' solver may leave out, m/s^2; the automatic
+    /// stepper sets it by the wanted error.
+    double toleratedAcceleration = 0.0;
     ImplicitScratch implicit;
     StepStatistics steps;
 };

@@ -55,8 +55,8 @@ bool areOnSchedule(const Simulation& simulation) {
 bool areStepsPossible(const Simulation& simulation) {
     const StepRestriction& restriction = simulation.restriction;
     const bool isKnown = simulation.setup.stepper == StepperKind::automatic
-                               ? isReachable(simulation.automatic, simulation.stepper)
-                               : simulation.stepper == simulation.setup.stepper;
+                             ? isReachable(simulation.automatic, simulation.stepper)
+                             : simulation.stepper == simulation.setup.stepper;
     // Written so that a NaN fails.
     return isKnown && restriction.seconds >= 0.5 * kShortestStep && isLimit(restriction.reason);
 }

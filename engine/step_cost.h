@@ -5,12 +5,16 @@
 
 namespace engine {
 
-/// What an implicit step pays for its matrix and for a product with it, in passes over all pairs. Measured: the seconds
-/// of steps of liquid, solid and honey against their counts in `globular study accuracy`.
-inline constexpr double kMatrixCost = 0.3;
-inline constexpr double kProductCost = 0.27;
+/// What an implicit step pays for its matrix and for a product with it, in passes over all pairs.
+struct ImplicitCosts {
+    double matrix = 0.0;
+    double product = 0.0;
+};
 
-/// What steps cost, in passes over all pairs.
-double passesOf(const StepStatistics& steps);
+/// By the pass that it is a share of: friction makes a pass several times as dear, and a product no dearer.
+ImplicitCosts implicitCosts(const Setup& setup);
+
+/// What the simulation's steps have cost, in passes over all pairs.
+double passesOf(const Simulation& simulation);
 
 }  // namespace engine

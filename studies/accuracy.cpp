@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/step_cost.h"
 #include "engine/steppers.h"
 
 namespace studies {
@@ -10,6 +11,10 @@ namespace {
 
 /// A run this long is timed well enough once, s.
 constexpr double kLongRun = 5.0;
+
+/// Short runs are timed until they have taken so long together, s, but no more often than that.
+constexpr double kTimed = 0.3;
+constexpr int kMostRounds = 12;
 
 std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettings& settings) {
     std::vector<Variant> variants;
@@ -26,20 +31,30 @@ std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettin
     return variants;
 }
 
-/// Every run once, then the short ones again. Rounds over all of them, because other programs of the machine come and
-/// go; the least seconds of a run, because they only ever add.
+/// Whether a run is timed once more, after seconds spent on it in so many rounds.
+bool isTimedAgain(const WindowRun& run, double spent, int round, int rounds) {
+    if (run.ending != Ending::finished || rounds == 1) return false;
+    return round < rounds ? run.seconds < kLongRun : spent < kTimed;
+}
+
+/// Every run once, then the short ones again, the shortest most often. Rounds over all of them, because other programs
+/// of the machine come and go; the least seconds of a run, because they only ever add.
 std::vector<WindowRun> timedRuns(const Window& window, const AccuracySettings& settings, const RunListener& listener) {
     std::vector<WindowRun> runs;
     for (const Variant& variant : variantsOf(window.scene, settings)) {
         runs.push_back(runWindow(window, variant, settings.runLimit));
         listener(runs.back(), "run");
     }
-    for (int round = 1; round < settings.rounds; ++round)
-        for (WindowRun& run : runs) {
-            if (run.ending != Ending::finished || run.seconds >= kLongRun) continue;
-            const WindowRun again = runWindow(window, run.variant, settings.runLimit);
-            run.seconds = std::min(run.seconds, again.seconds);
-            listener(again, "again");
+    std::vector<double> spent;
+    for (const WindowRun& run : runs) spent.push_back(run.seconds);
+    for (int round = 1; round < std::max(kMostRounds, settings.rounds); ++round)
+        for (std::size_t r = 0; r < runs.size(); ++r) {
+            WindowRun& run = runs[r];
+            if (!isTimedAgain(run, spent[r], round, settings.rounds)) continue;
+            const WindowRun next = runWindow(window, run.variant, settings.runLimit);
+            run.seconds = std::min(run.seconds, next.seconds);
+            spent[r] += next.seconds;
+            listener(next, "again");
         }
     return runs;
 }
@@ -58,6 +73,7 @@ SceneAccuracy measureAccuracy(const std::string& name, const scenes::Scene& scen
     accuracy.particleCount = window.start.particles.count();
     accuracy.from = scenes::frameTime(scene, window.firstFrame);
     accuracy.window = window.seconds();
+    accuracy.productCost = engine::implicitCosts(scene.setup).product;
     accuracy.reference = reference.facts;
     for (const WindowRun& run : runs) accuracy.rows.push_back(rowOf(window, run, reference));
     accuracy.orders = ordersOf(accuracy.rows);

@@ -17,7 +17,7 @@ struct AccuracySettings {
     int frameCount = 15;
     std::vector<int> stepsPerFrame = {1, 2, 4, 8, 16, 32, 64};    ///< of the fixed steppers, rising
     std::vector<double> errors = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3};  ///< of the automatic one, radii per second
-    int rounds = 3;                                               ///< of all runs but long ones, for the least seconds
+    int rounds = 3;                                               ///< of all runs but long ones; short ones get more
     double runLimit = 60.0;                                       ///< a run that takes longer is too slow, s
     double referenceBudget = 180.0;                               ///< for all runs of the reference, s
 };
@@ -29,6 +29,7 @@ struct SceneAccuracy {
     std::size_t particleCount = 0;  ///< at the start of the window
     double from = 0.0;              ///< s
     double window = 0.0;            ///< s
+    double productCost = 0.0;  ///< of the implicit steppers' matrix with a vector, passes over all pairs
     ReferenceFacts reference;
     std::vector<AccuracyRow> rows;
     std::vector<OrderRow> orders;

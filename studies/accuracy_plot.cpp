@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/step_cost.h"
 #include "engine/steppers.h"
 
 namespace studies {
@@ -46,7 +45,7 @@ set lmargin 11
 )";
 
 double costOf(const AccuracyRow& row, CostAxis axis) {
-    return axis == CostAxis::seconds ? row.run.seconds : row.run.passes();
+    return axis == CostAxis::seconds ? row.run.seconds : row.run.passes;
 }
 
 /// Cost, error, what was asked.
@@ -81,7 +80,7 @@ std::string axes(const SceneAccuracy& scene, CostAxis axis) {
         quoted(what),
         axis == CostAxis::seconds
             ? std::string("wall-clock seconds")
-            : fmt::format("force evaluations (a product of the implicit steppers counts {})", engine::kProductCost),
+            : fmt::format("force evaluations (a product of the implicit steppers counts {})", scene.productCost),
         positions ? "rms position error at the end (radii)"
                   : "largest error of centre, gyration, R90, z90 at the end (radii)");
 }

@@ -73,7 +73,7 @@ double secondsOf(const WindowRun& run) {
 }
 
 double passesOf(const WindowRun& run) {
-    return run.passes();
+    return run.passes;
 }
 
 std::optional<HandPicked> cheapest(const std::vector<AccuracyRow>& rows, Cost cost, double error) {
@@ -134,7 +134,7 @@ std::vector<AutoRow> autosOf(const std::vector<AccuracyRow>& rows, double window
         automatic.asked = run.variant.asked;
         automatic.obtained = row.errorPerSecond;
         automatic.seconds = run.seconds;
-        automatic.passes = run.passes();
+        automatic.passes = run.passes;
         automatic.resolved = row.resolved;
         const double askedError = run.variant.asked * windowSeconds;
         automatic.secondsAtObtained = cheapest(rows, secondsOf, row.error);

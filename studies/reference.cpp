@@ -43,7 +43,7 @@ std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engi
 
 /// Of two steppers of order 2, the change at equal cost is proportional to the change times the square of the cost.
 double changeAtEqualCost(const Window& window, const std::vector<const WindowRun*>& two) {
-    const double cost = two[1]->passes();
+    const double cost = two[1]->passes;
     return difference(window, Measure::positions, two[0]->particles, two[1]->particles) * cost * cost;
 }
 

@@ -46,10 +46,6 @@ double Window::seconds() const {
     return scenes::frameTime(scene, lastFrame) - scenes::frameTime(scene, firstFrame);
 }
 
-double WindowRun::passes() const {
-    return engine::passesOf(steps) + lookPasses;
-}
-
 std::string nameOf(const Variant& variant) {
     const std::string stepper(engine::nameOf(variant.stepper));
     return variant.precision == engine::Precision::singles ? stepper + " in float" : stepper;
@@ -100,6 +96,7 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
     run.seconds = elapsed();
     run.steps = simulation.steps;
     run.lookPasses = simulation.automatic.trials;
+    run.passes = engine::passesOf(simulation) + run.lookPasses;
     if (run.ending == Ending::finished) run.energy = engine::energy(simulation.evaluator, simulation.particles);
     run.particles = std::move(simulation.particles);
     return run;

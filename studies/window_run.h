@@ -54,9 +54,7 @@ struct WindowRun {
     engine::Energy energy;        ///< at the end of a finished run
 
     double lookPasses = 0.0;  ///< what the automatic stepper's looks at its candidates cost besides the steps
-
-    /// Work in passes over all pairs: a force evaluation is one, a product engine::kProductCost of one.
-    double passes() const;
+    double passes = 0.0;      ///< all work, in passes over all pairs; see engine/step_cost.h
 };
 
 /// Runs the window once. A run that has taken longer than the limit (s) ends at the next frame as too slow.

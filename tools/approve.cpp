@@ -10,6 +10,7 @@
 #include "render/png.h"
 #include "render/system_error.h"
 #include "scenes/input_error.h"
+#include "tools/json.h"
 #include "tools/manifest.h"
 #include "tools/output_file.h"
 #include "tools/picture_facts.h"
@@ -48,14 +49,14 @@ std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set
 
 std::string sidecarText(const Candidate& candidate, const std::vector<std::uint8_t>& bytes) {
     const render::Image image = render::decodePng(bytes, candidate.from.string());
-    return sidecarJson(factsOf(candidate.from, bytes), checksumOf(bytes), image.width, image.height).dump(2) + "\n";
+    return indentedText(sidecarJson(factsOf(candidate.from, bytes), checksumOf(bytes), image.width, image.height));
 }
 
 /// Why the picture must not replace its golden; empty if it may.
 std::string refusal(const Candidate& candidate) {
     const fs::path path = sidecarPath(candidate.to);
     if (!fs::exists(path)) return {};
-    const nlohmann::json sidecar = readJson(path);
+    const Json sidecar = readJson(path);
     if (!sidecar.is_object() || !sidecar.contains("png"))
         return fmt::format("its sidecar would replace {}, which is none; --force replaces it", path.string());
     // The sidecar's word counts even where the golden was changed by hand.

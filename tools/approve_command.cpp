@@ -6,6 +6,7 @@
 
 #include "tools/approve.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 
 namespace tools {
 namespace {
@@ -20,10 +21,7 @@ void approve(const ApproveOptions& options) {
     const std::vector<Approved> approved = approvePictures(options.job);
     for (const Approved& picture : approved) {
         if (options.json)
-            fmt::print(
-                "{}\n",
-                nlohmann::ordered_json{{"event", "approved"}, {"name", picture.name}, {"new", picture.isNew}}.dump(
-                    -1, ' ', false, nlohmann::json::error_handler_t::replace));
+            printJson(Json{{"event", "approved"}, {"name", picture.name}, {"new", picture.isNew}});
         else if (!options.quiet)
             fmt::print("{} {}\n", picture.isNew ? "new golden:" : "approved:", picture.name);
     }

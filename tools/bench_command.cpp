@@ -8,13 +8,12 @@
 #include "engine/lane_forces.h"
 #include "studies/bench.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 #include "tools/scene_options.h"
 #include "tools/threads.h"
 
 namespace tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct BenchOptions {
     RunOptions run;
@@ -71,7 +70,7 @@ void bench(const BenchOptions& options) {
             if (isText)
                 print(row);
             else
-                fmt::print("{}\n", jsonOf(row, threads).dump());
+                printJson(jsonOf(row, threads));
             std::fflush(stdout);
         });
     });
@@ -85,8 +84,7 @@ void addBenchCommand(const Command& program) {
     const auto options = std::make_shared<BenchOptions>();
     command.option("--filter", options->settings.filter, "only rows whose name and material contain this text")
         .of("TEXT");
-    command.option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)")
-        .of("N");
+    command.option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)").of("N");
     command.option("--rounds", options->settings.rounds, "how often each is timed (default: 5)").aboveZero();
     addTo(command, options->run);
     command.example("globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");

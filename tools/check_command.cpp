@@ -11,13 +11,12 @@
 #include "engine/steppers.h"
 #include "scenes/frame_steps.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 #include "tools/scene_options.h"
 #include "tools/threads.h"
 
 namespace tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct CheckOptions {
     RunOptions run;
@@ -191,7 +190,7 @@ void check(const CheckOptions& options) {
     Json json;
     onThreads(threadCount(options.run), [&] { json = checkJson(scene); });
     if (options.run.json)
-        fmt::print("{}\n", json.dump());
+        printJson(json);
     else if (!options.run.quiet)
         printCheck(json);
 }

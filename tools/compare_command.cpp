@@ -15,6 +15,7 @@
 #include "tools/compare_page.h"
 #include "tools/compare_pictures.h"
 #include "tools/ended.h"
+#include "tools/json.h"
 #include "tools/junit.h"
 #include "tools/output_file.h"
 
@@ -74,16 +75,16 @@ void print(const PictureResult& result, const render::CompareLimits& limits) {
 
 void printSummary(const CompareOptions& options, const CompareCounts& counts, const std::string& approval) {
     if (options.json) {
-        nlohmann::ordered_json json = {{"event", "done"},
-                                       {"pictures", counts.pictures},
-                                       {"identical", counts.identical},
-                                       {"within_limits", counts.withinLimits},
-                                       {"different", counts.different},
-                                       {"missing", counts.missing},
-                                       {"extra", counts.extra},
-                                       {"unreadable", counts.unreadable}};
+        Json json = {{"event", "done"},
+                     {"pictures", counts.pictures},
+                     {"identical", counts.identical},
+                     {"within_limits", counts.withinLimits},
+                     {"different", counts.different},
+                     {"missing", counts.missing},
+                     {"extra", counts.extra},
+                     {"unreadable", counts.unreadable}};
         if (!approval.empty()) json["approve"] = approval;
-        fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+        printJson(json);
     } else if (!options.quiet) {
         fmt::print(
             "{} pictures: {} identical, {} within limits ({}), {} different, {} missing, {} without a golden, {} "
@@ -102,9 +103,9 @@ bool canBeApproved(const PictureResult& result) {
 
 void printResult(const CompareOptions& options, const PictureResult& result, const render::CompareLimits& limits) {
     if (options.json) {
-        nlohmann::ordered_json json = {{"event", "picture"}};
+        Json json = {{"event", "picture"}};
         json.update(resultJson(result));
-        fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+        printJson(json);
     } else if (!options.quiet && (!result.passed() || result.explanation)) {
         print(result, limits);
     }

@@ -6,11 +6,10 @@
 #include "render/difference_image.h"
 #include "render/png.h"
 #include "tools/html.h"
+#include "tools/json.h"
 
 namespace tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string inlined(const std::vector<std::uint8_t>& png) {
     return dataUri("image/png", png);
@@ -40,7 +39,7 @@ std::size_t byteCount(const Json& images) {
 /// JSON within a script element: nothing in it may look like the end of the element.
 std::string inScript(const Json& json) {
     std::string text;
-    for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    for (const char c : compactText(json)) {
         if (c == '<')
             text += "\\u003c";
         else

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/compare_pictures.h"
+#include "tools/json.h"
 
 namespace tools {
 
@@ -39,13 +40,13 @@ class ComparePage {
  private:
     struct Entry {
         PictureStatus status;
-        nlohmann::ordered_json json;
+        Json json;
     };
-    void inlinePictures(const PictureResult& result, nlohmann::ordered_json& json);
-    void noteRun(const PictureSide& side, nlohmann::ordered_json& json);
+    void inlinePictures(const PictureResult& result, Json& json);
+    void noteRun(const PictureSide& side, Json& json);
 
     std::vector<Entry> entries_;
-    std::map<std::string, nlohmann::json> runs_;  ///< each run.json beside a picture
+    std::map<std::string, Json> runs_;  ///< each run.json beside a picture
     std::size_t passedBytes_ = 0;
     std::size_t failedBytes_ = 0;
 };

@@ -8,13 +8,13 @@
 
 #include "render/png.h"
 #include "render/system_error.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 
 namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 PictureSide readSide(const std::optional<fs::path>& path, std::vector<std::string>& problems) {
     PictureSide side;

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "render/compare.h"
+#include "tools/json.h"
 #include "tools/picture_facts.h"
 #include "tools/picture_pairs.h"
 
@@ -64,6 +64,6 @@ CompareCounts comparePictures(const CompareJob& job, const std::function<void(co
 
 /// A result as an object for scripts: status, rule, reasons, metrics, worst pixels, what changed, the facts of both
 /// sides.
-nlohmann::ordered_json resultJson(const PictureResult& result);
+Json resultJson(const PictureResult& result);
 
 }  // namespace tools

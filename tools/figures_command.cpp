@@ -10,6 +10,7 @@
 #include "render/png.h"
 #include "tools/commands.h"
 #include "tools/figures_page.h"
+#include "tools/json.h"
 #include "tools/moments.h"
 #include "tools/output_file.h"
 #include "tools/render_loop.h"
@@ -85,7 +86,7 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
     FinishedRun result = renderVideo(scene, options, entry);
     entry.stateHash = result.report.stateHash;
     entry.constants = constantsOf(scene, result.simulation.particles.count());
-    writeFile(folder / (name + ".json"), runJson(scene, result.simulation, result.report).dump(2) + "\n");
+    writeFile(folder / (name + ".json"), indentedText(runJson(scene, result.simulation, result.report)));
     return entry;
 }
 
@@ -96,13 +97,12 @@ void makeFigures(const FiguresOptions& options) {
         entries.push_back(makeFigure(number, options));
         const FigureEntry& entry = entries.back();
         if (options.run.json)
-            fmt::print("{}\n", nlohmann::ordered_json{{"event", "figure"},
-                                                      {"figure", number},
-                                                      {"still", entry.stillPath},
-                                                      {"strip", entry.stripPath},
-                                                      {"video", entry.videoPath},
-                                                      {"state_hash", entry.stateHash}}
-                                   .dump());
+            printJson(Json{{"event", "figure"},
+                           {"figure", number},
+                           {"still", entry.stillPath},
+                           {"strip", entry.stripPath},
+                           {"video", entry.videoPath},
+                           {"state_hash", entry.stateHash}});
         else if (!options.run.quiet)
             fmt::print("figure {}: {}, {}, {}\n", number, entry.stillPath, entry.stripPath, entry.videoPath);
     }

@@ -14,6 +14,7 @@
 
 #include "engine/checkpoint.h"
 #include "render/system_error.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 
 namespace tools {
@@ -85,7 +86,7 @@ FolderLock::~FolderLock() {
     ::close(descriptor_);
 }
 
-FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const nlohmann::ordered_json& identity)
+FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity)
     : folder_(options.path),
       lock_(folder_),
       resumes_(options.existing == Existing::keep),
@@ -186,8 +187,7 @@ void FrameFolder::write(int frame, std::span<const std::uint8_t> bytes, const st
     if (std::chrono::steady_clock::now() - lastListing_ > kBetweenListings) writeManifest();
 }
 
-void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes,
-                                  const nlohmann::ordered_json& report) {
+void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report) {
     writeFile(checkpointPath(frame), bytes);
     auto& all = manifest_.checkpoints;
     all[frame] = {checksumOf(bytes), report};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/simulation.h"
+#include "tools/json.h"
 #include "tools/manifest.h"
 
 namespace tools {
@@ -56,7 +57,7 @@ struct FolderOptions {
 struct Restart {
     int frame = 0;
     engine::Simulation simulation;
-    nlohmann::ordered_json report;
+    Json report;
 };
 
 class FrameFolder {
@@ -65,7 +66,7 @@ class FrameFolder {
     /// frames that are whole stay.
     /// Shape:  identity as in Manifest.
     /// Throws: render::SystemError where another run is at work in it, or its frames are of another run.
-    FrameFolder(const FolderOptions& options, FrameNames names, const nlohmann::ordered_json& identity);
+    FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity);
     /// Lists what was written.
     ~FrameFolder();
     FrameFolder(const FrameFolder&) = delete;
@@ -85,7 +86,7 @@ class FrameFolder {
 
     /// Puts a checkpoint (encodeCheckpoint) of a frame in its place, when all frames up to it are in theirs. The last
     /// two up to it stay, and the newest of all.
-    void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const nlohmann::ordered_json& report);
+    void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report);
 
  private:
     void removeHalfWritten() const;

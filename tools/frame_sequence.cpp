@@ -6,6 +6,7 @@
 #include "engine/checkpoint.h"
 #include "engine/diagnostics.h"
 #include "scenes/frame_steps.h"
+#include "tools/json.h"
 #include "tools/stopwatch.h"
 
 namespace tools {
@@ -19,7 +20,7 @@ int sampleStride(const FrameRange& frames) {
 }
 
 /// Which frames are sampled depends on it.
-nlohmann::ordered_json rangeOf(const FrameRange& frames) {
+Json rangeOf(const FrameRange& frames) {
     return {frames.first, frames.last};
 }
 
@@ -45,8 +46,7 @@ bool FrameSequence::goOn() {
     if (!restart) return false;
     position_ = restart->frame;
     run_.simulation = std::move(restart->simulation);
-    if (restart->report.value("range", nlohmann::ordered_json()) == rangeOf(frames_))
-        run_.report.errors = decodeErrors(restart->report);
+    if (restart->report.value("range", Json()) == rangeOf(frames_)) run_.report.errors = decodeErrors(restart->report);
     run_.report.resumedFrom = restart->frame;
     next_ = std::min(frames_.first, position_ + 1);
     return true;
@@ -89,8 +89,8 @@ bool FrameSequence::advanceTo(int frame) {
     return true;
 }
 
-nlohmann::ordered_json FrameSequence::checkpointReport() const {
-    nlohmann::ordered_json report = encodeErrors(run_.report.errors);
+Json FrameSequence::checkpointReport() const {
+    Json report = encodeErrors(run_.report.errors);
     report["range"] = rangeOf(frames_);
     return report;
 }

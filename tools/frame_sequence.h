@@ -11,6 +11,7 @@
 #include "scenes/scene.h"
 #include "tools/frame_folder.h"
 #include "tools/interrupt.h"
+#include "tools/json.h"
 #include "tools/run_report.h"
 #include "tools/scene_options.h"
 
@@ -24,7 +25,7 @@ struct SequencedFrame {
     bool isKept = false;                   ///< its file is there; the simulation may stand elsewhere
     std::string stateHash;                 ///< of a frame that is wanted and not kept, where there is a folder
     std::vector<std::uint8_t> checkpoint;  ///< of the simulation at this frame; mostly empty
-    nlohmann::ordered_json report;         ///< goes with the checkpoint
+    Json report;                           ///< goes with the checkpoint
 };
 
 class FrameSequence {
@@ -51,7 +52,7 @@ class FrameSequence {
     bool goOn();
     bool advanceTo(int frame);
     bool isCheckpointDue() const;
-    nlohmann::ordered_json checkpointReport() const;
+    Json checkpointReport() const;
 
     const scenes::Scene& scene_;
     FrameRange frames_;

@@ -8,12 +8,11 @@
 
 #include "engine/fnv.h"
 #include "render/system_error.h"
+#include "tools/json.h"
 #include "tools/number_in.h"
 
 namespace tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Changed whenever the meaning of a field is.
 constexpr int kFormat = 1;
@@ -27,13 +26,13 @@ int frameNumber(const std::string& text) {
 /// What is no whole number, or a huge one, would not survive the conversion.
 int frameIn(const Json& json) {
     if (!json.is_number_integer() || json < 0 || json > std::numeric_limits<int>::max())
-        throw render::SystemError(fmt::format("{} is no frame number", json.dump()));
+        throw render::SystemError(fmt::format("{} is no frame number", compactText(json)));
     return json.get<int>();
 }
 
 Manifest parsed(const Json& json) {
     if (json.at("format") != kFormat)
-        throw render::SystemError(fmt::format("its format is {}, not {}", json.at("format").dump(), kFormat));
+        throw render::SystemError(fmt::format("its format is {}, not {}", compactText(json.at("format")), kFormat));
     Manifest manifest;
     manifest.identity = json.at("run");
     if (!manifest.identity.is_object()) throw render::SystemError("\"run\" is no object");
@@ -49,7 +48,7 @@ Manifest parsed(const Json& json) {
 }
 
 std::string textOf(const Json& identity, const std::string& key) {
-    return identity.contains(key) ? identity[key].dump() : "nothing";
+    return identity.contains(key) ? compactText(identity[key]) : "nothing";
 }
 
 }  // namespace
@@ -67,12 +66,12 @@ std::string encodeManifest(const Manifest& manifest) {
         checkpoints.push_back({{"frame", frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
     const Json json = {
         {"format", kFormat}, {"run", manifest.identity}, {"checkpoints", checkpoints}, {"frames", frames}};
-    return json.dump(1) + "\n";
+    return indentedText(json, 1);
 }
 
 Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name) {
     try {
-        return parsed(Json::parse(text.begin(), text.end()));
+        return parsed(parsedJson(text));
     } catch (const std::exception& error) {
         throw render::SystemError(fmt::format("{} is no manifest of frames: {}", name, error.what()));
     }

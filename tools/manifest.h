@@ -8,6 +8,8 @@
 #include <span>
 #include <string>
 
+#include "tools/json.h"
+
 namespace tools {
 
 /// One frame's file.
@@ -18,12 +20,12 @@ struct FrameRecord {
 
 /// A state to go on from.
 struct CheckpointRecord {
-    std::string checksum;           ///< of the file's bytes
-    nlohmann::ordered_json report;  ///< what the run had measured by then
+    std::string checksum;  ///< of the file's bytes
+    Json report;           ///< what the run had measured by then
 };
 
 struct Manifest {
-    nlohmann::ordered_json identity;  ///< an object; what decides the bytes of the frames
+    Json identity;  ///< an object; what decides the bytes of the frames
     std::map<int, FrameRecord> frames;
     std::map<int, CheckpointRecord> checkpoints;  ///< by the frame whose state they hold
 };
@@ -37,6 +39,6 @@ std::string encodeManifest(const Manifest& manifest);
 Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name);
 
 /// What of two identities differs, as in "scene_hash: 12ab there, 34cd here"; empty where nothing does.
-std::string differences(const nlohmann::ordered_json& there, const nlohmann::ordered_json& here);
+std::string differences(const Json& there, const Json& here);
 
 }  // namespace tools

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/system_error.h"
+#include "tools/json.h"
 #include "tools/manifest.h"
 #include "tools/output_file.h"
 
@@ -13,7 +14,6 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 std::string textIn(const Json& json, const char* key) {
     const auto found = json.find(key);
@@ -99,8 +99,7 @@ Json readJson(const fs::path& path) {
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return nullptr;
     try {
-        const Json json = Json::parse(readFile(path), nullptr, false);
-        return json.is_discarded() ? Json(nullptr) : json;
+        return parsedJsonOrNull(readFile(path));
     } catch (const render::SystemError&) {
         return nullptr;
     }
@@ -120,7 +119,7 @@ PictureFacts factsOf(const fs::path& picture, std::span<const std::uint8_t> byte
     return none;
 }
 
-nlohmann::ordered_json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height) {
+Json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height) {
     return {{"format", 1},
             {"png", checksum},
             {"scene_hash", textOrNull(facts.sceneHash)},

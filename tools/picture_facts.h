@@ -4,9 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+
+#include "tools/json.h"
 
 namespace tools {
 
@@ -30,10 +31,10 @@ std::filesystem::path sidecarPath(const std::filesystem::path& picture);
 PictureFacts factsOf(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes);
 
 /// The content of a sidecar; unknown facts are null. Shape: size as width, height.
-nlohmann::ordered_json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height);
+Json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height);
 
 /// The JSON in a file; null where it cannot be read or is none.
-nlohmann::json readJson(const std::filesystem::path& path);
+Json readJson(const std::filesystem::path& path);
 
 /// Which part of the program gave another picture.
 enum class Cause { simulation, renderer, unknown };

@@ -1,5 +1,6 @@
 // Progress to stderr, or JSON lines to stdout.
 #include "tools/progress.h"
+#include "tools/json.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -37,9 +38,9 @@ void Progress::frameDone(int frame, double sceneTime) {
     ++done_;
     if (talk_ == Talk::quiet) return;
     if (talk_ == Talk::json) {
-        const nlohmann::ordered_json line = {{"event", "frame"},  {"scene", title_}, {"frame", frame},
-                                             {"time", sceneTime}, {"done", done_},   {"total", total_}};
-        fmt::print("{}\n", line.dump());
+        const Json line = {{"event", "frame"},  {"scene", title_}, {"frame", frame},
+                           {"time", sceneTime}, {"done", done_},   {"total", total_}};
+        printJson(line);
         return;
     }
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/commands.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 #include "tools/render_loop.h"
 
@@ -23,10 +24,9 @@ struct RenderOptions {
     std::string frames;
 };
 
-void printSummary(const RenderOptions& options, const fs::path& folder, const nlohmann::ordered_json& json) {
+void printSummary(const RenderOptions& options, const fs::path& folder, const Json& json) {
     if (options.run.json) {
-        fmt::print("{}\n",
-                   nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
+        printJson(Json{{"event", "done"}, {"folder", folder.string()}, {"run", json}});
     } else if (!options.run.quiet) {
         fmt::print("{} frames in {}{}\n", json["frames"].get<int>(), folder.string(),
                    options.video.empty() ? "" : ", video " + options.video);
@@ -57,7 +57,7 @@ void render(const RenderOptions& options) {
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
     FinishedRun result = renderFrames(job);
     const auto json = runJson(scene, result.simulation, result.report);
-    writeFile(folder / "run.json", json.dump(2) + "\n");
+    writeFile(folder / "run.json", indentedText(json));
     requireWhole(result.report, folder);
     printSummary(options, folder, json);
 }

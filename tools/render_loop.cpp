@@ -16,6 +16,7 @@
 #include "render/video.h"
 #include "scenes/frame_view.h"
 #include "tools/frame_sequence.h"
+#include "tools/json.h"
 #include "tools/open_context.h"
 #include "tools/output_file.h"
 #include "tools/stopwatch.h"
@@ -35,9 +36,9 @@ struct FrameInFlight {
 };
 
 /// What decides the bytes of the frames of a run.
-nlohmann::ordered_json identityOf(const RenderJob& job, const std::string& glRenderer) {
+Json identityOf(const RenderJob& job, const std::string& glRenderer) {
     constexpr std::array kNames = {"draft", "normal", "final"};
-    nlohmann::ordered_json identity = sceneIdentity(*job.scene);
+    Json identity = sceneIdentity(*job.scene);
     identity["size"] = {job.scene->size.width, job.scene->size.height};
     identity["quality"] = kNames[static_cast<std::size_t>(job.quality)];
     identity["gl_renderer"] = glRenderer;
@@ -89,15 +90,13 @@ class Run {
     void runPipeline() {
         constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
         tbb::parallel_pipeline(
-            kTokens, tbb::make_filter<void, FrameInFlight*>(
-                         kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); }) &
-                         tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder,
-                                                                          [this](FrameInFlight* frame) {
-                                                                              draw(*frame);
-                                                                              return frame;
-                                                                          }) &
-                         tbb::make_filter<FrameInFlight*, void>(kInOrder,
-                                                                [this](FrameInFlight* frame) { encode(*frame); }));
+            kTokens,
+            tbb::make_filter<void, FrameInFlight*>(kInOrder, [this](tbb::flow_control& flow) {
+                return simulate(flow);
+            }) & tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder, [this](FrameInFlight* frame) {
+                draw(*frame);
+                return frame;
+            }) & tbb::make_filter<FrameInFlight*, void>(kInOrder, [this](FrameInFlight* frame) { encode(*frame); }));
     }
 
     FrameInFlight* simulate(tbb::flow_control& flow) {

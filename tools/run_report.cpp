@@ -14,11 +14,10 @@
 #include "render/metaball_cast.h"
 #include "render/system_error.h"
 #include "tools/ended.h"
+#include "tools/json.h"
 
 namespace tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// More frames than any run has.
 constexpr int kMostSamples = 1 << 30;
@@ -72,7 +71,8 @@ Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples
                  {"samples", errors.count}};
     if (simulation.setup.stepper == engine::StepperKind::automatic) {
         json["obtained"] = fmt::format(
-            "frames run again at half the step, times what up to {} s of motion make of an error: mean and largest over "
+            "frames run again at half the step, times what up to {} s of motion make of an error: mean and largest "
+            "over "
             "the samples",
             engine::kFarSeconds);
         json["wanted"] = simulation.setup.error;

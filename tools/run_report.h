@@ -1,12 +1,12 @@
 // run.json: what a run did, for people and scripts. Filled in by the loops that simulate and draw.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "engine/simulation.h"
 #include "scenes/scene.h"
+#include "tools/json.h"
 
 namespace tools {
 
@@ -26,8 +26,8 @@ struct ErrorSamples {
 };
 
 /// As JSON, for a checkpoint, and back; none for JSON that is something else.
-nlohmann::ordered_json encodeErrors(const ErrorSamples& errors);
-ErrorSamples decodeErrors(const nlohmann::ordered_json& json);
+Json encodeErrors(const ErrorSamples& errors);
+ErrorSamples decodeErrors(const Json& json);
 
 /// Measures the error of the frame to come, at the step that the run takes, and adds it. Nothing for the automatic
 /// stepper, which measures itself, and for a run that is about to become unstable.
@@ -52,12 +52,12 @@ struct FinishedRun {
 };
 
 /// What of a scene decides what its frames show: the first fields of run.json, and of a folder's manifest.
-nlohmann::ordered_json sceneIdentity(const scenes::Scene& scene);
+Json sceneIdentity(const scenes::Scene& scene);
 
 /// Throws engine::InstabilityError or Ended for a run that ended early, with what to do about it.
 void requireWhole(const RunReport& report, const std::string& folder);
 
 /// The content of run.json for a run that has come to the given state.
-nlohmann::ordered_json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report);
+Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report);
 
 }  // namespace tools

@@ -7,6 +7,7 @@
 
 #include "scenes/library.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 #include "tools/scene_options.h"
 
 namespace tools {
@@ -22,9 +23,7 @@ void addScenesCommand(const Command& program) {
         for (const auto& scene : list) width = std::max(width, scene.name.size());
         for (const auto& scene : list) {
             if (*json)
-                fmt::print(
-                    "{}\n",
-                    nlohmann::ordered_json{{"name", scene.name}, {"title", scene.title}, {"path", scene.path}}.dump());
+                printJson(Json{{"name", scene.name}, {"title", scene.title}, {"path", scene.path}});
             else
                 fmt::print("{:<{}}  {}\n", scene.name, width, scene.title);
         }

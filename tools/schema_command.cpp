@@ -6,6 +6,7 @@
 
 #include "scenes/schema.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 
 namespace tools {
 
@@ -21,14 +22,13 @@ void addSchemaCommand(const Command& program) {
             return;
         }
         for (const scenes::SchemaRow& row : scenes::schemaRows())
-            fmt::print("{}\n", nlohmann::ordered_json{{"key", row.key},
-                                                      {"type", row.type},
-                                                      {"unit", row.unit},
-                                                      {"default", row.fallback},
-                                                      {"range", row.range},
-                                                      {"applies_to", row.appliesTo},
-                                                      {"help", row.help}}
-                                   .dump());
+            printJson(Json{{"key", row.key},
+                           {"type", row.type},
+                           {"unit", row.unit},
+                           {"default", row.fallback},
+                           {"range", row.range},
+                           {"applies_to", row.appliesTo},
+                           {"help", row.help}});
     });
 }
 

@@ -8,6 +8,7 @@
 #include "scenes/particle_file.h"
 #include "tools/commands.h"
 #include "tools/frame_sequence.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 #include "tools/progress.h"
 #include "tools/run_report.h"
@@ -63,11 +64,10 @@ void simulate(const SimulateOptions& options) {
     run.report.seconds.all = seconds;
     run.report.threads = threads;
     const auto json = runJson(scene, run.simulation, run.report);
-    writeFile(folder / "run.json", json.dump(2) + "\n");
+    writeFile(folder / "run.json", indentedText(json));
     requireWhole(run.report, folder);
     if (options.run.json)
-        fmt::print("{}\n",
-                   nlohmann::ordered_json{{"event", "done"}, {"folder", folder.string()}, {"run", json}}.dump());
+        printJson(Json{{"event", "done"}, {"folder", folder.string()}, {"run", json}});
     else if (!options.run.quiet)
         fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", run.report.frames, folder.string(),
                    run.simulation.particles.count(), run.simulation.steps.count, run.report.seconds.all,

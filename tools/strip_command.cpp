@@ -8,6 +8,7 @@
 
 #include "render/png.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 #include "tools/moments.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
@@ -31,9 +32,9 @@ scenes::Scene loadFor(const StripOptions& options) {
     return load(std::move(sceneOptions), options.draw);
 }
 
-void printResult(const StripOptions& options, const fs::path& path, const nlohmann::ordered_json& json) {
+void printResult(const StripOptions& options, const fs::path& path, const Json& json) {
     if (options.run.json)
-        fmt::print("{}\n", json.dump());
+        printJson(json);
     else if (!options.run.quiet)
         fmt::print("{} panels in {}\n", json["times"].size(), path.string());
 }
@@ -54,7 +55,7 @@ void drawStrip(const StripOptions& options) {
     const MomentPictures pictures = drawMoments(job, {std::nullopt, frames});
     if (path.has_parent_path()) createFolder(path.parent_path());
     writeFile(path, render::encodePng(pictures.strip));
-    nlohmann::ordered_json json{{"event", "done"}, {"strip", path.string()}, {"times", nlohmann::json::array()}};
+    Json json{{"event", "done"}, {"strip", path.string()}, {"times", Json::array()}};
     for (const int frame : frames) json["times"].push_back(scenes::frameTime(scene, frame));
     json["state_hash"] = pictures.stateHash;
     printResult(options, path, json);

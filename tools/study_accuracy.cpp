@@ -17,6 +17,7 @@
 #include "tools/accuracy_page.h"
 #include "tools/commands.h"
 #include "tools/gnuplot.h"
+#include "tools/json.h"
 #include "tools/number_in.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
@@ -26,7 +27,6 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct StudyAccuracyOptions {
     RunOptions run;
@@ -96,13 +96,12 @@ studies::RunListener reporter(const std::string& name, Talk talk) {
     return [name, talk](const studies::WindowRun& run, std::string_view purpose) {
         const std::string stepper = studies::nameOf(run.variant);
         if (talk == Talk::json)
-            fmt::print("{}\n", Json{{"event", purpose},
-                                    {"scene", name},
-                                    {"stepper", stepper},
-                                    {"asked", run.variant.asked},
-                                    {"ending", studies::nameOf(run.ending)},
-                                    {"seconds", run.seconds}}
-                                   .dump());
+            printJson(Json{{"event", purpose},
+                           {"scene", name},
+                           {"stepper", stepper},
+                           {"asked", run.variant.asked},
+                           {"ending", studies::nameOf(run.ending)},
+                           {"seconds", run.seconds}});
         else if (talk == Talk::normal)
             fmt::print(stderr, "{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper, run.variant.asked,
                        run.steps.count, run.seconds, studies::nameOf(run.ending));
@@ -178,7 +177,7 @@ void study(const StudyAccuracyOptions& options) {
     for (const studies::SceneAccuracy& accuracy : results) sections.push_back(plotted(folder, accuracy));
     const fs::path page = folder / "index.html";
     writeFile(page, accuracyPage(sections, {commandOf(options), threadCount(options.run)}));
-    if (options.run.json) fmt::print("{}\n", Json{{"event", "done"}, {"page", page.string()}}.dump());
+    if (options.run.json) printJson(Json{{"event", "done"}, {"page", page.string()}});
     if (options.run.talk() != Talk::normal) return;
     for (const studies::SceneAccuracy& accuracy : results) print(accuracy);
     fmt::print("all of it: {}\n", page.string());

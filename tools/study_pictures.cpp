@@ -12,6 +12,7 @@
 #include "studies/pictures.h"
 #include "tools/commands.h"
 #include "tools/gnuplot.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 #include "tools/pictures_page.h"
 #include "tools/scene_options.h"
@@ -71,15 +72,14 @@ studies::FlickerSettings flickerSettingsFor(const PicturesOptions& options) {
 studies::PictureListener reporter(Talk talk) {
     return [talk](const studies::PictureRow& row) {
         if (talk == Talk::json)
-            fmt::print("{}\n", nlohmann::ordered_json{{"event", "row"},
-                                                      {"style", studies::nameOf(row.style)},
-                                                      {"particles", row.particles},
-                                                      {"width", row.size.width},
-                                                      {"quality", studies::nameOf(row.quality)},
-                                                      {"seconds", row.draw},
-                                                      {"ratio", row.ratio()},
-                                                      {"ssim", row.error.ssim}}
-                                   .dump());
+            printJson(Json{{"event", "row"},
+                           {"style", studies::nameOf(row.style)},
+                           {"particles", row.particles},
+                           {"width", row.size.width},
+                           {"quality", studies::nameOf(row.quality)},
+                           {"seconds", row.draw},
+                           {"ratio", row.ratio()},
+                           {"ssim", row.error.ssim}});
         else if (talk == Talk::normal)
             fmt::print(stderr, "{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
                        studies::nameOf(row.style), row.particles, row.size.width, row.size.height,

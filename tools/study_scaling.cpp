@@ -14,6 +14,7 @@
 #include "studies/timing.h"
 #include "tools/commands.h"
 #include "tools/gnuplot.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 #include "tools/scaling_page.h"
 #include "tools/scene_options.h"
@@ -50,12 +51,11 @@ studies::ScalingSettings settingsFor(const ScalingOptions& options) {
 studies::ScalingListener reporter(Talk talk) {
     return [talk](const studies::ScalingRow& row) {
         if (talk == Talk::json)
-            fmt::print("{}\n", nlohmann::ordered_json{{"event", "row"},
-                                                      {"subject", row.subject},
-                                                      {"particles", row.particles},
-                                                      {"seconds", row.list},
-                                                      {"state_hash", row.stateHash}}
-                                   .dump());
+            printJson(Json{{"event", "row"},
+                           {"subject", row.subject},
+                           {"particles", row.particles},
+                           {"seconds", row.list},
+                           {"state_hash", row.stateHash}});
         else if (talk == Talk::normal)
             fmt::print(stderr, "{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list);
     };
@@ -81,7 +81,7 @@ ScalingResults measure(const ScalingOptions& options) {
 /// Seconds of the timed loop of a script. Throws render::SystemError with what kept the program from it.
 double lammpsSeconds(const std::string& script, int ranks) {
     std::vector<std::string> arguments = {"mpirun", "--bind-to", "none", "-np", fmt::format("{}", ranks)};
-    if (geteuid() == 0) arguments.insert(arguments.begin() + 1, "--allow-run-as-root");
+    if (geteuid() == 0) arguments.emplace_back("--allow-run-as-root");
     for (const char* argument : {"lmp", "-log", "none"}) arguments.emplace_back(argument);
     render::ChildProcess lammps(arguments);
     lammps.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});

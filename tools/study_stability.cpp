@@ -12,6 +12,7 @@
 #include "studies/stability.h"
 #include "studies/stability_text.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
 #include "tools/stability_page.h"
@@ -66,15 +67,15 @@ void tellCase(const studies::CaseResult& result, Talk talk) {
     if (talk == Talk::normal)
         fmt::print(stderr, "{}: {} variants, {:.1f} s\n", result.name, result.variants.size(), result.seconds);
     if (talk != Talk::json) return;
-    const nlohmann::ordered_json line = {{"event", "case"},
-                                         {"case", result.name},
-                                         {"observable", scenes::infoOf(worst.study.observable).name},
-                                         {"value", worst.ours.value},
-                                         {"limit", worst.study.limit},
-                                         {"passes", studies::oursPasses(result)},
-                                         {"paper_as_expected", studies::paperIsAsExpected(result)},
-                                         {"seconds", result.seconds}};
-    fmt::print("{}\n", line.dump());
+    const Json line = {{"event", "case"},
+                       {"case", result.name},
+                       {"observable", scenes::infoOf(worst.study.observable).name},
+                       {"value", worst.ours.value},
+                       {"limit", worst.study.limit},
+                       {"passes", studies::oursPasses(result)},
+                       {"paper_as_expected", studies::paperIsAsExpected(result)},
+                       {"seconds", result.seconds}};
+    printJson(line);
 }
 
 std::string commandText(const StabilityOptions& options) {

@@ -12,6 +12,7 @@
 #include "render/video.h"
 #include "scenes/input_error.h"
 #include "tools/commands.h"
+#include "tools/json.h"
 #include "tools/output_file.h"
 #include "tools/progress.h"
 #include "tools/scene_options.h"
@@ -62,8 +63,7 @@ int rateOf(const VideoCommandOptions& options) {
     if (options.fps > 0) return options.fps;
     const fs::path run = fs::path(options.folder) / "run.json";
     if (!fs::exists(run)) return 30;
-    const auto bytes = readFile(run);
-    const auto json = nlohmann::json::parse(bytes, nullptr, false);
+    const Json json = parsedJsonOrNull(readFile(run));
     if (!json.is_object() || !json.contains("fps") || !json["fps"].is_number_integer() || json["fps"] < 1 ||
         json["fps"] > 240)
         throw render::SystemError(fmt::format("{} names no frame rate; give one with --fps", run.string()));
@@ -98,9 +98,7 @@ void encode(const VideoCommandOptions& options) {
     }
     writer.finish();
     if (options.run.json)
-        fmt::print(
-            "{}\n",
-            nlohmann::ordered_json{{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}}.dump());
+        printJson(Json{{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}});
     else if (!options.run.quiet)
         fmt::print("{} frames in {}\n", numbers.size(), options.output);
 }

@@ -139,6 +139,43 @@ TEST_CASE("Honey is stepped implicitly, plain liquid is not", "[auto-stepper]") 
     CHECK((forHoney == StepperKind::implicitDamping || forHoney == StepperKind::linearlyImplicit));
 }
 
+TEST_CASE("What becomes of errors after a while is known of each candidate by itself", "[auto-stepper]") {
+    // A block of weak honey lands: velocity Verlet's errors grow in it, those of the implicit steppers are damped.
+    Material material = runs::honey();
+    material.damping = 2.0;
+    Setup setup = fallingBlock(material, {5, 5, 5});
+    setup.error = 0.3;
+    const AutoState state = afterFrames(setup, 32).automatic;
+    const auto growthOf = [&](StepperKind stepper) { return state.choices[static_cast<std::size_t>(stepper)].growth; };
+    INFO(growthOf(StepperKind::velocityVerlet) << ", " << growthOf(StepperKind::implicitDamping));
+    CHECK(growthOf(StepperKind::velocityVerlet) > 2.0 * growthOf(StepperKind::implicitDamping));
+    CHECK(growthOf(StepperKind::velocityVerlet) > 2.0 * growthOf(StepperKind::linearlyImplicit));
+}
+
+TEST_CASE("What the solver leaves out costs a small share of the wanted error, and saves products", "[auto-stepper]") {
+    for (const double error : {0.2, 0.02}) {
+        Setup setup = fallingBlock(runs::honey());
+        setup.stepper = StepperKind::implicitDamping;
+        setup.step = 1.0 / 120;
+        setup.solverTolerance = 1e-9;
+        setup.error = error;
+        const auto run = [&](double tolerated) {
+            Simulation simulation = start(setup);
+            simulation.toleratedAcceleration = tolerated;
+            advance(simulation, 0.5);
+            return simulation;
+        };
+        const Simulation whole = run(0.0);
+        const Simulation cut = run(acceptableResidual(whole));
+        const double off = runs::rmsDistance(cut.particles, whole.particles) / whole.particles.radius[0] / 0.5;
+        INFO("wanted " << error << ", off by " << off << ", products " << cut.steps.products << " of "
+                       << whole.steps.products);
+        CHECK(off > 0.0);
+        CHECK(off < 0.3 * error);
+        CHECK(2 * cut.steps.products < whole.steps.products);
+    }
+}
+
 TEST_CASE("A smaller error takes more and smaller steps", "[auto-stepper]") {
     for (const char* preset : {"liquid", "solid"}) {
         StepStatistics before;

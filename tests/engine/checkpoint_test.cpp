@@ -199,7 +199,7 @@ TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoin
     CHECK(complaintAfter([&](Simulation& s) { s.restriction.seconds = nan; }) == steps);
     CHECK(complaintAfter([](Simulation& s) { s.automatic.choices[1].step = 1e-300; }) == steps);
     CHECK(complaintAfter([&](Simulation& s) { s.automatic.choices[1].cost = nan; }) == steps);
-    CHECK(complaintAfter([&](Simulation& s) { s.automatic.growth = nan; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.automatic.choices[1].growth = nan; }) == steps);
     CHECK(complaintAfter([](Simulation& s) {
               s.automatic.choices = {};
               s.automatic.nextLook = s.automatic.intervals + 1;

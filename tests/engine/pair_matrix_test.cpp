@@ -188,18 +188,22 @@ TEST_CASE("Coincident particles leave the matrix symmetric and add nothing to it
 
 TEST_CASE("A solution is off by no more than the tolerance", "[pair-matrix]") {
     // A >= M, so the error x - x* = A^-1 r in the norm of M is at most r in the norm of M^-1, which the solver bounds
-    // by the tolerance. Its residual is a recurrence: at 1e-12 rounding has eaten half of it.
+    // by the tolerance, be it a share of b or a number. Its residual is a recurrence: at 1e-12 rounding has eaten half
+    // of it.
     for (const Case& c : smallClouds()) {
         const auto b = randomVectors(c.count(), 24);
         const Eigen::VectorXd exact = c.dense.ldlt().solve(column(c, b));
-        for (const double tolerance : {1e-2, 1e-6, 1e-12}) {
-            std::vector<Vec3> x;
-            SolverScratch scratch;
-            CHECK(solve(c.matrix, b, tolerance, x, scratch) < 500);
-            Eigen::VectorXd error = column(c, x) - exact;
-            for (std::size_t p = 0; p < c.count(); ++p)
-                error.segment<3>(static_cast<Eigen::Index>(3 * p)) *= std::sqrt(c.particles.mass[p]);
-            CHECK(error.norm() <= 2.0 * tolerance * inInverseMass(c, b));  // derived above
+        for (const double share : {1e-2, 1e-6, 1e-12}) {
+            const double size = inInverseMass(c, b);
+            for (const Tolerance& tolerance : {Tolerance{share, 0.0}, Tolerance{0.0, share * size}}) {
+                std::vector<Vec3> x;
+                SolverScratch scratch;
+                CHECK(solve(c.matrix, b, tolerance, x, scratch) < 500);
+                Eigen::VectorXd error = column(c, x) - exact;
+                for (std::size_t p = 0; p < c.count(); ++p)
+                    error.segment<3>(static_cast<Eigen::Index>(3 * p)) *= std::sqrt(c.particles.mass[p]);
+                CHECK(error.norm() <= 2.0 * share * size);  // derived above
+            }
         }
     }
 }
@@ -213,7 +217,7 @@ TEST_CASE("What pairs push alone neither moves nor turns the whole, at any toler
         for (double tolerance = 0.1; tolerance > 0.5e-12; tolerance *= 0.1) {
             std::vector<Vec3> x;
             SolverScratch scratch;
-            solve(c.matrix, b, tolerance, x, scratch);
+            solve(c.matrix, b, {tolerance, 0.0}, x, scratch);
             Vec3 momentum = Vec3::Zero();
             Vec3 spin = Vec3::Zero();
             double size = 0.0;
@@ -236,10 +240,25 @@ TEST_CASE("A smaller tolerance takes more products", "[pair-matrix]") {
         for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9, 1e-12}) {
             std::vector<Vec3> x;
             SolverScratch scratch;
-            const int products = solve(c.matrix, randomVectors(c.count(), 26), tolerance, x, scratch);
+            const int products = solve(c.matrix, randomVectors(c.count(), 26), {tolerance, 0.0}, x, scratch);
             CHECK(products > before);
             before = products;
         }
+    }
+}
+
+TEST_CASE("The tolerance that is met first ends a solution", "[pair-matrix]") {
+    for (const Case& c : smallClouds()) {
+        const auto b = randomVectors(c.count(), 26);
+        const double size = inInverseMass(c, b);
+        const auto products = [&](const Tolerance& tolerance) {
+            std::vector<Vec3> x;
+            SolverScratch scratch;
+            return solve(c.matrix, b, tolerance, x, scratch);
+        };
+        CHECK(products({1e-9, 1e-3 * size}) == products({0.0, 1e-3 * size}));
+        CHECK(products({1e-3, 1e-9 * size}) == products({1e-3, 0.0}));
+        CHECK(products({1e-9, 2.0 * size}) == 0);
     }
 }
 
@@ -247,14 +266,14 @@ TEST_CASE("Nothing to solve, nobody to meet", "[pair-matrix]") {
     SolverScratch scratch;
     std::vector<Vec3> x;
     const Case none(clouds::lawOf("solid"), {}, kStrong);
-    solve(none.matrix, {}, 1e-6, x, scratch);
+    solve(none.matrix, {}, {1e-6, 0.0}, x, scratch);
     CHECK(x.empty());
     const Case one(clouds::lawOf("solid"), clouds::strewnUnequal(1, 1.0), kStrong);
-    CHECK(solve(one.matrix, {Vec3(1, -2, 3)}, 1e-6, x, scratch) == 1);
+    CHECK(solve(one.matrix, {Vec3(1, -2, 3)}, {1e-6, 0.0}, x, scratch) == 1);
     CHECK((x[0] - Vec3(1, -2, 3) / one.particles.mass[0]).norm() <=
           4 * kEps * x[0].norm());  // two divisions, a product
     const Case some = liquidAndSolid();
-    solve(some.matrix, std::vector<Vec3>(some.count(), Vec3::Zero()), 1e-6, x, scratch);
+    solve(some.matrix, std::vector<Vec3>(some.count(), Vec3::Zero()), {1e-6, 0.0}, x, scratch);
     CHECK(x == std::vector<Vec3>(some.count(), Vec3::Zero()));
 }
 
@@ -267,7 +286,7 @@ TEST_CASE("A solution has the same bits for any number of threads", "[pair-matri
         SolverScratch scratch;
         std::vector<Vec3> forces, x;
         evaluator.assemble(particles, {.damping = 0.01, .stiffness = 1e-4}, forces, matrix);
-        solve(matrix, forces, 1e-8, x, scratch);
+        solve(matrix, forces, {1e-8, 0.0}, x, scratch);
         return x;
     };
     const auto expected = solution();

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "engine/diagnostics.h"
 #include "render/png.h"
@@ -58,8 +57,8 @@ class Drawing {
         facts.quality = "normal";
         tools::createFolder(path.parent_path());
         tools::writeFile(path, png);
-        tools::writeFile(tools::sidecarPath(path),
-                         tools::sidecarJson(facts, tools::checksumOf(png), kSize.width, kSize.height).dump(2) + "\n");
+        tools::writeFile(tools::sidecarPath(path), tools::indentedText(tools::sidecarJson(facts, tools::checksumOf(png),
+                                                                                          kSize.width, kSize.height)));
     }
 
     fs::path folder_;

@@ -11,7 +11,7 @@ using engine::Vec3;
 
 namespace {
 
-const std::string kScenes = GLOBULAR_SCENES_DIR;
+const std::string kScenes = GLOBULAR_SOURCE "/scenes";
 
 scenes::Scene paperScene(const std::string& name) {
     return scenes::loadScene(kScenes + "/paper/" + name + ".toml", {});

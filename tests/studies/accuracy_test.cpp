@@ -129,7 +129,7 @@ TEST_CASE("The automatic stepper is compared with the best of the others", "[stu
         for (const AccuracyRow& other : accuracy.rows)
             if (other.run.variant.stepper != StepperKind::automatic && other.resolved &&
                 other.rms <= row.obtained * accuracy.window)
-                CHECK(best->cost <= other.run.passes() * (1 + 1e-12));  // interpolation
+                CHECK(best->cost <= other.run.passes * (1 + 1e-12));  // interpolation
     }
     // The coarsest error that was asked is met by some fixed run.
     CHECK(accuracy.autos[0].passesAtAsked);

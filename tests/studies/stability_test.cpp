@@ -11,7 +11,7 @@ namespace {
 
 std::vector<scenes::LibraryEntry> hardCases() {
     std::vector<scenes::LibraryEntry> cases;
-    for (const scenes::LibraryEntry& entry : scenes::listScenes({GLOBULAR_SCENES_DIR}))
+    for (const scenes::LibraryEntry& entry : scenes::listScenes({GLOBULAR_SOURCE "/scenes"}))
         if (entry.name.rfind("hard/", 0) == 0) cases.push_back(entry);
     return cases;
 }

@@ -1,0 +1,29 @@
+// JSON as the program writes and reads it, members in the order they were given. Its printer and its parser are large
+// templates; they are compiled here, once.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+namespace tools {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON on one line. Bytes that are no UTF-8, as the name of a file may have, become U+FFFD.
+std::string compactText(const Json& json);
+
+/// JSON for people, each level indented by so many spaces, with a line end.
+std::string indentedText(const Json& json, int indent = 2);
+
+/// A line of what `--json` promises.
+void printJson(const Json& json);
+
+/// What a text says. Throws nlohmann::json::parse_error.
+Json parsedJson(std::span<const std::uint8_t> text);
+
+/// The same; null where it is no JSON.
+Json parsedJsonOrNull(std::span<const std::uint8_t> text);
+
+}  // namespace tools
