@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 /// Changed whenever what is kept changes.
-constexpr std::uint64_t kFormat = 0x31504B434C424C47;  // "GLBLCKP1"
+constexpr std::uint64_t kFormat = 0x32504B434C424C47;  // "GLBLCKP2"
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -144,6 +144,7 @@ void exchangeAutomatic(Archive& archive, Of& state) {
         archive(choice.cost);
         archive(choice.reason);
         archive(choice.growth);
+        archive(choice.followed);
     }
     archive(state.intervals);
     archive(state.nextLook);

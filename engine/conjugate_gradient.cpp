@@ -28,8 +28,9 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& toler
     direction.resize(count);
     inParallel(count, kParticleGrain, [&](std::size_t p) { direction[p] = residual[p] / matrix.mass[p]; });
     double norm = weightedDot(matrix, residual, residual);
-    const double target =
-        std::max(tolerance.relative * tolerance.relative * norm, tolerance.absolute * tolerance.absolute);
+    const auto squared = [](double value) { return value * value; };
+    const double target = std::max(squared(tolerance.relative) * norm,
+                                   std::min(squared(tolerance.absolute), squared(kMostLeftOut) * norm));
     int iteration = 0;
     while (norm > target && iteration < kMostIterations) {
         multiply(matrix, direction, product);

@@ -14,11 +14,15 @@ struct SolverScratch {
     std::vector<Vec3> product;
 };
 
-/// When a residual is small enough, in the norm of the inverse mass: either will do.
+/// When a residual is small enough, in the norm of the inverse mass: either will do, the absolute one as long as it is
+/// below kMostLeftOut of the right-hand side.
 struct Tolerance {
     double relative = 0.0;  ///< share of the right-hand side
     double absolute = 0.0;  ///< of right-hand sides in N s: kg^1/2 m/s
 };
+
+/// Chosen: what is left out at every step anew must not be what drives the motion.
+inline constexpr double kMostLeftOut = 0.1;
 
 /// Conjugate gradients from x = 0, preconditioned with the mass, until the residual is small enough. Returns the number
 /// of products with A.

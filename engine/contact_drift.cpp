@@ -71,7 +71,8 @@ struct Outlook {
     double decay = 0.0;                                      ///< the largest of their dampings over the mass, 1/s
 };
 
-/// way: of the coming step, m. A scale far above it leaves out the barrier, which takes longer to tell.
+/// way: of the coming step, m. The barrier, which takes longer to tell, is left out where the scale is far above the
+/// way or another surface has a smaller one.
 Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way = std::numeric_limits<double>::infinity()) {
     Outlook ahead;
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {

@@ -82,4 +82,10 @@ double shareOf(const Trial& trial, double step) {
     return step / (step > trial.step ? trial.asked : trial.step);
 }
 
+double costAt(const Trial& trial, double step) {
+    if (trial.restricted) return trial.cost / shareOf(trial, step);
+    const double endedEarly = std::max(0.0, 1.0 / trial.step - 1.0 / trial.asked);  // 1/s
+    return trial.cost * trial.step * (1.0 / step + endedEarly);
+}
+
 }  // namespace engine

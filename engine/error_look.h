@@ -55,4 +55,8 @@ double wantedStep(const Trial& trial, double wanted);
 /// What a step (s) of the same stepper is to those that were measured.
 double shareOf(const Trial& trial, double step);
 
+/// What steps that may be so long (s) cost, passes over all pairs for a second of motion. Those that births end early
+/// are as many with longer ones.
+double costAt(const Trial& trial, double step);
+
 }  // namespace engine

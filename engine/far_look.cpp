@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/error_look.h"
-
 namespace engine {
 namespace {
 
@@ -37,6 +35,7 @@ FarLook lookFar(const Simulation& simulation, StepperKind stepper, double step, 
         const Trial trial = measure(simulation, {simulation.time + intervals * interval, stepper, asked, 0.0});
         look.spent += trial.spent;
         look.step = std::min(wantedStep(trial, wanted), interval);
+        look.trial = trial;
         return trial;
     };
     const Trial first = lookAt(step);

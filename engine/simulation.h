@@ -92,7 +92,8 @@ struct AutoChoice {
     double cost =
         std::numeric_limits<double>::infinity();  ///< at that step, passes over all pairs for a second of motion
     StepLimit reason = StepLimit::error;          ///< what keeps the step from being longer
-    double growth = 1.0;  ///< of errors beyond one interval: what the measured rate is multiplied by
+    double growth = 1.0;    ///< of errors beyond one interval: what the measured rate is multiplied by
+    bool followed = false;  ///< whether that has been measured; otherwise it is lent
 };
 
 struct AutoState {
@@ -125,8 +126,8 @@ struct Simulation {
     AutoState automatic;
     std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
     std::vector<Vec3> kickForces;           ///< scratch of velocity Verlet, N: forces with the slow contacts
-    /// rms over the mass of the acceleration that the implicit steppers' solver may leave out, m/s^2; the automatic
-    /// stepper sets it by the wanted error.
+    /// rms over the mass of the acceleration that the implicit steppers' solver may leave out, m/s^2; set by the
+    /// automatic stepper, whenever it runs one of them.
     double toleratedAcceleration = 0.0;
     ImplicitScratch implicit;
     StepStatistics steps;

@@ -52,7 +52,8 @@ std::vector<Key> worldRows() {
         {.path = "physics.solver_tolerance",
          .fallback = "0.0001",
          .range = {.low = 0.0, .high = 1.0, .lowOpen = true, .highOpen = true},
-         .help = "of the implicit steppers' solver: residual over right-hand side"},
+         .help = "of the implicit steppers' solver: residual over right-hand side; \"auto\" ends it earlier where the "
+                 "wanted error allows"},
         {.path = "physics.precision",
          .type = Type::choice,
          .fallback = "\"double\"",

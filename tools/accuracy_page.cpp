@@ -122,10 +122,11 @@ std::string section(const AccuracySection& section) {
 
 std::string introduction(const StudyFacts& facts) {
     return fmt::format(
-        "<p><code>{}</code>, {} thread{}. Seconds are wall clock, the least of three rounds for runs below 5 s. A pass "
-        "is a force evaluation over all pairs; a product of the implicit steppers' matrix with a vector counts "
-        "the share of one that the plots say, and the looks that the automatic stepper takes at its candidates within the window are included. It "
-        "begins the window with its choice made, as in the middle of a run; its first looks are not counted. The cost "
+        "<p><code>{}</code>, {} thread{}. Seconds are wall clock, the least of three rounds for runs below 5 s, of up "
+        "to twelve for short ones. A pass is a force evaluation over all pairs; a product of the implicit steppers' "
+        "matrix with a vector counts the share of one that the plots say, and the looks that the automatic stepper "
+        "takes at its candidates within the window are included. It begins the window with its choice made, as in the "
+        "middle of a run; its first looks are not counted. The cost "
         "of a hand-picked stepper at an error is read off its line in the plot, log-linear between its points; the "
         "best is the cheapest of all fixed steppers. Drifts are differences from the reference at the end: of the "
         "energy, over the reference's kinetic energy and the sizes of its pair and contact energies; of the momenta, "

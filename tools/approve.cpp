@@ -56,7 +56,7 @@ std::string sidecarText(const Candidate& candidate, const std::vector<std::uint8
 std::string refusal(const Candidate& candidate) {
     const fs::path path = sidecarPath(candidate.to);
     if (!fs::exists(path)) return {};
-    const Json sidecar = readJson(path);
+    const nlohmann::json sidecar = readJson(path);
     if (!sidecar.is_object() || !sidecar.contains("png"))
         return fmt::format("its sidecar would replace {}, which is none; --force replaces it", path.string());
     // The sidecar's word counts even where the golden was changed by hand.

@@ -46,7 +46,7 @@ class ComparePage {
     void noteRun(const PictureSide& side, Json& json);
 
     std::vector<Entry> entries_;
-    std::map<std::string, Json> runs_;  ///< each run.json beside a picture
+    std::map<std::string, nlohmann::json> runs_;  ///< each run.json beside a picture
     std::size_t passedBytes_ = 0;
     std::size_t failedBytes_ = 0;
 };

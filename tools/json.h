@@ -20,7 +20,8 @@ std::string indentedText(const Json& json, int indent = 2);
 /// A line of what `--json` promises.
 void printJson(const Json& json);
 
-/// What a text says. Throws nlohmann::json::parse_error.
+/// What a text says.
+/// Throws: nlohmann::json::parse_error.
 Json parsedJson(std::span<const std::uint8_t> text);
 
 /// The same; null where it is no JSON.

@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string textIn(const Json& json, const char* key) {
+std::string textIn(const nlohmann::json& json, const char* key) {
     const auto found = json.find(key);
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string{};
 }
 
 /// What sidecars, manifests and run.json say in the same words.
-PictureFacts commonFacts(const Json& json, const fs::path& source) {
+PictureFacts commonFacts(const nlohmann::json& json, const fs::path& source) {
     PictureFacts facts;
     facts.source = source.string();
     facts.sceneHash = textIn(json, "scene_hash");
@@ -46,7 +46,7 @@ PictureFacts aboutOtherBytes(const fs::path& source) {
 /// Without a source when the file is no sidecar or manifest that knows the picture.
 PictureFacts sidecarFacts(const fs::path& picture, const std::string& checksum) {
     const fs::path path = sidecarPath(picture);
-    const Json json = readJson(path);
+    const nlohmann::json json = readJson(path);
     if (!json.is_object() || textIn(json, "png").empty()) return {};
     if (textIn(json, "png") != checksum) return aboutOtherBytes(path);
     PictureFacts facts = commonFacts(json, path);
@@ -56,19 +56,19 @@ PictureFacts sidecarFacts(const fs::path& picture, const std::string& checksum) 
 
 PictureFacts manifestFacts(const fs::path& picture, const std::string& checksum) {
     const fs::path path = picture.parent_path() / "manifest.json";
-    const Json json = readJson(path);
+    const nlohmann::json json = readJson(path);
     if (!json.is_object() || !json.contains("frames") || !json["frames"].is_object()) return {};
     const auto frame = json["frames"].find(frameKey(picture));
     if (frame == json["frames"].end() || !frame->is_object()) return {};
     if (textIn(*frame, "checksum") != checksum) return aboutOtherBytes(path);
-    PictureFacts facts = commonFacts(json.value("run", Json::object()), path);
+    PictureFacts facts = commonFacts(json.value("run", nlohmann::json::object()), path);
     facts.stateHash = textIn(*frame, "state_hash");
     return facts;
 }
 
 PictureFacts runFacts(const fs::path& picture) {
     const fs::path path = picture.parent_path() / "run.json";
-    const Json json = readJson(path);
+    const nlohmann::json json = readJson(path);
     if (!json.is_object() || textIn(json, "scene_hash").empty()) return {};
     return commonFacts(json, path);
 }
@@ -95,11 +95,12 @@ fs::path sidecarPath(const fs::path& picture) {
     return path.replace_extension(".json");
 }
 
-Json readJson(const fs::path& path) {
+nlohmann::json readJson(const fs::path& path) {
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return nullptr;
     try {
-        return parsedJsonOrNull(readFile(path));
+        const nlohmann::json json = nlohmann::json::parse(readFile(path), nullptr, false);
+        return json.is_discarded() ? nlohmann::json(nullptr) : json;
     } catch (const render::SystemError&) {
         return nullptr;
     }

@@ -1,12 +1,13 @@
 // Progress to stderr, or JSON lines to stdout.
 #include "tools/progress.h"
-#include "tools/json.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "tools/json.h"
 
 namespace tools {
 namespace {

@@ -89,14 +89,15 @@ class Run {
 
     void runPipeline() {
         constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
-        tbb::parallel_pipeline(
-            kTokens,
-            tbb::make_filter<void, FrameInFlight*>(kInOrder, [this](tbb::flow_control& flow) {
-                return simulate(flow);
-            }) & tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder, [this](FrameInFlight* frame) {
-                draw(*frame);
-                return frame;
-            }) & tbb::make_filter<FrameInFlight*, void>(kInOrder, [this](FrameInFlight* frame) { encode(*frame); }));
+        const auto simulates = tbb::make_filter<void, FrameInFlight*>(
+            kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); });
+        const auto draws = tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder, [this](FrameInFlight* frame) {
+            draw(*frame);
+            return frame;
+        });
+        const auto encodes =
+            tbb::make_filter<FrameInFlight*, void>(kInOrder, [this](FrameInFlight* frame) { encode(*frame); });
+        tbb::parallel_pipeline(kTokens, simulates & draws & encodes);
     }
 
     FrameInFlight* simulate(tbb::flow_control& flow) {
