@@ -47,6 +47,12 @@ std::int64_t wrapped(std::int64_t index, std::int64_t size) {
     return rest < 0 ? rest + size : rest;
 }
 
+/// The same of an index that is at most one outside: divisions would take as long as the search of a cell.
+std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
+    if (index < 0) return index + size;
+    return index < size ? index : index - size;
+}
+
 /// The cell of a coordinate along one axis. What has left every world, or is no number, shares the last cell: the audit
 /// after the step says what happened.
 std::int64_t cellAlong(double coordinate, double width, std::int64_t size) {
@@ -95,9 +101,9 @@ Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {
     Neighbourhood found;
     for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
         for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
-            const std::int64_t row = (wrapped(z + dz, nz) * ny + wrapped(y + dy, ny)) * nx;
+            const std::int64_t row = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;
             for (std::int64_t dx = firstStep(nx); dx <= lastStep(nx); ++dx) {
-                const auto at = static_cast<std::size_t>(row + wrapped(x + dx, nx));
+                const auto at = static_cast<std::size_t>(row + wrappedStep(x + dx, nx));
                 const CellRange range{grid.start[at], grid.start[at + 1]};
                 if (range.begin == range.end) continue;
                 CellRange* last = found.count > 0 ? &found.ranges[static_cast<std::size_t>(found.count - 1)] : nullptr;

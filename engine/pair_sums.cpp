@@ -38,7 +38,7 @@ struct Slip {
 
 /// A coincident pair is parted by a force that its energy at D = 0 does not know: it counts as much above that energy
 /// as its stand-in lies below.
-double energyOf(const PairRecord& p, const PairRecord& i, double distance, const PairConstants<double>& constants) {
+[[gnu::always_inline]] inline double energyOf(const PairRecord& p, const PairRecord& i, double distance, const PairConstants<double>& constants) {
     const double energy = pairEnergy(distance, constants);
     if (p.x != i.x || p.y != i.y || p.z != i.z) return energy;
     return 2.0 * pairEnergy(0.0, constants) - energy;
