@@ -62,11 +62,16 @@ bool isSettled(double share) {
     return std::max(share, 1.0 / share) < kGoodEnough;
 }
 
+/// Changes the step (s) of a choice, and the cost with it.
+void fit(AutoChoice& choice, const Trial& trial, double step, double interval) {
+    choice.step = std::clamp(step, kShortestStep, interval);
+    choice.cost = costAt(trial, choice.step);
+}
+
 /// What a measurement makes of a choice.
 void choose(AutoChoice& choice, const Trial& trial, double wantedError, double interval) {
     const double wanted = wantedStep(trial, wantedError);
-    choice.step = std::clamp(wanted, kShortestStep, interval);
-    choice.cost = costAt(trial, choice.step);
+    fit(choice, trial, wanted, interval);
     choice.reason = trial.restricted && wanted >= trial.step ? *trial.reason
                     : wanted >= interval                     ? StepLimit::frame
                                                              : StepLimit::error;
@@ -166,12 +171,6 @@ struct Looked {
     Trial trial;
     Simulation finer;
 };
-
-/// Changes the step (s) of a choice, and the cost with it.
-void fit(AutoChoice& choice, const Trial& trial, double step, double interval) {
-    choice.step = std::clamp(step, kShortestStep, interval);
-    choice.cost = costAt(trial, choice.step);
-}
 
 /// Makes a candidate's choice fit what becomes of its errors after a while.
 void heedFar(Simulation& simulation, double time, const Trial& near) {

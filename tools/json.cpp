@@ -23,9 +23,9 @@ Json parsedJson(std::span<const std::uint8_t> text) {
     return Json::parse(text.begin(), text.end());
 }
 
-Json parsedJsonOrNull(std::span<const std::uint8_t> text) {
-    Json json = Json::parse(text.begin(), text.end(), nullptr, false);
-    return json.is_discarded() ? Json(nullptr) : json;
+nlohmann::json sortedJsonOrNull(std::span<const std::uint8_t> text) {
+    const nlohmann::json json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
+    return json.is_discarded() ? nlohmann::json(nullptr) : json;
 }
 
 }  // namespace tools

@@ -24,7 +24,7 @@ void printJson(const Json& json);
 /// Throws: nlohmann::json::parse_error.
 Json parsedJson(std::span<const std::uint8_t> text);
 
-/// The same; null where it is no JSON.
-Json parsedJsonOrNull(std::span<const std::uint8_t> text);
+/// What a text of others says, its members sorted, since a manifest may have thousands; null where it is no JSON.
+nlohmann::json sortedJsonOrNull(std::span<const std::uint8_t> text);
 
 }  // namespace tools

@@ -99,8 +99,7 @@ nlohmann::json readJson(const fs::path& path) {
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return nullptr;
     try {
-        const nlohmann::json json = nlohmann::json::parse(readFile(path), nullptr, false);
-        return json.is_discarded() ? nlohmann::json(nullptr) : json;
+        return sortedJsonOrNull(readFile(path));
     } catch (const render::SystemError&) {
         return nullptr;
     }

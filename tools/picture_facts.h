@@ -33,8 +33,7 @@ PictureFacts factsOf(const std::filesystem::path& picture, std::span<const std::
 /// The content of a sidecar; unknown facts are null. Shape: size as width, height.
 Json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height);
 
-/// The JSON in a file, its members sorted, since a manifest may have thousands; null where it cannot be read or is
-/// none.
+/// The JSON in a file; null where it cannot be read or is none.
 nlohmann::json readJson(const std::filesystem::path& path);
 
 /// Which part of the program gave another picture.

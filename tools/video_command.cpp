@@ -63,7 +63,7 @@ int rateOf(const VideoCommandOptions& options) {
     if (options.fps > 0) return options.fps;
     const fs::path run = fs::path(options.folder) / "run.json";
     if (!fs::exists(run)) return 30;
-    const Json json = parsedJsonOrNull(readFile(run));
+    const nlohmann::json json = sortedJsonOrNull(readFile(run));
     if (!json.is_object() || !json.contains("fps") || !json["fps"].is_number_integer() || json["fps"] < 1 ||
         json["fps"] > 240)
         throw render::SystemError(fmt::format("{} names no frame rate; give one with --fps", run.string()));
