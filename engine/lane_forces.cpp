@@ -52,7 +52,7 @@ struct MatrixRows {
 
 /// A block of lanes of a group, from one of its lanes on.
 template <class Source, class Kind>
-void addUpBlock(const LanePass& pass, std::size_t group, std::size_t lane, LaneSums& sums) {
+HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t lane, LaneSums& sums) {
     using T = typename Source::T;
     constexpr Tag<T> kTag{};
     const std::size_t first = group * kGroup + lane;

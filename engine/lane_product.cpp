@@ -16,7 +16,7 @@ namespace engine {
 namespace HWY_NAMESPACE {
 
 template <bool hasFriction>
-void multiplyBlock(const PairMatrix& matrix, std::size_t group, std::size_t lane, LaneProduct& product) {
+HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std::size_t lane, LaneProduct& product) {
     constexpr Tag<double> kTag{};
     const std::size_t first = group * kGroup + lane;
     const Doubles source(matrix.records.data(), selvesFrom<double>(first, matrix.records.size()).data());

@@ -58,8 +58,22 @@ std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {
     return longest;
 }
 
-/// The particles of a block of lanes in double: positions as they are. Records are read a lane each; where vectors have
-/// 32 bytes, loads and shuffles do what gathers take longer for.
+#if HWY_TARGET != HWY_SCALAR
+/// Blocks of 128 bits side by side, as many as a vector has: block b from at(b). Loads of this kind and shuffles within
+/// blocks take half of the time of gathers.
+template <class D, class At>
+hn::Vec<D> blocksFrom(D d, const At& at, std::size_t first = 0) {
+    constexpr std::size_t kBlocks = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
+    if constexpr (kBlocks <= 1) {
+        return hn::Load(d, at(first));
+    } else {
+        const hn::Half<D> half;
+        return hn::Combine(d, blocksFrom(half, at, first + kBlocks / 2), blocksFrom(half, at, first));
+    }
+}
+#endif
+
+/// The particles of a block of lanes in double: positions as they are.
 struct Doubles {
     using T = double;
     using V = Lanes<double>;
@@ -77,30 +91,23 @@ struct Doubles {
 
     template <bool needsVelocity>
     void load(const std::int32_t* places, Vector3<V>& x, Vector3<V>& v) const {
-#if HWY_TARGET == HWY_AVX2
-        const auto record = [&](int lane) { return base + kStride * places[lane]; };
-        const auto half = [&](int lane) { return hn::Load(kTag, record(lane)); };
-        const auto evenLow = hn::InterleaveLower(kTag, half(0), half(1));
-        const auto oddLow = hn::InterleaveUpper(kTag, half(0), half(1));
-        const auto evenHigh = hn::InterleaveLower(kTag, half(2), half(3));
-        const auto oddHigh = hn::InterleaveUpper(kTag, half(2), half(3));
-        x = {hn::ConcatLowerLower(kTag, evenHigh, evenLow), hn::ConcatLowerLower(kTag, oddHigh, oddLow),
-             hn::ConcatUpperUpper(kTag, evenHigh, evenLow)};
-        if constexpr (needsVelocity) {
-            const auto rest = [&](int lane) { return hn::Load(kTag, record(lane) + 4); };
-            v.x = hn::ConcatUpperUpper(kTag, oddHigh, oddLow);
-            v.y = hn::ConcatLowerLower(kTag, hn::InterleaveLower(kTag, rest(2), rest(3)),
-                                       hn::InterleaveLower(kTag, rest(0), rest(1)));
-            v.z = hn::ConcatLowerLower(kTag, hn::InterleaveUpper(kTag, rest(2), rest(3)),
-                                       hn::InterleaveUpper(kTag, rest(0), rest(1)));
-        }
+#if HWY_TARGET == HWY_SCALAR
+        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
+        x = {field(0), field(1), field(2)};
+        if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
 #else
-        const hn::Rebind<std::int64_t, Tag<double>> wide;
-        const hn::Rebind<std::int32_t, Tag<double>> narrow;
-        const auto index = hn::Mul(hn::PromoteTo(wide, hn::LoadU(narrow, places)), hn::Set(wide, kStride));
-        const auto gather = [&](int field) { return hn::GatherIndex(kTag, base + field, index); };
-        x = {gather(0), gather(1), gather(2)};
-        if constexpr (needsVelocity) v = {gather(3), gather(4), gather(5)};
+        // Numbers two by two, of every other record from one on.
+        const auto pairs = [&](int field, std::size_t from) {
+            return blocksFrom(kTag, [&](std::size_t block) { return base + kStride * places[2 * block + from] + field; });
+        };
+        const V xy0 = pairs(0, 0), xy1 = pairs(0, 1), zu0 = pairs(2, 0), zu1 = pairs(2, 1);
+        x = {hn::InterleaveLower(kTag, xy0, xy1), hn::InterleaveUpper(kTag, xy0, xy1),
+             hn::InterleaveLower(kTag, zu0, zu1)};
+        if constexpr (needsVelocity) {
+            const V vw0 = pairs(4, 0), vw1 = pairs(4, 1);
+            v = {hn::InterleaveUpper(kTag, zu0, zu1), hn::InterleaveLower(kTag, vw0, vw1),
+                 hn::InterleaveUpper(kTag, vw0, vw1)};
+        }
 #endif
     }
 
@@ -144,38 +151,29 @@ struct Singles {
     template <bool needsVelocity>
     void load(const std::int32_t* places, Vector3<I>& x, Vector3<V>& v) const {
         const auto whole = [&](V bits) { return hn::BitCast(kWhole, bits); };
-#if HWY_TARGET == HWY_AVX2
-        const hn::Repartition<double, Tag<float>> pairs;
-        const auto record = [&](int lane) {
-            return hn::Load(kTag, base + static_cast<std::ptrdiff_t>(kStride) * places[lane]);
-        };
-        const auto lower = [&](int lane) {
-            return hn::BitCast(pairs, hn::InterleaveLower(kTag, record(lane), record(lane + 1)));
-        };
-        const auto upper = [&](int lane) {
-            return hn::BitCast(pairs, hn::InterleaveUpper(kTag, record(lane), record(lane + 1)));
-        };
-        const auto float8 = [&](auto vector) { return hn::BitCast(kTag, vector); };
-        // The first four lanes' and the last four's, each with x or y or z or v_x below and v_y or v_z above.
-        const auto first0 = float8(hn::InterleaveLower(pairs, lower(0), lower(2)));
-        const auto first1 = float8(hn::InterleaveUpper(pairs, lower(0), lower(2)));
-        const auto first2 = float8(hn::InterleaveLower(pairs, upper(0), upper(2)));
-        const auto last0 = float8(hn::InterleaveLower(pairs, lower(4), lower(6)));
-        const auto last1 = float8(hn::InterleaveUpper(pairs, lower(4), lower(6)));
-        const auto last2 = float8(hn::InterleaveLower(pairs, upper(4), upper(6)));
-        x = {whole(hn::ConcatLowerLower(kTag, last0, first0)), whole(hn::ConcatLowerLower(kTag, last1, first1)),
-             whole(hn::ConcatLowerLower(kTag, last2, first2))};
-        if constexpr (needsVelocity) {
-            const auto first3 = float8(hn::InterleaveUpper(pairs, upper(0), upper(2)));
-            const auto last3 = float8(hn::InterleaveUpper(pairs, upper(4), upper(6)));
-            v = {hn::ConcatLowerLower(kTag, last3, first3), hn::ConcatUpperUpper(kTag, last0, first0),
-                 hn::ConcatUpperUpper(kTag, last1, first1)};
-        }
+#if HWY_TARGET == HWY_SCALAR
+        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
+        x = {whole(field(0)), whole(field(1)), whole(field(2))};
+        if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
 #else
-        const auto index = hn::Mul(hn::LoadU(kWhole, places), hn::Set(kWhole, kStride));
-        const auto gather = [&](int field) { return hn::GatherIndex(kTag, base + field, index); };
-        x = {whole(gather(0)), whole(gather(1)), whole(gather(2))};
-        if constexpr (needsVelocity) v = {gather(3), gather(4), gather(5)};
+        const hn::Repartition<double, Tag<float>> twos;
+        // Numbers four by four, of every fourth record from one on, and what two of these have in their lower or upper
+        // halves.
+        const auto fours = [&](int field, std::size_t from) {
+            return blocksFrom(kTag, [&](std::size_t block) { return base + kStride * places[4 * block + from] + field; });
+        };
+        const auto lower = [&](V a, V b) { return hn::BitCast(twos, hn::InterleaveLower(kTag, a, b)); };
+        const auto upper = [&](V a, V b) { return hn::BitCast(twos, hn::InterleaveUpper(kTag, a, b)); };
+        const auto firsts = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(twos, a, b)); };
+        const auto seconds = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(twos, a, b)); };
+        const V xyzu0 = fours(0, 0), xyzu1 = fours(0, 1), xyzu2 = fours(0, 2), xyzu3 = fours(0, 3);
+        const auto xy01 = lower(xyzu0, xyzu1), xy23 = lower(xyzu2, xyzu3);
+        const auto zu01 = upper(xyzu0, xyzu1), zu23 = upper(xyzu2, xyzu3);
+        x = {whole(firsts(xy01, xy23)), whole(seconds(xy01, xy23)), whole(firsts(zu01, zu23))};
+        if constexpr (needsVelocity) {
+            const auto vw01 = lower(fours(4, 0), fours(4, 1)), vw23 = lower(fours(4, 2), fours(4, 3));
+            v = {seconds(zu01, zu23), firsts(vw01, vw23), seconds(vw01, vw23)};
+        }
 #endif
     }
 
