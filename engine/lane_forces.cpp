@@ -33,22 +33,38 @@ struct MatrixRows {
     std::size_t first;  ///< place of the first lane
     std::array<std::uint32_t, kGroup> length = {};
 
-    void add(const std::int32_t* others, Lanes<T> along, hn::Mask<Tag<T>> isPair) {
+    /// Coincident pairs have no direction and no entry.
+    template <bool hasFriction>
+    void add(const std::int32_t* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
         constexpr Tag<T> kTag{};
-        std::array<T, kGroup> values;
+        std::array<T, kGroup> alongOf, acrossOf;
         std::array<std::uint8_t, 8> bits = {};
-        hn::StoreU(along, kTag, values.data());
-        hn::StoreMaskBits(kTag, hn::And(isPair, hn::Gt(along, hn::Zero(kTag))), bits.data());
+        hn::StoreU(along, kTag, alongOf.data());
+        auto isEntry = hn::Ne(along, hn::Zero(kTag));
+        if constexpr (hasFriction) {
+            hn::StoreU(across, kTag, acrossOf.data());
+            isEntry = hn::Or(isEntry, hn::Ne(across, hn::Zero(kTag)));
+        }
+        hn::StoreMaskBits(kTag, hn::And(isPair, isEntry), bits.data());
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane) {
             const std::size_t at = matrix->rows.at(first + lane, length[lane]);
             matrix->rows.places[at] = others[lane];
-            matrix->along[at] = static_cast<double>(values[lane]);
+            matrix->along[at] = static_cast<double>(alongOf[lane]);
+            if constexpr (hasFriction) matrix->across[at] = static_cast<double>(acrossOf[lane]);
             length[lane] += (bits[lane / 8] >> (lane % 8)) & 1U;
         }
     }
 
     void finish() const { std::copy_n(length.begin(), hn::Lanes(Tag<T>()), &matrix->rows.length[first]); }
 };
+
+/// sum += factor * vector
+template <class V>
+void add(Vector3<V>& sum, V factor, const Vector3<V>& vector) {
+    sum.x = hn::Add(sum.x, hn::Mul(factor, vector.x));
+    sum.y = hn::Add(sum.y, hn::Mul(factor, vector.y));
+    sum.z = hn::Add(sum.z, hn::Mul(factor, vector.z));
+}
 
 /// A block of lanes of a group, from one of its lanes on.
 template <class Source, class Kind>
@@ -68,19 +84,35 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
         const Row<T> row = source.template row<Kind::kPair.damping>(entry);
         const Lanes<T> distanceSq = dot(row.separation, row.separation);
-        coincident = hn::Or(coincident, hn::And(row.isPair, hn::Eq(distanceSq, hn::Zero(kTag))));
+        const auto isCoincident = hn::And(row.isPair, hn::Eq(distanceSq, hn::Zero(kTag)));
+        coincident = hn::Or(coincident, isCoincident);
         Lanes<T> approach = hn::Zero(kTag);
         if constexpr (Kind::kPair.damping) approach = dot(row.velocity, row.separation);
         // A place that fills up a row is the particle itself, for which P is zero.
         const auto inverse = law.inverseOf(distanceSq);
-        const Lanes<T> coefficient = law.coefficient(inverse, approach);
-        force.x = hn::Add(force.x, hn::Mul(coefficient, row.separation.x));
-        force.y = hn::Add(force.y, hn::Mul(coefficient, row.separation.y));
-        force.z = hn::Add(force.z, hn::Mul(coefficient, row.separation.z));
+        const Lanes<T> conservative = law.conservative(inverse);
+        Lanes<T> coefficient = conservative;
+        if constexpr (Kind::kPair.damping) coefficient = hn::Sub(coefficient, law.damping(inverse, approach));
+        add(force, coefficient, row.separation);
+        typename Law<T, Kind>::Slip slip;
+        if constexpr (Kind::kPair.friction) {
+            slip = law.slipOf(row, distanceSq, approach, conservative);
+            add(force, hn::Neg(slip.damping), slip.velocity);
+        }
         if constexpr (Kind::kEnergy)
             energy = hn::Add(energy, hn::IfThenElseZero(row.isPair, hn::Mul(Law<T, Kind>::set(T(0.5)),
                                                                             law.energy(inverse, distanceSq))));
-        if constexpr (Kind::kMatrix) matrixRows.add(entry, law.along(inverse, distanceSq), row.isPair);
+        if constexpr (Kind::kMatrix) {
+            const auto isPair = hn::AndNot(isCoincident, row.isPair);
+            Lanes<T> along = law.along(inverse, distanceSq);
+            Lanes<T> across = hn::Zero(kTag);
+            if constexpr (Kind::kPair.friction) {
+                // across (1 - n n^T) = across 1 - (across / D^2) P P^T
+                across = hn::Mul(law.dampingWeight, slip.damping);
+                along = hn::Sub(along, hn::Div(across, distanceSq));
+            }
+            matrixRows.template add<Kind::kPair.friction>(entry, along, across, isPair);
+        }
     }
     if constexpr (Kind::kMatrix) matrixRows.finish();
     std::array<T, kGroup> x, y, z, e;
@@ -115,7 +147,9 @@ void addUpWith(const LanePass& pass, std::size_t group, LaneSums& sums) {
 
 template <class Source>
 void addUpFrom(const LanePass& pass, std::size_t group, LaneSums& sums) {
-    if (pass.terms.attraction)
+    if (pass.terms.friction)
+        addUpWith<Source, PairTerms{true, true, true}>(pass, group, sums);
+    else if (pass.terms.attraction)
         pass.terms.damping ? addUpWith<Source, PairTerms{true, true}>(pass, group, sums)
                            : addUpWith<Source, PairTerms{true, false}>(pass, group, sums);
     else

@@ -8,6 +8,7 @@
 #endif
 
 #include <cmath>
+#include <limits>
 
 #include "engine/lane_records-inl.h"
 #include "engine/pair_law.h"
@@ -37,7 +38,7 @@ struct Law {
     PairConstants<T> c;
     V b1, bd, inverseRestSq, inverseReachSq, reachSq, inverseDampingSq, dampingSq, coreSq;
     V reach, inverseReach, inverseReachCubed, a, b, halfSlope;
-    V dampingWeight, stiffnessWeight;
+    V dampingWeight, stiffnessWeight, friction;
 
     static V set(T value) { return hn::Set(kTag, value); }
 
@@ -58,6 +59,7 @@ struct Law {
         inverseDampingSq = set(c.inverseDampingSq);
         dampingSq = set(c.dampingSq);
         coreSq = set(c.coreSq);
+        if constexpr (Kind::kPair.friction) friction = set(static_cast<T>(wide.friction));
         if constexpr (Kind::kEnergy) {
             const T reachOf = std::sqrt(c.reachSq);
             const T inverse = T(1) / reachOf;
@@ -85,18 +87,38 @@ struct Law {
         return {guardedSq, square, hn::Sqrt(square)};
     }
 
-    V coefficient(const Inverse& inverse, V approach) const {
+    /// Of the conservative force.
+    V conservative(const Inverse& inverse) const {
         const V toRest = hn::Sub(inverse.square, inverseRestSq);
         V toReach = toRest;
         if constexpr (Kind::kPair.attraction) toReach = hn::Sub(inverse.square, inverseReachSq);
         const V repulsion = hn::Mul(hn::Mul(b1, inverse.root), hn::Mul(toRest, toReach));
-        V sum = hn::IfThenElseZero(hn::Lt(inverse.guardedSq, reachSq), repulsion);
-        if constexpr (Kind::kPair.damping) {
-            const V falling = hn::Sub(set(T(1)), hn::Mul(inverse.guardedSq, inverseDampingSq));
-            const V damping = hn::Mul(hn::Mul(hn::Mul(bd, falling), inverse.square), approach);
-            sum = hn::Sub(sum, hn::IfThenElseZero(hn::Lt(inverse.guardedSq, dampingSq), damping));
-        }
-        return sum;
+        return hn::IfThenElseZero(hn::Lt(inverse.guardedSq, reachSq), repulsion);
+    }
+
+    V damping(const Inverse& inverse, V approach) const {
+        const V falling = hn::Sub(set(T(1)), hn::Mul(inverse.guardedSq, inverseDampingSq));
+        const V damping = hn::Mul(hn::Mul(hn::Mul(bd, falling), inverse.square), approach);
+        return hn::IfThenElseZero(hn::Lt(inverse.guardedSq, dampingSq), damping);
+    }
+
+    /// Friction of pairs: -damping times velocity.
+    struct Slip {
+        Vector3<V> velocity;  ///< V_t, m/s
+        V damping;            ///< c_t, kg/s
+    };
+
+    Slip slipOf(const Row<T>& row, V distanceSq, V approach, V conservative) const {
+        // A particle is no neighbour of its own, but fills rows up: it shall give a zero and no NaN.
+        const V share = hn::Div(approach, hn::Max(distanceSq, set(std::numeric_limits<T>::min())));
+        const auto across = [&](V velocity, V separation) { return hn::Sub(velocity, hn::Mul(share, separation)); };
+        Slip slip;
+        slip.velocity = {across(row.velocity.x, row.separation.x), across(row.velocity.y, row.separation.y),
+                         across(row.velocity.z, row.separation.z)};
+        const V speed = hn::Max(hn::Sqrt(dot(slip.velocity, slip.velocity)), set(static_cast<T>(kStickingSpeed)));
+        const V damping = hn::Div(hn::Mul(friction, hn::Mul(conservative, hn::Sqrt(distanceSq))), speed);
+        slip.damping = hn::IfThenElseZero(hn::Gt(conservative, hn::Zero(kTag)), damping);
+        return slip;
     }
 
     V energy(const Inverse& inverse, V distanceSq) const {

@@ -98,7 +98,8 @@ struct Doubles {
 #else
         // Numbers two by two, of every other record from one on.
         const auto pairs = [&](int field, std::size_t from) {
-            return blocksFrom(kTag, [&](std::size_t block) { return base + kStride * places[2 * block + from] + field; });
+            return blocksFrom(kTag,
+                              [&](std::size_t block) { return base + kStride * places[2 * block + from] + field; });
         };
         const V xy0 = pairs(0, 0), xy1 = pairs(0, 1), zu0 = pairs(2, 0), zu1 = pairs(2, 1);
         x = {hn::InterleaveLower(kTag, xy0, xy1), hn::InterleaveUpper(kTag, xy0, xy1),
@@ -160,7 +161,8 @@ struct Singles {
         // Numbers four by four, of every fourth record from one on, and what two of these have in their lower or upper
         // halves.
         const auto fours = [&](int field, std::size_t from) {
-            return blocksFrom(kTag, [&](std::size_t block) { return base + kStride * places[4 * block + from] + field; });
+            return blocksFrom(kTag,
+                              [&](std::size_t block) { return base + kStride * places[4 * block + from] + field; });
         };
         const auto lower = [&](V a, V b) { return hn::BitCast(twos, hn::InterleaveLower(kTag, a, b)); };
         const auto upper = [&](V a, V b) { return hn::BitCast(twos, hn::InterleaveUpper(kTag, a, b)); };

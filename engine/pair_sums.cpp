@@ -38,7 +38,8 @@ struct Slip {
 
 /// A coincident pair is parted by a force that its energy at D = 0 does not know: it counts as much above that energy
 /// as its stand-in lies below.
-[[gnu::always_inline]] inline double energyOf(const PairRecord& p, const PairRecord& i, double distance, const PairConstants<double>& constants) {
+[[gnu::always_inline]] inline double energyOf(const PairRecord& p, const PairRecord& i, double distance,
+                                              const PairConstants<double>& constants) {
     const double energy = pairEnergy(distance, constants);
     if (p.x != i.x || p.y != i.y || p.z != i.z) return energy;
     return 2.0 * pairEnergy(0.0, constants) - energy;
@@ -138,7 +139,7 @@ using Pass = void (*)(const PairTraversal&, const PairSums&, std::vector<double>
 
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& sums) {
-    if constexpr (isUniform && !terms.friction) return addUpGroups<terms>;
+    if constexpr (isUniform) return addUpGroups<terms>;
     if (sums.matrix != nullptr) return run<Variant{terms, isUniform, true, true}>;
     return sums.energy != nullptr ? run<Variant{terms, isUniform, true, false}>
                                   : run<Variant{terms, isUniform, false, false}>;

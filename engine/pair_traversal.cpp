@@ -9,11 +9,6 @@ namespace {
 /// Units in the reach of a list: differences within it stay below 2^24, which float holds exactly.
 constexpr double kUnits = 8388608.0;
 
-/// Whether forces with these terms are summed a particle a lane.
-bool runsOnLanes(const ForceTerms& terms) {
-    return terms.uniform && !terms.pair.friction;
-}
-
 /// Modulo 2^32.
 std::int32_t wrapped(double units) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::llround(units))));
@@ -25,15 +20,14 @@ PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
     : pairMaterials(mixedPairs(law.materials)), materialCount(law.materials.size()), precision(wanted) {}
 
 void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities) {
-    const bool hadLanes = runsOnLanes(terms);
+    const bool hadLanes = terms.uniform;
     terms = termsFor(law, particles);
     if (terms.uniform && particles.count() > 0)
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * particles.radius.front());
     const bool isNew = !covers(list, particles.position, terms.cutoff);
     if (isNew) build(list, particles.position, terms.cutoff, kListSkin * terms.cutoff);
-    const bool hasLanes = runsOnLanes(terms);
-    if (hasLanes && (isNew || !hadLanes)) build(lanes, list);
-    const bool hasSingles = hasLanes && precision == Precision::singles;
+    if (terms.uniform && (isNew || !hadLanes)) build(lanes, list);
+    const bool hasSingles = terms.uniform && precision == Precision::singles;
     records.resize(particles.count());
     singles.resize(hasSingles ? particles.count() : 0);
     unit = list.reach / kUnits;
@@ -59,7 +53,7 @@ void PairTraversal::restoreList(const ForceLaw& law, const Particles& particles,
                                 double reach) {
     terms = termsFor(law, particles);
     build(list, builtAt, reach, 0.0);
-    if (runsOnLanes(terms)) build(lanes, list);
+    if (terms.uniform) build(lanes, list);
 }
 
 }  // namespace engine

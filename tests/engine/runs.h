@@ -31,8 +31,8 @@ inline engine::Material honey() {
 /// Adds a jittered cubic block that moves at up to 1 m/s an axis. No pair is as close as the core, whose kink would
 /// hide the order of a stepper.
 inline void addPacking(engine::Setup& setup, const std::array<std::uint32_t, 3>& counts) {
-    for (const engine::Vec3& position :
-         engine::gridPositions(engine::Vec3::Zero(), counts, {.spacing = 0.27, .jitter = 0.1}))
+    for (const engine::Vec3& position : engine::gridPositions(
+             engine::Vec3::Zero(), counts, {.spacing = 1.8 * setup.materials[0].radius, .jitter = 0.1}))
         append(setup.initial, {.position = position,
                                .velocity = clouds::randomVector(3, setup.initial.count()),
                                .radius = setup.materials[0].radius,
