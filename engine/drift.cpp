@@ -5,14 +5,10 @@
 #include <limits>
 
 #include "engine/contact_drift.h"
-#include "engine/decay.h"
-#include "engine/parallel.h"
 #include "engine/surfaces.h"
 
 namespace engine {
 namespace {
-
-constexpr std::size_t kContactGrain = 128;  // chosen: a contact takes some microseconds
 
 const Material& materialOf(const Simulation& simulation, std::size_t p) {
     return simulation.setup.materials[simulation.particles.material[p]];
@@ -54,57 +50,44 @@ bool isClear(const Simulation& simulation, std::size_t p) {
     return p < simulation.clearance.size() && simulation.clearance[p] >= 0.0;
 }
 
-void chooseSwept(Simulation& simulation, double h) {
-    const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty()) return;
-    const bool isExplicit = simulation.stepper == StepperKind::velocityVerlet;
+void prepareDrift(Simulation& simulation) {
+    if (simulation.setup.scenery.colliders.empty()) return;
     simulation.swept.resize(simulation.particles.count());
     simulation.clearance.resize(simulation.particles.count(), kUnknown);
-    inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
-        const Flight flight = flightOf(simulation, p);
-        const double way = h * std::sqrt(squaredLength(flight.velocity));
-        // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part
-        // of what the whole heap does.
-        const bool isSwept = mayTouch(simulation, flight, p, way) &&
-                             (simulation.evaluator.isAlone(p) || needsSweep(scenery, flight, h, isExplicit));
-        simulation.swept[p] = isSwept ? 1 : 0;
-    });
 }
 
-void drift(Simulation& simulation, double h) {
+void chooseSwept(Simulation& simulation, std::size_t p, double h) {
+    const Scenery& scenery = simulation.setup.scenery;
+    if (scenery.colliders.empty()) return;
+    const Flight flight = flightOf(simulation, p);
+    const double way = h * std::sqrt(squaredLength(flight.velocity));
+    const bool isExplicit = simulation.stepper == StepperKind::velocityVerlet;
+    // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
+    // what the whole heap does.
+    const bool isSwept = mayTouch(simulation, flight, p, way) &&
+                         (simulation.evaluator.isAlone(p) || needsSweep(scenery, flight, h, isExplicit));
+    simulation.swept[p] = isSwept ? 1 : 0;
+}
+
+void drift(Simulation& simulation, std::size_t p, double h) {
     Particles& particles = simulation.particles;
     const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty()) {
-        inParallel(particles.count(), kParticleGrain,
-                   [&](std::size_t p) { particles.position[p] += h * particles.velocity[p]; });
+    if (scenery.colliders.empty() || !simulation.swept[p]) {
+        particles.position[p] += h * particles.velocity[p];
+        if (!scenery.colliders.empty()) simulation.clearance[p] -= h * std::sqrt(squaredLength(particles.velocity[p]));
         return;
     }
-    inParallel(particles.count(), kContactGrain, [&](std::size_t p) {
-        if (!simulation.swept[p]) {
-            particles.position[p] += h * particles.velocity[p];
-            simulation.clearance[p] -= h * std::sqrt(squaredLength(particles.velocity[p]));
-            return;
-        }
-        Flight flight = flightOf(simulation, p);
-        fly(scenery, flight, h);
-        particles.position[p] = flight.position;
-        particles.velocity[p] = flight.velocity;
-        simulation.clearance[p] = kUnknown;
-    });
+    Flight flight = flightOf(simulation, p);
+    fly(scenery, flight, h);
+    particles.position[p] = flight.position;
+    particles.velocity[p] = flight.velocity;
+    simulation.clearance[p] = kUnknown;
 }
 
-void applyDrag(Simulation& simulation, double h) {
-    if (simulation.setup.drag == 0.0) return;
-    const double decay = decayFactor(simulation.setup.drag, h);
-    for (Vec3& velocity : simulation.particles.velocity) velocity *= decay;
-}
-
-void addContacts(const Simulation& simulation, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces) {
-    if (simulation.setup.scenery.colliders.empty()) return;
-    inParallel(simulation.particles.count(), kContactGrain, [&](std::size_t p) {
-        if (simulation.swept[p] || isClear(simulation, p)) return;
-        forces[p] += contactForce(simulation.setup.scenery, probeOf(simulation, p, velocities[p]));
-    });
+Vec3 slowContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
+    const Scenery& scenery = simulation.setup.scenery;
+    if (scenery.colliders.empty() || simulation.swept[p] || isClear(simulation, p)) return Vec3::Zero();
+    return contactForce(scenery, probeOf(simulation, p, velocity));
 }
 
 void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
@@ -115,7 +98,7 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     if (scenery.colliders.empty()) return;
     matrix.own.assign(particles.count(), Matrix3::Zero());
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
-    inParallel(order.size(), kContactGrain, [&](std::size_t place) {
+    forEachParticle(simulation, [&](std::size_t place) {
         const std::size_t p = order[place];
         if (simulation.swept[p] || isClear(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);

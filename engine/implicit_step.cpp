@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "engine/decay.h"
 #include "engine/drift.h"
-#include "engine/parallel.h"
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
 
@@ -34,7 +34,9 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const double pairEnergy =
         simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix);
     ++simulation.steps.forceEvaluations;
-    addContacts(simulation, particles.velocity, simulation.forces);
+    forEachParticle(simulation, [&](std::size_t p) {
+        simulation.forces[p] += slowContactForce(simulation, p, particles.velocity[p]);
+    });
     addContacts(simulation, h, simulation.implicit.matrix);
     solveForChange(simulation, h);
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
@@ -47,13 +49,20 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
 }  // namespace
 
 void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights) {
-    chooseSwept(simulation, h);
-    drift(simulation, 0.5 * h);
-    applyDrag(simulation, 0.5 * h);
-    if (!isSound(simulation.particles)) return noteUnsound(simulation);
+    Particles& particles = simulation.particles;
+    const double decay = decayFactor(simulation.setup.drag, 0.5 * h);
+    prepareDrift(simulation);
+    forEachParticle(simulation, [&](std::size_t p) {
+        chooseSwept(simulation, p, h);
+        drift(simulation, p, 0.5 * h);
+        particles.velocity[p] *= decay;
+    });
+    if (!isSound(particles)) return noteUnsound(simulation);
     kick(simulation, h, weights);
-    applyDrag(simulation, 0.5 * h);
-    drift(simulation, 0.5 * h);
+    forEachParticle(simulation, [&](std::size_t p) {
+        particles.velocity[p] *= decay;
+        drift(simulation, p, 0.5 * h);
+    });
     simulation.forcesCurrent = false;
 }
 

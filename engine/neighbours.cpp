@@ -99,18 +99,27 @@ Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {
     const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
 
     Neighbourhood found;
+    const auto add = [&](std::int64_t first, std::int64_t last) {
+        const CellRange range{grid.start[static_cast<std::size_t>(first)],
+                              grid.start[static_cast<std::size_t>(last) + 1]};
+        if (range.begin == range.end) return;
+        CellRange* before = found.count > 0 ? &found.ranges[static_cast<std::size_t>(found.count - 1)] : nullptr;
+        if (before != nullptr && before->end == range.begin)
+            before->end = range.end;
+        else
+            found.ranges[static_cast<std::size_t>(found.count++)] = range;
+    };
+    const bool isInside = x > 0 && x + 1 < nx;  // its neighbours along x lie side by side
     for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
         for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
             const std::int64_t row = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;
+            if (isInside) {
+                add(row + x - 1, row + x + 1);
+                continue;
+            }
             for (std::int64_t dx = firstStep(nx); dx <= lastStep(nx); ++dx) {
-                const auto at = static_cast<std::size_t>(row + wrappedStep(x + dx, nx));
-                const CellRange range{grid.start[at], grid.start[at + 1]};
-                if (range.begin == range.end) continue;
-                CellRange* last = found.count > 0 ? &found.ranges[static_cast<std::size_t>(found.count - 1)] : nullptr;
-                if (last != nullptr && last->end == range.begin)
-                    last->end = range.end;
-                else
-                    found.ranges[static_cast<std::size_t>(found.count++)] = range;
+                const std::int64_t at = row + wrappedStep(x + dx, nx);
+                add(at, at);
             }
         }
     }

@@ -125,7 +125,6 @@ struct Simulation {
     StepRestriction restriction;
     AutoState automatic;
     std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
-    std::vector<Vec3> kickForces;           ///< scratch of velocity Verlet, N: forces with the slow contacts
     /// rms over the mass of the acceleration that the implicit steppers' solver may leave out, m/s^2; set by the
     /// automatic stepper, whenever it runs one of them.
     double toleratedAcceleration = 0.0;

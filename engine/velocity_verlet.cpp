@@ -1,8 +1,8 @@
 // One evaluation a step: the forces at its end are those that the next one starts with.
 #include "engine/velocity_verlet.h"
 
+#include "engine/decay.h"
 #include "engine/drift.h"
-#include "engine/parallel.h"
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
 
@@ -15,37 +15,39 @@ double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocitie
     return simulation.evaluator.evaluateFree(simulation.particles, velocities, simulation.forces);
 }
 
-/// Half a kick of pairs, gravity and slow contacts, which sees the given velocities.
-void kick(Simulation& simulation, double h, const std::vector<Vec3>& seen) {
-    Particles& particles = simulation.particles;
-    std::vector<Vec3>& forces = simulation.kickForces;
-    forces = simulation.forces;
-    addContacts(simulation, seen, forces);
-    for (std::size_t p = 0; p < particles.count(); ++p)
-        particles.velocity[p] += 0.5 * h / particles.mass[p] * forces[p];
+/// What half a kick with this force (N) changes a particle's velocity by, m/s.
+Vec3 halfKick(const Particles& particles, std::size_t p, double h, const Vec3& force) {
+    return 0.5 * h / particles.mass[p] * force;
 }
 
 }  // namespace
 
 void velocityVerletStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
-    chooseSwept(simulation, h);
+    const bool hasDrag = simulation.setup.drag > 0.0;
+    const double decay = decayFactor(simulation.setup.drag, h);
     if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity);
-    kick(simulation, h, particles.velocity);
-    if (simulation.setup.drag == 0.0) {
-        drift(simulation, h);
-    } else {
-        drift(simulation, 0.5 * h);
-        applyDrag(simulation, h);
-        drift(simulation, 0.5 * h);
-    }
-    if (!isSound(particles)) return noteUnsound(simulation);
+    prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.predictedVelocities;
     predicted.resize(particles.count());
-    for (std::size_t p = 0; p < particles.count(); ++p)
-        predicted[p] = particles.velocity[p] + 0.5 * h / particles.mass[p] * simulation.kickForces[p];
+    forEachParticle(simulation, [&](std::size_t p) {
+        Vec3& velocity = particles.velocity[p];
+        chooseSwept(simulation, p, h);
+        const Vec3 change = halfKick(particles, p, h, simulation.forces[p] + slowContactForce(simulation, p, velocity));
+        velocity += change;
+        drift(simulation, p, hasDrag ? 0.5 * h : h);
+        if (hasDrag) {
+            velocity *= decay;
+            drift(simulation, p, 0.5 * h);
+        }
+        predicted[p] = velocity + change;
+    });
+    if (!isSound(particles)) return noteUnsound(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted);
-    kick(simulation, h, predicted);
+    forEachParticle(simulation, [&](std::size_t p) {
+        particles.velocity[p] +=
+            halfKick(particles, p, h, simulation.forces[p] + slowContactForce(simulation, p, predicted[p]));
+    });
     simulation.forcesCurrent = true;
     noteEnergy(simulation, particles.velocity, pairEnergy);
 }
