@@ -75,8 +75,7 @@ void ForceEvaluator::addContacts(const Particles& particles, const std::vector<V
 
 void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,
                                     std::vector<Vec3>& forces) {
-    forces.assign(particles.count(), Vec3::Zero());
-    if (particles.count() < 2) return;
+    forces.resize(particles.count());
     pairs_.prepare(law_, particles, velocities);
     addUpPairs(pairs_, {.forces = forces});
 }

@@ -45,14 +45,14 @@ struct Slip {
     return 2.0 * pairEnergy(0.0, constants) - energy;
 }
 
-/// The pass over one particle's neighbours.
+/// The pass over one particle's neighbours; gives half of the energy of its pairs, J.
 template <Variant variant>
 struct Kernel {
     const PairTraversal& pairs;
     const PairSums& sums;
-    std::vector<double>& energies;  ///< half of the energy of every pair of a particle, J
 
-    void operator()(std::uint32_t self) const {
+    double operator()(std::size_t place) const {
+        const auto self = static_cast<std::uint32_t>(place);
         const PairRecord& p = pairs.records[self];
         Vec3 force = Vec3::Zero();
         double energy = 0.0;
@@ -73,7 +73,7 @@ struct Kernel {
             if constexpr (variant.matrix) addEntry(self, other, distanceSq, slip.damping, constants);
         });
         sums.forces[pairs.list.order[self]] = force;
-        if constexpr (variant.energy) energies[self] = energy;
+        return energy;
     }
 
     /// Across the pair acts friction, along it the damping b_d s_d and the stiffness max(k, 0), each times its weight.
@@ -95,47 +95,58 @@ struct Kernel {
     }
 };
 
+/// The places of a group.
+struct Group {
+    std::size_t first, end;
+};
+
+/// Calls body for every group of places, shared out over the threads, and returns the sum of what it gives, J.
+template <class Body>
+double overGroups(std::size_t count, const Body& body) {
+    std::vector<double> energies((count + kGroup - 1) / kGroup);
+    constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
+    inParallel(energies.size(), kGrain, [&](std::size_t group) {
+        energies[group] = body(Group{group * kGroup, std::min((group + 1) * kGroup, count)});
+    });
+    return sumOver(energies.size(), [&](std::size_t group) { return energies[group]; });
+}
+
+template <class Of>
+double sumOf(const Group& group, const Of& of) {
+    double sum = 0.0;
+    for (std::size_t place = group.first; place < group.end; ++place) sum += of(place);
+    return sum;
+}
+
 template <Variant variant>
-void run(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies) {
-    pairs.forEachParticle(Kernel<variant>{pairs, sums, energies});
+double run(const PairTraversal& pairs, const PairSums& sums) {
+    const Kernel<variant> kernel{pairs, sums};
+    return overGroups(pairs.records.size(), [&](const Group& group) { return sumOf(group, kernel); });
 }
 
-/// Forces and energies by the scalar kernel, which knows how to part coincident particles. The rows of the matrix stay
-/// those of the lanes, or the two entries of a pair would be rounded differently.
+/// What is wanted of uniform particles, a particle a lane. Groups with coincident particles are done again by the
+/// scalar kernel, which knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a
+/// pair would be rounded differently.
 template <PairTerms terms>
-void addUpOneByOne(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies, std::size_t first,
-                   std::size_t end) {
-    for (std::size_t place = first; place < end; ++place) {
-        const auto self = static_cast<std::uint32_t>(place);
-        if (energies.empty())
-            Kernel<Variant{terms, true, false, false}>{pairs, sums, energies}(self);
-        else
-            Kernel<Variant{terms, true, true, false}>{pairs, sums, energies}(self);
-    }
-}
-
-/// What is wanted of uniform particles, a particle a lane. Groups with coincident particles are done again.
-template <PairTerms terms>
-void addUpGroups(const PairTraversal& pairs, const PairSums& sums, std::vector<double>& energies) {
+double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
     const LanePass pass{pairs.lanes, pairs.records, pairs.singles, pairs.unit,  pairs.uniform,
                         terms,       hasEnergy,     sums.matrix,   sums.weights};
-    constexpr std::size_t kGrain = 4;  // chosen: as kGrain of forEachParticle, in groups
-    inParallel(pairs.lanes.groupCount(), kGrain, [&](std::size_t group) {
+    return overGroups(pairs.records.size(), [&](const Group& group) {
         LaneSums of;
-        addUpGroup(pass, group, of);
-        const std::size_t first = group * kGroup;
-        const std::size_t end = std::min(first + kGroup, pairs.records.size());
-        if (of.coincident) return addUpOneByOne<terms>(pairs, sums, energies, first, end);
-        for (std::size_t place = first; place < end; ++place) {
-            const std::size_t lane = place - first;
+        addUpGroup(pass, group.first / kGroup, of);
+        if (of.coincident)
+            return hasEnergy ? sumOf(group, Kernel<Variant{terms, true, true, false}>{pairs, sums})
+                             : sumOf(group, Kernel<Variant{terms, true, false, false}>{pairs, sums});
+        for (std::size_t place = group.first; place < group.end; ++place) {
+            const std::size_t lane = place - group.first;
             sums.forces[pairs.list.order[place]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
-            if (hasEnergy) energies[place] = of.energy[lane];
         }
+        return hasEnergy ? sumOf(group, [&](std::size_t place) { return of.energy[place - group.first]; }) : 0.0;
     });
 }
 
-using Pass = void (*)(const PairTraversal&, const PairSums&, std::vector<double>&);
+using Pass = double (*)(const PairTraversal&, const PairSums&);
 
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& sums) {
@@ -156,13 +167,6 @@ Pass passFor(PairTerms terms, const PairSums& sums) {
                          : passFor<PairTerms{false, false}, isUniform>(sums);
 }
 
-/// In order: the order of the sum is part of the result.
-double total(const std::vector<double>& energies) {
-    double sum = 0.0;
-    for (const double energy : energies) sum += energy;
-    return sum;
-}
-
 }  // namespace
 
 void addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
@@ -170,24 +174,24 @@ void addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
         makeRoom(*sums.matrix, pairs.list, pairs.terms.pair.friction);
         sums.matrix->records = pairs.records;
     }
-    std::vector<double> energies(sums.energy != nullptr || sums.matrix != nullptr ? pairs.records.size() : 0);
     const PairTerms terms = pairs.terms.pair;
-    (pairs.terms.uniform ? passFor<true>(terms, sums) : passFor<false>(terms, sums))(pairs, sums, energies);
+    const Pass pass = pairs.terms.uniform ? passFor<true>(terms, sums) : passFor<false>(terms, sums);
+    const double energy = pass(pairs, sums);
     if (sums.matrix != nullptr) close(*sums.matrix);
-    if (sums.energy != nullptr) *sums.energy = total(energies);
+    if (sums.energy != nullptr) *sums.energy = energy;
 }
 
 double pairEnergySum(const PairTraversal& pairs) {
-    std::vector<double> energies(pairs.records.size());
-    pairs.forEachParticle([&](std::uint32_t self) {
+    const auto energyOfOne = [&](std::size_t self) {
         double energy = 0.0;
-        pairs.forEachNeighbour(self, [&](std::uint32_t other, const Vec3&, double distanceSq) {
-            const auto constants = pairs.constants<false>(pairs.records[self], pairs.records[other]);
-            energy += 0.5 * pairEnergy(std::sqrt(distanceSq), constants);
-        });
-        energies[self] = energy;
-    });
-    return total(energies);
+        pairs.forEachNeighbour(
+            static_cast<std::uint32_t>(self), [&](std::uint32_t other, const Vec3&, double distanceSq) {
+                const auto constants = pairs.constants<false>(pairs.records[self], pairs.records[other]);
+                energy += 0.5 * pairEnergy(std::sqrt(distanceSq), constants);
+            });
+        return energy;
+    };
+    return overGroups(pairs.records.size(), [&](const Group& group) { return sumOf(group, energyOfOne); });
 }
 
 }  // namespace engine

@@ -54,6 +54,16 @@ void inParallel(std::size_t count, std::size_t grain, const Body& body) {
 /// Of a particle's cheap work. Measured: a thread takes as long to wake up as another takes for some thousands.
 inline constexpr std::size_t kParticleGrain = 8192;
 
+/// to = from.
+template <class T>
+void copy(const std::vector<T>& from, std::vector<T>& to) {
+    to.resize(from.size());
+    inParallel((from.size() + kParticleGrain - 1) / kParticleGrain, 1, [&](std::size_t part) {
+        const std::size_t begin = part * kParticleGrain;
+        std::copy_n(from.data() + begin, std::min(kParticleGrain, from.size() - begin), to.data() + begin);
+    });
+}
+
 /// Terms of a partial sum; part of what makes the bits of a sum.
 inline constexpr std::size_t kSumChunk = 1024;
 

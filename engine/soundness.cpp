@@ -44,6 +44,7 @@ void reportInstability(const Simulation& simulation, double h) {
 
 void requireSound(const Simulation& simulation, double h) {
     const Particles& particles = simulation.particles;
+    if (isSound(particles)) return;
     for (std::size_t p = 0; p < particles.count(); ++p)
         if (!isSoundAt(particles.position[p], particles.velocity[p])) report(simulation, p, h);
 }

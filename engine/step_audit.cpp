@@ -87,10 +87,10 @@ void noteBirths(Simulation& simulation, std::size_t first) {
 void keep(const Simulation& simulation, BeforeStep& kept) {
     kept.time = simulation.time;
     kept.emitters = simulation.emitters;
-    kept.position = simulation.particles.position;
-    kept.velocity = simulation.particles.velocity;
+    copy(simulation.particles.position, kept.position);
+    copy(simulation.particles.velocity, kept.velocity);
     kept.forcesCurrent = simulation.forcesCurrent;
-    if (kept.forcesCurrent) kept.forces = simulation.forces;
+    if (kept.forcesCurrent) copy(simulation.forces, kept.forces);
     kept.energy = simulation.energy;
     kept.kinetic = simulation.kinetic;
     kept.allowance = energyAllowance(simulation);

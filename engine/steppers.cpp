@@ -3,7 +3,7 @@
 
 #include "engine/decay.h"
 #include "engine/implicit_step.h"
-#include "engine/soundness.h"
+#include "engine/parallel.h"
 #include "engine/velocity_verlet.h"
 
 namespace engine {
@@ -13,15 +13,14 @@ namespace {
 /// published.
 void symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
-    requireSound(simulation, h);
     simulation.evaluator.evaluate(particles, particles.velocity, simulation.forces);
     ++simulation.steps.forceEvaluations;
     const double decay = decayFactor(simulation.setup.drag, h);
     simulation.clearance.clear();
-    for (std::size_t p = 0; p < particles.count(); ++p) {
+    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
         particles.velocity[p] = decay * (particles.velocity[p] + h / particles.mass[p] * simulation.forces[p]);
         particles.position[p] += h * particles.velocity[p];
-    }
+    });
 }
 
 }  // namespace
