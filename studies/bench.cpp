@@ -1,4 +1,4 @@
-// Packings at the rest length, a little shaken; every time is the median of rounds, each long enough for the clock.
+// Packings, a little shaken; every time is the median of rounds, each long enough for the clock.
 #include "studies/bench.h"
 
 #include <algorithm>
@@ -20,7 +20,16 @@ using engine::Precision;
 using engine::StepperKind;
 using engine::Vec3;
 
-constexpr std::array kMaterials = {"solid", "liquid", "powder"};
+/// What is packed, and how densely.
+struct Packed {
+    const char* name;
+    const char* material;
+    double spacing;  ///< of nearest neighbours, in rest lengths
+};
+
+/// At the rest length, and as a solid packs when it has settled under its own attraction.
+constexpr std::array kPackings = {Packed{"solid", "solid", 1.0}, Packed{"settled solid", "solid", 0.76},
+                                  Packed{"liquid", "liquid", 1.0}, Packed{"powder", "powder", 1.0}};
 
 /// Beyond it a million particles' steps would take the patience of whoever waits.
 constexpr std::size_t kMostStepped = 100000;
@@ -51,12 +60,12 @@ struct Subject {
     BenchRow row;
 };
 
-Subject subjectOf(const std::string& material, std::size_t count) {
-    Subject subject{packedBlock(material, count, {}), {}};
+Subject subjectOf(const Packed& packed, std::size_t count) {
+    Subject subject{packedBlock(packed.material, count, {.spacing = packed.spacing}), {}};
     const engine::Particles& particles = subject.setup.initial;
     engine::PairTraversal pairs(lawOf(subject.setup), Precision::doubles);
     pairs.prepare(lawOf(subject.setup), particles, particles.velocity);
-    subject.row.material = material;
+    subject.row.material = packed.name;
     subject.row.particles = particles.count();
     subject.row.neighbours = meanNeighbours(subject.setup, particles);
     const auto entries = static_cast<double>(pairs.list.places.size() + pairs.lanes.places.size());
@@ -75,18 +84,19 @@ class Bench {
         if (wants("copy", "")) addCopy();
     }
 
-    void measure(const std::string& material, std::size_t count) {
+    void measure(const Packed& packed, std::size_t count) {
+        const std::string material = packed.name;
         const bool steps = count <= kMostStepped;
         if (!wantsAny(material)) return;
-        const Subject subject = subjectOf(material, count);
+        const Subject subject = subjectOf(packed, count);
         for (const Precision precision : {Precision::doubles, Precision::singles})
             if (wants("forces", material)) addForces(subject, precision);
         if (wants("list", material)) addList(subject);
         for (const StepperKind stepper : engine::kSteppers)
             if (steps && stepper != StepperKind::automatic && wants(stepName(stepper), material))
                 addSteps(subject, stepper, Precision::doubles);
-        if (steps && wants(stepName(StepperKind::velocityVerlet), material))
-            addSteps(subject, StepperKind::velocityVerlet, Precision::singles);
+        for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet})
+            if (steps && wants(stepName(stepper), material)) addSteps(subject, stepper, Precision::singles);
     }
 
     std::vector<BenchRow> rows;
@@ -219,7 +229,7 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
     Bench bench(settings, listener);
     bench.measureMachine();
     for (const std::size_t count : settings.counts)
-        for (const char* material : kMaterials) bench.measure(material, count);
+        for (const Packed& packed : kPackings) bench.measure(packed, count);
     return std::move(bench.rows);
 }
 

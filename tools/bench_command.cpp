@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/instruction_sets.h"
 #include "engine/lane_forces.h"
 #include "studies/bench.h"
 #include "tools/commands.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct BenchOptions {
     RunOptions run;
+    std::string instructionSet;  ///< empty: the widest of the machine
     studies::BenchSettings settings;
 };
 
@@ -47,11 +49,11 @@ Json jsonOf(const studies::BenchRow& row, int threads) {
 
 void print(const studies::BenchRow& row) {
     if (row.particles == 0) {
-        fmt::print("{:23} {:8} {:.4g} G{}/s\n", row.name, "", 1e-9 * row.rate, row.name == "copy" ? "B" : "FLOP");
+        fmt::print("{:23} {:13} {:.4g} G{}/s\n", row.name, "", 1e-9 * row.rate, row.name == "copy" ? "B" : "FLOP");
         return;
     }
-    fmt::print("{:23} {:8} {:>9} {:10.1f} {:9} {:12.3f} {:10.2f} {:8.1f} {:8.2f} {:8.0f}  {}\n", row.name, row.material,
-               row.particles, row.neighbours, nameOf(row.precision), 1e3 * row.seconds,
+    fmt::print("{:23} {:13} {:>9} {:10.1f} {:9} {:12.3f} {:10.2f} {:8.1f} {:8.2f} {:8.0f}  {}\n", row.name,
+               row.material, row.particles, row.neighbours, nameOf(row.precision), 1e3 * row.seconds,
                1e-6 * row.particleStepsPerSecond(), 1e-6 * row.pairsPerSecond(), row.nanosecondsPerPair(),
                row.bytesPerParticle, row.stateHash);
 }
@@ -59,10 +61,11 @@ void print(const studies::BenchRow& row) {
 void bench(const BenchOptions& options) {
     const int threads = threadCount(options.run);
     const bool isText = !options.run.json;
+    if (!options.instructionSet.empty()) engine::useInstructionSet(options.instructionSet);
     if (isText) {
         fmt::print("{} threads, {}; medians of {} rounds\n", threads, engine::laneInstructionSet(),
                    options.settings.rounds);
-        fmt::print("{:23} {:8} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
+        fmt::print("{:23} {:13} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
                    "particles", "neighbours", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");
     }
     onThreads(threads, [&] {
@@ -86,6 +89,8 @@ void addBenchCommand(const Command& program) {
         .of("TEXT");
     command.option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)").of("N");
     command.option("--rounds", options->settings.rounds, "how often each is timed (default: 5)").aboveZero();
+    command.option("--isa", options->instructionSet, "the vectors to run on (default: the widest of the machine)")
+        .oneOf(engine::instructionSets());
     addTo(command, options->run);
     command.example("globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
     command.run([options] { bench(*options); });
