@@ -25,6 +25,14 @@ Singles sourceOf(const LanePass& pass, const std::int32_t* places, Singles* /*ki
     return Singles(pass.singles.data(), pass.unit, places);
 }
 
+/// A bit a lane.
+template <class T>
+std::uint32_t bitsOf(hn::Mask<Tag<T>> mask) {
+    std::array<std::uint8_t, 8> bytes = {};
+    hn::StoreMaskBits(Tag<T>(), mask, bytes.data());
+    return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+}
+
 /// The matrix's rows of a block of lanes as they fill up: every pair is written, and the place to write moves on where
 /// it has an entry.
 template <class T>
@@ -38,20 +46,19 @@ struct MatrixRows {
     void add(const std::int32_t* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
         constexpr Tag<T> kTag{};
         std::array<T, kGroup> alongOf, acrossOf;
-        std::array<std::uint8_t, 8> bits = {};
         hn::StoreU(along, kTag, alongOf.data());
         auto isEntry = hn::Ne(along, hn::Zero(kTag));
         if constexpr (hasFriction) {
             hn::StoreU(across, kTag, acrossOf.data());
             isEntry = hn::Or(isEntry, hn::Ne(across, hn::Zero(kTag)));
         }
-        hn::StoreMaskBits(kTag, hn::And(isPair, isEntry), bits.data());
+        const std::uint32_t bits = bitsOf<T>(hn::And(isPair, isEntry));
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane) {
             const std::size_t at = matrix->rows.at(first + lane, length[lane]);
             matrix->rows.places[at] = others[lane];
             matrix->along[at] = static_cast<double>(alongOf[lane]);
             if constexpr (hasFriction) matrix->across[at] = static_cast<double>(acrossOf[lane]);
-            length[lane] += (bits[lane / 8] >> (lane % 8)) & 1U;
+            length[lane] += (bits >> lane) & 1U;
         }
     }
 
@@ -126,7 +133,7 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
         sums.z[lane + k] = static_cast<double>(z[k]);
         sums.energy[lane + k] = static_cast<double>(e[k]);
     }
-    sums.coincident = sums.coincident || !hn::AllFalse(kTag, coincident);
+    sums.coincident |= bitsOf<T>(coincident) << lane;
 }
 
 template <class Source, class Kind>
@@ -158,7 +165,7 @@ void addUpFrom(const LanePass& pass, std::size_t group, LaneSums& sums) {
 }
 
 void addUpGroupHere(const LanePass& pass, std::size_t group, LaneSums& sums) {
-    sums.coincident = false;
+    sums.coincident = 0;
     if (pass.singles.empty())
         addUpFrom<Doubles>(pass, group, sums);
     else

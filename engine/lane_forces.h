@@ -29,7 +29,7 @@ struct LanePass {
 /// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by place.
 struct LaneSums {
     std::array<double, kGroup> x, y, z, energy;
-    bool coincident = false;  ///< two particles share a position: the sums are not those of the law
+    std::uint32_t coincident = 0;  ///< a bit each: shares its position with another, its sums are not those of the law
 };
 
 void addUpGroup(const LanePass& pass, std::size_t group, LaneSums& sums);

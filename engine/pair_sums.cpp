@@ -124,25 +124,25 @@ double run(const PairTraversal& pairs, const PairSums& sums) {
     return overGroups(pairs.records.size(), [&](const Group& group) { return sumOf(group, kernel); });
 }
 
-/// What is wanted of uniform particles, a particle a lane. Groups with coincident particles are done again by the
-/// scalar kernel, which knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a
-/// pair would be rounded differently.
+/// What is wanted of uniform particles, a particle a lane. Coincident ones are done again by the scalar kernel, which
+/// knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be
+/// rounded differently.
 template <PairTerms terms>
 double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
     const LanePass pass{pairs.lanes, pairs.records, pairs.singles, pairs.unit,  pairs.uniform,
                         terms,       hasEnergy,     sums.matrix,   sums.weights};
+    const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
+    const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};
     return overGroups(pairs.records.size(), [&](const Group& group) {
         LaneSums of;
         addUpGroup(pass, group.first / kGroup, of);
-        if (of.coincident)
-            return hasEnergy ? sumOf(group, Kernel<Variant{terms, true, true, false}>{pairs, sums})
-                             : sumOf(group, Kernel<Variant{terms, true, false, false}>{pairs, sums});
-        for (std::size_t place = group.first; place < group.end; ++place) {
+        return sumOf(group, [&](std::size_t place) {
             const std::size_t lane = place - group.first;
+            if ((of.coincident >> lane & 1U) != 0) return hasEnergy ? forcesAndEnergy(place) : forces(place);
             sums.forces[pairs.list.order[place]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
-        }
-        return hasEnergy ? sumOf(group, [&](std::size_t place) { return of.energy[place - group.first]; }) : 0.0;
+            return of.energy[lane];
+        });
     });
 }
 
