@@ -78,8 +78,7 @@ Scalar pairDampingOverSq(Scalar distanceSq, const PairConstants<Scalar>& c) {
 /// Shape:  distanceSq = P.P (m^2), approach = V.P (m^2/s), P = x_p - x_i, V = v_p - v_i.
 /// Holds:  unchanged when p and i are swapped, so that the force negates bit for bit.
 /// Source: Cote 2024, equations 2, 5, 6; departs from them only below the core distance.
-/// Inline by force, as pairEnergy: a pass with friction takes a fifth longer where they are calls (`globular study
-/// accuracy mud`).
+/// Inline by force, as pairEnergy: what two of them have in common in one pass is then computed once.
 template <PairTerms terms, class Scalar>
 [[gnu::always_inline]] inline Scalar pairCoefficient(Scalar distanceSq, Scalar approach,
                                                      const PairConstants<Scalar>& c) {
