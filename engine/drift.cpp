@@ -1,4 +1,4 @@
-// Every particle on its own, shared out over the threads.
+// Every particle on its own.
 #include "engine/drift.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Drift, drag and contacts: what the steppers other than the paper's do besides the pairs.
+// Drift and contacts: what the steppers other than the paper's do to each particle besides the pairs.
 #pragma once
 
 #include "engine/parallel.h"
@@ -6,7 +6,7 @@
 
 namespace engine {
 
-/// Makes room for what a step finds out about each particle's way.
+/// Makes room for what a step finds out about each particle's way; before any of what follows.
 void prepareDrift(Simulation& simulation);
 
 /// Decides whether obstacles are to meet a particle along its way in a step of h seconds; at the step's start, before

@@ -1,10 +1,13 @@
 // Highway's targets are bits, the widest the lowest; it chooses among those that are said to be supported.
 #include "engine/instruction_sets.h"
 
+// As the kernels have it.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
 #include <cstdint>
+#include <stdexcept>
 
 namespace engine {
 namespace {
@@ -29,7 +32,9 @@ void useInstructionSet(const std::string& name) {
         if (hwy::TargetName(target) != name) continue;
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        return;
     }
+    throw std::invalid_argument("no kernels for " + name + " here");
 }
 
 }  // namespace engine

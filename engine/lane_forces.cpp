@@ -41,7 +41,6 @@ struct MatrixRows {
     std::size_t first;  ///< place of the first lane
     std::array<std::uint32_t, kGroup> length = {};
 
-    /// Coincident pairs have no direction and no entry.
     template <bool hasFriction>
     void add(const std::int32_t* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
         constexpr Tag<T> kTag{};
@@ -110,7 +109,7 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
             energy = hn::Add(energy, hn::IfThenElseZero(row.isPair, hn::Mul(Law<T, Kind>::set(T(0.5)),
                                                                             law.energy(inverse, distanceSq))));
         if constexpr (Kind::kMatrix) {
-            const auto isPair = hn::AndNot(isCoincident, row.isPair);
+            const auto isPair = hn::AndNot(isCoincident, row.isPair);  // a coincident pair has no direction
             Lanes<T> along = law.along(inverse, distanceSq);
             Lanes<T> across = hn::Zero(kTag);
             if constexpr (Kind::kPair.friction) {

@@ -135,7 +135,7 @@ struct Singles {
     using I = Places<float>;
     static constexpr Tag<float> kTag{};
     static constexpr hn::Rebind<std::int32_t, Tag<float>> kWhole{};
-    static constexpr std::int32_t kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
+    static constexpr std::int64_t kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
 
     const float* base;  ///< of the first record; its positions are bits of integers
     I self;

@@ -150,10 +150,13 @@ using Pass = double (*)(const PairTraversal&, const PairSums&);
 
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& sums) {
-    if constexpr (isUniform) return addUpGroups<terms>;
-    if (sums.matrix != nullptr) return run<Variant{terms, isUniform, true, true}>;
-    return sums.energy != nullptr ? run<Variant{terms, isUniform, true, false}>
-                                  : run<Variant{terms, isUniform, false, false}>;
+    if constexpr (isUniform) {
+        return addUpGroups<terms>;
+    } else {
+        if (sums.matrix != nullptr) return run<Variant{terms, false, true, true}>;
+        return sums.energy != nullptr ? run<Variant{terms, false, true, false}>
+                                      : run<Variant{terms, false, false, false}>;
+    }
 }
 
 template <bool isUniform>

@@ -1,15 +1,20 @@
 // Sorting for a visit.
 #include "engine/pair_traversal.h"
 
+#include <algorithm>
+
 namespace engine {
 namespace {
 
 /// Units in the reach of a list: differences within it stay below 2^24, which float holds exactly.
 constexpr double kUnits = 8388608.0;
 
-/// The nearest whole number, modulo 2^32. A conversion that cuts off is one instruction, llround a call.
+/// Rounded to a whole number, modulo 2^32; some number for what is no number or beyond all worlds. A conversion that
+/// cuts off is one instruction, llround a call.
 std::int32_t wrapped(double units) {
-    const auto whole = static_cast<std::int64_t>(units < 0.0 ? units - 0.5 : units + 0.5);
+    constexpr double kFarthest = 9e18;  // below 2^63
+    const double within = std::max(-kFarthest, std::min(kFarthest, units));
+    const auto whole = static_cast<std::int64_t>(within < 0.0 ? within - 0.5 : within + 0.5);
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(whole)));
 }
 

@@ -73,6 +73,7 @@ void giveBirth(Simulation& simulation) {
              simulation.particles);
     }
     if (simulation.particles.count() == first) return;
+    requireSound(simulation, 0.0);  // a nozzle may stand anywhere
     simulation.forcesCurrent = false;
     noteBirths(simulation, first);
 }

@@ -26,6 +26,7 @@ void velocityVerletStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
     const bool hasDrag = simulation.setup.drag > 0.0;
     const double decay = decayFactor(simulation.setup.drag, h);
+    // Before anything is swept: who is alone is read from the list, which a newborn is in now.
     if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity);
     prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.predictedVelocities;

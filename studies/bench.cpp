@@ -27,7 +27,7 @@ struct Packed {
     double spacing;  ///< of nearest neighbours, in rest lengths
 };
 
-/// At the rest length, and as a solid packs when it has settled under its own attraction.
+/// At the rest length, and as a solid packs when it has settled under its own attraction (scenes/solid.toml).
 constexpr std::array kPackings = {Packed{"solid", "solid", 1.0}, Packed{"settled solid", "solid", 0.76},
                                   Packed{"liquid", "liquid", 1.0}, Packed{"powder", "powder", 1.0}};
 

@@ -14,7 +14,7 @@ namespace studies {
 /// One thing measured.
 struct BenchRow {
     std::string name;      ///< "forces", "list", "step velocity-verlet", "multiply-add", "copy"
-    std::string material;  ///< empty where there is none
+    std::string material;  ///< and how it is packed, where not at its rest length; empty where there is none
     std::size_t particles = 0;
     double neighbours = 0.0;  ///< mean number within the cutoff
     engine::Precision precision = engine::Precision::doubles;

@@ -70,11 +70,13 @@ TEST_CASE("In double, forces have the bits of the scalar kernel", "[lanes]") {
         Material material = *materialPreset(preset);
         ForceLaw law = clouds::lawOf(material);
         ForceEvaluator lanes(law, ForceMethod::grid);
+        const Particles particles = block(material, Vec3(1.0, 2.0, 3.0));
+        REQUIRE(termsFor(law, particles).uniform);
         // A second material, of which there is no particle, keeps vectors from being used.
         material.repulsion *= 2.0;
         law.materials.push_back(material);
         ForceEvaluator scalar(law, ForceMethod::grid);
-        const Particles particles = block(law.materials.front(), Vec3(1.0, 2.0, 3.0));
+        REQUIRE_FALSE(termsFor(law, particles).uniform);
         std::vector<Vec3> actual;
         std::vector<Vec3> expected;
         lanes.pairForcesGrid(particles, particles.velocity, actual);
