@@ -124,6 +124,17 @@ double run(const PairTraversal& pairs, const PairSums& sums) {
     return overGroups(pairs.records.size(), [&](const Group& group) { return sumOf(group, kernel); });
 }
 
+/// Whether a particle shares its exact position with a neighbour. In float some that are merely near seem to, but what
+/// those do to each other is less than a rounding of what they do in contact.
+bool isCoincident(const PairTraversal& pairs, std::size_t place) {
+    const PairRecord& p = pairs.records[place];
+    const auto entry = [&](std::size_t of) { return pairs.list.places.begin() + pairs.list.rowStart[of]; };
+    return std::any_of(entry(place), entry(place + 1), [&](std::uint32_t other) {
+        const PairRecord& i = pairs.records[other];
+        return p.x == i.x && p.y == i.y && p.z == i.z;
+    });
+}
+
 /// What is wanted of uniform particles, a particle a lane. Coincident ones are done again by the scalar kernel, which
 /// knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be
 /// rounded differently.
@@ -139,7 +150,8 @@ double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
         addUpGroup(pass, group.first / kGroup, of);
         return sumOf(group, [&](std::size_t place) {
             const std::size_t lane = place - group.first;
-            if ((of.coincident >> lane & 1U) != 0) return hasEnergy ? forcesAndEnergy(place) : forces(place);
+            if ((of.coincident >> lane & 1U) != 0 && isCoincident(pairs, place))
+                return hasEnergy ? forcesAndEnergy(place) : forces(place);
             sums.forces[pairs.list.order[place]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
             return of.energy[lane];
         });
