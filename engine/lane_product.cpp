@@ -15,6 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
+/// Flattened, as the forces' kernel is.
 template <bool hasFriction>
 HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std::size_t lane, LaneProduct& product) {
     constexpr Tag<double> kTag{};

@@ -11,7 +11,7 @@ struct ImplicitCosts {
     double product = 0.0;
 };
 
-/// By the pass that it is a share of: friction makes a pass two to three times as dear, and a product no dearer.
+/// As shares of a pass with energies: friction makes the pass dearer, and a product no dearer.
 ImplicitCosts implicitCosts(const Setup& setup);
 
 /// What the simulation's steps have cost, in passes over all pairs.
