@@ -1,8 +1,7 @@
 // Highway's targets are bits, the widest the lowest; it chooses among those that are said to be supported.
 #include "engine/instruction_sets.h"
 
-// As the kernels have it.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "engine/lane_targets.h"
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 

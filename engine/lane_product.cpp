@@ -1,8 +1,7 @@
 // The kernel, compiled once per instruction set.
 #include "engine/lane_product.h"
 
-// Vectors are kept in structs here, which sizeless SVE and RVV types do not allow.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "engine/lane_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/lane_product.cpp"

@@ -1,5 +1,5 @@
-// The check that a state is still one: called after births and after every move of the
-// particles, before anything is computed from it.
+// The check that a state is still one: called after births and after every move of the particles,
+// before anything is computed from it.
 #pragma once
 
 #include "engine/simulation.h"
