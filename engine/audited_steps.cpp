@@ -26,7 +26,7 @@ void establishEnergy(Simulation& simulation) {
     const double pairEnergy = simulation.evaluator.evaluateFree(particles, particles.velocity, simulation.forces);
     ++simulation.steps.forceEvaluations;
     simulation.forcesCurrent = true;
-    noteEnergy(simulation, particles.velocity, pairEnergy);
+    noteEnergy(simulation, pairEnergy);
 }
 
 /// The implicit steppers know the energy in the middle of a step only. What ends an interval can be seen and is never

@@ -18,12 +18,7 @@ void forEachTouched(const Scenery& scenery, const Probe& probe, const Visit& vis
 Vec3 contactForce(const Scenery& scenery, const Probe& probe) {
     Vec3 force = Vec3::Zero();
     forEachTouched(scenery, probe, [&](const Surface& surface) {
-        const Contact contact = contactWith(surface, scenery.law, probe);
-        const double normalSpeed = dot(probe.velocity, surface.normal);
-        force += normalForce(contact, normalSpeed) * surface.normal;
-        if (probe.friction == 0.0) return;
-        const Vec3 slip = probe.velocity - normalSpeed * surface.normal;
-        force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
+        addForce(surface, contactWith(surface, scenery.law, probe), probe, force);
     });
     return force;
 }
@@ -33,6 +28,16 @@ double contactEnergy(const Scenery& scenery, const Probe& probe) {
     forEachTouched(scenery, probe,
                    [&](const Surface& surface) { energy += surfaceEnergy(surface, scenery.law, probe); });
     return energy;
+}
+
+ContactAnswer contactForceAndEnergy(const Scenery& scenery, const Probe& probe) {
+    ContactAnswer answer;
+    forEachTouched(scenery, probe, [&](const Surface& surface) {
+        const Contact contact = contactWith(surface, scenery.law, probe);
+        addForce(surface, contact, probe, answer.force);
+        answer.energy += contactEnergy(contact);
+    });
+    return answer;
 }
 
 }  // namespace engine

@@ -31,7 +31,7 @@ constexpr int kMostSteps = 20000;
 constexpr double kGraze = 0.1;
 
 Probe probeOf(const Flight& flight) {
-    return {flight.position, flight.velocity, flight.radius, flight.dampingReach};
+    return {flight.position, flight.velocity, flight.radius, flight.dampingReach, flight.friction};
 }
 
 /// How deep the straight way ahead leads, m.
@@ -67,13 +67,14 @@ double barrierDepth(const Surface& surface, const RepulsorLaw& law, const Flight
 struct Outlook {
     double gap = std::numeric_limits<double>::infinity();    ///< to the nearest surface, m; negative in contact
     double scale = std::numeric_limits<double>::infinity();  ///< length over which contact forces change, m
-    double frequency = 0.0;                                  ///< the largest of the contacts', 1/s
-    double decay = 0.0;                                      ///< the largest of their dampings over the mass, 1/s
+    double stiffness = 0.0;                                  ///< the largest of the contacts', N/m
+    double damping = 0.0;                                    ///< the largest of theirs, kg/s
 };
 
 /// way: of the coming step, m. The barrier, which takes longer to tell, is left out where the scale is far above the
-/// way or another surface has a smaller one.
-Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way = std::numeric_limits<double>::infinity()) {
+/// way or another surface has a smaller one. Calls visit(surface, contact) for each contact.
+template <class Visit>
+Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way, const Visit& visit) {
     Outlook ahead;
     forEachSurface(scenery, flight.position, [&](const Surface& surface) {
         const double gap = surface.height - flight.radius;
@@ -88,19 +89,21 @@ Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way = std
         if (gap >= 0.0) return;
         const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
         ahead.scale = std::min(ahead.scale, contact.distance);
-        ahead.frequency = std::max(ahead.frequency, std::sqrt(stiffnessAlong(contact) / flight.mass));
-        ahead.decay = std::max(ahead.decay, dampingAlong(contact) / flight.mass);
+        ahead.stiffness = std::max(ahead.stiffness, stiffnessAlong(contact));
+        ahead.damping = std::max(ahead.damping, dampingAlong(contact));
+        visit(surface, contact);
     });
     return ahead;
 }
 
 /// The longest step that lookAhead allows, s.
-double stepFor(const Outlook& ahead, double speed, double remaining) {
+double stepFor(const Outlook& ahead, const Flight& flight, double speed, double remaining) {
     const double leap =
         std::max(ahead.gap, kFraction * std::min(ahead.scale, 0.1 * ahead.scale + std::max(0.0, -ahead.gap)));
     double step = remaining;
     if (speed * step > leap) step = leap / speed;
-    if (ahead.frequency * step > kFraction) step = kFraction / ahead.frequency;
+    const double frequency = std::sqrt(ahead.stiffness / flight.mass);
+    if (frequency * step > kFraction) step = kFraction / frequency;
     return remaining / std::ceil(remaining / step);
 }
 
@@ -141,34 +144,33 @@ void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
 
 }  // namespace
 
-double gapAround(const Scenery& scenery, const Flight& flight) {
-    double gap = std::numeric_limits<double>::infinity();
-    forEachSurface(scenery, flight.position,
-                   [&](const Surface& surface) { gap = std::min(gap, surface.height - flight.radius); });
-    return gap;
-}
-
-bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit) {
+Contacts contactsAhead(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit) {
+    const Probe probe = probeOf(flight);
     const double way = duration * std::sqrt(squaredLength(flight.velocity));
-    const Outlook ahead = lookAhead(scenery, flight, way);
-    if (!(way > ahead.gap)) return false;
-    if (way > kResolved * ahead.scale) return true;
-    // The limit is h^2 w^2 + 2 h g = 4.
-    const double phase = duration * ahead.frequency;
-    return isExplicit && phase * phase + 2.0 * duration * ahead.decay > kStable * 4.0;
+    Contacts contacts;
+    const Outlook ahead = lookAhead(scenery, flight, way, [&](const Surface& surface, const Contact& contact) {
+        addForce(surface, contact, probe, contacts.force);
+    });
+    contacts.gap = ahead.gap;
+    // The limit is h^2 k + 2 h b = 4 m.
+    const double load = duration * (duration * ahead.stiffness + 2.0 * ahead.damping);
+    contacts.needsSweep =
+        way > ahead.gap && (way > kResolved * ahead.scale || (isExplicit && load > kStable * 4.0 * flight.mass));
+    return contacts;
 }
 
 void fly(const Scenery& scenery, Flight& flight, double duration) {
     double remaining = duration;
     for (int count = 0; remaining > 0.0 && count < kMostSteps; ++count) {
         const double speed = std::sqrt(squaredLength(flight.velocity));
-        const Outlook ahead = lookAhead(scenery, flight);
+        constexpr double kAnyWay = std::numeric_limits<double>::infinity();
+        const Outlook ahead = lookAhead(scenery, flight, kAnyWay, [](const Surface&, const Contact&) {});
         // Written so that a speed that is not a number ends the flight; the check after the step reports it.
         if (!(speed * remaining > ahead.gap) && (ahead.gap > 0.0 || !(speed >= 0.0))) {
             flight.position += remaining * flight.velocity;
             return;
         }
-        const double step = stepFor(ahead, speed, remaining);
+        const double step = stepFor(ahead, flight, speed, remaining);
         flight.position += 0.5 * step * flight.velocity;
         kick(scenery, flight, step);
         flight.position += 0.5 * step * flight.velocity;

@@ -17,12 +17,16 @@ struct Flight {
     double friction = 0.0;         ///< mu of its material
 };
 
-/// Whether the contacts of the coming step (s) are more than a step of that length bears: the particle may cover more
-/// than a fraction of a contact's depth in it, or, where contacts act explicitly, comes near the limit of stability.
-bool needsSweep(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit);
+/// A particle's contacts at a step's start.
+struct Contacts {
+    double gap = 0.0;           ///< from its surface to the nearest obstacle's, m; negative in contact
+    bool needsSweep = false;    ///< they are more than the step bears
+    Vec3 force = Vec3::Zero();  ///< of all of them, N; contactForce's
+};
 
-/// Distance from the particle's surface to the nearest obstacle's, m; negative in contact.
-double gapAround(const Scenery& scenery, const Flight& flight);
+/// The contacts of the coming step (s). They are more than it bears where the particle may cover more than a fraction
+/// of a contact's depth in it, or, where contacts act explicitly, comes near the limit of stability.
+Contacts contactsAhead(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit);
 
 /// Flies on for a duration (s) under the forces of the obstacles alone, those of section 3.2.
 /// Holds:  at any finite speed the centre stays on the side of a plane, of a box's face and of a sphere that it came

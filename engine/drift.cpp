@@ -35,15 +35,6 @@ constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 /// Share of a radius by which a clearance is taken too small: far above what roundings add up to.
 constexpr double kMargin = 1e-3;
 
-/// Whether a particle may be in the way (m) of an obstacle; measures its clearance where the one known is too small.
-bool mayTouch(Simulation& simulation, const Flight& flight, std::size_t p, double way) {
-    double& clearance = simulation.clearance[p];
-    if (way <= clearance) return false;
-    const double gap = gapAround(simulation.setup.scenery, flight);
-    clearance = gap - kMargin * flight.radius;
-    return way > gap;
-}
-
 }  // namespace
 
 bool isClear(const Simulation& simulation, std::size_t p) {
@@ -56,31 +47,28 @@ void prepareDrift(Simulation& simulation) {
     simulation.clearance.resize(simulation.particles.count(), kUnknown);
 }
 
-void chooseSwept(Simulation& simulation, std::size_t p, double h) {
+Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
     const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty()) return;
+    if (scenery.colliders.empty()) return Vec3::Zero();
+    simulation.swept[p] = 0;
+    const double way = h * std::sqrt(squaredLength(simulation.particles.velocity[p]));
+    if (way <= simulation.clearance[p]) return Vec3::Zero();
     const Flight flight = flightOf(simulation, p);
-    const double way = h * std::sqrt(squaredLength(flight.velocity));
     const bool isExplicit = simulation.stepper == StepperKind::velocityVerlet;
+    const Contacts contacts = contactsAhead(scenery, flight, h, isExplicit);
+    simulation.clearance[p] = contacts.gap - kMargin * flight.radius;
     // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
     // what the whole heap does.
-    const bool isSwept = mayTouch(simulation, flight, p, way) &&
-                         (simulation.evaluator.isAlone(p) || needsSweep(scenery, flight, h, isExplicit));
-    simulation.swept[p] = isSwept ? 1 : 0;
+    if (!contacts.needsSweep && !(way > contacts.gap && simulation.evaluator.isAlone(p))) return contacts.force;
+    simulation.swept[p] = 1;
+    return Vec3::Zero();
 }
 
-void drift(Simulation& simulation, std::size_t p, double h) {
-    Particles& particles = simulation.particles;
-    const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty() || !simulation.swept[p]) {
-        particles.position[p] += h * particles.velocity[p];
-        if (!scenery.colliders.empty()) simulation.clearance[p] -= h * std::sqrt(squaredLength(particles.velocity[p]));
-        return;
-    }
+void driftSwept(Simulation& simulation, std::size_t p, double h) {
     Flight flight = flightOf(simulation, p);
-    fly(scenery, flight, h);
-    particles.position[p] = flight.position;
-    particles.velocity[p] = flight.velocity;
+    fly(simulation.setup.scenery, flight, h);
+    simulation.particles.position[p] = flight.position;
+    simulation.particles.velocity[p] = flight.velocity;
     simulation.clearance[p] = kUnknown;
 }
 
@@ -88,6 +76,14 @@ Vec3 slowContactForce(const Simulation& simulation, std::size_t p, const Vec3& v
     const Scenery& scenery = simulation.setup.scenery;
     if (scenery.colliders.empty() || simulation.swept[p] || isClear(simulation, p)) return Vec3::Zero();
     return contactForce(scenery, probeOf(simulation, p, velocity));
+}
+
+ContactAnswer slowContact(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
+    const Scenery& scenery = simulation.setup.scenery;
+    if (scenery.colliders.empty() || isClear(simulation, p)) return {};
+    ContactAnswer answer = contactForceAndEnergy(scenery, probeOf(simulation, p, velocity));
+    if (simulation.swept[p]) answer.force = Vec3::Zero();
+    return answer;
 }
 
 void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {

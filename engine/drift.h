@@ -1,6 +1,8 @@
 // Drift and contacts: what the steppers other than the paper's do to each particle besides the pairs.
 #pragma once
 
+#include <cmath>
+
 #include "engine/parallel.h"
 #include "engine/simulation.h"
 
@@ -10,17 +12,29 @@ namespace engine {
 void prepareDrift(Simulation& simulation);
 
 /// Decides whether obstacles are to meet a particle along its way in a step of h seconds; at the step's start, before
-/// it moves.
-void chooseSwept(Simulation& simulation, std::size_t p, double h);
+/// it moves. Returns their force (N) on it where they are not.
+Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h);
 
 /// Whether a particle certainly touches no obstacle.
 bool isClear(const Simulation& simulation, std::size_t p);
 
-/// Moves a particle for h seconds; the velocity of a swept one changes where it meets an obstacle.
-void drift(Simulation& simulation, std::size_t p, double h);
+/// Moves a swept particle for h seconds; its velocity changes where it meets an obstacle.
+void driftSwept(Simulation& simulation, std::size_t p, double h);
+
+/// Moves a particle for h seconds.
+inline void drift(Simulation& simulation, std::size_t p, double h) {
+    const bool hasContacts = !simulation.setup.scenery.colliders.empty();
+    if (hasContacts && simulation.swept[p]) return driftSwept(simulation, p, h);
+    const Vec3 way = h * simulation.particles.velocity[p];
+    simulation.particles.position[p] += way;
+    if (hasContacts) simulation.clearance[p] -= std::sqrt(squaredLength(way));
+}
 
 /// The obstacles' force (N) on a particle of that velocity (m/s); zero where it is swept.
 Vec3 slowContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity);
+
+/// The same and the energy (J), which a swept one has too.
+ContactAnswer slowContact(const Simulation& simulation, std::size_t p, const Vec3& velocity);
 
 /// Adds the obstacles' damping and stiffness on particles that are not swept to the matrix of a step of h seconds.
 /// Both, whatever the matrix holds of the pairs: a heap's weight makes contacts stiffer than anything else.
@@ -32,6 +46,13 @@ void forEachParticle(const Simulation& simulation, const Body& body) {
     constexpr std::size_t kContactGrain = 512;  // chosen: most contacts take a tenth of a microsecond, some a hundred
     const bool hasContacts = !simulation.setup.scenery.colliders.empty();
     inParallel(simulation.particles.count(), hasContacts ? kContactGrain : kParticleGrain, body);
+}
+
+/// Sum of term(p) over the particles, shared out likewise.
+template <class Sum, class Term>
+Sum sumOverParticles(const Simulation& simulation, const Term& term) {
+    const bool hasContacts = !simulation.setup.scenery.colliders.empty();
+    return sumOver<Sum>(simulation.particles.count(), term, hasContacts ? kSumChunk : kParticleGrain);
 }
 
 }  // namespace engine

@@ -42,7 +42,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
     const std::vector<Vec3>& change = simulation.implicit.change;
     for (std::size_t place = 0; place < order.size(); ++place) particles.velocity[order[place]] += change[place];
-    noteEnergy(simulation, particles.velocity, pairEnergy);  // of the middle: these are the mean velocities
+    noteEnergy(simulation, pairEnergy);  // of the middle: these are the mean velocities
     for (std::size_t place = 0; place < order.size(); ++place) particles.velocity[order[place]] += change[place];
 }
 

@@ -67,19 +67,19 @@ void copy(const std::vector<T>& from, std::vector<T>& to) {
 /// Terms of a partial sum; part of what makes the bits of a sum.
 inline constexpr std::size_t kSumChunk = 1024;
 
-/// Sum of term(index) over 0 ... count - 1.
-template <class Term>
-double sumOver(std::size_t count, const Term& term) {
+/// Sum of term(index) over 0 ... count - 1, at least `grain` of them in a row on one thread.
+template <class Sum = double, class Term>
+Sum sumOver(std::size_t count, const Term& term, std::size_t grain = kParticleGrain) {
     const std::size_t chunks = (count + kSumChunk - 1) / kSumChunk;
-    std::vector<double> partial(chunks, 0.0);
-    inParallel(chunks, kParticleGrain / kSumChunk, [&](std::size_t chunk) {
+    std::vector<Sum> partial(chunks, Sum{});
+    inParallel(chunks, grain / kSumChunk, [&](std::size_t chunk) {
         const std::size_t end = std::min(count, (chunk + 1) * kSumChunk);
-        double sum = 0.0;
+        Sum sum{};
         for (std::size_t index = chunk * kSumChunk; index < end; ++index) sum += term(index);
         partial[chunk] = sum;
     });
-    double sum = 0.0;
-    for (const double part : partial) sum += part;
+    Sum sum{};
+    for (const Sum& part : partial) sum += part;
     return sum;
 }
 

@@ -18,25 +18,23 @@ constexpr double kSlow = 0.1;
 /// A thousand roundings of the sums that the energy is the difference of.
 constexpr double kRounding = 1e-13;
 
-double ownEnergy(const Simulation& simulation, std::size_t p) {
+double contactEnergyOf(const Simulation& simulation, std::size_t p) {
+    if (simulation.setup.scenery.colliders.empty() || isClear(simulation, p)) return 0.0;
     const Particles& particles = simulation.particles;
-    const Vec3& x = particles.position[p];
-    const double contacts =
-        simulation.setup.scenery.colliders.empty() || isClear(simulation, p)
-            ? 0.0
-            : contactEnergy(simulation.evaluator.law().scenery, {x, Vec3::Zero(), particles.radius[p], 1.0});
-    return contacts - particles.mass[p] * dot(simulation.setup.gravity, x);
+    return contactEnergy(simulation.setup.scenery, {particles.position[p], Vec3::Zero(), particles.radius[p], 1.0});
 }
 
-double energyWithEarlier(const Simulation& simulation, std::size_t p) {
+/// Of a newborn with all that are older, J; cutoff: beyond which no pair acts, m.
+double energyWithEarlier(const Simulation& simulation, std::size_t p, double cutoff) {
     const Particles& particles = simulation.particles;
     const std::vector<Material>& materials = simulation.setup.materials;
     double energy = 0.0;
     for (std::size_t i = 0; i < p; ++i) {
-        const double distance = std::sqrt(squaredLength(particles.position[p] - particles.position[i]));
+        const double distanceSq = squaredLength(particles.position[p] - particles.position[i]);
+        if (distanceSq >= cutoff * cutoff) continue;
         const double restLength = particles.radius[p] + particles.radius[i];
         const Material pair = mixed(materials[particles.material[p]], materials[particles.material[i]]);
-        energy += pairEnergy(distance, pairConstants<double>(pair, restLength));
+        energy += pairEnergy(std::sqrt(distanceSq), pairConstants<double>(pair, restLength));
     }
     return energy;
 }
@@ -44,11 +42,11 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p) {
 bool movedTooFar(const Simulation& simulation, const BeforeStep& kept) {
     const Particles& particles = simulation.particles;
     if (particles.count() < 2) return false;
-    const double largest = largestOver(particles.count(), [&](std::size_t p) {
-        const double radii = std::sqrt(squaredLength(particles.position[p] - kept.position[p])) / particles.radius[p];
-        return std::isnan(radii) ? std::numeric_limits<double>::infinity() : radii;
+    const double far = largestOver(particles.count(), [&](std::size_t p) {
+        const double waySq = squaredLength(particles.position[p] - kept.position[p]);
+        return waySq <= particles.radius[p] * particles.radius[p] ? 0.0 : 1.0;  // what is no number is too far
     });
-    return largest > 1.0;
+    return far > 0.0;
 }
 
 }  // namespace
@@ -62,12 +60,15 @@ double energyAllowance(const Simulation& simulation) {
     return kEnergyAllowance * (simulation.kinetic + slow) + kRounding * std::abs(simulation.energy.value_or(0.0));
 }
 
-void noteEnergy(Simulation& simulation, const std::vector<Vec3>& velocities, double pairEnergy) {
-    const Particles& particles = simulation.particles;
-    simulation.kinetic = sumOver(particles.count(),
-                                 [&](std::size_t p) { return 0.5 * particles.mass[p] * squaredLength(velocities[p]); });
-    const double own = sumOver(particles.count(), [&](std::size_t p) { return ownEnergy(simulation, p); });
-    simulation.energy = simulation.kinetic + own + pairEnergy;
+void noteEnergy(Simulation& simulation, const OwnEnergy& own, double pairEnergy) {
+    simulation.kinetic = own.kinetic;
+    simulation.energy = own.kinetic + own.potential + pairEnergy;
+}
+
+void noteEnergy(Simulation& simulation, double pairEnergy) {
+    const OwnEnergy own = sumOverParticles<OwnEnergy>(
+        simulation, [&](std::size_t p) { return ownEnergy(simulation, p, contactEnergyOf(simulation, p)); });
+    noteEnergy(simulation, own, pairEnergy);
 }
 
 void noteUnsound(Simulation& simulation) {
@@ -76,11 +77,11 @@ void noteUnsound(Simulation& simulation) {
 
 void noteBirths(Simulation& simulation, std::size_t first) {
     if (!simulation.energy) return;
-    const Particles& particles = simulation.particles;
-    for (std::size_t p = first; p < particles.count(); ++p) {
-        const double kinetic = 0.5 * particles.mass[p] * squaredLength(particles.velocity[p]);
-        simulation.kinetic += kinetic;
-        *simulation.energy += kinetic + ownEnergy(simulation, p) + energyWithEarlier(simulation, p);
+    const double cutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
+    for (std::size_t p = first; p < simulation.particles.count(); ++p) {
+        const OwnEnergy own = ownEnergy(simulation, p, contactEnergyOf(simulation, p));
+        simulation.kinetic += own.kinetic;
+        *simulation.energy += own.kinetic + own.potential + energyWithEarlier(simulation, p, cutoff);
     }
 }
 

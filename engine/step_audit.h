@@ -15,9 +15,31 @@ inline constexpr double kEnergyAllowance = 1e-3;
 /// of a tenth of a radius per second, so that a scene can come to rest.
 double energyAllowance(const Simulation& simulation);
 
-/// Records energy and kinetic energy of the particles as they stand, moving with the given velocities (m/s).
-/// Shape:  pairEnergy in joules, at the present positions. Steppers call it where they know it.
-void noteEnergy(Simulation& simulation, const std::vector<Vec3>& velocities, double pairEnergy);
+/// What the audit sums up over the particles, J.
+struct OwnEnergy {
+    double kinetic = 0.0;
+    double potential = 0.0;  ///< of obstacles and gravity
+
+    OwnEnergy& operator+=(const OwnEnergy& other) {
+        kinetic += other.kinetic;
+        potential += other.potential;
+        return *this;
+    }
+};
+
+/// Of one particle as it stands; contacts: its energy at the obstacles, J.
+inline OwnEnergy ownEnergy(const Simulation& simulation, std::size_t p, double contacts) {
+    const Particles& particles = simulation.particles;
+    const double mass = particles.mass[p];
+    return {0.5 * mass * squaredLength(particles.velocity[p]),
+            contacts - mass * dot(simulation.setup.gravity, particles.position[p])};
+}
+
+/// Records energy and kinetic energy of the particles as they stand, J. Steppers call it where they know all of it.
+void noteEnergy(Simulation& simulation, const OwnEnergy& own, double pairEnergy);
+
+/// The same, where nothing but the pairs' energy (J) is known.
+void noteEnergy(Simulation& simulation, double pairEnergy);
 
 /// Records that the state is not one to compute forces from; the step will be taken back.
 void noteUnsound(Simulation& simulation);

@@ -86,7 +86,7 @@ inline Contact contactWith(const Surface& surface, const RepulsorLaw& law, const
     Contact contact;
     contact.constants = pairConstants<double>(repulsor, probe.radius + surface.repulsorRadius);
     const double distance = surface.height + surface.repulsorRadius;
-    contact.distance = std::max(distance, std::sqrt(contact.constants.coreSq));
+    contact.distance = std::max(distance, law.coreFraction * (probe.radius + surface.repulsorRadius));
     contact.beyondCore = contact.distance - distance;
     return contact;
 }
@@ -101,11 +101,24 @@ inline double normalForce(const Contact& contact, double normalSpeed) {
            pairCoefficient<kRepulsorTerms>(distanceSq, contact.distance * normalSpeed, contact.constants);
 }
 
+/// Energy of the conservative part, J.
+inline double contactEnergy(const Contact& contact) {
+    return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
+}
+
 /// Energy of a particle at this surface, J; 0 where it does not touch.
 inline double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
-    if (surface.height >= probe.radius) return 0.0;
-    const Contact contact = contactWith(surface, law, probe);
-    return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
+    return surface.height >= probe.radius ? 0.0 : contactEnergy(contactWith(surface, law, probe));
+}
+
+/// Adds the contact's force on the particle, N, friction included. Inline by force: a call is half of its cost.
+[[gnu::always_inline]] inline void addForce(const Surface& surface, const Contact& contact, const Probe& probe,
+                                            Vec3& force) {
+    const double normalSpeed = dot(probe.velocity, surface.normal);
+    force += normalForce(contact, normalSpeed) * surface.normal;
+    if (probe.friction == 0.0) return;
+    const Vec3 slip = probe.velocity - normalSpeed * surface.normal;
+    force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
 }
 
 /// Damping of the normal motion, kg/s.

@@ -33,8 +33,8 @@ void velocityVerletStep(Simulation& simulation, double h) {
     predicted.resize(particles.count());
     forEachParticle(simulation, [&](std::size_t p) {
         Vec3& velocity = particles.velocity[p];
-        chooseSwept(simulation, p, h);
-        const Vec3 change = halfKick(particles, p, h, simulation.forces[p] + slowContactForce(simulation, p, velocity));
+        const Vec3 contacts = chooseSwept(simulation, p, h);
+        const Vec3 change = halfKick(particles, p, h, simulation.forces[p] + contacts);
         velocity += change;
         drift(simulation, p, hasDrag ? 0.5 * h : h);
         if (hasDrag) {
@@ -45,12 +45,13 @@ void velocityVerletStep(Simulation& simulation, double h) {
     });
     if (!isSound(particles)) return noteUnsound(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted);
-    forEachParticle(simulation, [&](std::size_t p) {
-        particles.velocity[p] +=
-            halfKick(particles, p, h, simulation.forces[p] + slowContactForce(simulation, p, predicted[p]));
+    const OwnEnergy own = sumOverParticles<OwnEnergy>(simulation, [&](std::size_t p) {
+        const ContactAnswer contact = slowContact(simulation, p, predicted[p]);
+        particles.velocity[p] += halfKick(particles, p, h, simulation.forces[p] + contact.force);
+        return ownEnergy(simulation, p, contact.energy);
     });
     simulation.forcesCurrent = true;
-    noteEnergy(simulation, particles.velocity, pairEnergy);
+    noteEnergy(simulation, own, pairEnergy);
 }
 
 }  // namespace engine

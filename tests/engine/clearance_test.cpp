@@ -24,8 +24,10 @@ Simulation falling(StepperKind stepper, double step) {
 
 double gapOf(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
-    return gapAround(simulation.setup.scenery,
-                     {.position = particles.position[p], .velocity = Vec3::Zero(), .radius = particles.radius[p]});
+    return contactsAhead(simulation.setup.scenery,
+                         {.position = particles.position[p], .velocity = Vec3::Zero(), .radius = particles.radius[p]},
+                         0.0, false)
+        .gap;
 }
 
 struct Count {

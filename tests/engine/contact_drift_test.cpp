@@ -71,7 +71,7 @@ TEST_CASE("Free flight is one product and one sum", "[contact-drift]") {
     for (const double duration : {1e-3, 0.1, 0.9}) {
         Flight flight{Vec3(0.1, 4.0, 0.2), Vec3(1.7, -2.9, 0.3), 0.1, 0.15, 2.0};
         const Vec3 expected = flight.position + duration * flight.velocity;
-        CHECK_FALSE(needsSweep(scenery, flight, duration, true));
+        CHECK_FALSE(contactsAhead(scenery, flight, duration, true).needsSweep);
         fly(scenery, flight, duration);
         CHECK(flight.position == expected);
         CHECK(flight.velocity == Vec3(1.7, -2.9, 0.3));
@@ -86,18 +86,34 @@ TEST_CASE("What passes by an obstacle is only moved", "[contact-drift]") {
     CHECK((flight.position - Vec3(3, 1.16, 0)).norm() < 1e-13);  // a rounding of 3 m for each of some hundred leaps
 }
 
+TEST_CASE("The force of the contacts ahead is that of the contacts as forces", "[contact-drift]") {
+    Scenery corner = only(Plane{});
+    corner.colliders.emplace_back(Box{Vec3(-1, -1, -1), Vec3(-0.1, 2, 1)});
+    corner.colliders.emplace_back(Sphere{Vec3(0.4, 0.3, 0.2), 0.35, false});
+    for (const double friction : {0.0, 0.6})
+        for (const double height : {0.05, 0.12, 0.2, 3.0}) {
+            const Flight flight{Vec3(0.0, height, 0.0), Vec3(0.3, -0.7, 0.1), 0.1, 0.15, 2.0, friction};
+            const Probe probe{flight.position, flight.velocity, 0.15, 2.0, friction};
+            const ContactAnswer answer = contactForceAndEnergy(corner, probe);
+            CHECK(contactsAhead(corner, flight, 1e-5, true).force == contactForce(corner, probe));
+            CHECK(answer.force == contactForce(corner, probe));
+            CHECK(answer.energy == contactEnergy(corner, probe));
+            CHECK((answer.energy > 0.0) == (height < 1.0));
+        }
+}
+
 TEST_CASE("Only what is too fast or too stiff for the step is swept", "[contact-drift]") {
     const Scenery floor = only(Plane{});
     const Flight fast{Vec3(0, 1, 0), Vec3(0, -100, 0), 0.1, 0.15, 2.0};
-    CHECK(needsSweep(floor, fast, 0.01, false));
-    CHECK_FALSE(needsSweep(floor, fast, 0.008, false));  // 0.8 of 0.85 m to the contact
+    CHECK(contactsAhead(floor, fast, 0.01, false).needsSweep);
+    CHECK_FALSE(contactsAhead(floor, fast, 0.008, false).needsSweep);  // 0.8 of 0.85 m to the contact
     const Flight slow{Vec3(0, 0.1, 0), Vec3(0, -0.1, 0), 0.1, 0.15, 2.0};
     // D = 0.6: c = 10 (1 - 0.36/0.4225) = 1.48 kg/s and k = 10 (4/D^5 - 4/(0.65^2 D^3)) = 76 N/m; with 0.1 kg
     // h^2 w^2 + 2 h g is 0.37 at 0.01 s, 2 at 0.037 s, 11 at 0.1 s.
-    CHECK_FALSE(needsSweep(floor, slow, 0.01, true));
-    CHECK(needsSweep(floor, slow, 0.1, true));
-    CHECK(needsSweep(floor, slow, 0.045, true));  // 2.9
-    CHECK_FALSE(needsSweep(floor, slow, 0.1, false));
+    CHECK_FALSE(contactsAhead(floor, slow, 0.01, true).needsSweep);
+    CHECK(contactsAhead(floor, slow, 0.1, true).needsSweep);
+    CHECK(contactsAhead(floor, slow, 0.045, true).needsSweep);  // 2.9
+    CHECK_FALSE(contactsAhead(floor, slow, 0.1, false).needsSweep);
 }
 
 TEST_CASE("What rests on a plane stays", "[contact-drift]") {
