@@ -11,24 +11,24 @@ ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision preci
     : law_(std::move(law)), method_(method), pairs_(law_, precision) {}
 
 void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
-                              std::vector<Vec3>& forces) {
+                              std::vector<Vec3>& forces, double step) {
     if (method_ == ForceMethod::reference)
         pairForcesReference(law_, particles, velocities, forces);
     else
-        pairForcesGrid(particles, velocities, forces);
+        pairForcesGrid(particles, velocities, forces, step);
     addGravity(particles, forces);
     addContacts(particles, velocities, forces);
 }
 
 double ForceEvaluator::evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities,
-                                    std::vector<Vec3>& forces) {
+                                    std::vector<Vec3>& forces, double step) {
     double energy = 0.0;
     if (method_ == ForceMethod::reference) {
         pairForcesReference(law_, particles, velocities, forces);
         energy = pairEnergyReference(law_, particles);
     } else {
         forces.resize(particles.count());
-        pairs_.prepare(law_, particles, velocities);
+        pairs_.prepare(law_, particles, velocities, step);
         addUpPairs(pairs_, {.forces = forces, .energy = &energy});
     }
     addGravity(particles, forces);
@@ -36,10 +36,10 @@ double ForceEvaluator::evaluateFree(const Particles& particles, const std::vecto
 }
 
 double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights& weights, std::vector<Vec3>& forces,
-                                PairMatrix& matrix) {
+                                PairMatrix& matrix, double step) {
     double energy = 0.0;
     forces.resize(particles.count());
-    pairs_.prepare(law_, particles, particles.velocity);
+    pairs_.prepare(law_, particles, particles.velocity, step);
     addUpPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
     // The matrix has no slow twin: products of the reference's pairs would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
@@ -74,9 +74,9 @@ void ForceEvaluator::addContacts(const Particles& particles, const std::vector<V
 }
 
 void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,
-                                    std::vector<Vec3>& forces) {
+                                    std::vector<Vec3>& forces, double step) {
     forces.resize(particles.count());
-    pairs_.prepare(law_, particles, velocities);
+    pairs_.prepare(law_, particles, velocities, step);
     addUpPairs(pairs_, {.forces = forces});
 }
 

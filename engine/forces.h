@@ -33,14 +33,17 @@ class ForceEvaluator {
 
     /// Total force on every particle, in newtons, with the given velocities (m/s) in the damping; obstacles included.
     /// Holds:  the same bits for any number of threads.
-    void evaluate(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
+    /// Shape:  step: s until the next evaluation, which the neighbour list is to serve too; 0: nobody knows.
+    void evaluate(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
+                  double step = 0.0);
 
     /// The same without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
-    double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
+    double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
+                        double step = 0.0);
 
     /// evaluateFree, and the matrix of the implicit steppers at the particles' positions, in the order of order().
     double assemble(const Particles& particles, const MatrixWeights& weights, std::vector<Vec3>& forces,
-                    PairMatrix& matrix);
+                    PairMatrix& matrix, double step = 0.0);
 
     /// Particle index at each place of the matrix that was assembled last.
     const std::vector<std::uint32_t>& order() const { return pairs_.list.order; }
@@ -57,7 +60,8 @@ class ForceEvaluator {
     bool isAlone(std::size_t p) const;
 
     /// The pair forces of equation 1 alone, over the neighbour list.
-    void pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces);
+    void pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
+                        double step = 0.0);
 
     /// Pair energy of the conservative part, in joules, over the neighbour list.
     double pairEnergyGrid(const Particles& particles);

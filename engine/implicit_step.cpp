@@ -32,7 +32,7 @@ void solveForChange(Simulation& simulation, double h) {
 void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     Particles& particles = simulation.particles;
     const double pairEnergy =
-        simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix);
+        simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
     forEachParticle(simulation, [&](std::size_t p) {
         simulation.forces[p] += slowContactForce(simulation, p, particles.velocity[p]);

@@ -2,6 +2,9 @@
 #include "engine/pair_traversal.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "engine/list_skin.h"
 
 namespace engine {
 namespace {
@@ -18,18 +21,39 @@ std::int32_t wrapped(double units) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(whole)));
 }
 
+/// The largest speed, m/s; what is no number does not count.
+double fastest(const std::vector<Vec3>& velocities) {
+    return std::sqrt(largestOver(velocities.size(), [&](std::size_t p) {
+        const double speedSq = squaredLength(velocities[p]);
+        return speedSq > 0.0 ? speedSq : 0.0;
+    }));
+}
+
+/// Entries of a row that lie within the cutoff (m), if they are spread evenly.
+double neighboursWithin(double cutoff, const NeighbourList& list) {
+    const double share = cutoff / list.reach;
+    return share * share * share * static_cast<double>(list.places.size()) / static_cast<double>(list.count());
+}
+
 }  // namespace
 
 PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
     : pairMaterials(mixedPairs(law.materials)), materialCount(law.materials.size()), precision(wanted) {}
 
-void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities) {
+void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                            double step) {
     const bool hadLanes = terms.uniform;
     terms = termsFor(law, particles);
     if (terms.uniform && particles.count() > 0)
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * particles.radius.front());
     const bool isNew = !covers(list, particles.position, terms.cutoff);
-    if (isNew) build(list, particles.position, terms.cutoff, kListSkin * terms.cutoff);
+    if (isNew) {
+        const bool isForeseen = step > 0.0 && list.count() > 0;
+        const double skin =
+            isForeseen ? cheapestSkin(neighboursWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
+                       : kListSkin;
+        build(list, particles.position, terms.cutoff, skin * terms.cutoff);
+    }
     if (terms.uniform && (isNew || !hadLanes)) build(lanes, list);
     const bool hasSingles = terms.uniform && precision == Precision::singles;
     records.resize(particles.count());

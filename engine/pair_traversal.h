@@ -14,9 +14,6 @@
 
 namespace engine {
 
-/// Width of the skin in cutoffs. Measured: 0.05 to 0.15 cost the same within 5 % in the liquid scene.
-inline constexpr double kListSkin = 0.1;
-
 /// Arithmetic of the pair forces; the state is always in double.
 enum class Precision { doubles, singles };
 
@@ -37,8 +34,10 @@ struct PairTraversal {
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
 
-    /// Sorts the particles, with the velocities (m/s) that the damping is to see, and brings the list up to date.
-    void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities);
+    /// Sorts the particles, with the velocities (m/s) that the damping is to see, and brings the list up to date. A new
+    /// one is made for passes that are a step (s) apart; 0: nobody knows.
+    void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                 double step = 0.0);
 
     /// Brings back the list that was built for these positions (m) with this reach (m).
     void restoreList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& builtAt, double reach);

@@ -13,7 +13,7 @@ namespace {
 /// published.
 void symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
-    simulation.evaluator.evaluate(particles, particles.velocity, simulation.forces);
+    simulation.evaluator.evaluate(particles, particles.velocity, simulation.forces, h);
     ++simulation.steps.forceEvaluations;
     const double decay = decayFactor(simulation.setup.drag, h);
     simulation.clearance.clear();

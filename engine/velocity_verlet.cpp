@@ -10,9 +10,9 @@ namespace engine {
 namespace {
 
 /// Returns the pair energy, J.
-double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities) {
+double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities, double h) {
     ++simulation.steps.forceEvaluations;
-    return simulation.evaluator.evaluateFree(simulation.particles, velocities, simulation.forces);
+    return simulation.evaluator.evaluateFree(simulation.particles, velocities, simulation.forces, h);
 }
 
 /// What half a kick with this force (N) changes a particle's velocity by, m/s.
@@ -27,7 +27,7 @@ void velocityVerletStep(Simulation& simulation, double h) {
     const bool hasDrag = simulation.setup.drag > 0.0;
     const double decay = decayFactor(simulation.setup.drag, h);
     // Before anything is swept: who is alone is read from the list, which a newborn is in now.
-    if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity);
+    if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity, h);
     prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.predictedVelocities;
     predicted.resize(particles.count());
@@ -44,7 +44,7 @@ void velocityVerletStep(Simulation& simulation, double h) {
         predicted[p] = velocity + change;
     });
     if (!isSound(particles)) return noteUnsound(simulation);
-    const double pairEnergy = evaluateForces(simulation, predicted);
+    const double pairEnergy = evaluateForces(simulation, predicted, h);
     const OwnEnergy own = sumOverParticles<OwnEnergy>(simulation, [&](std::size_t p) {
         const ContactAnswer contact = slowContact(simulation, p, predicted[p]);
         particles.velocity[p] += halfKick(particles, p, h, simulation.forces[p] + contact.force);

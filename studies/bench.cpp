@@ -7,6 +7,7 @@
 
 #include "engine/diagnostics.h"
 #include "engine/fnv.h"
+#include "engine/list_skin.h"
 #include "engine/parallel.h"
 #include "engine/steppers.h"
 #include "studies/blocks.h"

@@ -1,0 +1,55 @@
+// The skin follows the motion: what it is worth shows in `globular bench`, what it must not do is here.
+#include "engine/list_skin.h"
+
+#include "tests/catch.h"
+
+#include "engine/diagnostics.h"
+#include "tests/engine/runs.h"
+
+using namespace engine;
+
+namespace {
+
+/// A packing of grains on its way down at this speed (m/s), after some steps (s).
+Simulation falling(double speed, double step, ForceMethod method) {
+    Setup setup = runs::freeSetup(*materialPreset("powder"), StepperKind::velocityVerlet, step);
+    runs::addPacking(setup, {6, 6, 6});
+    for (Vec3& velocity : setup.initial.velocity) velocity += Vec3(0.0, -speed, 0.0);
+    setup.forces = method;
+    Simulation simulation = start(setup);
+    advance(simulation, 0.1);
+    return simulation;
+}
+
+double skinOf(const Simulation& simulation) {
+    const double cutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
+    return simulation.evaluator.list().reach / cutoff - 1.0;
+}
+
+}  // namespace
+
+TEST_CASE("The skin is narrow where a list serves for long and where no skin would help", "[list-skin]") {
+    CHECK(cheapestSkin(45.0, 0.0) < 0.05);
+    CHECK(cheapestSkin(45.0, 1e-4) < 0.05);
+    CHECK(cheapestSkin(45.0, 5.0) < 0.05);
+}
+
+TEST_CASE("The skin is wider for fast particles, and where few are near", "[list-skin]") {
+    double before = cheapestSkin(45.0, 1e-5);
+    for (const double way : {1e-3, 5e-3, 0.02}) {
+        const double skin = cheapestSkin(45.0, way);
+        CHECK(skin >= before);
+        before = skin;
+    }
+    CHECK(before > 0.1);
+    CHECK(cheapestSkin(5.0, 0.02) > cheapestSkin(45.0, 0.02));
+}
+
+TEST_CASE("A run's lists fit the way of its steps, and its forces are those of every pair", "[list-skin]") {
+    CHECK(skinOf(falling(0.1, 1e-5, ForceMethod::grid)) < kListSkin);
+    const Simulation fast = falling(8.0, 0.002, ForceMethod::grid);
+    CHECK(skinOf(fast) > 2.0 * kListSkin);
+    const Simulation expected = falling(8.0, 0.002, ForceMethod::reference);
+    for (std::size_t p = 0; p < fast.particles.count(); ++p)  // some thousand roundings of metres
+        CHECK((fast.particles.position[p] - expected.particles.position[p]).norm() < 1e-12);
+}
