@@ -45,6 +45,7 @@ void prepareDrift(Simulation& simulation) {
     if (simulation.setup.scenery.colliders.empty()) return;
     simulation.swept.resize(simulation.particles.count());
     simulation.clearance.resize(simulation.particles.count(), kUnknown);
+    copy(simulation.particles.position, simulation.startPositions);
 }
 
 Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
@@ -59,7 +60,8 @@ Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
     simulation.clearance[p] = contacts.gap - kMargin * flight.radius;
     // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
     // what the whole heap does.
-    if (!contacts.needsSweep && !(way > contacts.gap && simulation.evaluator.isAlone(p))) return contacts.force;
+    if (!contacts.needsSweep && !(way > contacts.gap && simulation.evaluator.isAlone(simulation.startPositions, p)))
+        return contacts.force;
     simulation.swept[p] = 1;
     return Vec3::Zero();
 }

@@ -50,11 +50,16 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     return energy;
 }
 
-bool ForceEvaluator::isAlone(std::size_t p) const {
+bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, std::size_t p) const {
     const NeighbourList& list = pairs_.list;
-    if (p >= list.placeOf.size()) return false;  // a newborn may have been placed beside anyone
+    if (p >= list.placeOf.size()) return false;
+    const double cutoffSq = pairs_.terms.cutoff * pairs_.terms.cutoff;
     const std::uint32_t place = list.placeOf[p];
-    return list.rowStart[place] == list.rowStart[place + 1];
+    for (std::uint32_t entry = list.rowStart[place]; entry < list.rowStart[place + 1]; ++entry) {
+        const std::uint32_t other = list.order[list.places[entry]];
+        if (other < positions.size() && squaredLength(positions[p] - positions[other]) < cutoffSq) return false;
+    }
+    return true;
 }
 
 void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {

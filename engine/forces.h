@@ -56,8 +56,9 @@ class ForceEvaluator {
         pairs_.restoreList(law_, particles, builtAt, reach);
     }
 
-    /// Whether nobody was near a particle, within its cutoff or a little more, when the list was built last.
-    bool isAlone(std::size_t p) const;
+    /// Whether a particle of the last evaluation has nobody within the cutoff, at these positions (m). False for a
+    /// newborn, which may have been placed beside anyone.
+    bool isAlone(const std::vector<Vec3>& positions, std::size_t p) const;
 
     /// The pair forces of equation 1 alone, over the neighbour list.
     void pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,

@@ -59,16 +59,18 @@ std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// Blocks of 128 bits side by side, as many as a vector has: block b from at(b). Loads of this kind and shuffles within
-/// blocks take half of the time of gathers.
-template <class D, class At>
-hn::Vec<D> blocksFrom(D d, const At& at, std::size_t first = 0) {
+/// Blocks of 128 bits side by side, as many as a vector has: of every so many places one record's, at the base. Loads
+/// of this kind and shuffles within blocks take half of the time of gathers.
+template <class D>
+HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const std::int32_t* places,
+                                 std::size_t every) {
     constexpr std::size_t kBlocks = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
     if constexpr (kBlocks <= 1) {
-        return hn::Load(d, at(first));
+        return hn::Load(d, base + stride * places[0]);
     } else {
         const hn::Half<D> half;
-        return hn::Combine(d, blocksFrom(half, at, first + kBlocks / 2), blocksFrom(half, at, first));
+        return hn::Combine(d, blocksFrom(half, base, stride, places + every * kBlocks / 2, every),
+                           blocksFrom(half, base, stride, places, every));
     }
 }
 #endif
@@ -97,15 +99,15 @@ struct Doubles {
         if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
 #else
         // Numbers two by two, of every other record from one on.
-        const auto pairs = [&](int field, std::size_t from) {
-            return blocksFrom(kTag,
-                              [&](std::size_t block) { return base + kStride * places[2 * block + from] + field; });
+        const auto pairs = [](const double* field, const std::int32_t* from) {
+            return blocksFrom(kTag, field, kStride, from, 2);
         };
-        const V xy0 = pairs(0, 0), xy1 = pairs(0, 1), zu0 = pairs(2, 0), zu1 = pairs(2, 1);
+        const V xy0 = pairs(base, places), xy1 = pairs(base, places + 1);
+        const V zu0 = pairs(base + 2, places), zu1 = pairs(base + 2, places + 1);
         x = {hn::InterleaveLower(kTag, xy0, xy1), hn::InterleaveUpper(kTag, xy0, xy1),
              hn::InterleaveLower(kTag, zu0, zu1)};
         if constexpr (needsVelocity) {
-            const V vw0 = pairs(4, 0), vw1 = pairs(4, 1);
+            const V vw0 = pairs(base + 4, places), vw1 = pairs(base + 4, places + 1);
             v = {hn::InterleaveUpper(kTag, zu0, zu1), hn::InterleaveLower(kTag, vw0, vw1),
                  hn::InterleaveUpper(kTag, vw0, vw1)};
         }
@@ -151,29 +153,30 @@ struct Singles {
 
     template <bool needsVelocity>
     void load(const std::int32_t* places, Vector3<I>& x, Vector3<V>& v) const {
-        const auto whole = [&](V bits) { return hn::BitCast(kWhole, bits); };
+        const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
 #if HWY_TARGET == HWY_SCALAR
         const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
         x = {whole(field(0)), whole(field(1)), whole(field(2))};
         if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
 #else
-        const hn::Repartition<double, Tag<float>> twos;
+        static constexpr hn::Repartition<double, Tag<float>> kTwos{};
         // Numbers four by four, of every fourth record from one on, and what two of these have in their lower or upper
         // halves.
-        const auto fours = [&](int field, std::size_t from) {
-            return blocksFrom(kTag,
-                              [&](std::size_t block) { return base + kStride * places[4 * block + from] + field; });
+        const auto fours = [](const float* field, const std::int32_t* from) {
+            return blocksFrom(kTag, field, kStride, from, 4);
         };
-        const auto lower = [&](V a, V b) { return hn::BitCast(twos, hn::InterleaveLower(kTag, a, b)); };
-        const auto upper = [&](V a, V b) { return hn::BitCast(twos, hn::InterleaveUpper(kTag, a, b)); };
-        const auto firsts = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(twos, a, b)); };
-        const auto seconds = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(twos, a, b)); };
-        const V xyzu0 = fours(0, 0), xyzu1 = fours(0, 1), xyzu2 = fours(0, 2), xyzu3 = fours(0, 3);
+        const auto lower = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveLower(kTag, a, b)); };
+        const auto upper = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
+        const auto firsts = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
+        const auto seconds = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
+        const V xyzu0 = fours(base, places), xyzu1 = fours(base, places + 1);
+        const V xyzu2 = fours(base, places + 2), xyzu3 = fours(base, places + 3);
         const auto xy01 = lower(xyzu0, xyzu1), xy23 = lower(xyzu2, xyzu3);
         const auto zu01 = upper(xyzu0, xyzu1), zu23 = upper(xyzu2, xyzu3);
         x = {whole(firsts(xy01, xy23)), whole(seconds(xy01, xy23)), whole(firsts(zu01, zu23))};
         if constexpr (needsVelocity) {
-            const auto vw01 = lower(fours(4, 0), fours(4, 1)), vw23 = lower(fours(4, 2), fours(4, 3));
+            const auto vw01 = lower(fours(base + 4, places), fours(base + 4, places + 1));
+            const auto vw23 = lower(fours(base + 4, places + 2), fours(base + 4, places + 3));
             v = {seconds(zu01, zu23), firsts(vw01, vw23), seconds(vw01, vw23)};
         }
 #endif

@@ -119,6 +119,7 @@ struct Simulation {
     /// Scratch of the drift: no obstacle's surface is nearer to a particle's than this, m, as long as steps alone move
     /// it; empty where nothing is known.
     std::vector<double> clearance;
+    std::vector<Vec3> startPositions;  ///< scratch of the drift: at the step's start, m, while some have moved already
     bool forcesCurrent = false;
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J

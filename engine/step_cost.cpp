@@ -6,11 +6,12 @@
 namespace engine {
 namespace {
 
-/// Measured: the seconds of steps of liquid, solid and honey against their counts in `globular study accuracy`.
-constexpr ImplicitCosts kWithoutFriction{.matrix = 0.3, .product = 0.27};
+/// Measured: the seconds of steps of liquid, solid, oil, splash and honey against their counts in `globular study
+/// accuracy`.
+constexpr ImplicitCosts kWithoutFriction{.matrix = 1.0, .product = 0.15};
 
-/// Likewise of lava, mud and sand.
-constexpr ImplicitCosts kWithFriction{.matrix = 0.1, .product = 0.13};
+/// Likewise of lava and mud.
+constexpr ImplicitCosts kWithFriction{.matrix = 0.8, .product = 0.13};
 
 }  // namespace
 
