@@ -2,6 +2,7 @@
 #include "engine/forces.h"
 
 #include <limits>
+#include <set>
 #include "tests/catch.h"
 
 #include "tests/engine/clouds.h"
@@ -191,4 +192,28 @@ TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") 
         CHECK(forces[0].y() == Approx(-19.6 + contact.y()).epsilon(4 * kEps));  // two sums
         CHECK(forces[1] == Vec3(0, -19.6, 0));
     }
+}
+
+TEST_CASE("Who is alone is told by positions, whatever the list reaches to", "[forces]") {
+    const ForceLaw law = clouds::lawOf("liquid");
+    Particles particles;
+    for (const double x : {0.0, 0.61, 5.0}) append(particles, {.position = Vec3(x, 0, 0), .velocity = Vec3(0, 1, 0)});
+    CHECK(termsFor(law, particles).cutoff == Approx(0.6));  // c_d = 2 times the rest length
+    std::set<double> reaches;
+    for (const double step : {0.0, 1e-6, 0.01}) {
+        ForceEvaluator evaluator(law, ForceMethod::grid);
+        std::vector<Vec3> forces;
+        evaluator.evaluate(particles, particles.velocity, forces);
+        for (Vec3& position : particles.position) position.y() += 10.0;  // asks for another list
+        evaluator.evaluate(particles, particles.velocity, forces, step);
+        reaches.insert(evaluator.list().reach);
+        std::vector<Vec3> positions = particles.position;
+        for (std::size_t p = 0; p < 3; ++p) CHECK(evaluator.isAlone(positions, p));
+        positions[1].x() = 0.599;
+        CHECK_FALSE(evaluator.isAlone(positions, 0));
+        CHECK_FALSE(evaluator.isAlone(positions, 1));
+        CHECK(evaluator.isAlone(positions, 2));
+        CHECK_FALSE(evaluator.isAlone(positions, 3));  // a newborn
+    }
+    CHECK(reaches.size() == 3);
 }
