@@ -65,11 +65,12 @@ Vec3 contactForce(const Scenery& scenery, const Probe& probe);
 /// Energy of the conservative part of contactForce, in joules.
 double contactEnergy(const Scenery& scenery, const Probe& probe);
 
-/// Both for one walk over the surfaces.
 struct ContactAnswer {
     Vec3 force = Vec3::Zero();  ///< N
     double energy = 0.0;        ///< J
 };
+
+/// Both for one walk over the surfaces.
 ContactAnswer contactForceAndEnergy(const Scenery& scenery, const Probe& probe);
 
 }  // namespace engine

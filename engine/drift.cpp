@@ -46,6 +46,8 @@ void prepareDrift(Simulation& simulation) {
     simulation.swept.resize(simulation.particles.count());
     simulation.clearance.resize(simulation.particles.count(), kUnknown);
     copy(simulation.particles.position, simulation.startPositions);
+    // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
+    simulation.startCutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
 }
 
 Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
@@ -60,8 +62,10 @@ Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
     simulation.clearance[p] = contacts.gap - kMargin * flight.radius;
     // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
     // what the whole heap does.
-    if (!contacts.needsSweep && !(way > contacts.gap && simulation.evaluator.isAlone(simulation.startPositions, p)))
-        return contacts.force;
+    const auto isAlone = [&] {
+        return simulation.evaluator.isAlone(simulation.startPositions, simulation.startCutoff, p);
+    };
+    if (!contacts.needsSweep && !(way > contacts.gap && isAlone())) return contacts.force;
     simulation.swept[p] = 1;
     return Vec3::Zero();
 }

@@ -50,10 +50,10 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     return energy;
 }
 
-bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, std::size_t p) const {
+bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p) const {
     const NeighbourList& list = pairs_.list;
     if (p >= list.placeOf.size()) return false;
-    const double cutoffSq = pairs_.terms.cutoff * pairs_.terms.cutoff;
+    const double cutoffSq = cutoff * cutoff;
     const std::uint32_t place = list.placeOf[p];
     for (std::uint32_t entry = list.rowStart[place]; entry < list.rowStart[place + 1]; ++entry) {
         const std::uint32_t other = list.order[list.places[entry]];

@@ -56,9 +56,9 @@ class ForceEvaluator {
         pairs_.restoreList(law_, particles, builtAt, reach);
     }
 
-    /// Whether a particle of the last evaluation has nobody within the cutoff, at these positions (m). False for a
-    /// newborn, which may have been placed beside anyone.
-    bool isAlone(const std::vector<Vec3>& positions, std::size_t p) const;
+    /// Whether nobody in a particle's row of the list is within a cutoff (m), at these positions (m): nobody at all, as
+    /// long as the list covers them. False for a newborn, which is in no row and may have been placed beside anyone.
+    bool isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p) const;
 
     /// The pair forces of equation 1 alone, over the neighbour list.
     void pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,

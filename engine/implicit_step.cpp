@@ -53,7 +53,7 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
     const double decay = decayFactor(simulation.setup.drag, 0.5 * h);
     prepareDrift(simulation);
     forEachParticle(simulation, [&](std::size_t p) {
-        chooseSwept(simulation, p, h);
+        chooseSwept(simulation, p, h);  // its force is of the start; the middle's is asked for there
         drift(simulation, p, 0.5 * h);
         particles.velocity[p] *= decay;
     });

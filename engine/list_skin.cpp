@@ -1,4 +1,5 @@
-// A cost for each of some widths.
+// A cost for each of some widths, counted in pairs; the least wins. Asked by PairTraversal::prepare, whenever a list is
+// built.
 #include "engine/list_skin.h"
 
 #include <array>
@@ -30,7 +31,7 @@ double cheapestSkin(double neighbours, double way) {
     double least = std::numeric_limits<double>::infinity();
     for (const double skin : kWidths) {
         const double cost = costOf(skin, neighbours, way);
-        if (cost >= least) continue;
+        if (!(cost < least)) continue;  // what is no number is no choice
         best = skin;
         least = cost;
     }

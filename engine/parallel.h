@@ -67,12 +67,12 @@ void copy(const std::vector<T>& from, std::vector<T>& to) {
 /// Terms of a partial sum; part of what makes the bits of a sum.
 inline constexpr std::size_t kSumChunk = 1024;
 
-/// Sum of term(index) over 0 ... count - 1, at least `grain` of them in a row on one thread.
+/// Sum of term(index) over 0 ... count - 1, at least `grain` of them, in whole chunks, in a row on one thread.
 template <class Sum = double, class Term>
 Sum sumOver(std::size_t count, const Term& term, std::size_t grain = kParticleGrain) {
     const std::size_t chunks = (count + kSumChunk - 1) / kSumChunk;
     std::vector<Sum> partial(chunks, Sum{});
-    inParallel(chunks, grain / kSumChunk, [&](std::size_t chunk) {
+    inParallel(chunks, std::max<std::size_t>(1, grain / kSumChunk), [&](std::size_t chunk) {
         const std::size_t end = std::min(count, (chunk + 1) * kSumChunk);
         Sum sum{};
         for (std::size_t index = chunk * kSumChunk; index < end; ++index) sum += term(index);

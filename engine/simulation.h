@@ -120,6 +120,7 @@ struct Simulation {
     /// it; empty where nothing is known.
     std::vector<double> clearance;
     std::vector<Vec3> startPositions;  ///< scratch of the drift: at the step's start, m, while some have moved already
+    double startCutoff = 0.0;          ///< likewise: no pair acts at or beyond it, m
     bool forcesCurrent = false;
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J

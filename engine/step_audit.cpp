@@ -1,7 +1,6 @@
 // Energies as sums over the particles in chunks of fixed size, so that a verdict does not depend on threads.
 #include "engine/step_audit.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

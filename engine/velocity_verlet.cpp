@@ -45,6 +45,7 @@ void velocityVerletStep(Simulation& simulation, double h) {
     });
     if (!isSound(particles)) return noteUnsound(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);
+    // The second half of the kick, and what each particle's energy is after it: one loop for both.
     const OwnEnergy own = sumOverParticles<OwnEnergy>(simulation, [&](std::size_t p) {
         const ContactAnswer contact = slowContact(simulation, p, predicted[p]);
         particles.velocity[p] += halfKick(particles, p, h, simulation.forces[p] + contact.force);

@@ -49,11 +49,11 @@ engine::Particles everyKind(const scenes::Scene& scene) {
     return particles;
 }
 
-/// Bytes a particle takes while a frame is in flight: state, forces and prediction, sorted record and cells, spheres to
-/// draw.
+/// Bytes a particle takes while a frame is in flight, its row of the neighbour list apart: state, forces, prediction
+/// and the step's start, sorted record and cells, spheres to draw.
 std::size_t bytesPerParticle() {
     const std::size_t state = 2 * sizeof(engine::Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
-    const std::size_t scratch = 2 * sizeof(engine::Vec3) + sizeof(engine::PairRecord) + 4 * sizeof(std::uint32_t);
+    const std::size_t scratch = 3 * sizeof(engine::Vec3) + sizeof(engine::PairRecord) + 4 * sizeof(std::uint32_t);
     constexpr std::size_t kFramesInFlight = 4;
     return state + scratch + kFramesInFlight * sizeof(render::Sphere);
 }

@@ -194,11 +194,12 @@ TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") 
     }
 }
 
-TEST_CASE("Who is alone is told by positions, whatever the list reaches to", "[forces]") {
+TEST_CASE("Who is alone is told by positions, however far a list that covers them reaches", "[forces]") {
+    constexpr double kCutoff = 0.6;
     const ForceLaw law = clouds::lawOf("liquid");
     Particles particles;
     for (const double x : {0.0, 0.61, 5.0}) append(particles, {.position = Vec3(x, 0, 0), .velocity = Vec3(0, 1, 0)});
-    CHECK(termsFor(law, particles).cutoff == Approx(0.6));  // c_d = 2 times the rest length
+    CHECK(termsFor(law, particles).cutoff == Approx(kCutoff));  // c_d = 2 times the rest length
     std::set<double> reaches;
     for (const double step : {0.0, 1e-6, 0.01}) {
         ForceEvaluator evaluator(law, ForceMethod::grid);
@@ -208,12 +209,12 @@ TEST_CASE("Who is alone is told by positions, whatever the list reaches to", "[f
         evaluator.evaluate(particles, particles.velocity, forces, step);
         reaches.insert(evaluator.list().reach);
         std::vector<Vec3> positions = particles.position;
-        for (std::size_t p = 0; p < 3; ++p) CHECK(evaluator.isAlone(positions, p));
+        for (std::size_t p = 0; p < 3; ++p) CHECK(evaluator.isAlone(positions, kCutoff, p));
         positions[1].x() = 0.599;
-        CHECK_FALSE(evaluator.isAlone(positions, 0));
-        CHECK_FALSE(evaluator.isAlone(positions, 1));
-        CHECK(evaluator.isAlone(positions, 2));
-        CHECK_FALSE(evaluator.isAlone(positions, 3));  // a newborn
+        CHECK_FALSE(evaluator.isAlone(positions, kCutoff, 0));
+        CHECK_FALSE(evaluator.isAlone(positions, kCutoff, 1));
+        CHECK(evaluator.isAlone(positions, kCutoff, 2));
+        CHECK_FALSE(evaluator.isAlone(positions, kCutoff, 3));  // a newborn
     }
     CHECK(reaches.size() == 3);
 }
