@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds with warnings as errors, and runs the tests: as users build the program; those of the libraries
-# under AddressSanitizer and UndefinedBehaviorSanitizer (the renderer's, the longest, only there); the fuzzers, a minute each;
-# the engine's under ThreadSanitizer. With the name of a CMake preset (release, debug, asan-ubsan or tsan): all tests of it.
+# Sets the machine up, builds with warnings as errors, and runs the tests: every suite under AddressSanitizer and
+# UndefinedBehaviorSanitizer; what optimization, timing or memory may change also as users build the program; the engine's
+# under ThreadSanitizer; the fuzzers, a minute each. With the name of a CMake preset (release, debug, asan-ubsan or tsan):
+# all tests of it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -16,13 +17,12 @@ if [ $# -gt 0 ]; then
     exec ctest --preset "$1"
 fi
 
-build release
-ctest --preset release --parallel 2 -E '^render_tests$'
-libraries=(engine render scenes)
-build asan-ubsan "${libraries[@]/%/_tests}"
+build release globular {engine,golden,memory}_tests
+ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill)_tests$'
 build tsan
-# Side by side: the engine's suite is the longest of each and uses one core.
+build asan-ubsan
+# Side by side: the engine's suite uses one core.
 ctest --preset tsan &
-ctest --preset asan-ubsan --parallel 2 -R "^($(IFS='|'; echo "${libraries[*]}"))_tests$"
+ctest --preset asan-ubsan --parallel 2
 wait $!
 tests/fuzz/run.sh 60

@@ -32,15 +32,14 @@ differing() { # whole, resumed: names of the files that differ
     [ "$(hash_of "$1")" = "$(hash_of "$2")" ] || echo "state hash"
 }
 
-for scene in "${scenes[@]}"; do (run "$scene" "$work/$scene"); done
-
 kills=0 runs=0 differ=0 resumed=0
 while [ "$kills" -lt "$wanted" ]; do
     scene=${scenes[runs % ${#scenes[@]}]}
     folder=$work/again-$scene
+    [ -d "$work/$scene" ] || (run "$scene" "$work/$scene")
     rm -rf "$folder" "$folder.mp4"
     code=137
-    for _ in 1 2 3 4 5; do
+    for _ in 1 2 3; do
         [ "$kills" -lt "$wanted" ] || break
         (run "$scene" "$folder" --resume) 2>"$work/log" &
         child=$!

@@ -1,5 +1,4 @@
-// What a run of the program holds in memory. Left out under AddressSanitizer, which keeps what is freed to see whether it
-// is used again.
+// What a run of the program holds in memory.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

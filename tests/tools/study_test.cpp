@@ -92,15 +92,15 @@ TEST_CASE("Without its program a peer is told of, and the rest is there", "[tool
 
 TEST_CASE("The study of pictures writes its table, plots and a page, and leaves no film behind", "[tools]") {
     const program::Folder folder;
-    const auto outcome = run("study pictures --quick --threads 1 -o " + (folder / "pictures").string());
+    const std::string command = "study pictures --quick --particles 500 1000 --size 256x144 --threads 1";
+    const auto outcome = run(command + " -o " + (folder / "pictures").string());
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(program::lineCount(program::textOf(folder / "pictures" / "pictures.csv")) ==
           1 + 2 * 2 * 3);  // a head; two styles, two numbers, three qualities
     for (const char* name : {"times.svg", "errors.svg"})
         CHECK(program::textOf(folder / "pictures" / name).rfind("<?xml", 0) == 0);
-    CHECK(program::textOf(folder / "pictures" / "index.html").find("study pictures --quick --threads 1") !=
-          std::string::npos);
+    CHECK(program::textOf(folder / "pictures" / "index.html").find(command) != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "pictures" / "timing.mp4"));
     CHECK(run("study pictures --size 100x100 -o /nonexistent/pictures").code == 2);
     CHECK(run("study pictures --particles 3 -o /nonexistent/pictures").code == 2);
