@@ -13,7 +13,7 @@ namespace render {
 
 namespace {
 
-constexpr double kMostCells = 4e6;
+constexpr double kMostSkinCells = 4e6;
 
 /// Particles sorted by cell, copied for the sake of the cache.
 struct Cells {
@@ -45,7 +45,7 @@ Cells sortedToCells(const View& view) {
     }
     cells.side = view.field.reach * widest;
     const auto along = [&](int axis) { return std::floor(double(high[axis] - cells.low[axis]) / cells.side) + 1.0; };
-    while (along(0) * along(1) * along(2) > kMostCells) cells.side *= 2.0F;
+    while (along(0) * along(1) * along(2) > kMostSkinCells) cells.side *= 2.0F;
     for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(along(axis));
     cells.begin.assign(cells.index(0, 0, cells.count.z) + 1, 0);
     const auto indexOf = [&](const Sphere& particle) {

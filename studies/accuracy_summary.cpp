@@ -68,7 +68,7 @@ std::vector<StepError> asymptotic(const std::vector<AccuracyRow>& rows, StepperK
 
 using Cost = double (*)(const WindowRun&);
 
-double secondsOf(const WindowRun& run) {
+double timeOf(const WindowRun& run) {
     return run.seconds;
 }
 
@@ -137,8 +137,8 @@ std::vector<AutoRow> autosOf(const std::vector<AccuracyRow>& rows, double window
         automatic.passes = run.passes;
         automatic.resolved = row.resolved;
         const double askedError = run.variant.asked * windowSeconds;
-        automatic.secondsAtObtained = cheapest(rows, secondsOf, row.error);
-        automatic.secondsAtAsked = cheapest(rows, secondsOf, askedError);
+        automatic.secondsAtObtained = cheapest(rows, timeOf, row.error);
+        automatic.secondsAtAsked = cheapest(rows, timeOf, askedError);
         automatic.passesAtObtained = cheapest(rows, passesOf, row.error);
         automatic.passesAtAsked = cheapest(rows, passesOf, askedError);
         autos.push_back(automatic);

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "engine/random.h"
 #include "engine/soundness.h"
 #include "engine/step_bound.h"
 #include "engine/steppers.h"
+#include "studies/infinity.h"
 #include "studies/observables.h"
 
 namespace studies {
@@ -15,8 +15,6 @@ namespace {
 
 using engine::Simulation;
 using engine::StepperKind;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 engine::ForceLaw lawOf(const engine::Setup& setup) {
     return {setup.materials, setup.gravity, setup.scenery};

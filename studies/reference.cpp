@@ -4,17 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "engine/steppers.h"
 #include "studies/cloud_statistics.h"
+#include "studies/infinity.h"
 #include "studies/position_error.h"
 
 namespace studies {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Small beside any error, large beside the rounding of a position (1e-16 m at radii of 0.1 m), radii.
 constexpr double kTwinDistance = 1e-9;

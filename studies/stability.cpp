@@ -6,16 +6,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "engine/steppers.h"
 #include "scenes/input_error.h"
+#include "studies/infinity.h"
 #include "studies/observables.h"
 
 namespace studies {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The clamp that the published program puts on D: the radius of equal particles.
 constexpr double kPaperCore = 0.5;

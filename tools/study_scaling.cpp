@@ -48,7 +48,7 @@ studies::ScalingSettings settingsFor(const ScalingOptions& options) {
     return settings;
 }
 
-studies::ScalingListener reporter(Talk talk) {
+studies::ScalingListener rowReporter(Talk talk) {
     return [talk](const studies::ScalingRow& row) {
         if (talk == Talk::json)
             printJson(Json{{"event", "row"},
@@ -71,10 +71,10 @@ ScalingResults measure(const ScalingOptions& options) {
     };
     for (const char* name : kScenes) {
         const scenes::Scene scene = load({name, {}, {}});
-        take(studies::measureScene(name, scene, settings, reporter(options.run.talk())));
+        take(studies::measureScene(name, scene, settings, rowReporter(options.run.talk())));
     }
     for (const char* material : kMaterials)
-        take(studies::measureBlocks(material, settings, reporter(options.run.talk())));
+        take(studies::measureBlocks(material, settings, rowReporter(options.run.talk())));
     return results;
 }
 

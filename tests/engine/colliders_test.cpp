@@ -2,17 +2,15 @@
 #include "engine/colliders.h"
 
 #include <cmath>
-#include <limits>
 #include "tests/catch.h"
 
 #include "engine/pair_law.h"
 #include "tests/engine/obstacles.h"
+#include "tests/engine/rounding.h"
 
 using namespace engine;
 
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 Vec3 forceAt(const Scenery& scenery, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
     return contactForce(scenery, {position, velocity, 0.15, 2.0});

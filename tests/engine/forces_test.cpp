@@ -1,17 +1,15 @@
 // The grid against the O(n^2) reference, which in turn is held against hand-worked sums and its own energy.
 #include "engine/forces.h"
 
-#include <limits>
 #include <set>
 #include "tests/catch.h"
 
 #include "tests/engine/clouds.h"
+#include "tests/engine/rounding.h"
 
 using namespace engine;
 
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 std::vector<Vec3> reference(const ForceLaw& law, const Particles& particles) {
     std::vector<Vec3> forces;

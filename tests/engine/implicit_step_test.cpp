@@ -2,18 +2,17 @@
 #include "engine/implicit_step.h"
 
 #include <cmath>
-#include <limits>
 #include "tests/catch.h"
 
 #include "engine/diagnostics.h"
 #include "engine/step_bound.h"
+#include "tests/engine/rounding.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
 
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr std::array kImplicit = {StepperKind::implicitDamping, StepperKind::linearlyImplicit};
 
 /// A moving block with drag; solved so well that the solver has no share in the error.

@@ -2,16 +2,15 @@
 #include "engine/pair_law.h"
 
 #include <cmath>
-#include <limits>
 #include "tests/catch.h"
 
 #include "tests/engine/clouds.h"
+#include "tests/engine/rounding.h"
 
 using namespace engine;
 
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr PairTerms kAll{};
 
 /// Equation 2 literally, without the guard; the coefficient of P.

@@ -2,17 +2,15 @@
 #include "engine/pair_matrix.h"
 
 #include <Eigen/Dense>
-#include <limits>
 #include "tests/catch.h"
 
 #include "engine/conjugate_gradient.h"
 #include "tests/engine/clouds.h"
+#include "tests/engine/rounding.h"
 
 using namespace engine;
 
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// More than most steps would use: the pairs outweigh the mass by far.
 constexpr MatrixWeights kStrong{.damping = 0.3, .stiffness = 1e-3};

@@ -54,7 +54,7 @@ TEST_CASE("Every built-in scene looks as it did", "[golden]") {
 
 TEST_CASE("No built-in scene is without goldens", "[golden]") {
     std::set<std::string> wanted, known;
-    for (const auto& entry : scenes::listScenes({std::string(GLOBULAR_SOURCE) + "/scenes"}))
+    for (const auto& entry : scenes::listScenes({GLOBULAR_SOURCE "/scenes"}))
         if (!entry.name.starts_with("hard/")) wanted.insert(entry.name);
     for (const golden::GoldenScene& scene : golden::scenes()) {
         known.insert(scene.name);
