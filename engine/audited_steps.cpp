@@ -32,7 +32,7 @@ void establishEnergy(Simulation& simulation) {
 /// The implicit steppers know the energy in the middle of a step only. What ends an interval can be seen and is never
 /// taken back, so its last step is judged by its end too.
 void lookAtEnd(Simulation& simulation) {
-    if (simulation.stepper == StepperKind::velocityVerlet || std::isnan(*simulation.energy)) return;
+    if (isVerlet(simulation.stepper) || std::isnan(*simulation.energy)) return;
     if (!isSound(simulation.particles)) return noteUnsound(simulation);
     establishEnergy(simulation);
 }
@@ -103,7 +103,7 @@ bool advanceAudited(Simulation& simulation, double time, double longest, StepLim
             history.goBack(simulation, ++refused % 2 == 0);
             ++simulation.steps.rejected;
             restriction = {0.5 * h, *reason, 0};
-            if (simulation.stepper != StepperKind::velocityVerlet) establishEnergy(simulation);
+            if (!isVerlet(simulation.stepper)) establishEnergy(simulation);
             continue;
         }
         refused = 0;

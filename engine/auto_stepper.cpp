@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/audited_steps.h"
 #include "engine/error_look.h"
@@ -16,7 +17,7 @@
 namespace engine {
 namespace {
 
-constexpr std::array kCandidates = {StepperKind::velocityVerlet, StepperKind::implicitDamping,
+constexpr std::array kCandidates = {StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::implicitDamping,
                                     StepperKind::linearlyImplicit};
 
 /// Chosen: every so many looks all candidates are compared.
@@ -142,7 +143,7 @@ std::size_t cheapest(Simulation& simulation) {
 void note(AutoState& state, const Trial& trial) {
     const AutoChoice& choice = state.choices[static_cast<std::size_t>(trial.stepper)];
     const double share = shareOf(trial, choice.step);
-    const double error = trial.error * share * share * choice.growth;
+    const double error = trial.error * errorShare(trial.stepper, share) * choice.growth;
     ++state.looks;
     state.errorSum += error;
     state.largestError = std::max(state.largestError, error);
@@ -180,13 +181,13 @@ void heedFar(Simulation& simulation, double time, const Trial& near) {
     const FarLook far = lookFar(simulation, near.stepper, choice.step, interval);
     state.trials += far.spent;
     const double share = shareOf(near, far.step);
-    const double nearError = near.error * share * share;
+    const double nearError = near.error * errorShare(near.stepper, share);
     if (!(nearError > 0.0)) return;
     const double seen = simulation.setup.error / nearError;
     // What was known counts as much as the new: one birth or collision may happen to fall into this look.
     const double likely = std::clamp(seen, kLeastGrowth, kMostGrowth);
     const double growth = choice.followed ? std::sqrt(choice.growth * likely) : likely;
-    fit(choice, far.trial, far.step * std::sqrt(seen / growth), interval);
+    fit(choice, far.trial, far.step * stepShare(near.stepper, seen / growth), interval);
     choice.growth = growth;
     choice.followed = true;
 }
@@ -203,7 +204,8 @@ void followCheapest(Simulation& simulation, double time, const std::array<Looked
         for (std::size_t c = 0; c < kCandidates.size(); ++c) {
             AutoChoice& other = choiceOf(simulation, kCandidates[c]);
             if (other.followed || other.step == 0.0 || other.growth <= growth) continue;
-            fit(other, looked[c].trial, other.step * std::sqrt(other.growth / growth), time - simulation.time);
+            fit(other, looked[c].trial, other.step * stepShare(kCandidates[c], other.growth / growth),
+                time - simulation.time);
             other.growth = growth;
         }
     }
@@ -225,7 +227,8 @@ Looked compare(Simulation& simulation, double time) {
     double most = std::max(kFirstPasses, inUse.step > 0.0 ? kHopeless * inUse.cost * interval : 0.0);
     for (AutoChoice& choice : state.choices) choice.cost = std::numeric_limits<double>::infinity();
     std::array<Looked, kCandidates.size()> looked;
-    std::array<std::size_t, kCandidates.size()> order = {0, 1, 2};
+    std::array<std::size_t, kCandidates.size()> order{};
+    std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_partition(order.begin(), order.end(),
                           [&](std::size_t c) { return kCandidates[c] == simulation.stepper; });
     for (; std::isinf(cheapestCost(simulation)); most *= 2.0)

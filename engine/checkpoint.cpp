@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 /// Changed whenever what is kept changes.
-constexpr std::uint64_t kFormat = 0x32504B434C424C47;  // "GLBLCKP2"
+constexpr std::uint64_t kFormat = 0x33504B434C424C47;  // "GLBLCKP3"
 
 constexpr std::size_t kChecksumBytes = 8;
 

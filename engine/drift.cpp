@@ -57,8 +57,7 @@ Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
     const double way = h * std::sqrt(squaredLength(simulation.particles.velocity[p]));
     if (way <= simulation.clearance[p]) return Vec3::Zero();
     const Flight flight = flightOf(simulation, p);
-    const bool isExplicit = simulation.stepper == StepperKind::velocityVerlet;
-    const Contacts contacts = contactsAhead(scenery, flight, h, isExplicit);
+    const Contacts contacts = contactsAhead(scenery, flight, h, isVerlet(simulation.stepper));
     simulation.clearance[p] = contacts.gap - kMargin * flight.radius;
     // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
     // what the whole heap does.

@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastContrast = 0.3;
 
 /// One measurement says at most that a step should change by this factor; further away the error no longer goes like
-/// its square.
+/// its power.
 constexpr double kMostChange = 3.0;
 
 /// Returns whether it got to the look's end.
@@ -59,7 +59,7 @@ Trial measure(const Simulation& simulation, const Look& look, Simulation* finer)
     Simulation halves = simulation;
     run(halves, look, 0.5 * meanStep(whole), std::numeric_limits<double>::infinity());
     const double ratio = meanStep(halves) / meanStep(whole);
-    const double contrast = std::max(kLeastContrast, 1.0 - (orderOf(look.stepper) == 1 ? ratio : ratio * ratio));
+    const double contrast = std::max(kLeastContrast, 1.0 - errorShare(look.stepper, ratio));
     trial.asked = interval / std::ceil(interval / look.step * (1.0 - 1e-9));
     trial.step = meanStep(whole);
     trial.error = difference(whole, halves, simulation.particles.count(), look.horizon) / contrast / interval;
@@ -72,7 +72,7 @@ Trial measure(const Simulation& simulation, const Look& look, Simulation* finer)
 }
 
 double wantedStep(const Trial& trial, double wanted) {
-    const double change = trial.error > 0.0 ? std::sqrt(wanted / trial.error) : kMostChange;
+    const double change = trial.error > 0.0 ? stepShare(trial.stepper, wanted / trial.error) : kMostChange;
     // Steps that the audit did not let grow will not grow for a better error either; those that births ended may.
     if (trial.restricted || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
     return trial.asked * std::min(change, kMostChange);

@@ -1,7 +1,6 @@
 // Highway's targets are bits, the widest the lowest; it chooses among those that are said to be supported.
 #include "engine/instruction_sets.h"
 
-#include "engine/lane_targets.h"
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 

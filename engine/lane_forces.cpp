@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "engine/lane_targets.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/lane_forces.cpp"
 #include <hwy/foreach_target.h>

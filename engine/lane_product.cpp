@@ -1,8 +1,6 @@
 // The kernel, compiled once per instruction set.
 #include "engine/lane_product.h"
 
-#include "engine/lane_targets.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/lane_product.cpp"
 #include <hwy/foreach_target.h>

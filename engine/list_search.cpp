@@ -7,8 +7,6 @@
 
 #include "engine/packings.h"
 
-#include "engine/lane_targets.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/list_search.cpp"
 #include <hwy/foreach_target.h>

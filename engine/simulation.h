@@ -22,10 +22,18 @@ namespace engine {
 enum class StepperKind {
     symplecticEuler,   ///< equations 7 and 8 as printed
     velocityVerlet,    ///< second order; damping from the predicted velocity
+    leapfrog,          ///< the same with damping from the velocity in the middle: order 1, for longer steps
     implicitDamping,   ///< second order; damping by the implicit midpoint rule
     linearlyImplicit,  ///< second order; damping and stiffness by the linearised implicit midpoint rule
-    automatic          ///< whichever of the second-order ones is cheapest at the wanted error
+    automatic          ///< whichever but the paper's is cheapest at the wanted error
 };
+
+inline constexpr std::size_t kStepperKinds = 5;  ///< the automatic one is never in use
+
+/// Whether it is a form of velocity Verlet: no system to solve, and the energy is known at a step's end.
+constexpr bool isVerlet(StepperKind stepper) {
+    return stepper == StepperKind::velocityVerlet || stepper == StepperKind::leapfrog;
+}
 
 /// Everything the scene says about the motion.
 struct Setup {
@@ -68,7 +76,7 @@ struct StepStatistics {
     std::uint64_t products = 0;                          ///< of the implicit steppers' matrix with a vector
     std::uint64_t rejected = 0;                          ///< steps taken back and retried at half the length
     std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< steps by StepLimit
-    std::array<std::uint64_t, 4> takenBy{};              ///< steps by StepperKind
+    std::array<std::uint64_t, kStepperKinds> takenBy{};  ///< steps by StepperKind
 };
 
 /// A step length that the audit has taught the run to keep to for a while.
@@ -97,9 +105,9 @@ struct AutoChoice {
 };
 
 struct AutoState {
-    std::array<AutoChoice, 4> choices;  ///< by StepperKind
-    std::uint64_t intervals = 0;        ///< so far
-    std::uint64_t nextLook = 0;         ///< interval that is to be measured
+    std::array<AutoChoice, kStepperKinds> choices;  ///< by StepperKind
+    std::uint64_t intervals = 0;                    ///< so far
+    std::uint64_t nextLook = 0;                     ///< interval that is to be measured
     std::uint64_t looks = 0;
     double errorSum = 0.0;      ///< over the looks, radii per second
     double largestError = 0.0;  ///< radii per second

@@ -43,7 +43,8 @@ double largestEigenvalue(const Matrix3& matrix) {
 /// either.
 double longestStep(StepperKind stepper, double frequencySq, double decay) {
     if (stepper == StepperKind::implicitDamping) return 2.0 / std::sqrt(frequencySq);
-    if (stepper == StepperKind::symplecticEuler) return 4.0 / (decay + std::sqrt(decay * decay + 4.0 * frequencySq));
+    if (stepper == StepperKind::symplecticEuler || stepper == StepperKind::leapfrog)
+        return 4.0 / (decay + std::sqrt(decay * decay + 4.0 * frequencySq));
     return 2.0 / (decay + std::sqrt(decay * decay + frequencySq));
 }
 

@@ -21,8 +21,9 @@ struct StepBound {
 /// and
 ///         C/M by w^2 = 2 max eig(K_p)/m and g = 2 max eig(C_p)/m. A step h multiplies such a mode by -1 at
 ///           symplectic Euler:  h^2 w^2 + 2 h g = 4,  h = 4 / (g + sqrt(g^2 + 4 w^2))
+///           leapfrog:          the same,
 ///           velocity Verlet:   h^2 w^2 + 4 h g = 4,  h = 2 / (g + sqrt(g^2 + w^2)),
-///         the second because its damping sees the predicted velocity;
+///         the last because its damping sees the predicted velocity;
 ///           implicit-damping:  h^2 w^2 = 4.
 ///         The own sums are a safe bound; power iteration from there finds the mode that really limits the step.
 /// Holds:  exact for two particles; blind to contacts that are about to form.

@@ -1,6 +1,8 @@
 // The steppers by name, and the paper's own.
 #include "engine/steppers.h"
 
+#include <cmath>
+
 #include "engine/decay.h"
 #include "engine/implicit_step.h"
 #include "engine/parallel.h"
@@ -30,7 +32,9 @@ void takeStep(Simulation& simulation, double h) {
         case StepperKind::symplecticEuler:
             return symplecticEulerStep(simulation, h);
         case StepperKind::velocityVerlet:
-            return velocityVerletStep(simulation, h);
+            return velocityVerletStep(simulation, h, kWholeStep);
+        case StepperKind::leapfrog:
+            return velocityVerletStep(simulation, h, kHalfStep);
         case StepperKind::implicitDamping:
             return implicitStep(simulation, h, {.damping = 0.5 * h, .stiffness = 0.0});
         case StepperKind::linearlyImplicit:
@@ -46,6 +50,8 @@ std::string_view nameOf(StepperKind stepper) {
             return "symplectic-euler";
         case StepperKind::velocityVerlet:
             return "velocity-verlet";
+        case StepperKind::leapfrog:
+            return "leapfrog";
         case StepperKind::implicitDamping:
             return "implicit-damping";
         case StepperKind::linearlyImplicit:
@@ -73,7 +79,15 @@ std::string_view nameOf(StepLimit limit) {
 }
 
 int orderOf(StepperKind stepper) {
-    return stepper == StepperKind::symplecticEuler ? 1 : 2;
+    return stepper == StepperKind::symplecticEuler || stepper == StepperKind::leapfrog ? 1 : 2;
+}
+
+double errorShare(StepperKind stepper, double ofLength) {
+    return orderOf(stepper) == 1 ? ofLength : ofLength * ofLength;
+}
+
+double stepShare(StepperKind stepper, double ofError) {
+    return orderOf(stepper) == 1 ? ofError : std::sqrt(ofError);
 }
 
 }  // namespace engine

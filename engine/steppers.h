@@ -13,18 +13,22 @@ namespace engine {
 void takeStep(Simulation& simulation, double h);
 
 /// All of them, the automatic one last.
-inline constexpr std::array kSteppers = {StepperKind::symplecticEuler, StepperKind::velocityVerlet,
-                                         StepperKind::implicitDamping, StepperKind::linearlyImplicit,
-                                         StepperKind::automatic};
+inline constexpr std::array kSteppers = {StepperKind::symplecticEuler,  StepperKind::velocityVerlet,
+                                         StepperKind::leapfrog,         StepperKind::implicitDamping,
+                                         StepperKind::linearlyImplicit, StepperKind::automatic};
 
-/// "symplectic-euler", "velocity-verlet", "implicit-damping", "linearly-implicit", "auto": the name in scene files and
-/// reports.
+/// "symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping", "linearly-implicit", "auto": the name in
+/// scene files and reports.
 std::string_view nameOf(StepperKind stepper);
 
 /// "given", "error", "stability", ...: what limited a step, in reports.
 std::string_view nameOf(StepLimit limit);
 
-/// Order of convergence of the positions.
+/// Order of convergence of the positions, where there is damping.
 int orderOf(StepperKind stepper);
+
+/// What steps of this share of their length make of the error, and what share of the length makes so much of the error.
+double errorShare(StepperKind stepper, double ofLength);
+double stepShare(StepperKind stepper, double ofError);
 
 }  // namespace engine

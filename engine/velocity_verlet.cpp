@@ -22,7 +22,7 @@ Vec3 halfKick(const Particles& particles, std::size_t p, double h, const Vec3& f
 
 }  // namespace
 
-void velocityVerletStep(Simulation& simulation, double h) {
+void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     Particles& particles = simulation.particles;
     const bool hasDrag = simulation.setup.drag > 0.0;
     const double decay = decayFactor(simulation.setup.drag, h);
@@ -41,7 +41,7 @@ void velocityVerletStep(Simulation& simulation, double h) {
             velocity *= decay;
             drift(simulation, p, 0.5 * h);
         }
-        predicted[p] = velocity + change;
+        predicted[p] = velocity + (2.0 * lambda - 1.0) * change;
     });
     if (!isSound(particles)) return noteUnsound(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);

@@ -12,9 +12,6 @@
 #include <cmath>
 #include <vector>
 
-// Vectors are kept in structs here, which sizeless SVE and RVV types do not allow; what has SSSE3 and no SSE4 is from 2006.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | HWY_SSSE3)
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/metaball_cast.cpp"
 #include <hwy/foreach_target.h>

@@ -50,7 +50,7 @@ std::vector<Key> runRows() {
         {.path = "study.reference_stepper",
          .type = Type::choice,
          .fallback = "\"velocity-verlet\"",
-         .choices = {"symplectic-euler", "velocity-verlet", "implicit-damping", "linearly-implicit"},
+         .choices = {"symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping", "linearly-implicit"},
          .help = "of the run that errors are taken against"},
         {.path = "study.vary",
          .type = Type::textList,

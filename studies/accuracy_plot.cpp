@@ -26,6 +26,7 @@ struct Mark {
 const std::array kMarks = {
     Mark{{engine::StepperKind::symplecticEuler, 0.0, {}}, "#7f7f7f", 5, 0.7, 1.6},
     Mark{{engine::StepperKind::velocityVerlet, 0.0, {}}, "#0072b2", 7, 0.8, 1.8},
+    Mark{{engine::StepperKind::leapfrog, 0.0, {}}, "#cc79a7", 4, 0.8, 1.4},
     Mark{{engine::StepperKind::implicitDamping, 0.0, {}}, "#009e73", 9, 1.0, 1.8},
     Mark{{engine::StepperKind::linearlyImplicit, 0.0, {}}, "#e69f00", 11, 1.0, 1.8},
     Mark{{engine::StepperKind::velocityVerlet, 0.0, {}, engine::Precision::singles}, "#56b4e9", 6, 1.0, 1.2},

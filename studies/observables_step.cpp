@@ -22,8 +22,8 @@ engine::ForceLaw lawOf(const engine::Setup& setup) {
 
 /// The explicit stepper whose limit is asked for: the scene's own if it is one.
 StepperKind explicitStepper(const scenes::Scene& scene) {
-    return scene.setup.stepper == StepperKind::symplecticEuler ? StepperKind::symplecticEuler
-                                                               : StepperKind::velocityVerlet;
+    const StepperKind own = scene.setup.stepper;
+    return own == StepperKind::symplecticEuler || engine::isVerlet(own) ? own : StepperKind::velocityVerlet;
 }
 
 double boundOf(const Trial& trial, StepperKind stepper) {

@@ -93,8 +93,8 @@ std::string complaint(const Setup& setup, const std::vector<std::uint8_t>& bytes
 
 TEST_CASE("A run goes on from a checkpoint with the same bits", "[checkpoint]") {
     const StepperKind stepper =
-        GENERATE(StepperKind::symplecticEuler, StepperKind::velocityVerlet, StepperKind::implicitDamping,
-                 StepperKind::linearlyImplicit, StepperKind::automatic);
+        GENERATE(StepperKind::symplecticEuler, StepperKind::velocityVerlet, StepperKind::leapfrog,
+                 StepperKind::implicitDamping, StepperKind::linearlyImplicit, StepperKind::automatic);
     INFO(engine::nameOf(stepper));
     checkGoingOn(busySetup(stepper), 12);
 }

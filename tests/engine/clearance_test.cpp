@@ -48,8 +48,8 @@ Count countIn(const Simulation& simulation) {
 }  // namespace
 
 TEST_CASE("What is known to be clear of all obstacles touches none", "[clearance]") {
-    for (const StepperKind stepper :
-         {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::linearlyImplicit}) {
+    for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::implicitDamping,
+                                      StepperKind::linearlyImplicit}) {
         Simulation simulation = falling(stepper, 0.002);
         std::size_t clear = 0;
         for (int k = 0; k < 400; ++k) {

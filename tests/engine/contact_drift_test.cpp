@@ -117,8 +117,8 @@ TEST_CASE("Only what is too fast or too stiff for the step is swept", "[contact-
 }
 
 TEST_CASE("What rests on a plane stays", "[contact-drift]") {
-    for (const StepperKind stepper :
-         {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::linearlyImplicit})
+    for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::implicitDamping,
+                                      StepperKind::linearlyImplicit})
         for (const double step : {1e-3, 1.0 / 60, 1.0 / 30}) {
             Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, step);
             setup.gravity = Vec3(0, -9.8, 0);

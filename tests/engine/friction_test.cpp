@@ -10,7 +10,8 @@ using namespace engine;
 
 namespace {
 
-constexpr std::array kOurs = {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::linearlyImplicit};
+constexpr std::array kOurs = {StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::implicitDamping,
+                              StepperKind::linearlyImplicit};
 
 Material grain(double friction) {
     Material material = *materialPreset("powder");

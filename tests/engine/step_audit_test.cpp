@@ -11,7 +11,7 @@ using namespace engine;
 
 namespace {
 
-constexpr std::array kAudited = {StepperKind::velocityVerlet, StepperKind::implicitDamping,
+constexpr std::array kAudited = {StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::implicitDamping,
                                  StepperKind::linearlyImplicit};
 
 /// A cubic lattice of stiff particles pressed to two thirds of their rest length.

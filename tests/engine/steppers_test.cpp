@@ -60,6 +60,43 @@ TEST_CASE("Symplectic Euler is of order 1, velocity Verlet of order 2, with damp
     }
 }
 
+TEST_CASE("Leapfrog is velocity Verlet without damping, and of order 1 with it", "[steppers]") {
+    const auto ends = [](double damping, StepperKind stepper) {
+        Setup setup = oscillator(stepper, 1e-3, 0.03);
+        setup.materials[0].damping = damping;
+        Simulation simulation = start(setup);
+        advance(simulation, 0.1);
+        return stateHash(simulation.particles);
+    };
+    CHECK(ends(0.0, StepperKind::leapfrog) == ends(0.0, StepperKind::velocityVerlet));
+    CHECK(ends(4.0, StepperKind::leapfrog) != ends(4.0, StepperKind::velocityVerlet));
+    for (const char* preset : {"liquid", "solid", "powder"}) {
+        INFO(preset);
+        CHECK(measuredOrder(preset, StepperKind::leapfrog) == Approx(1.0).margin(0.1));  // as above
+    }
+}
+
+TEST_CASE("Leapfrog goes the way of the paper's stepper, which has its velocities half a step earlier", "[steppers]") {
+    const double h = 2e-3;
+    Setup setup = freeSetup(*materialPreset("solid"), StepperKind::leapfrog, h);
+    setup.initial = clouds::strewnUnequal(100, 0.8);
+    Simulation leapfrog = start(setup);
+    takeStep(leapfrog, h);
+    for (std::size_t p = 0; p < 100; ++p)
+        setup.initial.velocity[p] = (leapfrog.particles.position[p] - setup.initial.position[p]) / h;
+    setup.initial.position = leapfrog.particles.position;
+    setup.stepper = StepperKind::symplecticEuler;
+    Simulation paper = start(setup);
+    for (int step = 0; step < 20; ++step) {
+        takeStep(leapfrog, h);
+        takeStep(paper, h);
+    }
+    // Roundings of the velocity that is read off positions, which twenty steps of a crowd may grow by some powers of
+    // ten.
+    CHECK(runs::rmsDistance(leapfrog.particles, paper.particles) < 1e-9);
+    CHECK(runs::rmsDistance(leapfrog.particles, setup.initial) > 1e-2);
+}
+
 TEST_CASE("One step of symplectic Euler is equations 7 and 8", "[steppers]") {
     Setup setup = freeSetup(*materialPreset("liquid"), StepperKind::symplecticEuler, 0.01);
     setup.gravity = Vec3(0, -9.8, 0);
@@ -162,12 +199,13 @@ TEST_CASE("No step bound without pairs, a damping bound with strong damping", "[
     CHECK(bound->byDamping);
 }
 
-TEST_CASE("The step bound is the limit of a damped pair for either stepper", "[steppers]") {
+TEST_CASE("The step bound is the limit of a damped pair for each explicit stepper", "[steppers]") {
     // Solid particles at rest length with a hundred times the damping, whose mode at the bound is the fast, damped one.
     Material material = *materialPreset("solid");
     for (const double damping : {4.0, 400.0}) {
         material.damping = damping;
-        for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet}) {
+        for (const StepperKind stepper :
+             {StepperKind::symplecticEuler, StepperKind::velocityVerlet, StepperKind::leapfrog}) {
             Setup setup = freeSetup(material, stepper, 1.0);
             append(setup.initial, {.position = Vec3(0.15, 0, 0), .velocity = Vec3(1e-7, 0, 0)});
             append(setup.initial, {.position = Vec3(-0.15, 0, 0), .velocity = Vec3(-1e-7, 0, 0)});

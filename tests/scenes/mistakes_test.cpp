@@ -54,7 +54,7 @@ TEST_CASE("wrong types say what was found and what is expected") {
           Lines{"pile.toml:7:15: gravity[1] is \"g\" (a string), must be a number (m/s^2)"});
     CHECK(physics("stepper = 4") ==
           Lines{"pile.toml:7:11: stepper is 4, must be \"symplectic-euler\", \"velocity-verlet\", "
-                "\"implicit-damping\", \"linearly-implicit\" or \"auto\""});
+                "\"leapfrog\", \"implicit-damping\", \"linearly-implicit\" or \"auto\""});
     CHECK(problemsOf("fps = 29.97\n" + kBall) ==
           Lines{"pile.toml:1:7: fps is 29.97, must be a whole number (per second)"});
     CHECK(problemsOf("description = 1\n" + kBall) == Lines{"pile.toml:1:15: description is 1, must be a string"});
@@ -252,18 +252,19 @@ TEST_CASE("ten different mistakes are ten problems, in order of position") {
         "material = \"sand\"\n"  // 9 undefined material
         "[camra]\n"              // 10 unknown table
         "eye = [0, 0, 0]\n";
-    const Lines expected = {"pile.toml:1:9: title is 3, must be a string",
-                            "pile.toml:2:12: duration is -1, must be > 0 and <= 1000000 (seconds)",
-                            "pile.toml:4:1: unknown key \"physics.gravty\", did you mean \"gravity\"?",
-                            "pile.toml:5:8: drag is nan, must be finite (per second)",
-                            "pile.toml:6:11: stepper is \"symplectic-eular\", must be \"symplectic-euler\", "
-                            "\"velocity-verlet\", \"implicit-damping\", \"linearly-implicit\" or \"auto\", "
-                            "did you mean \"symplectic-euler\"?",
-                            "pile.toml:7:10: syntax error: floating-point: expected decimal digit or exponent, saw '.'",
-                            "pile.toml:8:1: key \"step\" is given twice, first in line 7",
-                            "pile.toml:9:1: radius is missing, a body of shape \"ball\" needs it (metres)",
-                            "pile.toml:11:12: material \"sand\" is not defined (defined: liquid)",
-                            "pile.toml:12:1: unknown table \"camra\", did you mean \"camera\"?"};
+    const Lines expected = {
+        "pile.toml:1:9: title is 3, must be a string",
+        "pile.toml:2:12: duration is -1, must be > 0 and <= 1000000 (seconds)",
+        "pile.toml:4:1: unknown key \"physics.gravty\", did you mean \"gravity\"?",
+        "pile.toml:5:8: drag is nan, must be finite (per second)",
+        "pile.toml:6:11: stepper is \"symplectic-eular\", must be \"symplectic-euler\", "
+        "\"velocity-verlet\", \"leapfrog\", \"implicit-damping\", \"linearly-implicit\" or \"auto\", "
+        "did you mean \"symplectic-euler\"?",
+        "pile.toml:7:10: syntax error: floating-point: expected decimal digit or exponent, saw '.'",
+        "pile.toml:8:1: key \"step\" is given twice, first in line 7",
+        "pile.toml:9:1: radius is missing, a body of shape \"ball\" needs it (metres)",
+        "pile.toml:11:12: material \"sand\" is not defined (defined: liquid)",
+        "pile.toml:12:1: unknown table \"camra\", did you mean \"camera\"?"};
     CHECK(problemsOf(text) == expected);
 }
 

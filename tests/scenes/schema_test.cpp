@@ -82,7 +82,8 @@ TEST_CASE("rows show each key with type, unit, default, range and help") {
     CHECK(row("fps").range == "1 to 240");
     CHECK(row("title").fallback == "required");
     CHECK(row("still.time").fallback == "(half the duration)");
-    CHECK(row("physics.stepper").range == "symplectic-euler | velocity-verlet | implicit-damping | linearly-implicit | auto");
+    CHECK(row("physics.stepper").range ==
+          "symplectic-euler | velocity-verlet | leapfrog | implicit-damping | linearly-implicit | auto");
     CHECK(row("body[].center").appliesTo == "shape ball, grid");
     CHECK(row("material[].core").range == "> 0 and < 1");
 }
