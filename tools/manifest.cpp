@@ -58,15 +58,16 @@ std::string checksumOf(std::span<const std::uint8_t> bytes) {
 }
 
 std::string encodeManifest(const Manifest& manifest) {
-    Json frames = Json::object();
-    for (const auto& [number, frame] : manifest.frames)
-        frames[fmt::format("{:05}", number)] = {{"checksum", frame.checksum}, {"state_hash", frame.stateHash}};
     Json checkpoints = Json::array();
     for (const auto& [frame, checkpoint] : manifest.checkpoints)
         checkpoints.push_back({{"frame", frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
-    const Json json = {
-        {"format", kFormat}, {"run", manifest.identity}, {"checkpoints", checkpoints}, {"frames", frames}};
-    return indentedText(json, 1);
+    // A line a frame, one after the other: a tree of them all would take many times their memory.
+    std::string frames;
+    for (const auto& [number, frame] : manifest.frames)
+        frames += fmt::format("{}\n  \"{:05}\": {}", frames.empty() ? "" : ",", number,
+                              compactText({{"checksum", frame.checksum}, {"state_hash", frame.stateHash}}));
+    return fmt::format("{{\n \"format\": {},\n \"run\": {},\n \"checkpoints\": {},\n \"frames\": {{{}\n }}\n}}\n",
+                       kFormat, compactText(manifest.identity), compactText(checkpoints), frames);
 }
 
 Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name) {

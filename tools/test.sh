@@ -18,10 +18,10 @@ if [ $# -gt 0 ]; then
 fi
 
 build release globular {engine,golden,memory}_tests
-ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill)_tests$'
+ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill)_tests$' &
 build tsan
+wait $!
 build asan-ubsan
-# Side by side: the engine's suite uses one core.
 ctest --preset tsan &
 ctest --preset asan-ubsan --parallel 2
 wait $!
