@@ -28,7 +28,8 @@ enum class StepperKind {
     automatic          ///< whichever but the paper's is cheapest at the wanted error
 };
 
-inline constexpr std::size_t kStepperKinds = 5;  ///< the automatic one is never in use
+/// The automatic one, the last, is never in use.
+inline constexpr std::size_t kStepperKinds = static_cast<std::size_t>(StepperKind::automatic);
 
 /// Whether it is a form of velocity Verlet: no system to solve, and the energy is known at a step's end.
 constexpr bool isVerlet(StepperKind stepper) {

@@ -18,6 +18,7 @@ if [ $# -gt 0 ]; then
 fi
 
 build release globular {engine,golden,memory}_tests
+# The kill harness sleeps most of the time: beside the next build.
 ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill)_tests$' &
 build tsan
 wait $!

@@ -84,12 +84,12 @@ TEST_CASE("The study of scaling writes tables, a plot and a page, and says when 
 
 TEST_CASE("The study of pictures writes its table, plots and a page, and leaves no film behind", "[tools]") {
     const program::Folder folder;
-    const std::string command = "study pictures --quick --particles 300 --size 256x144 --threads 1";
+    const std::string command = "study pictures --quick --particles 100 200 --size 256x144 --threads 1";
     const auto outcome = run(command + " -o " + (folder / "pictures").string());
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(program::lineCount(program::textOf(folder / "pictures" / "pictures.csv")) ==
-          1 + 2 * 3);  // a head; two styles, three qualities
+          1 + 2 * 2 * 3);  // a head; two styles, two numbers, three qualities
     for (const char* name : {"times.svg", "errors.svg"})
         CHECK(program::textOf(folder / "pictures" / name).rfind("<?xml", 0) == 0);
     CHECK(program::textOf(folder / "pictures" / "index.html").find(command) != std::string::npos);
