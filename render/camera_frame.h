@@ -2,6 +2,7 @@
 // can touch. The light is such a camera too (parallel projection along the light).
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include <glm/glm.hpp>
@@ -9,6 +10,11 @@
 #include "render/view.h"
 
 namespace render {
+
+/// Four samples a pixel on a rotated grid: four different rows and columns, so edges near the horizontal and the
+/// vertical get four steps, not two. Also in shaders/edges.frag.
+inline constexpr std::array<glm::vec2, 4> kFourSamples = {
+    {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
 
 /// Pixels or cells, both ends included.
 struct Rect {

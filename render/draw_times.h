@@ -11,10 +11,11 @@ struct DrawTimes {
     double occlusion = 0.0;  ///< how open to the sky the particles are
     double shadow = 0.0;     ///< the light's grid of spheres and its map of the metaballs
     double cast = 0.0;       ///< ray casting of metaballs on the CPU
-    double shade = 0.0;      ///< OpenGL: what the rays see, lit
+    double look = 0.0;       ///< what the samples see, and what light and sky reach it, on the CPU
+    double shade = 0.0;      ///< OpenGL: colours
     double readBack = 0.0;
 
-    double all() const { return bin + occlusion + shadow + cast + shade + readBack; }
+    double all() const { return bin + occlusion + shadow + cast + look + shade + readBack; }
 };
 
 /// Adds the time since its last call, or since it was made, to a stage.

@@ -1,53 +1,91 @@
-// Packing of normals and colours; the unpacking is in shaders/picture.frag.
+// Packing of normals and colours with Highway; the unpacking is in shaders/surface.glsl. This file is compiled once per
+// instruction set.
 #include "render/field_sample.h"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/field_sample.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/lane_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+/// A number from 0 to `most`, rounded to a whole one.
+VI rounded(V value, float most) {
+    return hn::ConvertTo(DI(), hn::Add(clamped(value, 0.0F, most), all(0.5F)));
+}
+
+VI packedNormal(const Vec3& n) {
+    const V zero = all(0.0F);
+    const V one = all(1.0F);
+    const V length = hn::Add(hn::Add(hn::Abs(n.x), hn::Abs(n.y)), hn::Abs(n.z));
+    // Where the field has no slope: towards +z.
+    const V scale = hn::IfThenElseZero(hn::Gt(length, zero), hn::Div(one, length));
+    const V x = hn::Mul(n.x, scale);
+    const V y = hn::Mul(n.y, scale);
+    const auto under = [&](V other, V own) { return hn::CopySign(hn::Sub(one, hn::Abs(other)), own); };
+    const M isUnder = hn::Lt(n.z, zero);
+    const auto bits = [&](V at) { return rounded(hn::Mul(hn::Add(at, one), all(32767.5F)), 65535.0F); };
+    return hn::Or(bits(hn::IfThenElse(isUnder, under(y, x), x)),
+                  hn::ShiftLeft<16>(bits(hn::IfThenElse(isUnder, under(x, y), y))));
+}
+
+VI packedRoots(V red, V green, V blue) {
+    const auto bits = [](V value, float most) {
+        return rounded(hn::Mul(hn::Sqrt(clamped(value, 0.0F, 1.0F)), all(most)), most);
+    };
+    return hn::Or(hn::Or(bits(red, 2047.0F), hn::ShiftLeft<11>(bits(green, 2047.0F))),
+                  hn::ShiftLeft<22>(bits(blue, 1023.0F)));
+}
+
+void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, PackedBlock& packed) {
+    const D d;
+    const DI di;
+    const Vec3 right = uniform(frame.right);
+    const Vec3 up = uniform(frame.up);
+    const Vec3 forward = uniform(frame.forward);
+    for (std::size_t k = 0; k < block.count; k += hn::Lanes(d)) {
+        const auto of = [k](const std::array<float, kBlockRays>& values) { return hn::Load(D(), &values[k]); };
+        const V depth = of(block.depth);
+        const auto isHit = hn::RebindMask(di, hn::Ge(depth, all(0.0F)));
+        const V x = of(block.normal[0]);
+        const V y = of(block.normal[1]);
+        const V z = of(block.normal[2]);
+        const Vec3 normal{hn::Add(hn::Add(hn::Mul(x, right.x), hn::Mul(y, up.x)), hn::Mul(z, forward.x)),
+                          hn::Add(hn::Add(hn::Mul(x, right.y), hn::Mul(y, up.y)), hn::Mul(z, forward.y)),
+                          hn::Add(hn::Add(hn::Mul(x, right.z), hn::Mul(y, up.z)), hn::Mul(z, forward.z))};
+        // A hit at the eye itself still has to differ from no hit.
+        const VI bits = hn::BitCast(di, hn::Max(depth, all(1e-30F)));
+        const VI color = packedRoots(of(block.color[0]), of(block.color[1]), of(block.color[2]));
+        hn::StoreInterleaved4(hn::IfThenElseZero(isHit, bits), hn::IfThenElseZero(isHit, packedNormal(normal)),
+                              hn::IfThenElseZero(isHit, color), hn::Zero(di), di,
+                              reinterpret_cast<std::int32_t*>(&packed.samples[k]));
+        if (!openness) continue;
+        const auto open = [&](std::size_t which) {
+            return rounded(hn::Mul(of(block.open[which]), all(1023.0F)), 1023.0F);
+        };
+        const VI all3 = hn::Or(hn::Or(open(0), hn::ShiftLeft<10>(open(1))), hn::ShiftLeft<20>(open(2)));
+        hn::Store(hn::IfThenElseZero(isHit, all3), di, reinterpret_cast<std::int32_t*>(&packed.open[k]));
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 
 namespace render {
 
-namespace {
+HWY_EXPORT(packBlock);
 
-std::uint32_t packedNormal(glm::vec3 n) {
-    const float length = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    const float scale = length > 0.0F ? 1.0F / length : 0.0F;  // where the field has no slope: towards +z
-    glm::vec2 folded(n.x * scale, n.y * scale);
-    if (n.z < 0.0F) {
-        folded = {(1.0F - std::abs(n.y * scale)) * (n.x >= 0.0F ? 1.0F : -1.0F),
-                  (1.0F - std::abs(n.x * scale)) * (n.y >= 0.0F ? 1.0F : -1.0F)};
-    }
-    const auto packed = [](float at) {
-        return static_cast<std::uint32_t>(std::clamp((at + 1.0F) * 32767.5F + 0.5F, 0.0F, 65535.0F));
-    };
-    return packed(folded.x) | packed(folded.y) << 16;
-}
-
-std::uint32_t packedRoots(glm::vec3 color) {
-    const auto packed = [](float at, float most) {
-        return static_cast<std::uint32_t>(std::sqrt(std::clamp(at, 0.0F, 1.0F)) * most + 0.5F);
-    };
-    return packed(color.x, 2047.0F) | packed(color.y, 2047.0F) << 11 | packed(color.z, 1023.0F) << 22;
-}
-
-}  // namespace
-
-std::uint32_t packedOpenness(const RayBlock& block, std::size_t k) {
-    if (!(block.depth[k] >= 0.0F)) return 0;
-    const auto packed = [](float at) {
-        return static_cast<std::uint32_t>(std::clamp(at, 0.0F, 1.0F) * 1023.0F + 0.5F);
-    };
-    return packed(block.open[0][k]) | packed(block.open[1][k]) << 10 | packed(block.open[2][k]) << 20;
-}
-
-FieldSample packedSample(const CameraFrame& frame, const RayBlock& block, std::size_t k) {
-    if (!(block.depth[k] >= 0.0F)) return {};
-    const glm::vec3 normal =
-        block.normal[0][k] * frame.right + block.normal[1][k] * frame.up + block.normal[2][k] * frame.forward;
-    // A hit at the eye itself still has to differ from no hit.
-    const float depth = std::max(block.depth[k], 1e-30F);
-    return {std::bit_cast<std::uint32_t>(depth), packedNormal(normal),
-            packedRoots({block.color[0][k], block.color[1][k], block.color[2][k]}), 0};
+void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, PackedBlock& packed) {
+    HWY_DYNAMIC_DISPATCH(packBlock)(frame, block, openness, packed);
 }
 
 }  // namespace render
+
+#endif

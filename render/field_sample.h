@@ -1,7 +1,8 @@
-// One hit of the metaball cast, packed to 16 bytes for the shaders. Written by metaball_frame.cpp, read by
-// shaders/picture.frag.
+// Hits of the metaball cast, packed to 16 bytes for the shaders. Written by metaball_frame.cpp, read by
+// shaders/surface.glsl.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -10,7 +11,7 @@
 
 namespace render {
 
-/// A point of the surface as shaders/picture.frag unpacks it.
+/// A point of the surface as shaders/surface.glsl unpacks it.
 struct FieldSample {
     std::uint32_t depthBits = 0;  ///< view depth, a float's bits; 0: no surface
     std::uint32_t normal = 0;     ///< octahedral, 16 + 16 bits, in world axes
@@ -18,10 +19,14 @@ struct FieldSample {
     std::uint32_t extra = 0;      ///< first of four more samples at the sub-pixel places; 0: none
 };
 
-/// Openness of ray k along the normal, against it and along the mirrored ray, 10 bits each.
-std::uint32_t packedOpenness(const RayBlock& block, std::size_t k);
+/// A block's samples, and the openness of each along the normal, against it and along the mirrored ray, 10 bits each.
+struct PackedBlock {
+    alignas(64) std::array<FieldSample, kBlockRays> samples;
+    alignas(64) std::array<std::uint32_t, kBlockRays> open;
+};
 
-/// Packs ray k of a block that was cast from this camera.
-FieldSample packedSample(const CameraFrame& frame, const RayBlock& block, std::size_t k);
+/// Packs the rays of a block that was cast from this camera; rays beyond the block's count are packed to nothing of
+/// use. Holds:  the same bits on every instruction set.
+void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, PackedBlock& packed);
 
 }  // namespace render

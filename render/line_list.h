@@ -13,7 +13,7 @@
 
 namespace render {
 
-/// Three texels, as shaders/lines.glsl reads them.
+/// A line as it is seen.
 struct ScreenLine {
     glm::vec4 ends{0.0F};    ///< x, y of both ends, pixels
     glm::vec4 depths{1.0F};  ///< view depth at both ends, m; width, pixels; unused

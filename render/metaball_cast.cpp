@@ -114,6 +114,7 @@ class Group {
         Sample low = here;
         Sample high = here;
         open = hn::AndNot(found, open);
+        most_ = here.value.field;
         while (!hn::AllFalse(d, open)) {
             if (first_ == near_.count) {
                 if (!leap(k)) break;
@@ -123,6 +124,7 @@ class Group {
             const float ahead = depthOf(++k);
             admit(ahead);
             const Sample there = sampleAt(hn::Set(d, ahead));
+            most_ = hn::Max(most_, hn::IfThenElseZero(open, there.value.field));
             Sample reached = there;
             M crossed = hn::And(open, hn::Ge(there.value.field, threshold));
             const M suspect = hn::AndNot(crossed, hn::And(open, mayPeak(here.value, there.value, ahead - t)));
@@ -143,6 +145,9 @@ class Group {
         }
         return hn::IfThenElse(found, refine(low, high), hn::Set(d, -1.0F));
     }
+
+    /// The greatest sample of the field that each ray of cast() met.
+    V most() const { return most_; }
 
     /// Normal and colour at the depths found. Lanes without a hit get something finite or not; nobody reads them.
     void look(V depth, std::size_t place, RayBlock& block) const {
@@ -374,6 +379,7 @@ class Group {
     std::uint32_t next_;
     std::uint32_t end_;
     V directionX_, directionY_, originX_, originY_, length_, inverseSquare_;
+    V most_;
     float start_ = 0.0F;
 };
 
@@ -386,6 +392,7 @@ void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
         Group group(cast, tile, near, &block.x[place], &block.y[place]);
         const V depth = group.cast(hn::FirstN(d, left));
         hn::StoreU(depth, d, &block.depth[place]);
+        hn::StoreU(group.most(), d, &block.most[place]);
         if (!cast.depthOnly && !hn::AllTrue(d, hn::Lt(depth, hn::Zero(d)))) group.look(depth, place, block);
     }
 }

@@ -39,12 +39,13 @@ inline constexpr std::size_t kBlockRays = 256;
 
 /// Rays in (pixels of the picture), hits out; a structure of arrays for the lanes.
 struct RayBlock {
-    alignas(64) std::array<float, kBlockRays> x{};
-    alignas(64) std::array<float, kBlockRays> y{};
+    alignas(64) std::array<float, kBlockRays> x;
+    alignas(64) std::array<float, kBlockRays> y;
     std::size_t count = 0;
-    alignas(64) std::array<float, kBlockRays> depth{};                  ///< view depth of the hit; negative: none
-    alignas(64) std::array<std::array<float, kBlockRays>, 3> normal{};  ///< in view coordinates, unit length
-    alignas(64) std::array<std::array<float, kBlockRays>, 3> color{};
+    alignas(64) std::array<float, kBlockRays> depth;                  ///< view depth of the hit; negative: none
+    alignas(64) std::array<float, kBlockRays> most;                   ///< the greatest sample of the field on the way
+    alignas(64) std::array<std::array<float, kBlockRays>, 3> normal;  ///< in view coordinates, unit length
+    alignas(64) std::array<std::array<float, kBlockRays>, 3> color;
     /// Along the normal, against it, and along the mirrored ray.
     alignas(64) std::array<std::array<float, kBlockRays>, 3> open{};
 };

@@ -9,6 +9,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "render/field_between.h"
+
 namespace render {
 
 namespace {
@@ -31,9 +33,16 @@ constexpr std::array<std::uint8_t, kBlockRays> zCurve() {
 
 constexpr std::array<std::uint8_t, kBlockRays> kZCurve = zCurve();
 
-// The rotated grid of shaders/picture.frag.
-constexpr std::array<std::array<float, 2>, 4> kOffsets = {
-    {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
+// Every second pixel of every second row, in the same order.
+constexpr auto coarsePlaces() {
+    std::array<std::uint8_t, kCoarseSide * kCoarseSide> places{};
+    std::size_t count = 0;
+    for (const std::uint8_t place : kZCurve)
+        if (place % 2 == 0 && place / kTileSize % 2 == 0) places[count++] = place;
+    return places;
+}
+
+constexpr auto kCoarsePlaces = coarsePlaces();
 
 struct BinnedField {
     std::vector<FieldBall> balls;
@@ -55,7 +64,7 @@ BinnedField binField(const CameraFrame& frame, const Skinned& skin) {
     // A dwarf among giants may not make every ray crawl: a tenth of the mean radius is as small as it gets.
     const double mean = sum / static_cast<double>(std::max<std::size_t>(field.balls.size(), 1));
     field.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / skin.view.field.reach;
-    field.tiles = binToTiles(frame, reaches);
+    field.tiles = binToTiles(frame, reaches, touchedPixels(frame, reaches));
     return field;
 }
 
@@ -70,44 +79,144 @@ FieldCast castOf(const CameraFrame& frame, const View& view, const BinnedField& 
     return cast;
 }
 
-void placeRays(RayBlock& block, const CellLists& tiles, std::size_t tile, glm::vec2 offset) {
+glm::vec2 cornerOfTile(const CellLists& tiles, std::size_t tile) {
     const auto columns = static_cast<std::size_t>(tiles.columns);
-    const auto left = static_cast<float>(tile % columns * kTileSize);
-    const auto top = static_cast<float>(tile / columns * kTileSize);
-    block.count = kBlockRays;
-    for (std::size_t k = 0; k < kBlockRays; ++k) {
-        block.x[k] = left + static_cast<float>(kZCurve[k] % kTileSize) + 0.5F + offset.x;
-        block.y[k] = top + static_cast<float>(kZCurve[k] / kTileSize) + 0.5F + offset.y;
+    return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
+}
+
+/// Rays through these pixels of a tile, in this order.
+template <typename Places>
+void placeRays(RayBlock& block, glm::vec2 corner, const Places& places, glm::vec2 offset) {
+    block.count = places.size();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        block.x[k] = corner.x + static_cast<float>(places[k] % kTileSize) + 0.5F + offset.x;
+        block.y[k] = corner.y + static_cast<float>(places[k] / kTileSize) + 0.5F + offset.y;
     }
 }
 
-// The samples at pixels, for looking at neighbours across tiles.
-class Neighbours {
- public:
-    Neighbours(const FieldPicture& picture, const CellLists& tiles) : picture_(picture), tiles_(tiles) {}
+/// Packs a block's hits to their pixels of the tile.
+template <typename Places>
+void putSamples(const FieldCast& cast, const RayBlock& block, const Places& places, std::size_t tile,
+                FieldPicture& picture) {
+    const std::size_t out = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
+    PackedBlock packed;
+    packBlock(cast.frame, block, cast.openness, packed);
+    for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed.samples[k];
+    if (!cast.openness) return;
+    for (std::size_t k = 0; k < block.count; ++k) picture.open[out + places[k]] = packed.open[k];
+}
 
-    float depthAt(int x, int y) const {
-        if (x < 0 || y < 0 || x >= tiles_.columns * kTileSize || y >= tiles_.rows * kTileSize) return 0.0F;
-        const std::int32_t slot = picture_.slots[tiles_.cellIndex(x / kTileSize, y / kTileSize)];
-        if (slot < 0) return 0.0F;
-        const auto place = static_cast<std::size_t>(slot) * kBlockRays +
-                           static_cast<std::size_t>(y % kTileSize * kTileSize + x % kTileSize);
-        return std::bit_cast<float>(picture_.samples[place].depthBits);
+/// A tile's coarse hits with those of its neighbours to the right and below; none where they have no slot.
+CoarseHits coarseHits(const std::vector<CoarseHits>& own, const FieldPicture& picture, const CellLists& tiles,
+                      std::size_t tile) {
+    CoarseHits hits = own[static_cast<std::size_t>(picture.slots[tile])];
+    const auto columns = static_cast<std::size_t>(tiles.columns);
+    const auto neighbour = [&](std::size_t right, std::size_t down) -> const CoarseHits* {
+        const std::size_t at = tile + right + down * columns;
+        if (tile % columns + right >= columns || at >= picture.slots.size() || picture.slots[at] < 0) return nullptr;
+        return &own[static_cast<std::size_t>(picture.slots[at])];
+    };
+    if (const CoarseHits* right = neighbour(1, 0))
+        for (std::size_t row = 0; row < kCoarseSide; ++row) hits.put(kCoarseSide, row, *right, 0, row);
+    if (const CoarseHits* below = neighbour(0, 1))
+        for (std::size_t column = 0; column < kCoarseSide; ++column) hits.put(column, kCoarseSide, *below, column, 0);
+    if (const CoarseHits* diagonal = neighbour(1, 1)) hits.put(kCoarseSide, kCoarseSide, *diagonal, 0, 0);
+    return hits;
+}
+
+// Within a pixel the field rises by less than this times the pixel's share of the smallest ball's radius (a lone ball's
+// by half of it, and a pixel's diagonal away).
+constexpr float kSteepest = 2.0F;
+
+Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field) {
+    float farthest = 0.0F;
+    for (const FieldBall& ball : field.balls) farthest = std::max(farthest, ball.center.z + ball.reach);
+    const float pixel = cast.frame.pixelWidth() * (cast.frame.perspective ? farthest : 1.0F);
+    return {0.02F * field.smallestRadius, cast.threshold - kSteepest * pixel / field.smallestRadius};
+}
+
+void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness, FieldPicture& picture) {
+    const CellLists& tiles = *cast.tiles;
+    std::vector<CoarseHits> coarse(picture.samples.size() / kBlockRays);
+    const auto forTiles = [&](const auto& visit) {
+        tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
+            if (picture.slots[tile] >= 0) visit(tile);
+        });
+    };
+    forTiles([&](std::size_t tile) {
+        RayBlock block;
+        placeRays(block, cornerOfTile(tiles, tile), kCoarsePlaces, offset);
+        castBlock(cast, tile, block);
+        putSamples(cast, block, kCoarsePlaces, tile, picture);
+        CoarseHits& hits = coarse[static_cast<std::size_t>(picture.slots[tile])];
+        for (std::size_t k = 0; k < block.count; ++k)
+            hits.put(kCoarsePlaces[k] % kTileSize / 2, kCoarsePlaces[k] / kTileSize / 2, block, k);
+    });
+    forTiles([&](std::size_t tile) {
+        const CoarseHits hits = coarseHits(coarse, picture, tiles, tile);
+        const glm::vec2 corner = cornerOfTile(tiles, tile);
+        RayBlock block;
+        placeRays(block, corner, kBetweenPlaces, offset);
+        const std::array<bool, kBetween> good = fillBetween(cast.frame, hits, smoothness, block);
+        putSamples(cast, block, kBetweenPlaces, tile, picture);
+        std::array<bool, kBlockRays> isRough{};
+        for (std::size_t k = 0; k < kBetween; ++k) isRough[kBetweenPlaces[k]] = !good[k];
+        std::vector<std::uint8_t> rough;
+        for (const std::uint8_t place : kZCurve)
+            if (isRough[place]) rough.push_back(place);
+        placeRays(block, corner, rough, offset);
+        castBlock(cast, tile, block);
+        putSamples(cast, block, rough, tile, picture);
+    });
+}
+
+// The depths of a tile's pixels and of those around them; 0 where there is no surface.
+class Depths {
+ public:
+    Depths(const FieldPicture& picture, const CellLists& tiles, std::size_t tile) : picture_(picture), tiles_(tiles) {
+        const auto columns = static_cast<std::size_t>(tiles.columns);
+        const int left = static_cast<int>(tile % columns);
+        const int top = static_cast<int>(tile / columns);
+        copy(left, top, {0, 0}, {kTileSize, kTileSize}, {1, 1});
+        copy(left - 1, top, {kTileSize - 1, 0}, {1, kTileSize}, {0, 1});
+        copy(left + 1, top, {0, 0}, {1, kTileSize}, {kTileSize + 1, 1});
+        copy(left, top - 1, {0, kTileSize - 1}, {kTileSize, 1}, {1, 0});
+        copy(left, top + 1, {0, 0}, {kTileSize, 1}, {1, kTileSize + 1});
     }
 
     // Hit beside miss, or a jump in depth that a pixel's slope does not explain.
-    bool outlineAt(int x, int y, float jump) const {
-        const float depth = depthAt(x, y);
-        for (const auto& [dx, dy] : {std::array{1, 0}, std::array{-1, 0}, std::array{0, 1}, std::array{0, -1}}) {
-            const float other = depthAt(x + dx, y + dy);
-            if ((other > 0.0F) != (depth > 0.0F) || std::abs(other - depth) > jump) return true;
+    std::array<bool, kBlockRays> outlines(float jump) const {
+        std::array<bool, kBlockRays> found{};
+        for (std::size_t row = 0; row < kTileSize; ++row) {
+            const float* at = &depths_[(row + 1) * kSide + 1];
+            bool* out = &found[row * kTileSize];
+            for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, std::ptrdiff_t{-1}, kSide, -kSide})
+                for (std::ptrdiff_t k = 0; k < kTileSize; ++k) out[k] = out[k] | differs(at[k], at[k + step], jump);
         }
-        return false;
+        return found;
     }
 
  private:
+    static constexpr std::ptrdiff_t kSide = kTileSize + 2;
+
+    static bool differs(float depth, float other, float jump) {
+        return ((other > 0.0F) != (depth > 0.0F)) | (std::abs(other - depth) > jump);
+    }
+
+    void copy(int column, int row, glm::ivec2 from, glm::ivec2 size, glm::ivec2 to) {
+        if (column < 0 || row < 0 || column >= tiles_.columns || row >= tiles_.rows) return;
+        const std::int32_t slot = picture_.slots[tiles_.cellIndex(column, row)];
+        if (slot < 0) return;
+        const FieldSample* samples = &picture_.samples[static_cast<std::size_t>(slot) * kBlockRays];
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                depths_[static_cast<std::size_t>((to.y + y) * kSide + to.x + x)] =
+                    std::bit_cast<float>(samples[(from.y + y) * kTileSize + from.x + x].depthBits);
+    }
+
     const FieldPicture& picture_;
     const CellLists& tiles_;
+    std::array<float, kSide * kSide> depths_{};
 };
 
 // The extra samples of one tile, in the order of its pixels.
@@ -119,22 +228,21 @@ struct TileExtras {
 
 TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::uint8_t> pixels) {
     TileExtras extras;
-    const auto columns = static_cast<std::size_t>(cast.tiles->columns);
-    const auto left = static_cast<float>(tile % columns * kTileSize);
-    const auto top = static_cast<float>(tile / columns * kTileSize);
+    const glm::vec2 corner = cornerOfTile(*cast.tiles, tile);
     RayBlock block;
     const auto flush = [&] {
         castBlock(cast, tile, block);
-        for (std::size_t k = 0; k < block.count; ++k) {
-            extras.samples.push_back(packedSample(cast.frame, block, k));
-            if (cast.openness) extras.open.push_back(packedOpenness(block, k));
-        }
+        PackedBlock packed;
+        packBlock(cast.frame, block, cast.openness, packed);
+        const auto count = static_cast<std::ptrdiff_t>(block.count);
+        extras.samples.insert(extras.samples.end(), packed.samples.begin(), packed.samples.begin() + count);
+        if (cast.openness) extras.open.insert(extras.open.end(), packed.open.begin(), packed.open.begin() + count);
         block.count = 0;
     };
     for (const std::uint8_t pixel : pixels) {
-        for (const auto& offset : kOffsets) {
-            block.x[block.count] = left + static_cast<float>(pixel % kTileSize) + 0.5F + offset[0];
-            block.y[block.count] = top + static_cast<float>(pixel / kTileSize) + 0.5F + offset[1];
+        for (const glm::vec2 offset : kFourSamples) {
+            block.x[block.count] = corner.x + static_cast<float>(pixel % kTileSize) + 0.5F + offset.x;
+            block.y[block.count] = corner.y + static_cast<float>(pixel / kTileSize) + 0.5F + offset.y;
             ++block.count;
         }
         if (block.count == kBlockRays) flush();
@@ -145,16 +253,13 @@ TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::
 }
 
 void addExtras(const FieldCast& cast, float jump, FieldPicture& picture) {
-    const Neighbours neighbours(picture, *cast.tiles);
     std::vector<TileExtras> extras(picture.slots.size());
     tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
         if (picture.slots[tile] < 0) return;
-        const int left = static_cast<int>(tile) % cast.tiles->columns * kTileSize;
-        const int top = static_cast<int>(tile) / cast.tiles->columns * kTileSize;
+        const std::array<bool, kBlockRays> outlines = Depths(picture, *cast.tiles, tile).outlines(jump);
         std::vector<std::uint8_t> pixels;
-        for (const std::uint8_t place : kZCurve) {
-            if (neighbours.outlineAt(left + place % kTileSize, top + place / kTileSize, jump)) pixels.push_back(place);
-        }
+        for (const std::uint8_t place : kZCurve)
+            if (outlines[place]) pixels.push_back(place);
         if (!pixels.empty()) extras[tile] = castExtras(cast, tile, std::move(pixels));
     });
     for (std::size_t tile = 0; tile < extras.size(); ++tile) {
@@ -168,22 +273,13 @@ void addExtras(const FieldCast& cast, float jump, FieldPicture& picture) {
     }
 }
 
-// What the picture shows of the surface, tile by tile.
-void sumUpTiles(FieldPicture& picture) {
-    constexpr float kNever = std::numeric_limits<float>::infinity();
-    picture.farthest.assign(picture.slots.size(), kNever);
+// Tiles where nothing of the surface is seen lose their slots.
+void forgetEmptyTiles(FieldPicture& picture) {
     tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
         if (picture.slots[tile] < 0) return;
         const FieldSample* samples = &picture.samples[static_cast<std::size_t>(picture.slots[tile]) * kBlockRays];
-        bool isSeen = false;
-        float farthest = 0.0F;
-        for (std::size_t k = 0; k < kBlockRays; ++k) {
-            const bool isWhole = samples[k].depthBits != 0 && samples[k].extra == 0;
-            isSeen = isSeen || samples[k].depthBits != 0 || samples[k].extra != 0;
-            farthest = std::max(farthest, isWhole ? std::bit_cast<float>(samples[k].depthBits) : kNever);
-        }
-        picture.farthest[tile] = farthest;
-        if (!isSeen) picture.slots[tile] = -1;
+        const auto isSeen = [](const FieldSample& sample) { return sample.depthBits != 0 || sample.extra != 0; };
+        if (std::none_of(samples, samples + kBlockRays, isSeen)) picture.slots[tile] = -1;
     });
 }
 
@@ -236,11 +332,10 @@ std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin)
     return balls;
 }
 
-FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling) {
+void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling, FieldPicture& picture) {
     const BinnedField field = binField(frame, skin);
     FieldCast cast = castOf(frame, skin.view, field);
     cast.openness = !skin.open.empty();
-    FieldPicture picture;
     const std::size_t tileCount = field.tiles.begin.size() - 1;
     picture.slots.assign(tileCount, -1);
     std::int32_t slotCount = 0;
@@ -248,21 +343,20 @@ FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const Fi
         if (field.tiles.begin[tile + 1] > field.tiles.begin[tile]) picture.slots[tile] = slotCount++;
     }
     picture.samples.resize(static_cast<std::size_t>(slotCount) * kBlockRays);
-    if (cast.openness) picture.open.resize(picture.samples.size());
-    tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
-        if (picture.slots[tile] < 0) return;
-        RayBlock block;
-        placeRays(block, field.tiles, tile, sampling.offset);
-        castBlock(cast, tile, block);
-        const std::size_t out = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
-        for (std::size_t k = 0; k < kBlockRays; ++k) {
-            picture.samples[out + kZCurve[k]] = packedSample(frame, block, k);
-            if (cast.openness) picture.open[out + kZCurve[k]] = packedOpenness(block, k);
-        }
-    });
+    picture.open.resize(cast.openness ? picture.samples.size() : 0);
+    if (sampling.sparse) {
+        castSparsely(cast, sampling.offset, smoothnessOf(cast, field), picture);
+    } else {
+        tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
+            if (picture.slots[tile] < 0) return;
+            RayBlock block;
+            placeRays(block, cornerOfTile(field.tiles, tile), kZCurve, sampling.offset);
+            castBlock(cast, tile, block);
+            putSamples(cast, block, kZCurve, tile, picture);
+        });
+    }
     if (sampling.extraAtOutlines) addExtras(cast, 0.5F * field.smallestRadius, picture);
-    sumUpTiles(picture);
-    return picture;
+    forgetEmptyTiles(picture);
 }
 
 DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthMapSampling& sampling) {
@@ -296,7 +390,7 @@ DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthM
     tbb::parallel_for(std::size_t{0}, field.tiles.begin.size() - 1, [&](std::size_t tile) {
         if (field.tiles.begin[tile + 1] == field.tiles.begin[tile]) return;
         RayBlock block;
-        placeRays(block, field.tiles, tile, glm::vec2(0.0F));
+        placeRays(block, cornerOfTile(field.tiles, tile), kZCurve, glm::vec2(0.0F));
         castBlock(cast, tile, block);
         for (std::size_t k = 0; k < kBlockRays; ++k) {
             const int x = static_cast<int>(block.x[k]);

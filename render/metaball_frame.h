@@ -20,16 +20,15 @@ namespace render {
 
 struct FieldPicture {
     std::vector<FieldSample> samples;  ///< 256 a slot, row by row, then the extra samples
-    std::vector<std::uint32_t> open;   ///< of each sample, as packedOpenness() has it; empty without
+    std::vector<std::uint32_t> open;   ///< of each sample, as packBlock() has it; empty without
     std::vector<std::int32_t> slots;   ///< per tile; -1 where nothing of the surface is seen
-    /// Per tile: the greatest view depth of the surface where it fills the tile without an outline, otherwise infinity.
-    std::vector<float> farthest;
 };
 
 /// Where in the pixel the rays go.
 struct FieldSampling {
     glm::vec2 offset{0.0F};        ///< of the one sample, in pixels from the middle
     bool extraAtOutlines = false;  ///< four more samples where neighbours differ
+    bool sparse = false;  ///< every second pixel of every second row is cast, others where the surface is not smooth
 };
 
 /// Heights of the surface over the light's plane.
@@ -54,7 +53,8 @@ struct Skinned {
 std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin);
 
 /// Half a radius of the smallest ball per step: metaball_test.cpp finds no hit missed against the oracle's exact roots.
-FieldPicture castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling);
+/// Overwrites `picture`, whose memory is used again.
+void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling, FieldPicture& picture);
 
 struct DepthMapSampling {
     int mostTexels = 1024;  ///< along the longer side

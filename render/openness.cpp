@@ -16,7 +16,6 @@ constexpr int kReach = 6;  // cubes
 constexpr int kMargin = kReach + 4;
 // 24 MB of values; wider cubes beyond, for the sake of a drop that flies far.
 constexpr double kMostCells = 1e6;
-constexpr float kAhead = 0.75F;  // sides that a place is moved along the direction it looks in
 
 constexpr std::array<glm::vec3, 6> kDirections = {{{1.0F, 0.0F, 0.0F},
                                                    {-1.0F, 0.0F, 0.0F},
@@ -146,7 +145,7 @@ std::vector<float> lookedAlong(const OpennessGrid& grid, const std::vector<float
 }
 
 float valueAt(const OpennessGrid& grid, std::size_t direction, glm::vec3 place) {
-    const Trilinear at = placeIn(grid, place + kAhead * grid.side * kDirections[direction]);
+    const Trilinear at = placeIn(grid, place + kOpennessAhead * grid.side * kDirections[direction]);
     if (!inside(grid, at)) return 1.0F;
     float sum = 0.0F;
     forCorners(grid, at, [&](std::size_t cell, float weight) { sum += weight * grid.values[direction][cell]; });
@@ -186,7 +185,7 @@ OpennessMap opennessAtHeight(const OpennessGrid& grid, float height) {
     map.rows = grid.cells.z;
     map.values.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), 1.0F);
     constexpr std::size_t kUp = 2;
-    const float at = (height - grid.origin.y) / grid.side + kAhead;
+    const float at = (height - grid.origin.y) / grid.side + kOpennessAhead;
     const float floor = std::floor(at);
     const int y = static_cast<int>(std::clamp(floor, -2.0F, 1e6F));
     if (grid.cells.x == 0 || y < 0 || y + 1 >= grid.cells.y) return map;

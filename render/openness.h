@@ -44,6 +44,9 @@ struct OpennessMap {
 /// Holds:  the result depends on the view's particles alone, bit for bit, not on the number of threads.
 OpennessGrid opennessGrid(std::span<const Sphere> particles);
 
+/// Sides of a cube that a place is moved along the direction it looks in.
+inline constexpr float kOpennessAhead = 0.75F;
+
 /// At a place; kOpen outside of the grid.
 Openness opennessAt(const OpennessGrid& grid, glm::vec3 place);
 

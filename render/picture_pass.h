@@ -1,4 +1,4 @@
-// Draws a view tile by tile: fills the lists that the shaders walk, chooses a program for each class of tiles, draws.
+// Draws a view tile by tile: finds what its pixels show, chooses a program for each class of tiles, draws.
 // Used by the Renderer alone, with the context current.
 #pragma once
 
@@ -16,6 +16,7 @@
 #include "render/line_list.h"
 #include "render/metaball_frame.h"
 #include "render/openness.h"
+#include "render/picture_samples.h"
 #include "render/program_cache.h"
 #include "render/view.h"
 
@@ -24,13 +25,9 @@ namespace render {
 /// Mirrors FrameBlock of shaders/frame.glsl, where the fields are explained.
 struct FrameBlock {
     glm::vec4 right, up, forward, picture, toLight, lightColor, ambientSky, ambientGround, groundColor, groundCenter;
-    glm::vec4 backgroundTop, backgroundBottom, lightU, lightV, lightGrid;
-    glm::ivec4 lightCells;
-    glm::vec4 depthMap;
+    glm::vec4 backgroundTop, backgroundBottom;
     glm::ivec4 counts;
-    glm::vec4 material, tone, mirrorTop, mirrorHorizon, mirrorBottom, openGrid;
-    glm::ivec4 openCells;
-    glm::vec4 openMap, soft;
+    glm::vec4 material, tone, mirrorTop, mirrorHorizon, mirrorBottom;
 };
 
 /// Which rays one drawing takes through a pixel, and what becomes of their colours.
@@ -38,14 +35,16 @@ struct Sampling {
     int samples = 1;         ///< 1 or 4
     glm::vec2 offset{0.0F};  ///< from the pixel's middle, pixels; with one sample only
     Output output = Output::bytes;
-    bool keeps = false;  ///< the target still holds the last picture that was drawn with `keeps`
+    bool sparse = false;  ///< metaballs are cast sparsely
+    bool keeps = false;   ///< the target still holds the last picture that was drawn with `keeps`
 };
 
-/// Spheres that OpenGL draws: obstacles always, particles unless they are metaballs.
+/// Spheres that are drawn as such: obstacles always, particles unless they are metaballs.
 struct DrawnSpheres {
     std::vector<ViewSphere> spheres;  ///< center relative to the eye, in world axes
     std::vector<glm::vec4> colors;    ///< w: 1 for particles, 0 for obstacles
-    std::vector<glm::vec4> open;      ///< two a sphere: openness along +x, +y, +z and along -x, -y, -z; empty without
+    std::int32_t firstObstacle = 0;
+    std::vector<glm::vec4> open;  ///< two a sphere: openness along +x, +y, +z and along -x, -y, -z; empty without
 };
 
 class PicturePass {
@@ -58,11 +57,20 @@ class PicturePass {
     /// Casts the metaballs' shadows anew where these rays ask for other texels than the last ones.
     void castShadow(const View& view, const Sampling& sampling);
 
-    /// Casts the metaballs for these rays; draws nothing yet. Does nothing for spheres.
+    /// Casts the metaballs for these rays. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
 
-    /// Draws to the bound target, whose size is a whole number of tiles.
+    /// Finds what these rays see; draws nothing yet.
+    void look(const View& view, const Sampling& sampling);
+
+    /// Draws all pixels that show one thing to the bound target, whose size is a whole number of tiles.
     void draw(const View& view, const Sampling& sampling, PictureSize target);
+
+    /// Draws the pixels that show several, side by side in the order of edges(), to the bound target of the same size,
+    /// after draw().
+    void drawEdges(const View& view, const Sampling& sampling, PictureSize target);
+
+    std::span<const EdgePixel> edges() const { return samples_.edges; }
 
     ProgramCache& programs() { return programs_; }
 
@@ -73,22 +81,24 @@ class PicturePass {
     void castDepths(const View& view, glm::vec2 shift);
     void uploadLines(const View& view);
     void uploadBoxes(const View& view);
-    void sortGround(const View& view);
+    bool castsShadows(const View& view) const;
+    Obstruction obstructionOf(const View& view) const;
     FrameBlock uploadFrame(const View& view, const Sampling& sampling);
-    Features featuresOf(const View& view, const Sampling& sampling, int tileClass) const;
-    int classOf(std::size_t tile) const;
-    std::vector<int> classesOfTiles(const FrameBlock& block, const Sampling& sampling);
-    std::vector<int> uploadTileTable(const std::vector<int>& classes);
+    void bindAll() const;
+    GLuint useProgram(const Features& features, PictureSize target);
+    Features featuresOf(const View& view, const Sampling& sampling, int classBits) const;
+    std::vector<std::uint8_t> classesToDraw(const FrameBlock& block, const Sampling& sampling);
 
     const Gl* gl_;
     ProgramCache programs_;
-    TextureBuffer boxes_, tileTable_, tileSpheres_, tileSphereIds_, sphereColors_, fieldSamples_;
-    TextureBuffer lightLists_, lightSpheres_, lightDepths_, lines_, lineLists_;
-    TextureBuffer sphereOpen_, fieldOpen_, gridOpen_, groundOpen_;
+    TextureBuffer boxes_, tileTable_, pixels_, edgePixels_, fragments_, spheres_, sphereColors_, fieldSamples_;
+    TextureBuffer lines_, sphereOpen_, fieldOpen_;
     BufferName frameBlock_;
 
     CameraFrame frame_;
     DrawnSpheres drawn_;
+    std::vector<ViewSphere> viewSpheres_;
+    std::vector<Rect> spherePixels_;
     CellLists sphereTiles_;
     LineList lineList_;
     std::vector<std::uint8_t> boxTiles_;  // 1 where a box may be seen
@@ -105,8 +115,8 @@ class PicturePass {
     OpennessGrid openGrid_;
     OpennessMap openMap_;
     float meanRadius_ = 0.0F;
-    std::vector<std::int32_t> fieldSlots_;
-    std::vector<float> fieldFarthest_;
+    FieldPicture field_;
+    PictureSamples samples_;
     bool castsField_ = false;
 };
 

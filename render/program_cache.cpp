@@ -16,39 +16,31 @@ struct Unit {
     TextureUnit unit;
 };
 
-constexpr std::array<Unit, 16> kUnits = {{{"boxes", kBoxesUnit},
+constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
                                           {"tileTable", kTileTableUnit},
-                                          {"tileSpheres", kTileSpheresUnit},
-                                          {"tileSphereIds", kTileSphereIdsUnit},
+                                          {"pixels", kPixelsUnit},
+                                          {"edgePixels", kEdgePixelsUnit},
+                                          {"fragments", kFragmentsUnit},
+                                          {"spheres", kSpheresUnit},
                                           {"sphereColors", kSphereColorsUnit},
                                           {"fieldSamples", kFieldSamplesUnit},
-                                          {"lightLists", kLightListsUnit},
-                                          {"lightSpheres", kLightSpheresUnit},
-                                          {"lightDepths", kLightDepthsUnit},
                                           {"lines", kLinesUnit},
-                                          {"lineLists", kLineListsUnit},
                                           {"accumulated", kAccumulatedUnit},
                                           {"sphereOpen", kSphereOpenUnit},
-                                          {"fieldOpen", kFieldOpenUnit},
-                                          {"gridOpen", kGridOpenUnit},
-                                          {"groundOpen", kGroundOpenUnit}}};
+                                          {"fieldOpen", kFieldOpenUnit}}};
 
 std::string definesOf(const Features& features) {
-    std::string text = fmt::format("#version 330 core\n#define SAMPLES {}\n", features.samples);
+    std::string text = "#version 330 core\n";
     const auto define = [&text](const char* name, bool wanted) {
         if (wanted) text += fmt::format("#define {}\n", name);
     };
-    define("PLAIN", features.plain);
+    define("PLAIN", features.drawing == Drawing::plain);
     define("SPHERES", features.spheres);
     define("FIELD", features.field);
     define("BOXES", features.boxes);
-    define("LIGHT_BOXES", features.lightBoxes);
     define("GROUND", features.ground);
     define("LINES", features.lines);
     define("SHADOWS", features.shadows);
-    define("LIGHT_SPHERES", features.lightSpheres);
-    define("LIGHT_FIELD", features.lightField);
-    define("SOFT", features.soft);
     define("SPECULAR", features.specular);
     define("METAL", features.metal);
     define("MIRROR", features.mirror);
@@ -58,7 +50,6 @@ std::string definesOf(const Features& features) {
     define("GLOW", features.glow);
     define("OPEN", features.open);
     define("OCCLUSION", features.occlusion);
-    define("OPEN_OBSTACLES", features.openObstacles);
     define("TONE", features.tone);
     define("ENCODE", features.output == Output::bytes);
     define("SURFACE", features.output == Output::surface);
@@ -118,15 +109,15 @@ GLuint ProgramCache::picture(const Features& features) {
     ProgramName& place = pictures_[features];
     if (place.get() != 0) return place.get();
     const std::string defines = definesOf(features);
-    if (features.plain)
+    if (features.drawing == Drawing::plain)
         return keep(place, buildProgram(*gl_, joined(defines, {"frame.glsl", "shade.glsl", "tile.vert"}),
-                                        joined(defines, {"frame.glsl", "encode.glsl", "surfaces.glsl", "shade.glsl",
-                                                         "plain.frag"})));
-    const std::string vertex = joined(defines, {"tile.vert"});
-    std::string fragment = joined(defines, {"frame.glsl", "encode.glsl", "surfaces.glsl", "openness.glsl", "shadow.glsl",
-                                            "shade.glsl"});
-    if (features.lines) fragment = joined(fragment, {"lines.glsl"});
-    return keep(place, buildProgram(*gl_, vertex, joined(fragment, {"picture.frag"})));
+                                        joined(defines, {"frame.glsl", "encode.glsl", "shade.glsl", "plain.frag"})));
+    const std::string surfaces =
+        joined(defines, {"frame.glsl", "encode.glsl", "openness.glsl", "shade.glsl", "surface.glsl"});
+    if (features.drawing == Drawing::edges)
+        return keep(place, buildProgram(*gl_, joined(defines, {"full_screen.vert"}), joined(surfaces, {"edges.frag"})));
+    return keep(place,
+                buildProgram(*gl_, joined(defines, {"frame.glsl", "tile.vert"}), joined(surfaces, {"picture.frag"})));
 }
 
 GLuint ProgramCache::resolve() {

@@ -20,20 +20,22 @@ enum class Output {
     surface  ///< normal and view depth of what is seen; depth -1 for nothing
 };
 
-/// What one draw of tiles needs.
+/// What is drawn together.
+enum class Drawing {
+    plain,    ///< tiles of background, or of ground that nothing dims
+    picture,  ///< tiles whose pixels show one thing
+    edges     ///< pixels that show several
+};
+
+/// What one drawing needs.
 struct Features {
-    int samples = 1;
-    bool plain = false;  ///< nothing but background, or ground that nothing dims
+    Drawing drawing = Drawing::picture;
     bool spheres = false;
     bool field = false;
-    bool boxes = false;       ///< boxes are seen
-    bool lightBoxes = false;  ///< boxes cast shadows
+    bool boxes = false;
     bool ground = false;
     bool lines = false;
     bool shadows = false;
-    bool lightSpheres = false;  ///< spheres cast shadows
-    bool lightField = false;    ///< metaballs cast shadows
-    bool soft = false;          ///< shadows
     bool specular = false;
     bool metal = false;
     bool mirror = false;
@@ -43,7 +45,6 @@ struct Features {
     bool glow = false;
     bool open = false;  ///< some term looks at openness
     bool occlusion = false;
-    bool openObstacles = false;  ///< obstacles do
     bool tone = false;
     Output output = Output::bytes;
 
@@ -54,20 +55,16 @@ struct Features {
 enum TextureUnit : int {
     kBoxesUnit,
     kTileTableUnit,
-    kTileSpheresUnit,
-    kTileSphereIdsUnit,
+    kPixelsUnit,
+    kEdgePixelsUnit,
+    kFragmentsUnit,
+    kSpheresUnit,
     kSphereColorsUnit,
     kFieldSamplesUnit,
-    kLightListsUnit,
-    kLightSpheresUnit,
-    kLightDepthsUnit,
     kLinesUnit,
-    kLineListsUnit,
     kAccumulatedUnit,
     kSphereOpenUnit,
-    kFieldOpenUnit,
-    kGridOpenUnit,
-    kGroundOpenUnit
+    kFieldOpenUnit
 };
 
 /// A linked program; throws SystemError with the compiler's or linker's words.

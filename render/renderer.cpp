@@ -1,10 +1,15 @@
 // From view to image: prepare, cast, draw, read back; at final quality nine times with the rays moved within the pixel.
 #include "render/renderer.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "render/draw_overlay.h"
 #include "render/picture_pass.h"
@@ -18,6 +23,8 @@ namespace {
 int depthMapTexels(Quality quality) {
     return quality == Quality::final ? 2048 : 1024;
 }
+
+using Rgba = std::array<std::uint8_t, 4>;
 
 int wholeTiles(int pixels) {
     return (pixels + kTileSize - 1) / kTileSize * kTileSize;
@@ -63,6 +70,7 @@ struct Renderer::Parts {
           quality(quality_),
           pass(context_.gl()),
           bytes(context_.gl(), GL_RGBA8, padded.width, padded.height),
+          edges(context_.gl(), GL_RGBA8, padded.width, padded.height),
           vertices(vertexArray(context_.gl())) {
         if (quality == Quality::final)
             linear = std::make_unique<Target>(context_.gl(), GL_RGBA32F, padded.width, padded.height);
@@ -78,7 +86,13 @@ struct Renderer::Parts {
         clock.add(times.shadow);
         pass.castField(view, sampling);
         clock.add(times.cast);
+        pass.look(view, sampling);
+        clock.add(times.look);
         pass.draw(view, sampling, padded);
+        if (!pass.edges().empty()) {
+            edges.bindForDrawing();
+            pass.drawEdges(view, sampling, padded);
+        }
         // OpenGL draws when it is asked for a result.
         context.gl().Finish();
         clock.add(times.shade);
@@ -111,7 +125,7 @@ struct Renderer::Parts {
     std::vector<SurfacePoint> surfaces(const View& view) {
         const Target target(context.gl(), GL_RGBA32F, padded.width, padded.height);
         target.bindForDrawing();
-        drawOnce(view, {1, glm::vec2(0.0F), Output::surface});
+        drawOnce(view, {1, glm::vec2(0.0F), Output::surface, quality != Quality::final, false});
         std::vector<glm::vec4> texels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
         context.gl().ReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_FLOAT, texels.data());
         checkGl(context.gl(), "drawing surfaces");
@@ -123,7 +137,7 @@ struct Renderer::Parts {
 
     void drawDirectly(const View& view) {
         bytes.bindForDrawing();
-        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), Output::bytes, true});
+        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), Output::bytes, true, true});
     }
 
     void prepare(const View& view) {
@@ -132,12 +146,40 @@ struct Renderer::Parts {
 
     Image readBack() {
         StageClock clock;
+        // Four bytes a pixel are read several times faster than three.
+        bytes.bindForDrawing();
+        readRows(size.height, pixels);
         Image image{size.width, size.height, {}};
         image.rgb.resize(image.byteCount());
-        context.gl().ReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+        tbb::parallel_for(0, size.height, [&](int row) {
+            const auto last = static_cast<std::size_t>(size.width) - 1;
+            const Rgba* from = &pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(padded.width)];
+            std::uint8_t* to = &image.rgb[3 * (last + 1) * static_cast<std::size_t>(row)];
+            // Whole words: the fourth byte is overwritten by the next pixel.
+            for (std::size_t k = 0; k < last; ++k) std::memcpy(to + 3 * k, from[k].data(), sizeof(Rgba));
+            std::memcpy(to + 3 * last, from[last].data(), 3);
+        });
+        if (quality == Quality::normal) putEdges(image);
         checkGl(context.gl(), "drawing a frame");
         clock.add(times.readBack);
         return image;
+    }
+
+    void putEdges(Image& image) {
+        const std::span<const EdgePixel> places = pass.edges();
+        if (places.empty()) return;
+        edges.bindForDrawing();
+        readRows((static_cast<int>(places.size()) + padded.width - 1) / padded.width, pixels);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const auto row = static_cast<std::size_t>(places[k].place / 65536);
+            const auto column = static_cast<std::size_t>(places[k].place % 65536);
+            std::copy_n(pixels[k].begin(), 3, &image.rgb[3 * (row * static_cast<std::size_t>(size.width) + column)]);
+        }
+    }
+
+    void readRows(int rows, std::vector<Rgba>& to) {
+        to.resize(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(rows));
+        context.gl().ReadPixels(0, 0, padded.width, rows, GL_RGBA, GL_UNSIGNED_BYTE, to.data());
     }
 
     Context& context;
@@ -146,8 +188,10 @@ struct Renderer::Parts {
     Quality quality;
     PicturePass pass;
     Target bytes;
+    Target edges;  // pixels that show several things, side by side
     std::unique_ptr<Target> linear;
     VertexArrayName vertices;
+    std::vector<Rgba> pixels;  // as they are read back
     DrawTimes times;
 };
 

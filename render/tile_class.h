@@ -4,28 +4,21 @@
 
 namespace render {
 
-/// A tile's class is the sum of what it may show.
+/// A tile's class is the sum of what its pixels show.
 enum ClassBit {
     kSphereBit = 1,
     kFieldBit = 2,
-    kLineBit = 4,
-    kBoxBit = 8,
-    kGroundBit = 16,
-    kHorizonBit = 32,
-    kWholeBit = 64,  ///< metaballs fill it without an outline
-    kDimBit = 128,   ///< shadows or openness are looked up
-    kClassCount = 256
+    kBoxBit = 4,
+    kGroundBit = 8,
+    kBackgroundBit = 16,
+    kLineBit = 32,
+    kDimBit = 64,  ///< shadows or openness are looked up
+    kClassCount = 128
 };
-
-/// Whether something may end within the tile, and then asks for antialiasing.
-constexpr bool hasOutlines(int tileClass) {
-    constexpr int kEnding = kSphereBit | kFieldBit | kLineBit | kBoxBit | kHorizonBit;
-    return (tileClass & kWholeBit) == 0 && (tileClass & kEnding) != 0;
-}
 
 /// Whether it shows nothing but background, or ground that nothing dims.
 constexpr bool isPlain(int tileClass) {
-    return (tileClass & ~kGroundBit) == 0;
+    return tileClass == kBackgroundBit || tileClass == kGroundBit;
 }
 
 }  // namespace render

@@ -102,16 +102,25 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
     return lists;
 }
 
-CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres) {
+std::vector<Rect> touchedPixels(const CameraFrame& frame, std::span<const ViewSphere> spheres) {
+    std::vector<Rect> pixels(spheres.size());
+    constexpr std::size_t kChunk = 1024;
+    tbb::parallel_for(std::size_t{0}, spheres.size() / kChunk + 1, [&](std::size_t chunk) {
+        for (std::size_t k = chunk * kChunk; k < std::min((chunk + 1) * kChunk, spheres.size()); ++k)
+            pixels[k] = pixelsTouched(frame, spheres[k].center, spheres[k].radius).value_or(Rect{});
+    });
+    return pixels;
+}
+
+CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<const Rect> pixels) {
     std::vector<float> nearest(spheres.size());
     for (std::size_t k = 0; k < spheres.size(); ++k) nearest[k] = spheres[k].center.z - spheres[k].radius;
     std::vector<BinItem> items;
     items.reserve(spheres.size());
     for (const std::uint32_t index : orderByKey(nearest)) {
-        const auto pixels = pixelsTouched(frame, spheres[index].center, spheres[index].radius);
-        if (!pixels) continue;
-        items.push_back(
-            {index, {pixels->x0 / kTileSize, pixels->y0 / kTileSize, pixels->x1 / kTileSize, pixels->y1 / kTileSize}});
+        const Rect& at = pixels[index];
+        if (at.x1 < at.x0) continue;
+        items.push_back({index, {at.x0 / kTileSize, at.y0 / kTileSize, at.x1 / kTileSize, at.y1 / kTileSize}});
     }
     return binItems(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
 }

@@ -43,7 +43,11 @@ struct ViewSphere {
     float radius = 0.0F;
 };
 
-/// The spheres of each 16-pixel tile, front to back: by rising (center's depth - radius).
-CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres);
+/// The pixels that each sphere may touch; none (an empty rectangle) where it is out of sight.
+std::vector<Rect> touchedPixels(const CameraFrame& frame, std::span<const ViewSphere> spheres);
+
+/// The spheres of each 16-pixel tile, front to back: by rising (center's depth - radius). pixels: as touchedPixels has
+/// them.
+CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<const Rect> pixels);
 
 }  // namespace render

@@ -13,24 +13,16 @@ layout(std140) uniform FrameBlock {
     vec4 groundCenter;      // w: fade distance
     vec4 backgroundTop;
     vec4 backgroundBottom;
-    vec4 lightU;            // unit vectors that span the light's plane
-    vec4 lightV;
-    vec4 lightGrid;         // origin u, v, 1 / cell size, unused
-    ivec4 lightCells;       // cells in u, v; texels of the depth map in u, v
-    vec4 depthMap;          // origin u, v, 1 / texel size, texel size
-    ivec4 counts;           // boxes, gloss exponent, unused, unused
+    ivec4 counts;           // gloss exponent, unused
     vec4 material;          // reflection, metal, roughness, translucency
     vec4 tone;              // absorption, glow, occlusion, exposure
     vec4 mirrorTop;
     vec4 mirrorHorizon;
     vec4 mirrorBottom;
-    vec4 openGrid;          // middle of the first cube, 1 / side
-    ivec4 openCells;        // cubes along x, y, z, columns of the ground's map
-    vec4 openMap;           // middle of its first cell x, z, 1 / side, rows
-    vec4 soft;              // softness of shadows, mean radius of the particles
 };
 
 uniform samplerBuffer boxes;         // minimum, maximum, color per box
+uniform int targetWidth;             // pixels of the target, a whole number of tiles
 
 struct Ray {
     vec3 origin;
@@ -56,7 +48,8 @@ struct Point {
     vec3 albedo;
     float particle;         // 1 on particles, 0 on obstacles and ground
     vec3 open;              // along the normal, against it, along the mirrored ray
-    float pixelWidth;       // m, at this depth
+    float lit;              // share of the light that reaches it
+    float depth;            // view depth, -1 of the background
 };
 
 const float kFar = 3.0e38;

@@ -1,5 +1,5 @@
-// One tile of background, or of ground that nothing dims: one ray a pixel, because nothing in it has an outline, and the ground is
-// lit once for the tile.
+// Tiles of background, or of ground that nothing dims: one ray a pixel, because nothing in them has an outline, and the
+// ground is lit once for the tile.
 out vec4 pixel;
 #ifdef GROUND
 flat in vec3 groundLit;
@@ -10,7 +10,8 @@ void main() {
     vec3 color = background(at.y);
 #ifdef GROUND
     Ray ray = rayThrough(at);
-    color = mix(groundLit, color, groundFade(ray.origin + hitGround(ray) * ray.direction));
+    float depth = (groundColor.w - ray.origin.y) / ray.direction.y;
+    color = mix(groundLit, color, groundFade(ray.origin + depth * ray.direction));
 #endif
     color = clamp(color, 0.0, 1.0);
 #ifdef ENCODE

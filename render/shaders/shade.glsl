@@ -1,16 +1,6 @@
 // The shading model of view.h.
 vec3 background(float y) { return mix(backgroundTop.xyz, backgroundBottom.xyz, y / picture.y); }
 
-// No `if` and no loop of one turn around this: measured, llvmpipe's masks cost more than the work that they would save.
-float lightOn(Point point) {
-#ifdef SHADOWS
-    bool facing = dot(point.normal, toLight.xyz) > 0.0;
-    return facing ? visibility(point, facing) : 0.0;
-#else
-    return 1.0;
-#endif
-}
-
 #if defined(SPECULAR) || defined(MIRROR)
 vec3 fresnel(Point point, float cosine) {
     vec3 headOn = vec3(toLight.w);
@@ -27,7 +17,7 @@ vec3 glint(Point point, vec3 toEye, float lit) {
     vec3 halfway = normalize(toLight.xyz + toEye);
     float peak = max(0.0, dot(point.normal, halfway));
     float gloss = 1.0;
-    for (int squaring = 0; squaring < counts.y; ++squaring) {
+    for (int squaring = 0; squaring < counts.x; ++squaring) {
         peak *= peak;
         gloss *= 2.0;
     }
@@ -54,7 +44,11 @@ vec3 shoulder(vec3 color) {
 
 // Not clamped yet.
 vec3 shade(Point point, vec3 toEye) {
-    float lit = lightOn(point);
+#ifdef SHADOWS
+    float lit = point.lit;
+#else
+    float lit = 1.0;
+#endif
     float cosine = max(0.0, dot(point.normal, toLight.xyz));
 #ifdef ROUGH
     float dust = 2.2 / (cosine + max(0.0, dot(point.normal, toEye)) + 0.2);

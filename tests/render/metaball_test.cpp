@@ -26,8 +26,8 @@ render::View blobs(int count) {
 // View depths of the cast, pixel by pixel; 0 where nothing is hit.
 std::vector<double> castDepths(const render::View& view, render::PictureSize size) {
     const std::vector<render::SkinBall> skin = render::skinOf(view);
-    const render::FieldPicture picture =
-        render::castPicture(render::cameraFrame(view.camera, size), {view, skin, {}}, {});
+    render::FieldPicture picture;
+    render::castPicture(render::cameraFrame(view.camera, size), {view, skin, {}}, {}, picture);
     const int columns = (size.width + render::kTileSize - 1) / render::kTileSize;
     std::vector<double> depths;
     for (int y = 0; y < size.height; ++y) {
@@ -160,7 +160,8 @@ TEST_CASE("Every instruction set gives the same bits") {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        const render::FieldPicture picture = render::castPicture(frame, {view, skin, open}, {glm::vec2(0.0F), true});
+        render::FieldPicture picture;
+        render::castPicture(frame, {view, skin, open}, {glm::vec2(0.0F), true}, picture);
         std::vector<std::uint32_t> bits;
         for (const render::FieldSample& s : picture.samples)
             bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.extra});

@@ -23,7 +23,7 @@ TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to
         const render::CameraFrame frame = render::cameraFrame(view.camera, size);
         std::vector<render::ViewSphere> spheres;
         for (const render::Sphere& s : view.particles) spheres.push_back({frame.toView(s.center), s.radius});
-        const render::CellLists lists = render::binToTiles(frame, spheres);
+        const render::CellLists lists = render::binToTiles(frame, spheres, render::touchedPixels(frame, spheres));
         REQUIRE(lists.columns == 6);
         REQUIRE(lists.rows == 4);
         int met = 0;
@@ -59,5 +59,5 @@ TEST_CASE("Lists stay short: a small sphere touches few tiles") {
     const render::CameraFrame frame = render::cameraFrame(render::Camera{}, {1280, 720});
     const std::vector<render::ViewSphere> spheres(1000, {{0.05F, 0.05F, 10.0F}, 0.05F});
     // 0.1 m at 10 m are 10 pixels here, with a pixel of margin 12: at most 2 x 2 tiles.
-    CHECK(render::binToTiles(frame, spheres).items.size() <= 4000);
+    CHECK(render::binToTiles(frame, spheres, render::touchedPixels(frame, spheres)).items.size() <= 4000);
 }

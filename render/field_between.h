@@ -1,0 +1,54 @@
+// The surface of metaballs between rays that were cast: where it is smooth, a quarter of the rays tells the rest.
+// Called by metaball_frame.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <glm/glm.hpp>
+
+#include "render/camera_frame.h"
+#include "render/metaball_cast.h"
+
+namespace render {
+
+/// Columns and rows of rays of a tile where every second pixel of every second row is cast.
+inline constexpr std::size_t kCoarseSide = kTileSize / 2;
+
+/// Hits of these rays, row by row, and of the first column and row after the tile, so that nothing lies beyond.
+struct CoarseHits {
+    static constexpr std::size_t kSide = kCoarseSide + 1;
+    using Values = std::array<float, kSide * kSide>;
+
+    Values depth;  ///< in view; negative: nothing
+    Values most;   ///< the greatest sample of the field on the way
+    std::array<Values, 3> normal, color, open;
+
+    /// No hits, and no field.
+    CoarseHits();
+    /// Takes ray k of a block.
+    void put(std::size_t column, std::size_t row, const RayBlock& block, std::size_t k);
+    void put(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
+             std::size_t otherRow);
+};
+
+/// What counts as smooth.
+struct Smoothness {
+    float depth = 0.0F;  ///< m, between what their tangent planes say of the middle, and between these and their chord
+    float most = 0.0F;   ///< of the field on rays beside which there is no surface
+};
+
+/// The pixels of a tile in between.
+inline constexpr std::size_t kBetween = kBlockRays / 4 * 3;
+
+/// In the order in which fillBetween() has them: beside, below, and in the middle of cast ones; columns plus 16 rows.
+extern const std::array<std::uint8_t, kBetween> kBetweenPlaces;
+
+/// Fills in all rays of a block, which go through kBetweenPlaces of one tile, and tells which of them are good: those
+/// on a cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals, colours and
+/// openness; and no hit where the rays around missed the surface by more than the field may rise within a pixel. Holds:
+/// a ray's result depends on the hits around it alone, bit for bit, not on the number of lanes.
+std::array<bool, kBetween> fillBetween(const CameraFrame& frame, const CoarseHits& coarse, Smoothness smoothness,
+                                       RayBlock& block);
+
+}  // namespace render

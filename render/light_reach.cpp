@@ -1,0 +1,342 @@
+// Shadows and openness on lanes; this file is compiled once per instruction set.
+//
+// Spheres and boxes are tested exactly, so there is neither grain nor acne; their edge is softened over one pixel's
+// width at least. Metaballs are looked up in the map that was cast from the light.
+#include "render/light_reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/light_reach.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/lane_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+/// Points in the light's space.
+struct LitPoints {
+    V u, v, height;
+    Vec3 position, normal;
+    V pixelWidth;
+    M facing;
+};
+
+V softened(V x) {
+    const V t = clamped(hn::Add(x, all(0.5F)), 0.0F, 1.0F);
+    return hn::Mul(hn::Mul(t, t), hn::Sub(all(3.0F), hn::Add(t, t)));
+}
+
+V sharp(V x) {
+    return clamped(hn::Add(x, all(0.5F)), 0.0F, 1.0F);
+}
+
+/// What one sphere covers of a strip one pixel wide around each ray to the light.
+V coverOfSphere(const LightSphere& sphere, const LitPoints& at, V square, float softness) {
+    const float radius = sphere.radius;
+    const V drop = hn::Max(hn::Sub(all(radius * radius), square), all(0.0F));
+    const V top = hn::Add(all(sphere.height), hn::Sqrt(drop));
+    // A point of this very sphere lies at `top`; one hundredth of a radius is far above the rounding and invisible.
+    const M above = hn::Gt(top, hn::Add(at.height, all(0.01F * radius)));
+    // The light's grid leaves a tenth of a radius for the softened edge.
+    V edge = clamped(at.pixelWidth, 1.0e-4F * radius, 0.2F * radius);
+    const V depth = hn::Sub(all(radius), hn::Sqrt(square));
+    if (softness > 0.0F) {
+        const V half = hn::Mul(all(0.5F), hn::Sub(all(sphere.height), at.height));
+        edge = hn::Max(edge, hn::Mul(all(softness), clamped(half, 0.0F, radius)));
+        return hn::IfThenElseZero(above, softened(hn::Div(depth, edge)));
+    }
+    return hn::IfThenElseZero(above, sharp(hn::Div(depth, edge)));
+}
+
+/// Of the spheres of one cell, for the points in it. The sum (not the product) closes the seam between two spheres that
+/// touch.
+V coverInCell(const LightGrid& grid, std::size_t cell, const LitPoints& at, M here, float softness) {
+    const D d;
+    V cover = all(0.0F);
+    for (std::int32_t k = grid.cells[cell].begin; k < grid.cells[cell].end; ++k) {
+        const LightSphere& sphere = grid.spheres[static_cast<std::size_t>(k)];
+        // Front to back: nothing further on the list reaches above the points.
+        const M below = hn::And(here, hn::Ge(all(sphere.height + sphere.radius), at.height));
+        if (hn::AllFalse(d, below)) break;
+        const V offU = hn::Sub(at.u, all(sphere.u));
+        const V offV = hn::Sub(at.v, all(sphere.v));
+        const V square = hn::Add(hn::Mul(offU, offU), hn::Mul(offV, offV));
+        // Beyond half the widest edge nothing is covered.
+        const float farthest = 1.5F * sphere.radius;
+        if (hn::AllFalse(d, hn::And(below, hn::Lt(square, all(farthest * farthest))))) continue;
+        cover = hn::Add(cover, coverOfSphere(sphere, at, square, softness));
+        if (hn::AllFalse(d, hn::And(here, hn::Lt(cover, all(1.0F))))) break;
+    }
+    return cover;
+}
+
+V coverOfSpheres(const LightGrid& grid, const LitPoints& at, float softness) {
+    const D d;
+    const DI di;
+    const V inverse = all(1.0F / grid.cellSize);
+    const V column = hn::Floor(hn::Mul(hn::Sub(at.u, all(grid.origin.x)), inverse));
+    const V row = hn::Floor(hn::Mul(hn::Sub(at.v, all(grid.origin.y)), inverse));
+    const V zero = all(0.0F);
+    const M inGrid =
+        hn::And(at.facing, hn::And(hn::And(hn::Ge(column, zero), hn::Lt(column, all(static_cast<float>(grid.columns)))),
+                                   hn::And(hn::Ge(row, zero), hn::Lt(row, all(static_cast<float>(grid.rows))))));
+    const VI cell = hn::Add(hn::Mul(hn::ConvertTo(di, hn::IfThenElseZero(inGrid, row)), allOf(grid.columns)),
+                            hn::ConvertTo(di, hn::IfThenElseZero(inGrid, column)));
+    alignas(64) std::array<std::int32_t, kTileSize> cells;
+    hn::Store(cell, di, cells.data());
+    V cover = zero;
+    // Neighbouring points mostly lie in one cell.
+    for (M left = inGrid; !hn::AllFalse(d, left);) {
+        const std::int32_t one = cells[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
+        const M here = hn::And(left, laneMask(hn::Eq(cell, allOf(one))));
+        const V found = coverInCell(grid, static_cast<std::size_t>(one), at, here, softness);
+        cover = hn::IfThenElse(here, found, cover);
+        left = hn::AndNot(here, left);
+    }
+    return cover;
+}
+
+struct Slabs {
+    V near, far;
+};
+
+/// The gap between entering one pair of faces and leaving another as a distance from the outline that they share.
+V outlineGap(const Slabs& entered, const Slabs& left, float inverseA, float inverseB) {
+    return hn::Mul(hn::Sub(left.far, entered.near), all(1.0F / std::sqrt(inverseA * inverseA + inverseB * inverseB)));
+}
+
+// Seen from the light a box is a convex hexagon. For faces i (entered) and j (left) the gap between entry and exit,
+// (b_j - p_j)/l_j - (a_i - p_i)/l_i, falls linearly with the distance to the hexagon's side; its gradient in p is
+// e_i/l_i - e_j/l_j, of length sqrt(1/l_i^2 + 1/l_j^2). The least gap over that length is the signed distance to the
+// outline.
+V coverOfBox(const BoxObstacle& box, const Obstruction& obstruction, const LitPoints& at) {
+    const glm::vec3 toLight = obstruction.light.toLight;
+    glm::vec3 inverse;
+    for (int axis = 0; axis < 3; ++axis)
+        inverse[axis] = 1.0F / (std::abs(toLight[axis]) > 1.0e-6F ? toLight[axis] : 1.0e-6F);
+    const glm::vec3 low = box.minimum - obstruction.eye;
+    const glm::vec3 high = box.maximum - obstruction.eye;
+    const auto slabs = [&](V position, int axis) {
+        const V first = hn::Mul(hn::Sub(all(low[axis]), position), all(inverse[axis]));
+        const V second = hn::Mul(hn::Sub(all(high[axis]), position), all(inverse[axis]));
+        return Slabs{hn::Min(first, second), hn::Max(first, second)};
+    };
+    const Slabs x = slabs(at.position.x, 0);
+    const Slabs y = slabs(at.position.y, 1);
+    const Slabs z = slabs(at.position.z, 2);
+    V inside = outlineGap(x, y, inverse.x, inverse.y);
+    inside = hn::Min(inside, outlineGap(y, z, inverse.y, inverse.z));
+    inside = hn::Min(inside, outlineGap(z, x, inverse.z, inverse.x));
+    inside = hn::Min(inside, outlineGap(x, z, inverse.x, inverse.z));
+    inside = hn::Min(inside, outlineGap(y, x, inverse.y, inverse.x));
+    inside = hn::Min(inside, outlineGap(z, y, inverse.z, inverse.y));
+    const V exit = hn::Min(x.far, hn::Min(y.far, z.far));
+    const float tolerance = 1.0e-4F * length(box.maximum - box.minimum);
+    V width = at.pixelWidth;
+    V cover;
+    if (obstruction.softness > 0.0F) {
+        const V most = hn::Min(all(obstruction.meanRadius), hn::Mul(all(0.5F), exit));
+        width = hn::Max(width, hn::Mul(all(obstruction.softness), most));
+        cover = softened(hn::Div(inside, hn::Max(width, all(tolerance))));
+    } else {
+        cover = sharp(hn::Div(inside, hn::Max(width, all(tolerance))));
+    }
+    return hn::IfThenElseZero(hn::Gt(exit, all(tolerance)), cover);
+}
+
+/// Of three texels around a place in the middle one, from -0.5 to 0.5 off its middle.
+struct TexelWeights {
+    V of[3];
+};
+
+TexelWeights texelWeights(V off, bool soft) {
+    const V half = all(0.5F);
+    if (!soft) {  // a box two texels wide
+        const V slope = hn::Mul(half, off);
+        return {{hn::Sub(all(0.25F), slope), half, hn::Add(all(0.25F), slope)}};
+    }
+    // A quadratic B-spline, three texels wide.
+    const V before = hn::Sub(half, off);
+    const V after = hn::Add(half, off);
+    return {{hn::Mul(half, hn::Mul(before, before)), hn::Sub(all(0.75F), hn::Mul(off, off)),
+             hn::Mul(half, hn::Mul(after, after))}};
+}
+
+// Nine texels at the exact place, weights that change continuously with the point.
+V coverOfField(const DepthMap& map, const Obstruction& obstruction, const LitPoints& at) {
+    const DI di;
+    const LightBasis& light = obstruction.light;
+    // Off the surface by as much as the filter reaches sideways, so that a slope does not shade itself.
+    const Vec3 raised = along(at.position, all(1.5F * map.texelSize), at.normal);
+    const V inverse = all(1.0F / map.texelSize);
+    const V u = hn::Mul(hn::Sub(dotted(raised, uniform(light.u)), all(map.origin.x)), inverse);
+    const V v = hn::Mul(hn::Sub(dotted(raised, uniform(light.v)), all(map.origin.y)), inverse);
+    const V height = hn::Add(dotted(raised, uniform(light.toLight)), all(0.5F * map.texelSize));
+    const V column = hn::Floor(u);
+    const V row = hn::Floor(v);
+    const V one = all(1.0F);
+    const M inMap = hn::And(hn::And(hn::Ge(column, one), hn::Lt(column, all(static_cast<float>(map.columns - 1)))),
+                            hn::And(hn::Ge(row, one), hn::Lt(row, all(static_cast<float>(map.rows - 1)))));
+    const V half = all(0.5F);
+    const bool soft = obstruction.softness > 0.0F;
+    const TexelWeights across = texelWeights(hn::Sub(hn::Sub(u, column), half), soft);
+    const TexelWeights down = texelWeights(hn::Sub(hn::Sub(v, row), half), soft);
+    const VI first = hn::Sub(hn::ConvertTo(di, hn::IfThenElse(inMap, column, one)), allOf(1));
+    VI start = hn::Add(
+        first, hn::Mul(hn::Sub(hn::ConvertTo(di, hn::IfThenElse(inMap, row, one)), allOf(1)), allOf(map.columns)));
+    V sum = all(0.0F);
+    for (const V& weight : down.of) {
+        V inRow = all(0.0F);
+        for (int k = 0; k < 3; ++k) {
+            const V texel = hn::GatherIndex(D(), map.heights.data(), hn::Add(start, allOf(k)));
+            inRow = hn::Add(inRow, hn::IfThenElseZero(hn::Gt(texel, height), across.of[k]));
+        }
+        sum = hn::Add(sum, hn::Mul(weight, inRow));
+        start = hn::Add(start, allOf(map.columns));
+    }
+    return hn::IfThenElseZero(inMap, sum);
+}
+
+V visibility(const Obstruction& obstruction, const LitPoints& at) {
+    V cover = all(0.0F);
+    if (obstruction.spheres != nullptr)
+        cover = hn::Add(cover, coverOfSpheres(*obstruction.spheres, at, obstruction.softness));
+    for (const BoxObstacle& box : obstruction.boxes) cover = hn::Add(cover, coverOfBox(box, obstruction, at));
+    if (obstruction.field != nullptr) cover = hn::Add(cover, coverOfField(*obstruction.field, obstruction, at));
+    return hn::IfThenElseZero(at.facing, hn::Max(hn::Sub(all(1.0F), cover), all(0.0F)));
+}
+
+V mixed(V a, V b, V part) {
+    return hn::Add(hn::Mul(a, hn::Sub(all(1.0F), part)), hn::Mul(b, part));
+}
+
+V openOfGround(const OpennessMap& map, glm::vec3 eye, const Vec3& position) {
+    const D d;
+    const DI di;
+    const V inverse = all(1.0F / map.side);
+    const V x = hn::Mul(hn::Sub(position.x, all(map.origin.x - eye.x)), inverse);
+    const V z = hn::Mul(hn::Sub(position.z, all(map.origin.y - eye.z)), inverse);
+    const V column = hn::Floor(x);
+    const V row = hn::Floor(z);
+    const V zero = all(0.0F);
+    const M inMap = hn::And(hn::And(hn::Ge(column, zero), hn::Lt(column, all(static_cast<float>(map.columns - 1)))),
+                            hn::And(hn::Ge(row, zero), hn::Lt(row, all(static_cast<float>(map.rows - 1)))));
+    if (hn::AllFalse(d, inMap)) return all(1.0F);
+    const VI place = hn::Add(hn::ConvertTo(di, hn::IfThenElseZero(inMap, column)),
+                             hn::Mul(hn::ConvertTo(di, hn::IfThenElseZero(inMap, row)), allOf(map.columns)));
+    const auto at = [&](int off) { return hn::GatherIndex(d, map.values.data(), hn::Add(place, allOf(off))); };
+    const V partX = hn::Sub(x, column);
+    const V open =
+        mixed(mixed(at(0), at(1), partX), mixed(at(map.columns), at(map.columns + 1), partX), hn::Sub(z, row));
+    return hn::IfThenElse(inMap, open, all(1.0F));
+}
+
+V openInGrid(const OpennessGrid& grid, std::size_t direction, const Vec3& place) {
+    const D d;
+    const DI di;
+    const V zero = all(0.0F);
+    const auto within = [&](V corner, int count) {
+        return hn::And(hn::Ge(corner, zero), hn::Lt(corner, all(static_cast<float>(count - 1))));
+    };
+    const V x = hn::Floor(place.x);
+    const V y = hn::Floor(place.y);
+    const V z = hn::Floor(place.z);
+    const M inGrid = hn::And(within(x, grid.cells.x), hn::And(within(y, grid.cells.y), within(z, grid.cells.z)));
+    const auto whole = [&](V corner) { return hn::ConvertTo(di, hn::IfThenElseZero(inGrid, corner)); };
+    const VI columns = allOf(grid.cells.x);
+    const VI first = hn::Add(whole(x), hn::Mul(columns, hn::Add(whole(y), hn::Mul(allOf(grid.cells.y), whole(z)))));
+    const V partX = hn::Sub(place.x, x);
+    const auto pairAt = [&](int off) {
+        const float* values = grid.values[direction].data();
+        return mixed(hn::GatherIndex(d, values, hn::Add(first, allOf(off))),
+                     hn::GatherIndex(d, values, hn::Add(first, allOf(off + 1))), partX);
+    };
+    const int row = grid.cells.x;
+    const int slice = row * grid.cells.y;
+    const V partY = hn::Sub(place.y, y);
+    const V open = mixed(mixed(pairAt(0), pairAt(row), partY), mixed(pairAt(slice), pairAt(slice + row), partY),
+                         hn::Sub(place.z, z));
+    return hn::IfThenElse(inGrid, open, all(1.0F));
+}
+
+/// Sum over the axes of the squared component of the normal times the openness on its side.
+V openOfObstacle(const OpennessGrid& grid, glm::vec3 eye, const Vec3& position, const Vec3& normal) {
+    const D d;
+    const V inverse = all(1.0F / grid.side);
+    const Vec3 from = uniform(grid.origin - eye);
+    const Vec3 at{hn::Mul(hn::Sub(position.x, from.x), inverse), hn::Mul(hn::Sub(position.y, from.y), inverse),
+                  hn::Mul(hn::Sub(position.z, from.z), inverse)};
+    const std::array<V, 3> components = {normal.x, normal.y, normal.z};
+    V open = all(0.0F);
+    for (std::size_t side = 0; side < 6; ++side) {
+        const V component = components[side / 2];
+        const bool isPlus = side % 2 == 0;
+        const M towards = isPlus ? hn::Gt(component, all(0.0F)) : hn::Lt(component, all(0.0F));
+        if (hn::AllFalse(d, towards)) continue;
+        glm::vec3 ahead(0.0F);
+        ahead[static_cast<int>(side / 2)] = isPlus ? kOpennessAhead : -kOpennessAhead;
+        const V value = openInGrid(grid, side, along(at, all(1.0F), uniform(ahead)));
+        open = hn::Add(open, hn::IfThenElseZero(towards, hn::Mul(hn::Mul(component, component), value)));
+    }
+    return open;
+}
+
+V openness(const Obstruction& obstruction, const Surfaces& surfaces, VI seen, const Vec3& position,
+           const Vec3& normal) {
+    const D d;
+    V open = all(1.0F);
+    const M isGround = laneMask(hn::Eq(seen, allOf(kSeesGround)));
+    if (!hn::AllFalse(d, isGround))
+        open = hn::IfThenElse(isGround, openOfGround(*obstruction.ground, obstruction.eye, position), open);
+    const M isObstacle =
+        laneMask(hn::And(hn::Gt(seen, allOf(surfaces.firstObstacle - 1)), hn::Lt(seen, allOf(kSeesField))));
+    if (!hn::AllFalse(d, isObstacle))
+        open = hn::IfThenElse(isObstacle, openOfObstacle(*obstruction.open, obstruction.eye, position, normal), open);
+    return open;
+}
+
+void reach(const Obstruction& obstruction, const Surfaces& surfaces, const SurfacePoints& points, LightReach& found) {
+    const D d;
+    const LightBasis& light = obstruction.light;
+    for (std::size_t place = 0; place < points.count; place += hn::Lanes(d)) {
+        const auto of = [place](const std::array<std::array<float, kTilePixels>, 3>& v) {
+            return Vec3{hn::Load(D(), &v[0][place]), hn::Load(D(), &v[1][place]), hn::Load(D(), &v[2][place])};
+        };
+        const Vec3 position = of(points.position);
+        const Vec3 normal = of(points.normal);
+        const V pixelWidth = hn::Load(d, &points.pixelWidth[place]);
+        const M facing = hn::Gt(dotted(normal, uniform(light.toLight)), all(0.0F));
+        V lit = all(0.0F);
+        if (!hn::AllFalse(d, facing))
+            lit = visibility(obstruction,
+                             {dotted(position, uniform(light.u)), dotted(position, uniform(light.v)),
+                              dotted(position, uniform(light.toLight)), position, normal, pixelWidth, facing});
+        hn::Store(lit, d, &found.light[place]);
+        const VI seen = hn::Load(DI(), &points.seen[place]);
+        const bool asks = obstruction.open != nullptr;
+        hn::Store(asks ? openness(obstruction, surfaces, seen, position, normal) : all(1.0F), d, &found.sky[place]);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace render {
+
+HWY_EXPORT(reach);
+
+void reach(const Obstruction& obstruction, const Surfaces& surfaces, const SurfacePoints& points, LightReach& found) {
+    HWY_DYNAMIC_DISPATCH(reach)(obstruction, surfaces, points, found);
+}
+
+}  // namespace render
+
+#endif

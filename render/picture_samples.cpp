@@ -1,0 +1,335 @@
+// Tile by tile: rays, what they see, and which pixels show more than one thing.
+#include "render/picture_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include <tbb/parallel_for.h>
+
+#include "render/line_cover.h"
+#include "render/tile_class.h"
+
+namespace render {
+
+namespace {
+
+constexpr std::size_t kMostFragments = 4;
+
+// Light and sky reach a fragment, which no sample shows yet.
+constexpr auto kAllReaches = static_cast<std::int32_t>(0xfffffff0U);
+
+/// The edge pixels of one tile by the number of their fragments, whose places are counted from the tile's first.
+struct TileEdges {
+    std::array<std::vector<EdgePixel>, kMostFragments> pixels;
+    std::array<std::vector<Fragment>, kMostFragments> fragments;
+    int classBits = 0;
+};
+
+// Without branches, so that compilers turn loops over it into lanes.
+int kindOf(std::int32_t seen) {
+    const int field = seen >= kSeesField ? kFieldBit : 0;
+    const int box = seen >= kSeesBox && field == 0 ? kBoxBit : 0;
+    const int sphere = seen >= 0 && seen < kSeesBox ? kSphereBit : 0;
+    const int ground = seen == kSeesGround ? kGroundBit : 0;
+    const int background = seen == kSeesBackground ? kBackgroundBit : 0;
+    return field | box | sphere | ground | background;
+}
+
+glm::vec2 cornerOf(const CellLists& tiles, std::size_t tile) {
+    const auto columns = static_cast<std::size_t>(tiles.columns);
+    return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
+}
+
+/// A ray through each pixel of a tile, row by row; first: the place of the first.
+void placeRays(glm::vec2 first, std::array<float, kTilePixels>& x, std::array<float, kTilePixels>& y) {
+    for (std::size_t row = 0; row < kTileSize; ++row) {
+        for (std::size_t column = 0; column < kTileSize; ++column) {
+            x[row * kTileSize + column] = first.x + static_cast<float>(static_cast<int>(column));
+            y[row * kTileSize + column] = first.y + static_cast<float>(static_cast<int>(row));
+        }
+    }
+}
+
+bool hasItems(const CellLists& lists, std::size_t tile) {
+    return lists.begin[tile + 1] > lists.begin[tile];
+}
+
+/// The samples of one tile.
+class TileSamples {
+ public:
+    TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile)
+        : contents_(contents), tile_(tile), samples_(rays_.data(), offsets.size()) {
+        const glm::vec2 corner = cornerOf(*contents.solids.tiles, tile);
+        for (std::size_t s = 0; s < offsets.size(); ++s)
+            placeRays(corner + 0.5F + offsets[s], samples_[s].x, samples_[s].y);
+    }
+
+    void look() {
+        if (fieldFills()) {
+            samples_ = samples_.first(1);
+            samples_[0].depth.fill(kFarDepth);
+            lookAtField(0);
+            return;
+        }
+        const Flats flats{contents_.ground[tile_].kind != GroundKind::none, contents_.boxes[tile_] != 0};
+        for (std::size_t s = 0; s < samples_.size(); ++s) {
+            lookAtFlats(contents_.solids, flats, samples_[s]);
+            if (contents_.field != nullptr && contents_.field->slots[tile_] >= 0) lookAtField(s);
+        }
+        if (hasItems(*contents_.solids.tiles, tile_)) lookAtSpheres(contents_.solids, tile_, samples_);
+    }
+
+    /// Finds the pixels that show several things; returns the class of the others.
+    int resolve(TileEdges& edges) const {
+        const std::array<std::int32_t, kTilePixels>& first = samples_[0].seen;
+        std::array<std::int32_t, kTilePixels> differs{};
+        for (std::size_t s = 1; s < samples_.size(); ++s)
+            for (std::size_t k = 0; k < kTilePixels; ++k) differs[k] |= samples_[s].seen[k] ^ first[k];
+        int bits = 0;
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            const int agreed = differs[k] == 0 ? -1 : 0;
+            bits |= kindOf(first[k]) & agreed;
+        }
+        const glm::ivec2 corner(cornerOf(*contents_.solids.tiles, tile_));
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            if (differs[k] == 0) continue;
+            const glm::ivec2 at = corner + glm::ivec2(k % kTileSize, k / kTileSize);
+            if (at.x < contents_.solids.frame.width && at.y < contents_.solids.frame.height)
+                addEdge(k, at.x + 65536 * at.y, edges);
+        }
+        return bits;
+    }
+
+    /// What pixels that show one thing show.
+    std::span<const std::int32_t> seen() const { return samples_[0].seen; }
+
+    std::span<const TileRays> rays() const { return samples_; }
+
+ private:
+    std::size_t fieldSlot() const { return static_cast<std::size_t>(contents_.field->slots[tile_]) * kBlockRays; }
+
+    /// Whether the tile shows nothing but metaballs, without an outline: one sample is as good as four.
+    bool fieldFills() const {
+        if (contents_.field == nullptr || contents_.field->slots[tile_] < 0) return false;
+        if (hasItems(*contents_.solids.tiles, tile_) || contents_.boxes[tile_] != 0) return false;
+        const auto samples = std::span(contents_.field->samples).subspan(fieldSlot(), kTilePixels);
+        float farthest = 0.0F;
+        for (const FieldSample& sample : samples) {
+            if (sample.depthBits == 0 || sample.extra != 0) return false;
+            farthest = std::max(farthest, std::bit_cast<float>(sample.depthBits));
+        }
+        return farthest < contents_.ground[tile_].nearest;
+    }
+
+    void lookAtField(std::size_t s) {
+        const FieldPicture& field = *contents_.field;
+        const std::size_t slot = fieldSlot();
+        TileRays& rays = samples_[s];
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            const std::uint32_t extra = field.samples[slot + k].extra;
+            const std::size_t place = samples_.size() == 1 || extra == 0 ? slot + k : extra + s;
+            const float depth = std::bit_cast<float>(field.samples[place].depthBits);
+            if (!(depth > 0.0F && depth < rays.depth[k])) continue;
+            rays.depth[k] = depth;
+            rays.seen[k] = kSeesField + static_cast<std::int32_t>(place);
+        }
+    }
+
+    void addEdge(std::size_t k, std::int32_t place, TileEdges& edges) const {
+        std::array<Fragment, kMostFragments> found;
+        std::size_t count = 0;
+        for (std::size_t s = 0; s < samples_.size(); ++s) {
+            const std::int32_t seen = samples_[s].seen[k];
+            std::size_t f = 0;
+            while (f < count && found[f].seen != seen) ++f;
+            if (f == count) found[count++] = {seen, kAllReaches};
+            found[f].reach |= 1 << s;
+        }
+        std::vector<Fragment>& fragments = edges.fragments[count - 1];
+        EdgePixel pixel;
+        pixel.place = place;
+        pixel.first = static_cast<std::int32_t>(fragments.size());
+        pixel.count = static_cast<std::int32_t>(count);
+        edges.pixels[count - 1].push_back(pixel);
+        for (std::size_t f = 0; f < count; ++f) {
+            fragments.push_back(found[f]);
+            edges.classBits |= kindOf(found[f].seen);
+        }
+    }
+
+    const TileContents& contents_;
+    std::size_t tile_;
+    std::array<TileRays, 4> rays_;
+    std::span<TileRays> samples_;
+};
+
+/// What a tile shows that no ray need be cast for: background, or ground; 0 for any other.
+int uniformClass(const TileContents& contents, std::size_t tile) {
+    if (hasItems(*contents.solids.tiles, tile) || contents.boxes[tile] != 0) return 0;
+    if (contents.field != nullptr && contents.field->slots[tile] >= 0) return 0;
+    const GroundKind ground = contents.ground[tile].kind;
+    if (ground == GroundKind::horizon) return 0;
+    return ground == GroundKind::none ? kBackgroundBit : kGroundBit;
+}
+
+bool isDimmed(int bits, GroundKind ground) {
+    if ((bits & (kSphereBit | kFieldBit | kBoxBit)) != 0) return true;
+    return (bits & kGroundBit) != 0 && (ground == GroundKind::dimmed || ground == GroundKind::horizon);
+}
+
+std::int32_t packedReach(const LightReach& found, std::size_t k) {
+    const auto bits = [](float share) { return static_cast<std::int32_t>(share * 16383.0F + 0.5F); };
+    return bits(found.light[k]) << 4 | bits(found.sky[k]) << 18;
+}
+
+/// Writes what a tile's pixels show to the picture's rows. where: of the sample within the pixel, from its corner.
+void putPixels(const TileContents& contents, std::size_t tile, std::span<const std::int32_t> seen, glm::vec2 where,
+               bool isDimmed, std::span<Fragment> pixels) {
+    const CellLists& tiles = *contents.solids.tiles;
+    SurfacePoints points;
+    LightReach found;
+    const bool asks = isDimmed && contents.obstruction != nullptr;
+    if (asks) {
+        points.count = kTilePixels;
+        std::copy(seen.begin(), seen.end(), points.seen.begin());
+        placeRays(cornerOf(tiles, tile) + where, points.x, points.y);
+        placePoints(contents.surfaces, points);
+        reach(*contents.obstruction, contents.surfaces, points, found);
+    }
+    const auto columns = static_cast<std::size_t>(tiles.columns);
+    const std::size_t rowLength = columns * kTileSize;
+    const std::size_t first = tile / columns * kTileSize * rowLength + tile % columns * kTileSize;
+    for (std::size_t row = 0; row < kTileSize; ++row) {
+        Fragment* out = &pixels[first + row * rowLength];
+        const std::size_t begin = row * kTileSize;
+        for (std::size_t k = 0; k < kTileSize; ++k)
+            out[k] = {seen[begin + k], asks ? packedReach(found, begin + k) : kAllReaches};
+    }
+}
+
+glm::vec2 middleOf(int samples) {
+    glm::vec2 sum(0.0F);
+    float count = 0.0F;
+    for (std::size_t s = 0; s < kFourSamples.size(); ++s) {
+        if ((samples >> s & 1) == 0) continue;
+        sum += kFourSamples[s];
+        count += 1.0F;
+    }
+    return sum / count;
+}
+
+/// Adds what light and sky reach the fragments of these pixels.
+void reachEdges(const TileContents& contents, std::span<const EdgePixel> pixels, std::span<Fragment> fragments) {
+    SurfacePoints points;
+    LightReach found;
+    std::size_t begun = 0;  // the first fragment of those in `points`
+    const auto flush = [&] {
+        placePoints(contents.surfaces, points);
+        reach(*contents.obstruction, contents.surfaces, points, found);
+        for (std::size_t k = 0; k < points.count; ++k) {
+            std::int32_t& word = fragments[begun + k].reach;
+            word = packedReach(found, k) | (word & 15);
+        }
+        begun += points.count;
+        points.count = 0;
+    };
+    for (const EdgePixel& pixel : pixels) {
+        const glm::vec2 middle = glm::vec2(pixel.place % 65536, pixel.place / 65536) + 0.5F;
+        for (std::int32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
+            const Fragment& fragment = fragments[static_cast<std::size_t>(f)];
+            const glm::vec2 at = middle + middleOf(fragment.reach & 15);
+            points.seen[points.count] = fragment.seen;
+            points.x[points.count] = at.x;
+            points.y[points.count] = at.y;
+            if (++points.count == kTilePixels) flush();
+        }
+    }
+    if (points.count > 0) flush();
+}
+
+/// Puts the tiles' edge pixels side by side, those with few fragments first.
+void joinEdges(const std::vector<TileEdges>& tiles, PictureSamples& samples) {
+    std::size_t pixels = 0;
+    std::size_t fragments = 0;
+    samples.edgeClass = 0;
+    for (const TileEdges& tile : tiles) {
+        for (const std::vector<EdgePixel>& some : tile.pixels) pixels += some.size();
+        for (const std::vector<Fragment>& some : tile.fragments) fragments += some.size();
+        samples.edgeClass |= static_cast<std::uint8_t>(tile.classBits);
+    }
+    samples.edges.clear();
+    samples.fragments.clear();
+    samples.edges.reserve(pixels);
+    samples.fragments.reserve(fragments);
+    for (std::size_t count = 0; count < kMostFragments; ++count) {
+        for (std::size_t k = 0; k < tiles.size(); ++k) {
+            const auto base = static_cast<std::int32_t>(samples.fragments.size());
+            for (EdgePixel pixel : tiles[k].pixels[count]) {
+                pixel.first += base;
+                if (samples.lineSlots[k] >= 0)
+                    pixel.line = samples.lineSlots[k] * static_cast<std::int32_t>(kTilePixels) +
+                                 pixel.place / 65536 % kTileSize * kTileSize + pixel.place % kTileSize;
+                samples.edges.push_back(pixel);
+            }
+            const std::vector<Fragment>& some = tiles[k].fragments[count];
+            samples.fragments.insert(samples.fragments.end(), some.begin(), some.end());
+        }
+    }
+}
+
+/// Takes the samples of one tile; returns its class.
+int takeTile(const TileContents& contents, SampleOffsets offsets, std::size_t tile, PictureSamples& samples,
+             TileEdges& edges) {
+    const GroundKind ground = contents.ground[tile].kind;
+    const std::int32_t lineSlot = samples.lineSlots[tile];
+    const glm::vec2 where = 0.5F + (offsets.size() == 1 ? offsets[0] : glm::vec2(0.0F));
+    int bits = uniformClass(contents, tile);
+    if (bits != 0 && lineSlot < 0) {
+        const bool dims = isDimmed(bits, ground);
+        if (!dims && !contents.plainToo) return bits;
+        std::array<std::int32_t, kTilePixels> seen;
+        seen.fill(bits == kGroundBit ? kSeesGround : kSeesBackground);
+        putPixels(contents, tile, seen, where, dims, samples.pixels);
+        return dims ? bits | kDimBit : bits;
+    }
+    TileSamples here(contents, offsets, tile);
+    here.look();
+    bits = here.resolve(edges);
+    const bool dims = isDimmed(bits, ground);
+    putPixels(contents, tile, here.seen(), where, dims, samples.pixels);
+    if (isDimmed(edges.classBits, ground)) {
+        edges.classBits |= kDimBit;
+        if (contents.obstruction != nullptr)
+            for (std::size_t count = 0; count < kMostFragments; ++count)
+                reachEdges(contents, edges.pixels[count], edges.fragments[count]);
+    }
+    if (lineSlot >= 0) {
+        const LineCover over = lineCover(contents.solids, contents.lines, tile, here.rays(), where);
+        std::copy(over.begin(), over.end(), samples.lines.begin() + lineSlot * std::ptrdiff_t{kTilePixels});
+        bits |= kLineBit;
+        edges.classBits |= kLineBit;
+    }
+    return dims ? bits | kDimBit : bits;
+}
+
+}  // namespace
+
+void takeSamples(const TileContents& contents, SampleOffsets offsets, PictureSamples& samples) {
+    const CellLists& tiles = *contents.solids.tiles;
+    const std::size_t tileCount = tiles.begin.size() - 1;
+    samples.pixels.resize(tileCount * kTilePixels);
+    samples.classes.resize(tileCount);
+    samples.lineSlots.assign(tileCount, -1);
+    std::int32_t lineSlots = 0;
+    for (std::size_t tile = 0; tile < tileCount; ++tile)
+        if (hasItems(contents.lines.tiles, tile)) samples.lineSlots[tile] = lineSlots++;
+    samples.lines.resize(static_cast<std::size_t>(lineSlots) * kTilePixels);
+    std::vector<TileEdges> edges(tileCount);
+    tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
+        samples.classes[tile] = static_cast<std::uint8_t>(takeTile(contents, offsets, tile, samples, edges[tile]));
+    });
+    joinEdges(edges, samples);
+}
+
+}  // namespace render
