@@ -64,8 +64,8 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
         for (const DrawTimes& time : times) values.push_back(time.*stage);
         return median(values);
     };
-    return {of(&DrawTimes::bin),  of(&DrawTimes::occlusion), of(&DrawTimes::shadow),
-            of(&DrawTimes::cast), of(&DrawTimes::shade),     of(&DrawTimes::readBack)};
+    return {of(&DrawTimes::bin),  of(&DrawTimes::occlusion), of(&DrawTimes::shadow),  of(&DrawTimes::cast),
+            of(&DrawTimes::look), of(&DrawTimes::shade),     of(&DrawTimes::readBack)};
 }
 
 /// Seconds a frame of drawing frames while the one before is encoded, as the render loop does.

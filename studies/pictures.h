@@ -11,6 +11,7 @@
 #include "render/draw_times.h"
 #include "render/view.h"
 #include "studies/picture_error.h"
+#include "studies/skins.h"
 
 namespace studies {
 
@@ -57,7 +58,7 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, const P
 std::string picturesCsv(const std::vector<PictureRow>& rows);
 
 /// gnuplot scripts: milliseconds a frame against particles, and error against milliseconds.
-std::string pictureTimesPlot(const std::vector<PictureRow>& rows);
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SkinRow>& skins);
 std::string pictureErrorsPlot(const std::vector<PictureRow>& rows);
 
 }  // namespace studies

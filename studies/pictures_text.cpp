@@ -38,7 +38,8 @@ std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& po
 
 std::string picturesCsv(const std::vector<PictureRow>& rows) {
     std::string csv =
-        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,shade_ms,read_back_ms,png_ms,mp4_"
+        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,look_ms,shade_ms,read_back_ms,png_"
+        "ms,mp4_"
         "ms,"
         "draw_ms,draw_at_rest_ms,with_png_ms,with_mp4_ms,baseline_ms,ratio,rmse,ssim,wrong_hits,depth_error_radii,"
         "normal_error_"
@@ -46,9 +47,9 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
     for (const PictureRow& row : rows) {
         csv += fmt::format("{},{},{},{},{}", nameOf(row.style), row.particles, row.size.width, row.size.height,
                            nameOf(row.quality));
-        for (const double seconds :
-             {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.shade,
-              row.stages.readBack, row.png, row.mp4, row.draw, row.atRest, row.withPng, row.withMp4, row.baseline})
+        for (const double seconds : {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast,
+                                     row.stages.look, row.stages.shade, row.stages.readBack, row.png, row.mp4, row.draw,
+                                     row.atRest, row.withPng, row.withMp4, row.baseline})
             csv += fmt::format(",{:.4g}", 1e3 * seconds);
         csv += fmt::format(",{:.3g},{:.4g},{:.5f},{:.3g},{:.3g},{:.3g}\n", row.ratio(), row.error.rmse, row.error.ssim,
                            row.error.wrongHits, row.error.depth, row.error.normal);
@@ -56,7 +57,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
     return csv;
 }
 
-std::string pictureTimesPlot(const std::vector<PictureRow>& rows) {
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SkinRow>& skins) {
     std::vector<Curve> curves =
         curvesOf(rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw); });
     Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2", ""};
@@ -64,6 +65,10 @@ std::string pictureTimesPlot(const std::vector<PictureRow>& rows) {
         if (row.style == render::Style::spheres && row.quality == render::Quality::draft && firstSize(rows, row))
             quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
     curves.push_back(quads);
+    Curve plain{"metaballs, normal, plain skin", "linespoints pointtype 4 linecolor rgb '#e69f00' dashtype 3", ""};
+    for (const SkinRow& row : skins)
+        if (row.skin == render::Skin::plain) plain.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw);
+    curves.push_back(plain);
     return std::string(kPlotFrame) +
            fmt::format(
                "set xlabel \"particles\"\nset ylabel \"milliseconds a frame\"\n"

@@ -28,14 +28,14 @@ std::string timeTable(const std::vector<studies::PictureRow>& rows) {
     for (const studies::PictureRow& row : rows) {
         Cells cells = subjectOf(row);
         const render::DrawTimes& t = row.stages;
-        for (const double seconds : {t.bin, t.occlusion, t.shadow, t.cast, t.shade, t.readBack, row.png, row.mp4,
-                                     row.draw, row.atRest, row.withPng, row.withMp4, row.baseline})
+        for (const double seconds : {t.bin, t.occlusion, t.shadow, t.cast, t.look, t.shade, t.readBack, row.png,
+                                     row.mp4, row.draw, row.atRest, row.withPng, row.withMp4, row.baseline})
             cells.push_back(milliseconds(seconds));
         cells.push_back(fmt::format("{:.2f}", row.ratio()));
         table_.push_back(cells);
     }
-    return table({"style", "particles", "size", "quality", "bin", "occlusion", "shadow", "cast", "shade", "read back",
-                  "PNG", "MP4", "frame", "at rest", "with PNG", "with MP4", "quads", "frame over quads"},
+    return table({"style", "particles", "size", "quality", "bin", "occlusion", "shadow", "cast", "look", "shade",
+                  "read back", "PNG", "MP4", "frame", "at rest", "with PNG", "with MP4", "quads", "frame over quads"},
                  table_);
 }
 
@@ -64,6 +64,15 @@ std::string flickerTable(const std::vector<studies::FlickerRow>& rows) {
     return table({"style", "quality", "change", "jerk"}, table_);
 }
 
+std::string skinTable(const std::vector<studies::SkinRow>& rows) {
+    std::vector<Cells> table_;
+    for (const studies::SkinRow& row : rows)
+        table_.push_back({studies::nameOf(row.skin), fmt::format("{}", row.particles), milliseconds(row.draw),
+                          fmt::format("{:.3f}", row.volume), fmt::format("{:.3f}", row.lone),
+                          fmt::format("{:.2f}", row.bumps)});
+    return table({"skin", "particles", "frame", "volume", "lone volume", "bumps, degrees"}, table_);
+}
+
 }  // namespace
 
 std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command) {
@@ -90,6 +99,12 @@ std::string picturesPage(const PictureResults& results, const PicturePlots& plot
         "between one frame and the next (<em>change</em>), and between one such difference and the next "
         "(<em>jerk</em>: what flickers rather than moves).</p>\n" +
         flickerTable(results.flicker);
+    html +=
+        "<h2>Skins of metaballs</h2>\n<p>Frames of normal quality; the volume within the surface of a level pool over "
+        "its "
+        "particles' cells, and within that of a particle alone over its sphere; the tilt of the pool's normals, "
+        "RMS.</p>\n" +
+        skinTable(results.skins);
     return html + "</body></html>\n";
 }
 

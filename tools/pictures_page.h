@@ -6,6 +6,7 @@
 
 #include "studies/flicker.h"
 #include "studies/pictures.h"
+#include "studies/skins.h"
 
 namespace tools {
 
@@ -19,6 +20,7 @@ struct PicturePlots {
 struct PictureResults {
     std::vector<studies::PictureRow> rows;
     std::vector<studies::FlickerRow> flicker;
+    std::vector<studies::SkinRow> skins;
 };
 
 std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command);

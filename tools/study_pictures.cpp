@@ -109,12 +109,15 @@ void study(const PicturesOptions& options) {
     onThreads(threads, [&] {
         results.rows = studies::measurePictures(settings, reporter(options.run.talk()));
         results.flicker = studies::measureFlicker(flickerSettingsFor(options));
+        results.skins = studies::measureSkins({settings.particles, settings.sizes.front(), settings.frames});
     });
     const std::vector<studies::PictureRow>& rows = results.rows;
     fs::remove(settings.videoPath);
     writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
     writeFile(folder / "flicker.csv", studies::flickerCsv(results.flicker));
-    const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows)), drawPlot(studies::pictureErrorsPlot(rows))};
+    writeFile(folder / "skins.csv", studies::skinsCsv(results.skins));
+    const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows, results.skins)),
+                             drawPlot(studies::pictureErrorsPlot(rows))};
     writeFile(folder / "times.svg", plots.times);
     writeFile(folder / "errors.svg", plots.errors);
     std::string command = fmt::format("globular study pictures{}", options.quick ? " --quick" : "");
@@ -127,6 +130,9 @@ void study(const PicturesOptions& options) {
     for (const studies::FlickerRow& row : results.flicker)
         fmt::print("{} {}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n", studies::nameOf(row.style),
                    studies::nameOf(row.quality), row.change, row.jerk);
+    for (const studies::SkinRow& row : results.skins)
+        fmt::print("{} skin, {} particles: {:.4g} ms, volume {:.3f}, bumps {:.2f} degrees\n",
+                   studies::nameOf(row.skin), row.particles, 1e3 * row.draw, row.volume, row.bumps);
     fmt::print("all of it: {}\n", (folder / "index.html").string());
 }
 
