@@ -101,21 +101,31 @@ class Group {
         start_ = next_ == end_ ? 0.0F : std::max(0.0F, nearDepth(next_));
     }
 
-    /// Walks until every lane of `open` has met the surface or left the balls behind; returns the depth, negative
-    /// without a hit.
-    V cast(M open) {
+    /// Walks until every lane of `open` has met the surface, left the balls behind or come to its end; returns the
+    /// depth, negative without a hit.
+    V cast(M open, V from, V to) {
         const D d;
         const V threshold = hn::Set(d, cast_.threshold);
-        long k = 0;
-        float t = start_;
+        const float earliest = hn::GetLane(hn::MinOfLanes(d, from));
+        long k = std::max(0L, static_cast<long>(std::floor((earliest - start_) / cast_.step)));
+        float t = depthOf(k);
+        begin_ = t;
         admit(t);
         Sample here = sampleAt(hn::Set(d, t));
-        M found = hn::And(open, hn::Ge(here.value.field, threshold));
         Sample low = here;
         Sample high = here;
-        open = hn::AndNot(found, open);
-        most_ = here.value.field;
-        while (!hn::AllFalse(d, open)) {
+        M found = hn::FirstN(d, 0);
+        most_ = hn::Zero(d);
+        while (true) {
+            // Rays that begin within the surface.
+            const M inside = hn::And(hn::And(open, hn::Le(from, hn::Set(d, t))), hn::Ge(here.value.field, threshold));
+            if (!hn::AllFalse(d, inside)) {
+                low = chosen(inside, here, low);
+                high = chosen(inside, here, high);
+                found = hn::Or(found, inside);
+                open = hn::AndNot(inside, open);
+            }
+            if (hn::AllFalse(d, open)) break;
             if (first_ == near_.count) {
                 if (!leap(k)) break;
                 t = depthOf(k);
@@ -126,8 +136,9 @@ class Group {
             const Sample there = sampleAt(hn::Set(d, ahead));
             most_ = hn::Max(most_, hn::IfThenElseZero(open, there.value.field));
             Sample reached = there;
-            M crossed = hn::And(open, hn::Ge(there.value.field, threshold));
-            const M suspect = hn::AndNot(crossed, hn::And(open, mayPeak(here.value, there.value, ahead - t)));
+            const M begun = hn::And(open, hn::Le(from, hn::Set(d, t)));
+            M crossed = hn::And(begun, hn::Ge(there.value.field, threshold));
+            const M suspect = hn::AndNot(crossed, hn::And(begun, mayPeak(here.value, there.value, ahead - t)));
             if (!hn::AllFalse(d, suspect)) {
                 const Sample peak = sampleAt(peakBetween(t, ahead));
                 const M sliver = hn::And(suspect, hn::Ge(peak.value.field, threshold));
@@ -137,8 +148,8 @@ class Group {
             low = chosen(crossed, here, low);
             high = chosen(crossed, reached, high);
             found = hn::Or(found, crossed);
-            open = hn::AndNot(crossed, open);
             t = ahead;
+            open = hn::AndNot(crossed, hn::And(open, hn::Le(hn::Set(d, t), to)));
             here = there;
             if (hn::AllFalse(d, found)) firstFound_ = first_;
             pass(t);
@@ -237,6 +248,7 @@ class Group {
             const std::uint32_t index = cast_.tiles->items[next_];
             const FieldBall& ball = cast_.balls[index];
             if (ball.center.z - ball.reach > t) break;
+            if (ball.center.z + ball.reach < begin_) continue;
             const V x = hn::Sub(hn::Set(d, ball.center.x), originX_);
             const V y = hn::Sub(hn::Set(d, ball.center.y), originY_);
             const V z = hn::Set(d, ball.center.z);
@@ -380,7 +392,8 @@ class Group {
     std::uint32_t end_;
     V directionX_, directionY_, originX_, originY_, length_, inverseSquare_;
     V most_;
-    float start_ = 0.0F;
+    float start_ = 0.0F;  // where the tile's samples begin
+    float begin_ = 0.0F;  // where these rays do
 };
 
 void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
@@ -390,7 +403,7 @@ void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
     for (std::size_t place = 0; place < block.count; place += lanes) {
         const std::size_t left = std::min(lanes, block.count - place);
         Group group(cast, tile, near, &block.x[place], &block.y[place]);
-        const V depth = group.cast(hn::FirstN(d, left));
+        const V depth = group.cast(hn::FirstN(d, left), hn::Load(d, &block.from[place]), hn::Load(d, &block.to[place]));
         hn::StoreU(depth, d, &block.depth[place]);
         hn::StoreU(group.most(), d, &block.most[place]);
         if (!cast.depthOnly && !hn::AllTrue(d, hn::Lt(depth, hn::Zero(d)))) group.look(depth, place, block);

@@ -41,6 +41,8 @@ inline constexpr std::size_t kBlockRays = 256;
 struct RayBlock {
     alignas(64) std::array<float, kBlockRays> x;
     alignas(64) std::array<float, kBlockRays> y;
+    alignas(64) std::array<float, kBlockRays> from;  ///< view depths between which the surface is looked for
+    alignas(64) std::array<float, kBlockRays> to;
     std::size_t count = 0;
     alignas(64) std::array<float, kBlockRays> depth;                  ///< view depth of the hit; negative: none
     alignas(64) std::array<float, kBlockRays> most;                   ///< the greatest sample of the field on the way

@@ -84,6 +84,8 @@ glm::vec2 cornerOfTile(const CellLists& tiles, std::size_t tile) {
     return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
 }
 
+constexpr float kEndless = std::numeric_limits<float>::infinity();
+
 /// Rays through these pixels of a tile, in this order.
 template <typename Places>
 void placeRays(RayBlock& block, glm::vec2 corner, const Places& places, glm::vec2 offset) {
@@ -91,6 +93,8 @@ void placeRays(RayBlock& block, glm::vec2 corner, const Places& places, glm::vec
     for (std::size_t k = 0; k < places.size(); ++k) {
         block.x[k] = corner.x + static_cast<float>(places[k] % kTileSize) + 0.5F + offset.x;
         block.y[k] = corner.y + static_cast<float>(places[k] / kTileSize) + 0.5F + offset.y;
+        block.from[k] = 0.0F;
+        block.to[k] = kEndless;
     }
 }
 
@@ -170,6 +174,12 @@ void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness
     });
 }
 
+/// Where a pixel's extra rays look for the surface.
+struct DepthRange {
+    float from = 0.0F;
+    float to = kEndless;
+};
+
 // The depths of a tile's pixels and of those around them; 0 where there is no surface.
 class Depths {
  public:
@@ -194,6 +204,21 @@ class Depths {
                 for (std::ptrdiff_t k = 0; k < kTileSize; ++k) out[k] = out[k] | differs(at[k], at[k + step], jump);
         }
         return found;
+    }
+
+    // From a radius before the nearest of what the pixel and its neighbours show; where one of them shows nothing, to
+    // two radii behind the farthest: what extra rays see is what the rays around them see.
+    DepthRange around(std::uint8_t place, float radius) const {
+        const std::ptrdiff_t at = (place / kTileSize + 1) * kSide + place % kTileSize + 1;
+        DepthRange range{kEndless, 0.0F};
+        bool isOpen = false;
+        for (const std::ptrdiff_t step : {std::ptrdiff_t{0}, std::ptrdiff_t{1}, std::ptrdiff_t{-1}, kSide, -kSide}) {
+            const float depth = depths_[static_cast<std::size_t>(at + step)];
+            isOpen = isOpen || depth <= 0.0F;
+            range.from = depth > 0.0F ? std::min(range.from, depth - radius) : range.from;
+            range.to = std::max(range.to, depth + 2.0F * radius);
+        }
+        return isOpen ? range : DepthRange{range.from, kEndless};
     }
 
  private:
@@ -226,7 +251,8 @@ struct TileExtras {
     std::vector<std::uint32_t> open;
 };
 
-TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::uint8_t> pixels) {
+TileExtras castExtras(const FieldCast& cast, const Depths& depths, float radius, std::size_t tile,
+                      std::vector<std::uint8_t> pixels) {
     TileExtras extras;
     const glm::vec2 corner = cornerOfTile(*cast.tiles, tile);
     RayBlock block;
@@ -240,7 +266,10 @@ TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::
         block.count = 0;
     };
     for (const std::uint8_t pixel : pixels) {
+        const DepthRange range = depths.around(pixel, radius);
         for (const glm::vec2 offset : kFourSamples) {
+            block.from[block.count] = range.from;
+            block.to[block.count] = range.to;
             block.x[block.count] = corner.x + static_cast<float>(pixel % kTileSize) + 0.5F + offset.x;
             block.y[block.count] = corner.y + static_cast<float>(pixel / kTileSize) + 0.5F + offset.y;
             ++block.count;
@@ -252,15 +281,17 @@ TileExtras castExtras(const FieldCast& cast, std::size_t tile, std::vector<std::
     return extras;
 }
 
-void addExtras(const FieldCast& cast, float jump, FieldPicture& picture) {
+void addExtras(const FieldCast& cast, float radius, FieldPicture& picture) {
+    const float jump = 0.5F * radius;
     std::vector<TileExtras> extras(picture.slots.size());
     tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
         if (picture.slots[tile] < 0) return;
-        const std::array<bool, kBlockRays> outlines = Depths(picture, *cast.tiles, tile).outlines(jump);
+        const Depths depths(picture, *cast.tiles, tile);
+        const std::array<bool, kBlockRays> outlines = depths.outlines(jump);
         std::vector<std::uint8_t> pixels;
         for (const std::uint8_t place : kZCurve)
             if (outlines[place]) pixels.push_back(place);
-        if (!pixels.empty()) extras[tile] = castExtras(cast, tile, std::move(pixels));
+        if (!pixels.empty()) extras[tile] = castExtras(cast, depths, radius, tile, std::move(pixels));
     });
     for (std::size_t tile = 0; tile < extras.size(); ++tile) {
         const std::size_t base = static_cast<std::size_t>(std::max(picture.slots[tile], 0)) * kBlockRays;
@@ -355,7 +386,7 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampl
             putSamples(cast, block, kZCurve, tile, picture);
         });
     }
-    if (sampling.extraAtOutlines) addExtras(cast, 0.5F * field.smallestRadius, picture);
+    if (sampling.extraAtOutlines) addExtras(cast, field.smallestRadius, picture);
     forgetEmptyTiles(picture);
 }
 
