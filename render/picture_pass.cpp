@@ -29,28 +29,6 @@ std::span<const std::byte> bytesOf(const std::vector<T>& items) {
     return std::as_bytes(std::span<const T>(items));
 }
 
-DrawnSpheres drawnSpheres(const View& view, std::span<const Openness> open) {
-    DrawnSpheres drawn;
-    const auto add = [&](glm::vec3 center, float radius, glm::vec3 color, float particle) {
-        drawn.spheres.push_back({center - view.camera.eye, radius});
-        drawn.colors.emplace_back(color, particle);
-    };
-    if (view.style == Style::spheres) {
-        for (std::size_t k = 0; k < view.particles.size(); ++k) {
-            const Sphere& s = view.particles[k];
-            if (!(s.radius > 0.0F)) continue;
-            add(s.center, s.radius, s.color, 1.0F);
-            if (open.empty()) continue;
-            drawn.open.emplace_back(open[k][0], open[k][2], open[k][4], 0.0F);
-            drawn.open.emplace_back(open[k][1], open[k][3], open[k][5], 0.0F);
-        }
-    }
-    drawn.firstObstacle = static_cast<std::int32_t>(drawn.spheres.size());
-    for (const SphereObstacle& s : view.sphereObstacles)
-        if (s.radius > 0.0F) add(s.center, s.radius, s.color, 0.0F);
-    return drawn;
-}
-
 // Whether any term of the shading model looks at openness.
 bool asksForOpenness(const View& view) {
     const Surface& surface = view.surface;
@@ -75,10 +53,9 @@ PicturePass::PicturePass(const Gl& gl)
       edgePixels_(gl, "pixels on outlines", GL_RGBA32I, 16),
       fragments_(gl, "things in pixels on outlines", GL_RG32I, 8),
       spheres_(gl, "spheres", GL_RGBA32F, 16),
-      sphereColors_(gl, "sphere colours", GL_RGBA32F, 16),
+      sphereLooks_(gl, "looks of spheres", GL_RGBA32UI, 16),
       fieldSamples_(gl, "metaball samples", GL_RGBA32UI, 16),
       lines_(gl, "pixels in tiles with lines", GL_RGBA32F, 16),
-      sphereOpen_(gl, "openness of spheres", GL_RGBA32F, 16),
       fieldOpen_(gl, "openness of metaball samples", GL_R32UI, 4) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
@@ -129,8 +106,7 @@ void PicturePass::binSpheres(const View& view) {
     spherePixels_ = touchedPixels(frame_, viewSpheres_);
     sphereTiles_ = binToTiles(frame_, viewSpheres_, spherePixels_);
     spheres_.upload(bytesOf(drawn_.spheres));
-    sphereColors_.upload(bytesOf(drawn_.colors));
-    sphereOpen_.upload(bytesOf(drawn_.open));
+    sphereLooks_.upload(bytesOf(drawn_.looks));
 }
 
 void PicturePass::castLight(const View& view) {
@@ -293,10 +269,9 @@ void PicturePass::bindAll() const {
     edgePixels_.bind(kEdgePixelsUnit);
     fragments_.bind(kFragmentsUnit);
     spheres_.bind(kSpheresUnit);
-    sphereColors_.bind(kSphereColorsUnit);
+    sphereLooks_.bind(kSphereLooksUnit);
     fieldSamples_.bind(kFieldSamplesUnit);
     lines_.bind(kLinesUnit);
-    sphereOpen_.bind(kSphereOpenUnit);
     fieldOpen_.bind(kFieldOpenUnit);
 }
 

@@ -9,6 +9,7 @@
 
 #include "render/camera_frame.h"
 #include "render/draw_times.h"
+#include "render/drawn_spheres.h"
 #include "render/gl_objects.h"
 #include "render/ground_tiles.h"
 #include "render/kept_tiles.h"
@@ -37,14 +38,6 @@ struct Sampling {
     Output output = Output::bytes;
     bool sparse = false;  ///< metaballs are cast sparsely
     bool keeps = false;   ///< the target still holds the last picture that was drawn with `keeps`
-};
-
-/// Spheres that are drawn as such: obstacles always, particles unless they are metaballs.
-struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;  ///< center relative to the eye, in world axes
-    std::vector<glm::vec4> colors;    ///< w: 1 for particles, 0 for obstacles
-    std::int32_t firstObstacle = 0;
-    std::vector<glm::vec4> open;  ///< two a sphere: openness along +x, +y, +z and along -x, -y, -z; empty without
 };
 
 class PicturePass {
@@ -91,8 +84,8 @@ class PicturePass {
 
     const Gl* gl_;
     ProgramCache programs_;
-    TextureBuffer boxes_, tileTable_, pixels_, edgePixels_, fragments_, spheres_, sphereColors_, fieldSamples_;
-    TextureBuffer lines_, sphereOpen_, fieldOpen_;
+    TextureBuffer boxes_, tileTable_, pixels_, edgePixels_, fragments_, spheres_, sphereLooks_, fieldSamples_;
+    TextureBuffer lines_, fieldOpen_;
     BufferName frameBlock_;
 
     CameraFrame frame_;

@@ -16,17 +16,16 @@ struct Unit {
     TextureUnit unit;
 };
 
-constexpr std::array<Unit, 12> kUnits = {{{"boxes", kBoxesUnit},
+constexpr std::array<Unit, 11> kUnits = {{{"boxes", kBoxesUnit},
                                           {"tileTable", kTileTableUnit},
                                           {"pixels", kPixelsUnit},
                                           {"edgePixels", kEdgePixelsUnit},
                                           {"fragments", kFragmentsUnit},
                                           {"spheres", kSpheresUnit},
-                                          {"sphereColors", kSphereColorsUnit},
+                                          {"sphereLooks", kSphereLooksUnit},
                                           {"fieldSamples", kFieldSamplesUnit},
                                           {"lines", kLinesUnit},
                                           {"accumulated", kAccumulatedUnit},
-                                          {"sphereOpen", kSphereOpenUnit},
                                           {"fieldOpen", kFieldOpenUnit}}};
 
 std::string definesOf(const Features& features) {
@@ -112,8 +111,7 @@ GLuint ProgramCache::picture(const Features& features) {
     if (features.drawing == Drawing::plain)
         return keep(place, buildProgram(*gl_, joined(defines, {"frame.glsl", "shade.glsl", "tile.vert"}),
                                         joined(defines, {"frame.glsl", "encode.glsl", "shade.glsl", "plain.frag"})));
-    const std::string surfaces =
-        joined(defines, {"frame.glsl", "encode.glsl", "openness.glsl", "shade.glsl", "surface.glsl"});
+    const std::string surfaces = joined(defines, {"frame.glsl", "encode.glsl", "shade.glsl", "surface.glsl"});
     if (features.drawing == Drawing::edges)
         return keep(place, buildProgram(*gl_, joined(defines, {"full_screen.vert"}), joined(surfaces, {"edges.frag"})));
     return keep(place,

@@ -59,11 +59,10 @@ enum TextureUnit : int {
     kEdgePixelsUnit,
     kFragmentsUnit,
     kSpheresUnit,
-    kSphereColorsUnit,
+    kSphereLooksUnit,
     kFieldSamplesUnit,
     kLinesUnit,
     kAccumulatedUnit,
-    kSphereOpenUnit,
     kFieldOpenUnit
 };
 

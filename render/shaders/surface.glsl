@@ -1,7 +1,8 @@
 // What a ray sees, as a point to be shaded. Which thing it is was found on the CPU; the numbers are those of first_hits.h.
 uniform samplerBuffer spheres;          // center and radius
-uniform samplerBuffer sphereColors;     // colour; 1 for particles, 0 for obstacles
+uniform usamplerBuffer sphereLooks;     // colour, openness along +x, +y, +z, along -x, -y, -z, 1 for particles and 0 for obstacles
 uniform usamplerBuffer fieldSamples;    // view depth bits (0: no hit), octahedral normal, colour, first of the extra samples or 0
+uniform usamplerBuffer fieldOpen;       // a sample's openness along the normal, against it, along the mirrored ray
 
 const int kBackground = -1;
 const int kGround = -2;
@@ -22,6 +23,21 @@ vec3 unpackColor(uint bits) {
     return root * root;
 }
 
+vec3 unpackOpen(uint bits) {
+    return vec3(float(bits & 0x3ffu), float((bits >> 10) & 0x3ffu), float((bits >> 20) & 0x3ffu)) / 1023.0;
+}
+
+float openAlong(vec3 direction, vec3 plus, vec3 minus) {
+    return dot(direction * direction, mix(minus, plus, greaterThan(direction, vec3(0.0))));
+}
+
+// Of a sphere's six values.
+vec3 openOfSphere(uvec4 look, vec3 normal, vec3 mirrored) {
+    vec3 plus = unpackOpen(look.y);
+    vec3 minus = unpackOpen(look.z);
+    return vec3(openAlong(normal, plus, minus), openAlong(-normal, plus, minus), openAlong(mirrored, plus, minus));
+}
+
 // What id shows along this ray; the ray may miss it by the rounding at an outline, which clamps to the outline.
 Point pointOn(int id, Ray ray) {
     Point point;
@@ -39,7 +55,7 @@ Point pointOn(int id, Ray ray) {
     bool isSphere = id >= 0 && id < kBoxes;
     int place = isSphere ? id : 0;
     vec4 sphere = texelFetch(spheres, place);
-    vec4 look = texelFetch(sphereColors, place);
+    uvec4 look = texelFetch(sphereLooks, place);
     vec3 toCenter = sphere.xyz - ray.origin;
     float closest = dot(toCenter, ray.direction) * ray.inverseSquare;
     vec3 off = closest * ray.direction - toCenter;
@@ -47,8 +63,8 @@ Point pointOn(int id, Ray ray) {
     float sphereDepth = max(closest - halfChord, 0.0);
     depth = isSphere ? sphereDepth : depth;
     point.normal = isSphere ? normalize(off + (sphereDepth - closest) * ray.direction) : point.normal;
-    point.albedo = isSphere ? look.xyz : point.albedo;
-    point.particle = isSphere ? look.w : point.particle;
+    point.albedo = isSphere ? unpackColor(look.x) : point.albedo;
+    point.particle = isSphere ? float(look.w) : point.particle;
 #endif
 #ifdef BOXES
     bool isBox = id >= kBoxes && id < kField;
@@ -77,11 +93,11 @@ Point pointOn(int id, Ray ray) {
 #ifdef OPEN
     vec3 mirrored = reflect(ray.direction * sqrt(ray.inverseSquare), point.normal);
 #ifdef SPHERES
-    bool isParticle = isSphere && look.w > 0.0;
-    point.open = isParticle ? openOfSphere(place, point.normal, mirrored) : point.open;
+    bool isParticle = isSphere && look.w > 0u;
+    point.open = isParticle ? openOfSphere(look, point.normal, mirrored) : point.open;
 #endif
 #ifdef FIELD
-    point.open = isField ? openOfSample(isField ? id - kField : 0) : point.open;
+    point.open = isField ? unpackOpen(texelFetch(fieldOpen, isField ? id - kField : 0).x) : point.open;
 #endif
 #endif
     return point;

@@ -1,0 +1,32 @@
+// Spheres that are drawn as such, as the passes and shaders/surface.glsl read them. Made by the picture pass.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/openness.h"
+#include "render/tiles.h"
+#include "render/view.h"
+
+namespace render {
+
+/// What a sphere looks like, packed.
+struct SphereLook {
+    std::uint32_t color = 0;     ///< square roots, 11 + 11 + 10 bits
+    std::uint32_t openPlus = 0;  ///< openness along +x, +y, +z, 10 bits each
+    std::uint32_t openMinus = 0;
+    std::uint32_t particle = 0;  ///< 1 for particles, 0 for obstacles
+};
+
+struct DrawnSpheres {
+    std::vector<ViewSphere> spheres;  ///< center relative to the eye, in world axes; particles first
+    std::vector<SphereLook> looks;    ///< likewise
+    std::int32_t firstObstacle = 0;
+};
+
+/// Obstacles always, particles unless they are metaballs; radii not above zero are left out. open: of each particle, or
+/// empty.
+DrawnSpheres drawnSpheres(const View& view, std::span<const Openness> open);
+
+}  // namespace render
