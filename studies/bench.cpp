@@ -81,8 +81,8 @@ class Bench {
         : settings_(settings), listener_(listener) {}
 
     void measureMachine() {
-        if (wants("multiply-add", "")) addMultiplyAdds();
-        if (wants("copy", "")) addCopy();
+        if (settings_.wants("multiply-add", "")) addMultiplyAdds();
+        if (settings_.wants("copy", "")) addCopy();
     }
 
     void measure(const Packed& packed, std::size_t count) {
@@ -91,13 +91,13 @@ class Bench {
         if (!wantsAny(material)) return;
         const Subject subject = subjectOf(packed, count);
         for (const Precision precision : {Precision::doubles, Precision::singles})
-            if (wants("forces", material)) addForces(subject, precision);
-        if (wants("list", material)) addList(subject);
+            if (settings_.wants("forces", material)) addForces(subject, precision);
+        if (settings_.wants("list", material)) addList(subject);
         for (const StepperKind stepper : engine::kSteppers)
-            if (steps && stepper != StepperKind::automatic && wants(stepName(stepper), material))
+            if (steps && stepper != StepperKind::automatic && settings_.wants(stepName(stepper), material))
                 addSteps(subject, stepper, Precision::doubles);
         for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet})
-            if (steps && wants(stepName(stepper), material)) addSteps(subject, stepper, Precision::singles);
+            if (steps && settings_.wants(stepName(stepper), material)) addSteps(subject, stepper, Precision::singles);
     }
 
     std::vector<BenchRow> rows;
@@ -105,13 +105,9 @@ class Bench {
  private:
     static std::string stepName(StepperKind stepper) { return "step " + std::string(engine::nameOf(stepper)); }
 
-    bool wants(const std::string& name, const std::string& material) const {
-        return (name + " " + material).find(settings_.filter) != std::string::npos;
-    }
-
     bool wantsAny(const std::string& material) const {
-        bool any = wants("forces", material) || wants("list", material);
-        for (const StepperKind stepper : engine::kSteppers) any = any || wants(stepName(stepper), material);
+        bool any = settings_.wants("forces", material) || settings_.wants("list", material);
+        for (const StepperKind stepper : engine::kSteppers) any = any || settings_.wants(stepName(stepper), material);
         return any;
     }
 
@@ -215,7 +211,7 @@ class Bench {
 }  // namespace
 
 double BenchRow::particleStepsPerSecond() const {
-    return static_cast<double>(particles) / seconds;
+    return static_cast<double>(particles) * steps / seconds;
 }
 
 double BenchRow::pairsPerSecond() const {
@@ -223,7 +219,7 @@ double BenchRow::pairsPerSecond() const {
 }
 
 double BenchRow::nanosecondsPerPair() const {
-    return particles == 0 ? 0.0 : 1e9 / pairsPerSecond();
+    return particles == 0 || neighbours == 0.0 ? 0.0 : 1e9 / pairsPerSecond();
 }
 
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {

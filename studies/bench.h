@@ -13,19 +13,20 @@ namespace studies {
 
 /// One thing measured.
 struct BenchRow {
-    std::string name;      ///< "forces", "list", "step velocity-verlet", "multiply-add", "copy"
-    std::string material;  ///< and how it is packed, where not at its rest length; empty where there is none
+    std::string name;      ///< "forces", "list", "step velocity-verlet", "simulate frame", "multiply-add", "copy"
+    std::string material;  ///< and how it is packed, where not at its rest length; a frame's scene; empty where none
     std::size_t particles = 0;
-    double neighbours = 0.0;  ///< mean number within the cutoff
+    double neighbours = 0.0;  ///< mean number within the cutoff; 0 where no pair is looked at
     engine::Precision precision = engine::Precision::doubles;
     double seconds = 0.0;           ///< of one pass, step or frame: the median over the rounds
+    double steps = 1.0;             ///< within these seconds, mean over the rounds
     double bytesPerParticle = 0.0;  ///< of the lists and records that it reads; 0 where not counted
     double rate = 0.0;              ///< of the machine's loops: operations or bytes a second
     std::string stateHash;          ///< of the forces or the state at the end
 
-    double particleStepsPerSecond() const;  ///< 0 for the machine's loops
+    double particleStepsPerSecond() const;  ///< 0 for the machine's loops; of a drawing particles a second
     double pairsPerSecond() const;          ///< ordered pairs within the cutoff
-    double nanosecondsPerPair() const;
+    double nanosecondsPerPair() const;      ///< 0 where no pair is looked at
 };
 
 struct BenchSettings {
@@ -33,6 +34,10 @@ struct BenchSettings {
     std::vector<std::size_t> counts = {1000, 2000, 10000, 32000, 100000, 1000000};
     double secondsPerRound = 0.1;
     int rounds = 5;
+
+    bool wants(const std::string& name, const std::string& material) const {
+        return (name + " " + material).find(filter) != std::string::npos;
+    }
 };
 
 /// Measures row after row on the threads of the calling arena, telling of each as it is done.

@@ -2,12 +2,18 @@
 // time.
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "engine/instruction_sets.h"
 #include "engine/lane_forces.h"
+#include "scenes/library.h"
 #include "studies/bench.h"
+#include "studies/bench_frames.h"
 #include "tools/commands.h"
 #include "tools/json.h"
 #include "tools/scene_options.h"
@@ -34,7 +40,8 @@ Json jsonOf(const studies::BenchRow& row, int threads) {
                  {"threads", threads},
                  {"isa", engine::laneInstructionSet()},
                  {"precision", nameOf(row.precision)},
-                 {"seconds", row.seconds}};
+                 {"seconds", row.seconds},
+                 {"steps", row.steps}};
     if (row.particles > 0) {
         json["particle_steps_per_s"] = row.particleStepsPerSecond();
         json["pairs_per_s"] = row.pairsPerSecond();
@@ -58,8 +65,27 @@ void print(const studies::BenchRow& row) {
                row.bytesPerParticle, row.stateHash);
 }
 
+/// Whose frames are measured: one of each kind of material, and what the implicit steppers are for.
+constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
+
+void benchFrames(const studies::BenchSettings& settings,
+                 const std::function<void(const studies::BenchRow&)>& listener) {
+    std::optional<render::Context> context;
+    for (const char* name : kFrameScenes) {
+        const bool simulates = settings.wants(studies::kSimulateFrame, name);
+        const bool draws = settings.wants(studies::kDrawFrame, name);
+        if (!simulates && !draws) continue;
+        if (!context) context.emplace(render::Backend::osmesa);
+        const studies::NamedScene subject{name, scenes::loadScene(scenes::resolveScene(name, sceneFolders()), {})};
+        const std::vector<studies::BenchRow> rows = studies::benchFrames(subject, *context, settings.rounds);
+        if (simulates) listener(rows[0]);
+        if (draws) listener(rows[1]);
+    }
+}
+
 void bench(const BenchOptions& options) {
     const int threads = threadCount(options.run);
+    ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
     const bool isText = !options.run.json;
     if (!options.instructionSet.empty()) engine::useInstructionSet(options.instructionSet);
     if (isText) {
@@ -68,14 +94,16 @@ void bench(const BenchOptions& options) {
         fmt::print("{:23} {:13} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
                    "particles", "neighbours", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");
     }
+    const auto tell = [&](const studies::BenchRow& row) {
+        if (isText)
+            print(row);
+        else
+            printJson(jsonOf(row, threads));
+        std::fflush(stdout);
+    };
     onThreads(threads, [&] {
-        runBench(options.settings, [&](const studies::BenchRow& row) {
-            if (isText)
-                print(row);
-            else
-                printJson(jsonOf(row, threads));
-            std::fflush(stdout);
-        });
+        runBench(options.settings, tell);
+        benchFrames(options.settings, tell);
     });
 }
 
@@ -83,7 +111,7 @@ void bench(const BenchOptions& options) {
 
 void addBenchCommand(const Command& program) {
     const Command command =
-        program.command("bench", "how fast forces, lists and steps run, with hashes of the results");
+        program.command("bench", "how fast forces, lists, steps and whole frames run, with hashes of the results");
     const auto options = std::make_shared<BenchOptions>();
     command.option("--filter", options->settings.filter, "only rows whose name and material contain this text")
         .of("TEXT");

@@ -1,6 +1,7 @@
 // The benchmark measures what it says: rows for what was asked, numbers that fit together, hashes that do not depend on
 // threads.
 #include "studies/bench.h"
+#include "studies/bench_frames.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -53,4 +54,46 @@ TEST_CASE("bench computes the same on any number of threads", "[bench]") {
             CHECK(one[k].stateHash == three[k].stateHash);
         }
     }
+}
+
+TEST_CASE("bench simulates and draws whole frames of a scene, the same on any number of threads", "[bench]") {
+    const studies::NamedScene subject{"drop", scenes::readScene(R"(
+title = "drop"
+duration = 1.0
+fps = 30
+[physics]
+stepper = "velocity-verlet"
+step = 0.002
+[material]
+preset = "liquid"
+[[body]]
+shape = "ball"
+center = [0.0, 2.0, 0.0]
+radius = 0.6
+[[obstacle]]
+shape = "plane"
+)",
+                                                                "drop.toml", {"still.time=0.1", "look.size=[160, 90]"})};
+    std::vector<std::string> hashes;
+    for (const int threads : {1, 3}) {
+        tbb::task_arena arena(threads);
+        std::vector<BenchRow> rows;
+        arena.execute([&] {
+            render::Context context(render::Backend::osmesa);
+            rows = studies::benchFrames(subject, context, 2);
+        });
+        REQUIRE(rows.size() == 2);
+        CHECK(rows[0].name == studies::kSimulateFrame);
+        CHECK(rows[1].name == studies::kDrawFrame);
+        CHECK(rows[0].steps == 17.0);  // of at most 2 ms in 33.3 ms
+        for (const BenchRow& row : rows) {
+            CHECK(row.material == "drop");
+            CHECK(row.particles > 20);
+            CHECK(row.seconds > 0.0);
+            hashes.push_back(row.stateHash);
+        }
+        CHECK(rows[0].nanosecondsPerPair() > 0.0);
+        CHECK(rows[1].nanosecondsPerPair() == 0.0);
+    }
+    for (const std::string& hash : hashes) CHECK(hash == hashes.front());
 }

@@ -1,0 +1,46 @@
+// One run of a scene past its still, each frame timed in its two halves.
+#include "studies/bench_frames.h"
+
+#include "engine/diagnostics.h"
+#include "render/renderer.h"
+#include "scenes/frame_steps.h"
+#include "scenes/frame_view.h"
+#include "studies/blocks.h"
+#include "studies/timing.h"
+
+namespace studies {
+
+std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context& context, int rounds) {
+    const scenes::Scene& scene = subject.scene;
+    engine::Simulation simulation = engine::start(scene.setup);
+    int frame = scenes::stillFrame(scene);
+    scenes::advanceToFrame(scene, simulation, frame);
+    render::Renderer renderer(context, scene.size, render::Quality::normal);
+    renderer.draw(scenes::frameView(scene, simulation));  // compiles the shaders
+    const std::uint64_t stepsBefore = simulation.steps.count;
+    std::vector<double> simulated;
+    std::vector<double> drawn;
+    for (int round = 0; round < rounds; ++round) {
+        ++frame;
+        simulated.push_back(secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); }, 1));
+        const render::View view = scenes::frameView(scene, simulation);
+        drawn.push_back(secondsOf([&] { renderer.draw(view); }, 1));
+    }
+    BenchRow row;
+    row.name = kSimulateFrame;
+    row.material = subject.name;
+    row.particles = simulation.particles.count();
+    row.neighbours = meanNeighbours(scene.setup, simulation.particles);
+    row.precision = scene.setup.precision;
+    row.seconds = median(simulated);
+    row.steps = static_cast<double>(simulation.steps.count - stepsBefore) / rounds;
+    row.stateHash = engine::stateHash(simulation.particles);
+    BenchRow drawing = row;
+    drawing.name = kDrawFrame;
+    drawing.neighbours = 0.0;
+    drawing.steps = 1.0;
+    drawing.seconds = median(drawn);
+    return {row, drawing};
+}
+
+}  // namespace studies
