@@ -107,7 +107,7 @@ struct Renderer::Parts {
         gl.Enable(GL_BLEND);
         for (int row = -1; row <= 1; ++row) {
             for (int column = -1; column <= 1; ++column) {
-                drawOnce(view, {1, glm::vec2(column, row) / 3.0F, Output::linear});
+                drawOnce(view, {.offset = glm::vec2(column, row) / 3.0F, .output = Output::linear});
             }
         }
         gl.Disable(GL_BLEND);
@@ -125,7 +125,7 @@ struct Renderer::Parts {
     std::vector<SurfacePoint> surfaces(const View& view) {
         const Target target(context.gl(), GL_RGBA32F, padded.width, padded.height);
         target.bindForDrawing();
-        drawOnce(view, {1, glm::vec2(0.0F), Output::surface, quality != Quality::final, false});
+        drawOnce(view, {.output = Output::surface, .sparse = quality != Quality::final});
         std::vector<glm::vec4> texels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
         context.gl().ReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_FLOAT, texels.data());
         checkGl(context.gl(), "drawing surfaces");
@@ -137,7 +137,7 @@ struct Renderer::Parts {
 
     void drawDirectly(const View& view) {
         bytes.bindForDrawing();
-        drawOnce(view, {quality == Quality::draft ? 1 : 4, glm::vec2(0.0F), Output::bytes, true, true});
+        drawOnce(view, {.samples = quality == Quality::draft ? 1 : 4, .sparse = true, .keeps = true});
     }
 
     void prepare(const View& view) {

@@ -72,6 +72,8 @@ struct Sphere {
 enum class Style { spheres, metaballs };
 
 /// draft: one sample a pixel. normal: antialiased silhouettes. final: 3 x 3 supersampling, averaged in linear light.
+/// The surface of metaballs is found at every second pixel of every second row and between them where it is not smooth;
+/// all over in final quality.
 enum class Quality { draft, normal, final };
 
 enum class Projection { perspective, orthographic };
