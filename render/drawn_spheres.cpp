@@ -2,7 +2,6 @@
 #include "render/drawn_spheres.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <tbb/parallel_for.h>
 

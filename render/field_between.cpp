@@ -231,7 +231,7 @@ constexpr std::array<std::uint8_t, kBetween> betweenPlaces() {
 
 constexpr std::array<std::uint8_t, kBetween> kBetweenPlaces = betweenPlaces();
 
-CoarseHits::CoarseHits() {
+void CoarseHits::clear() {
     depth.fill(-1.0F);
     most.fill(0.0F);
     for (auto* values : {&normal, &color, &open})

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <glm/glm.hpp>
 
@@ -24,8 +25,10 @@ struct CoarseHits {
     Values most;   ///< the greatest sample of the field on the way
     std::array<Values, 3> normal, color, open;
 
+    /// Leaves the numbers as they are.
+    CoarseHits() {}
     /// No hits, and no field.
-    CoarseHits();
+    void clear();
     /// Takes ray k of a block.
     void put(std::size_t column, std::size_t row, const RayBlock& block, std::size_t k);
     void put(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,

@@ -25,7 +25,6 @@ inline constexpr std::int32_t kSeesBox = 1 << 28;
 inline constexpr std::int32_t kSeesField = 1 << 29;
 
 inline constexpr float kFarDepth = 3.0e38F;
-inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
 
 /// All that is solid, but for the metaballs.
 struct Solids {

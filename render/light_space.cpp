@@ -53,7 +53,7 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     grid.cells.resize(1);
     if (spheres.empty()) return grid;
 
-    // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see shaders/shadow.glsl.
+    // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see light_reach.cpp.
     const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
     std::vector<LightSphere> seen(spheres.size());
     std::vector<float> keys(spheres.size());

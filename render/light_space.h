@@ -24,7 +24,7 @@ struct LightBasis {
 
 LightBasis lightBasis(glm::vec3 toLight);
 
-/// A sphere that casts shadows; what the shaders read.
+/// A sphere that casts shadows.
 struct LightSphere {
     float u = 0.0F;
     float v = 0.0F;

@@ -18,16 +18,16 @@ struct LinePoint {
 };
 
 LinePoint nearestOnLine(const ScreenLine& line, bool perspective, glm::vec2 at) {
-    const glm::vec2 from(line.ends.x, line.ends.y);
-    const glm::vec2 along = glm::vec2(line.ends.z, line.ends.w) - from;
+    const glm::vec2 from = line.from;
+    const glm::vec2 along = line.to - from;
     const float part = std::clamp(dot(at - from, along) / std::max(dot(along, along), 1.0e-12F), 0.0F, 1.0F);
     LinePoint point;
     point.at = from + part * along;
     // 1/depth is linear on the picture in perspective, depth itself in parallel projection.
-    point.depth = perspective ? 1.0F / glm::mix(1.0F / line.depths.x, 1.0F / line.depths.y, part)
-                              : glm::mix(line.depths.x, line.depths.y, part);
+    point.depth = perspective ? 1.0F / glm::mix(1.0F / line.fromDepth, 1.0F / line.toDepth, part)
+                              : glm::mix(line.fromDepth, line.toDepth, part);
     // A line thinner than a pixel covers no more than its width.
-    const float width = line.depths.z;
+    const float width = line.width;
     point.cover = std::clamp(0.5F * width + 0.5F - distance(at, point.at), 0.0F, std::min(width, 1.0F));
     return point;
 }
@@ -48,8 +48,7 @@ float shareInFront(std::span<const TileRays> samples, std::size_t place, float d
 
 LineCover lineCover(const Solids& solids, const LineList& lines, std::size_t tile, std::span<const TileRays> samples,
                     glm::vec2 where) {
-    const auto columns = static_cast<std::size_t>(lines.tiles.columns);
-    const glm::vec2 corner = static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns) + where;
+    const glm::vec2 corner = cornerOf(lines.tiles, tile) + where;
     LineCover over{};
     for (std::size_t k = lines.tiles.begin[tile]; k < lines.tiles.begin[tile + 1]; ++k) {
         const ScreenLine& line = lines.lines[lines.tiles.items[k]];
@@ -66,7 +65,7 @@ LineCover lineCover(const Solids& solids, const LineList& lines, std::size_t til
             const LinePoint& point = points[place];
             if (point.cover <= 0.0F || rays.depth[place] < point.depth * kNearer) continue;
             const float share = point.cover * shareInFront(samples, place, point.depth);
-            over[place] = over[place] * (1.0F - share) + share * glm::vec4(glm::vec3(line.color), 1.0F);
+            over[place] = over[place] * (1.0F - share) + share * glm::vec4(line.color, 1.0F);
         }
     }
     return over;

@@ -60,30 +60,30 @@ std::optional<ScreenLine> screenLine(const CameraFrame& frame, const Edge& edge)
     if (!narrow(a.y, b.y - a.y, -margin, frame.height + margin, part)) return std::nullopt;
     const ScreenPoint c = between(frame, a, b, part.first);
     const ScreenPoint d = between(frame, a, b, part.second);
-    return ScreenLine{glm::vec4(c.x, c.y, d.x, d.y), glm::vec4(c.depth, d.depth, edge.width, 0.0),
-                      glm::vec4(edge.color, 0.0F)};
+    return ScreenLine{{c.x, c.y}, {d.x, d.y}, static_cast<float>(c.depth), static_cast<float>(d.depth),
+                      edge.width, edge.color};
 }
 
 // Whether the line comes within reach of a tile: distance of the tile's centre to the segment against half its
 // diagonal.
 bool touches(const ScreenLine& line, int column, int row) {
     const glm::vec2 center = (glm::vec2(column, row) + 0.5F) * static_cast<float>(kTileSize);
-    const glm::vec2 from(line.ends.x, line.ends.y);
-    const glm::vec2 along = glm::vec2(line.ends.z, line.ends.w) - from;
+    const glm::vec2 from = line.from;
+    const glm::vec2 along = line.to - from;
     const float t = std::clamp(dot(center - from, along) / std::max(dot(along, along), 1e-12F), 0.0F, 1.0F);
-    const float reach = 0.7072F * static_cast<float>(kTileSize) + 0.5F * line.depths.z + 1.5F;
+    const float reach = 0.7072F * static_cast<float>(kTileSize) + 0.5F * line.width + 1.5F;
     return length(center - (from + t * along)) <= reach;
 }
 
 void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame, std::vector<BinItem>& items) {
-    const float reach = 0.5F * line.depths.z + 1.5F;
+    const float reach = 0.5F * line.width + 1.5F;
     const auto tileOf = [](float at, int count) {
         return std::clamp(static_cast<int>(std::floor(at / static_cast<float>(kTileSize))), 0, (count - 1) / kTileSize);
     };
-    const int x0 = tileOf(std::min(line.ends.x, line.ends.z) - reach, frame.width);
-    const int x1 = tileOf(std::max(line.ends.x, line.ends.z) + reach, frame.width);
-    const int y0 = tileOf(std::min(line.ends.y, line.ends.w) - reach, frame.height);
-    const int y1 = tileOf(std::max(line.ends.y, line.ends.w) + reach, frame.height);
+    const int x0 = tileOf(std::min(line.from.x, line.to.x) - reach, frame.width);
+    const int x1 = tileOf(std::max(line.from.x, line.to.x) + reach, frame.width);
+    const int y0 = tileOf(std::min(line.from.y, line.to.y) - reach, frame.height);
+    const int y1 = tileOf(std::max(line.from.y, line.to.y) + reach, frame.height);
     for (int row = y0; row <= y1; ++row) {
         for (int column = x0; column <= x1; ++column) {
             if (touches(line, column, row)) items.push_back({index, {column, row, column, row}});

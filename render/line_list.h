@@ -15,9 +15,12 @@ namespace render {
 
 /// A line as it is seen.
 struct ScreenLine {
-    glm::vec4 ends{0.0F};    ///< x, y of both ends, pixels
-    glm::vec4 depths{1.0F};  ///< view depth at both ends, m; width, pixels; unused
-    glm::vec4 color{0.0F};
+    glm::vec2 from{0.0F};  ///< pixels
+    glm::vec2 to{0.0F};
+    float fromDepth = 1.0F;  ///< in view, m
+    float toDepth = 1.0F;
+    float width = 1.0F;  ///< pixels
+    glm::vec3 color{0.0F};
 };
 
 struct LineList {

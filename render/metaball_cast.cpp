@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -106,7 +107,8 @@ class Group {
     V cast(M open, V from, V to) {
         const D d;
         const V threshold = hn::Set(d, cast_.threshold);
-        const float earliest = hn::GetLane(hn::MinOfLanes(d, from));
+        const V never = hn::Set(d, std::numeric_limits<float>::infinity());
+        const float earliest = hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(open, from, never)));
         long k = std::max(0L, static_cast<long>(std::floor((earliest - start_) / cast_.step)));
         float t = depthOf(k);
         begin_ = t;
@@ -115,7 +117,7 @@ class Group {
         Sample low = here;
         Sample high = here;
         M found = hn::FirstN(d, 0);
-        most_ = hn::Zero(d);
+        most_ = hn::IfThenElseZero(open, here.value.field);
         while (true) {
             // Rays that begin within the surface.
             const M inside = hn::And(hn::And(open, hn::Le(from, hn::Set(d, t))), hn::Ge(here.value.field, threshold));

@@ -53,8 +53,8 @@ struct RayBlock {
 };
 
 /// Casts the rays of a block, all within one tile.
-/// Holds:  a ray's result depends on its own position and the tile alone, bit for bit: neither on the other rays of the
-/// block
+/// Holds:  a ray's result depends on its own position and limits and on the tile alone, bit for bit: neither on the
+/// other rays of the block
 ///         nor on the number of lanes, because the samples stand on a grid common to the tile, a ball out of a ray's
 ///         reach adds exactly 0, and multiplications and additions are never fused.
 void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block);

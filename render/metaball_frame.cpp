@@ -79,11 +79,6 @@ FieldCast castOf(const CameraFrame& frame, const View& view, const BinnedField& 
     return cast;
 }
 
-glm::vec2 cornerOfTile(const CellLists& tiles, std::size_t tile) {
-    const auto columns = static_cast<std::size_t>(tiles.columns);
-    return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
-}
-
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 /// Rays through these pixels of a tile, in this order.
@@ -132,11 +127,14 @@ CoarseHits coarseHits(const std::vector<CoarseHits>& own, const FieldPicture& pi
 // by half of it, and a pixel's diagonal away).
 constexpr float kSteepest = 2.0F;
 
-Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field) {
+Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field, float reach) {
     float farthest = 0.0F;
     for (const FieldBall& ball : field.balls) farthest = std::max(farthest, ball.center.z + ball.reach);
     const float pixel = cast.frame.pixelWidth() * (cast.frame.perspective ? farthest : 1.0F);
-    return {0.02F * field.smallestRadius, cast.threshold - kSteepest * pixel / field.smallestRadius};
+    // A ray's greatest sample lies a quarter of a radius from the field's peak at most, where a lone ball at the
+    // threshold bends by 4 sqrt(threshold) / reach^2 a square radius.
+    const float missed = 0.125F * std::sqrt(cast.threshold) / (reach * reach);
+    return {0.02F * field.smallestRadius, cast.threshold - missed - kSteepest * pixel / field.smallestRadius};
 }
 
 void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness, FieldPicture& picture) {
@@ -149,16 +147,17 @@ void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness
     };
     forTiles([&](std::size_t tile) {
         RayBlock block;
-        placeRays(block, cornerOfTile(tiles, tile), kCoarsePlaces, offset);
+        placeRays(block, cornerOf(tiles, tile), kCoarsePlaces, offset);
         castBlock(cast, tile, block);
         putSamples(cast, block, kCoarsePlaces, tile, picture);
         CoarseHits& hits = coarse[static_cast<std::size_t>(picture.slots[tile])];
+        hits.clear();
         for (std::size_t k = 0; k < block.count; ++k)
             hits.put(kCoarsePlaces[k] % kTileSize / 2, kCoarsePlaces[k] / kTileSize / 2, block, k);
     });
     forTiles([&](std::size_t tile) {
         const CoarseHits hits = coarseHits(coarse, picture, tiles, tile);
-        const glm::vec2 corner = cornerOfTile(tiles, tile);
+        const glm::vec2 corner = cornerOf(tiles, tile);
         RayBlock block;
         placeRays(block, corner, kBetweenPlaces, offset);
         const std::array<bool, kBetween> good = fillBetween(cast.frame, hits, smoothness, block);
@@ -254,7 +253,7 @@ struct TileExtras {
 TileExtras castExtras(const FieldCast& cast, const Depths& depths, float radius, std::size_t tile,
                       std::vector<std::uint8_t> pixels) {
     TileExtras extras;
-    const glm::vec2 corner = cornerOfTile(*cast.tiles, tile);
+    const glm::vec2 corner = cornerOf(*cast.tiles, tile);
     RayBlock block;
     const auto flush = [&] {
         castBlock(cast, tile, block);
@@ -376,12 +375,12 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampl
     picture.samples.resize(static_cast<std::size_t>(slotCount) * kBlockRays);
     picture.open.resize(cast.openness ? picture.samples.size() : 0);
     if (sampling.sparse) {
-        castSparsely(cast, sampling.offset, smoothnessOf(cast, field), picture);
+        castSparsely(cast, sampling.offset, smoothnessOf(cast, field, skin.view.field.reach), picture);
     } else {
         tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
             if (picture.slots[tile] < 0) return;
             RayBlock block;
-            placeRays(block, cornerOfTile(field.tiles, tile), kZCurve, sampling.offset);
+            placeRays(block, cornerOf(field.tiles, tile), kZCurve, sampling.offset);
             castBlock(cast, tile, block);
             putSamples(cast, block, kZCurve, tile, picture);
         });
@@ -421,7 +420,7 @@ DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthM
     tbb::parallel_for(std::size_t{0}, field.tiles.begin.size() - 1, [&](std::size_t tile) {
         if (field.tiles.begin[tile + 1] == field.tiles.begin[tile]) return;
         RayBlock block;
-        placeRays(block, cornerOfTile(field.tiles, tile), kZCurve, glm::vec2(0.0F));
+        placeRays(block, cornerOf(field.tiles, tile), kZCurve, glm::vec2(0.0F));
         castBlock(cast, tile, block);
         for (std::size_t k = 0; k < kBlockRays; ++k) {
             const int x = static_cast<int>(block.x[k]);

@@ -72,7 +72,6 @@ class PicturePass {
     void findOpenness(const View& view);
     void castLight(const View& view);
     void castDepths(const View& view, glm::vec2 shift);
-    void uploadLines(const View& view);
     void uploadBoxes(const View& view);
     bool castsShadows(const View& view) const;
     Obstruction obstructionOf(const View& view) const;

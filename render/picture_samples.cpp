@@ -36,11 +36,6 @@ int kindOf(std::int32_t seen) {
     return field | box | sphere | ground | background;
 }
 
-glm::vec2 cornerOf(const CellLists& tiles, std::size_t tile) {
-    const auto columns = static_cast<std::size_t>(tiles.columns);
-    return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
-}
-
 /// A ray through each pixel of a tile, row by row; first: the place of the first.
 void placeRays(glm::vec2 first, std::array<float, kTilePixels>& x, std::array<float, kTilePixels>& y) {
     for (std::size_t row = 0; row < kTileSize; ++row) {
@@ -308,7 +303,7 @@ int takeTile(const TileContents& contents, SampleOffsets offsets, std::size_t ti
         const LineCover over = lineCover(contents.solids, contents.lines, tile, here.rays(), where);
         std::copy(over.begin(), over.end(), samples.lines.begin() + lineSlot * std::ptrdiff_t{kTilePixels});
         bits |= kLineBit;
-        edges.classBits |= kLineBit;
+        if (edges.classBits != 0) edges.classBits |= kLineBit;
     }
     return dims ? bits | kDimBit : bits;
 }

@@ -14,6 +14,7 @@
 #include "render/draw_overlay.h"
 #include "render/picture_pass.h"
 #include "render/system_error.h"
+#include "render/tile_table.h"
 
 namespace render {
 
@@ -38,9 +39,10 @@ bool finite(glm::vec3 v) {
 void requireFinite(const View& view) {
     for (std::size_t k = 0; k < view.particles.size(); ++k) {
         const Sphere& s = view.particles[k];
-        if (finite(s.center) && std::isfinite(s.radius)) continue;
-        throw std::logic_error(fmt::format("render: particle {} of {} is at ({}, {}, {}) with radius {}", k,
-                                           view.particles.size(), s.center.x, s.center.y, s.center.z, s.radius));
+        if (finite(s.center) && std::isfinite(s.radius) && finite(s.color)) continue;
+        throw std::logic_error(fmt::format(
+            "render: particle {} of {} is at ({}, {}, {}) with radius {} and colour ({}, {}, {})", k,
+            view.particles.size(), s.center.x, s.center.y, s.center.z, s.radius, s.color.x, s.color.y, s.color.z));
     }
     if (!finite(view.camera.eye) || !finite(view.camera.target) || !finite(view.light.toLight)) {
         throw std::logic_error("render: the camera or the light has a coordinate that is not finite");
@@ -52,6 +54,15 @@ void requireFinite(const View& view) {
 PictureSize checkedSize(PictureSize size) {
     if (size.width > 0 && size.height > 0) return size;
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
+}
+
+// Squares of tiles are drawn as points.
+void requirePoints(const Gl& gl) {
+    std::array<GLint, 2> sizes{};
+    gl.GetIntegerv(GL_POINT_SIZE_RANGE, sizes.data());
+    if (sizes[1] < kSquareSide * kTileSize)
+        throw SystemError(fmt::format("OpenGL draws points of {} pixels at most, and globular needs {}", sizes[1],
+                                      kSquareSide * kTileSize));
 }
 
 VertexArrayName vertexArray(const Gl& gl) {
@@ -70,10 +81,12 @@ struct Renderer::Parts {
           quality(quality_),
           pass(context_.gl()),
           bytes(context_.gl(), GL_RGBA8, padded.width, padded.height),
-          edges(context_.gl(), GL_RGBA8, padded.width, padded.height),
           vertices(vertexArray(context_.gl())) {
         if (quality == Quality::final)
             linear = std::make_unique<Target>(context_.gl(), GL_RGBA32F, padded.width, padded.height);
+        if (quality == Quality::normal)
+            edges = std::make_unique<Target>(context_.gl(), GL_RGBA8, padded.width, padded.height);
+        requirePoints(context_.gl());
         context.gl().BindVertexArray(vertices.get());
         context.gl().Enable(GL_PROGRAM_POINT_SIZE);
         context.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -90,7 +103,7 @@ struct Renderer::Parts {
         clock.add(times.look);
         pass.draw(view, sampling, padded);
         if (!pass.edges().empty()) {
-            edges.bindForDrawing();
+            edges->bindForDrawing();
             pass.drawEdges(view, sampling, padded);
         }
         // OpenGL draws when it is asked for a result.
@@ -168,7 +181,7 @@ struct Renderer::Parts {
     void putEdges(Image& image) {
         const std::span<const EdgePixel> places = pass.edges();
         if (places.empty()) return;
-        edges.bindForDrawing();
+        edges->bindForDrawing();
         readRows((static_cast<int>(places.size()) + padded.width - 1) / padded.width, pixels);
         for (std::size_t k = 0; k < places.size(); ++k) {
             const auto row = static_cast<std::size_t>(places[k].place / 65536);
@@ -188,7 +201,7 @@ struct Renderer::Parts {
     Quality quality;
     PicturePass pass;
     Target bytes;
-    Target edges;  // pixels that show several things, side by side
+    std::unique_ptr<Target> edges;  // pixels that show several things, side by side; of normal quality
     std::unique_ptr<Target> linear;
     VertexArrayName vertices;
     std::vector<Rgba> pixels;  // as they are read back

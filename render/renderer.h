@@ -11,7 +11,8 @@
 
 namespace render {
 
-/// What the ray through a pixel's middle meets first.
+/// What the ray through a pixel's middle meets first; of metaballs, in draft and normal quality, what its neighbours
+/// tell.
 struct SurfacePoint {
     glm::vec3 normal{0.0F};  ///< unit length, world axes
     float depth = -1.0F;     ///< view depth, m; -1: nothing is met
@@ -31,7 +32,7 @@ class Renderer {
     /// that are not finite.
     Image draw(const View& view);
 
-    /// The surfaces that a picture of the view shows, row by row from the top left; by the same lists and shaders.
+    /// The surfaces that a picture of the view shows, row by row from the top left; found as for the picture.
     std::vector<SurfacePoint> surfaces(const View& view);
 
     /// Of the last picture drawn.

@@ -34,6 +34,7 @@ Vec3 normalized(const Vec3& v) {
 }
 
 void placeOnSpheres(const Surfaces& surfaces, const WorldRay& ray, V inverseSquare, VI seen, M where, Placed& placed) {
+    static_assert(sizeof(ViewSphere) == 4 * sizeof(float));
     const auto* records = reinterpret_cast<const float*>(surfaces.spheres.data());
     const VI first = hn::ShiftLeft<2>(hn::IfThenElseZero(hn::RebindMask(DI(), where), seen));
     const Vec3 toCenter{hn::Sub(fieldOf(records, first, 0), ray.origin.x),

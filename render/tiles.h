@@ -12,6 +12,8 @@ namespace render {
 
 inline constexpr int kTileSize = 16;  ///< pixels; measured best among 8, 16 and 32 in the prototypes
 
+inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
+
 /// Lists of items per cell, row by row, one after another.
 struct CellLists {
     int columns = 0;
@@ -23,6 +25,12 @@ struct CellLists {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
     }
 };
+
+/// The top left corner of a tile in pixels of the picture.
+inline glm::vec2 cornerOf(const CellLists& tiles, std::size_t tile) {
+    const auto columns = static_cast<std::size_t>(tiles.columns);
+    return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
+}
 
 /// An item's place in the grid.
 struct BinItem {

@@ -1,6 +1,8 @@
 // One run of a scene past its still, each frame timed in its two halves.
 #include "studies/bench_frames.h"
 
+#include <optional>
+
 #include "engine/diagnostics.h"
 #include "render/renderer.h"
 #include "scenes/frame_steps.h"
@@ -10,21 +12,25 @@
 
 namespace studies {
 
-std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context& context, int rounds) {
+std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* context, int rounds) {
     const scenes::Scene& scene = subject.scene;
     engine::Simulation simulation = engine::start(scene.setup);
     int frame = scenes::stillFrame(scene);
     scenes::advanceToFrame(scene, simulation, frame);
-    render::Renderer renderer(context, scene.size, render::Quality::normal);
-    renderer.draw(scenes::frameView(scene, simulation));  // compiles the shaders
+    std::optional<render::Renderer> renderer;
+    if (context != nullptr) {
+        renderer.emplace(*context, scene.size, render::Quality::normal);
+        renderer->draw(scenes::frameView(scene, simulation));  // compiles the shaders
+    }
     const std::uint64_t stepsBefore = simulation.steps.count;
     std::vector<double> simulated;
     std::vector<double> drawn;
     for (int round = 0; round < rounds; ++round) {
         ++frame;
         simulated.push_back(secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); }, 1));
+        if (!renderer) continue;
         const render::View view = scenes::frameView(scene, simulation);
-        drawn.push_back(secondsOf([&] { renderer.draw(view); }, 1));
+        drawn.push_back(secondsOf([&] { renderer->draw(view); }, 1));
     }
     BenchRow row;
     row.name = kSimulateFrame;
@@ -35,6 +41,7 @@ std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context& co
     row.seconds = median(simulated);
     row.steps = static_cast<double>(simulation.steps.count - stepsBefore) / rounds;
     row.stateHash = engine::stateHash(simulation.particles);
+    if (!renderer) return {row};
     BenchRow drawing = row;
     drawing.name = kDrawFrame;
     drawing.neighbours = 0.0;

@@ -22,6 +22,7 @@ struct NamedScene {
 /// Two rows: medians over the frames that follow the scene's still, as many as rounds, drawn with the scene's own look
 /// at its own size in normal quality. The hash is of the last state. Throws: engine::InstabilityError,
 /// render::SystemError.
-std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context& context, int rounds);
+/// Without a context nothing is drawn, and the first row is all.
+std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* context, int rounds);
 
 }  // namespace studies

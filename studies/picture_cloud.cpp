@@ -81,6 +81,15 @@ void addParticles(std::size_t count, render::View& view) {
     }
 }
 
+/// The same view from a place a little further on a circle.
+render::View seenFrom(render::View view, int frame) {
+    const float angle = 0.002F * static_cast<float>(frame);
+    const glm::vec3 off = view.camera.eye - view.camera.target;
+    view.camera.eye = view.camera.target + glm::vec3(off.x * std::cos(angle) + off.z * std::sin(angle), off.y,
+                                                     off.z * std::cos(angle) - off.x * std::sin(angle));
+    return view;
+}
+
 }  // namespace
 
 render::View pictureCloud(std::size_t count, render::Style style) {
@@ -106,6 +115,12 @@ render::View pictureCloud(std::size_t count, render::Style style) {
     view.background = {{0.56F, 0.63F, 0.70F}, {0.74F, 0.77F, 0.79F}};
     view.ground = render::Ground{0.0F, glm::vec3(0.5F), glm::vec3(0.0F), 30.0F};
     return view;
+}
+
+std::vector<render::View> framesOf(const render::View& view, int count) {
+    std::vector<render::View> frames;
+    for (int frame = 0; frame < count; ++frame) frames.push_back(seenFrom(view, frame));
+    return frames;
 }
 
 }  // namespace studies

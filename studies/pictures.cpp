@@ -24,21 +24,6 @@ using render::DrawTimes;
 using render::Quality;
 using render::Style;
 
-/// The same view from a place a little further on a circle, so that no two frames are alike.
-render::View seenFrom(render::View view, int frame) {
-    const float angle = 0.002F * static_cast<float>(frame);
-    const glm::vec3 off = view.camera.eye - view.camera.target;
-    view.camera.eye = view.camera.target + glm::vec3(off.x * std::cos(angle) + off.z * std::sin(angle), off.y,
-                                                     off.z * std::cos(angle) - off.x * std::sin(angle));
-    return view;
-}
-
-std::vector<render::View> framesOf(const render::View& view, int count) {
-    std::vector<render::View> frames;
-    for (int frame = 0; frame < count; ++frame) frames.push_back(seenFrom(view, frame));
-    return frames;
-}
-
 /// The view with its particles a little further in each frame, seen by a camera at rest.
 std::vector<render::View> framesAtRest(const render::View& view, int count) {
     std::vector<render::View> frames;

@@ -116,7 +116,8 @@ SkinRow shapeOf(const SkinSettings& settings, render::Context& context, render::
     row.volume = fieldVolume(pool, settings.spacing) / kPoolVolume;
     const render::View lone = loneView(view);
     row.lone = fieldVolume(lone, 0.2 * settings.spacing) / (4.0 / 3.0 * std::numbers::pi);
-    render::Renderer renderer(context, settings.size, render::Quality::normal);
+    // All rays cast: none of the normals is a mean of its neighbours'.
+    render::Renderer renderer(context, settings.size, render::Quality::final);
     row.bumps = bumpsOf(renderer, pool);
     return row;
 }
@@ -127,7 +128,8 @@ double secondsAFrame(const SkinSettings& settings, render::Context& context, std
     render::Renderer renderer(context, settings.size, render::Quality::normal);
     renderer.draw(view);  // compiles the shaders
     std::vector<double> seconds;
-    for (int frame = 0; frame < settings.frames; ++frame) seconds.push_back(secondsOf([&] { renderer.draw(view); }, 1));
+    for (const render::View& frame : framesOf(view, settings.frames))
+        seconds.push_back(secondsOf([&] { renderer.draw(frame); }, 1));
     return median(seconds);
 }
 

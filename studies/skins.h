@@ -33,8 +33,8 @@ const char* nameOf(render::Skin skin);
 /// Plain and smooth for each number of particles. Throws render::SystemError.
 std::vector<SkinRow> measureSkins(const SkinSettings& settings);
 
-/// Volume within the surface of a view's metaballs, m^3: cubes with sides of so many mean radii, whose middles are
-/// inside.
+/// Volume within the surface of a view's metaballs (at least one), m^3: cubes with sides of so many mean radii, whose
+/// middles are inside.
 double fieldVolume(const render::View& view, double spacing);
 
 std::string skinsCsv(const std::vector<SkinRow>& rows);

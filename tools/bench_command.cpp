@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include "studies/bench_frames.h"
 #include "tools/commands.h"
 #include "tools/json.h"
+#include "tools/open_context.h"
 #include "tools/scene_options.h"
 #include "tools/threads.h"
 
@@ -24,6 +24,7 @@ namespace {
 
 struct BenchOptions {
     RunOptions run;
+    DrawOptions draw;            ///< its backend alone
     std::string instructionSet;  ///< empty: the widest of the machine
     studies::BenchSettings settings;
 };
@@ -68,24 +69,22 @@ void print(const studies::BenchRow& row) {
 /// Whose frames are measured: one of each kind of material, and what the implicit steppers are for.
 constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
 
-void benchFrames(const studies::BenchSettings& settings,
+void benchFrames(const BenchOptions& options, int threads,
                  const std::function<void(const studies::BenchRow&)>& listener) {
+    const studies::BenchSettings& settings = options.settings;
     std::optional<render::Context> context;
     for (const char* name : kFrameScenes) {
-        const bool simulates = settings.wants(studies::kSimulateFrame, name);
         const bool draws = settings.wants(studies::kDrawFrame, name);
-        if (!simulates && !draws) continue;
-        if (!context) context.emplace(render::Backend::osmesa);
+        if (!draws && !settings.wants(studies::kSimulateFrame, name)) continue;
+        if (draws && !context) context.emplace(openContext(backendOf(options.draw), threads));
         const studies::NamedScene subject{name, scenes::loadScene(scenes::resolveScene(name, sceneFolders()), {})};
-        const std::vector<studies::BenchRow> rows = studies::benchFrames(subject, *context, settings.rounds);
-        if (simulates) listener(rows[0]);
-        if (draws) listener(rows[1]);
+        for (const studies::BenchRow& row : studies::benchFrames(subject, draws ? &*context : nullptr, settings.rounds))
+            if (settings.wants(row.name, name)) listener(row);
     }
 }
 
 void bench(const BenchOptions& options) {
     const int threads = threadCount(options.run);
-    ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
     const bool isText = !options.run.json;
     if (!options.instructionSet.empty()) engine::useInstructionSet(options.instructionSet);
     if (isText) {
@@ -103,7 +102,7 @@ void bench(const BenchOptions& options) {
     };
     onThreads(threads, [&] {
         runBench(options.settings, tell);
-        benchFrames(options.settings, tell);
+        benchFrames(options, threads, tell);
     });
 }
 
@@ -119,6 +118,7 @@ void addBenchCommand(const Command& program) {
     command.option("--rounds", options->settings.rounds, "how often each is timed (default: 5)").aboveZero();
     command.option("--isa", options->instructionSet, "the vectors to run on (default: the widest of the machine)")
         .oneOf(engine::instructionSets());
+    command.option("--gl", options->draw.backend, "OpenGL backend: osmesa or egl (default: osmesa)").of("NAME");
     addTo(command, options->run);
     command.example("globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
     command.run([options] { bench(*options); });

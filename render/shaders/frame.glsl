@@ -21,7 +21,6 @@ layout(std140) uniform FrameBlock {
     vec4 mirrorBottom;
 };
 
-uniform samplerBuffer boxes;         // minimum, maximum, color per box
 uniform int targetWidth;             // pixels of the target, a whole number of tiles
 
 struct Ray {
@@ -51,5 +50,3 @@ struct Point {
     float lit;              // share of the light that reaches it
     float depth;            // view depth, -1 of the background
 };
-
-const float kFar = 3.0e38;

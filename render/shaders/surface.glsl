@@ -1,5 +1,6 @@
 // What a ray sees, as a point to be shaded. Which thing it is was found on the CPU; the numbers are those of first_hits.h.
 uniform samplerBuffer spheres;          // center and radius
+uniform samplerBuffer boxes;            // minimum, maximum, color per box
 uniform usamplerBuffer sphereLooks;     // colour, openness along +x, +y, +z, along -x, -y, -z, 1 for particles and 0 for obstacles
 uniform usamplerBuffer fieldSamples;    // view depth bits (0: no hit), octahedral normal, colour, first of the extra samples or 0
 uniform usamplerBuffer fieldOpen;       // a sample's openness along the normal, against it, along the mirrored ray
