@@ -45,6 +45,11 @@ Indices onceEach(Indices found) {
     return found;
 }
 
+/// Of `count` cells along an axis the one nearest to a place, in cells; around a single ball they are tiny.
+int cellWithin(double place, int count) {
+    return static_cast<int>(std::clamp(std::floor(place), 0.0, static_cast<double>(count - 1)));
+}
+
 }  // namespace
 
 Crowd Crowd::everyone(std::size_t count) {
@@ -115,7 +120,7 @@ Indices Crowd::along(const Ray& ray) const {
     std::array<double, 3> next{};  // distance along the ray, in cells, at which it leaves the cell along the axis
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const int k = static_cast<int>(axis);
-        cell[axis] = std::clamp(static_cast<int>(std::floor(start[k])), 0, cells_[axis] - 1);
+        cell[axis] = cellWithin(start[k], cells_[axis]);
         const double slope = ray.direction[k];
         const double border = cell[axis] + (slope > 0.0 ? 1.0 : 0.0);
         next[axis] = slope == 0.0 ? kInfinity : (border - start[k]) / slope;
@@ -137,8 +142,8 @@ Indices Crowd::within(const dvec3& place, double halfSide) const {
     std::array<int, 3> last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double at = place[static_cast<int>(axis)] - low_[static_cast<int>(axis)];
-        first[axis] = std::clamp(static_cast<int>(std::floor((at - halfSide) / cellSize_)), 0, cells_[axis] - 1);
-        last[axis] = std::clamp(static_cast<int>(std::floor((at + halfSide) / cellSize_)), 0, cells_[axis] - 1);
+        first[axis] = cellWithin((at - halfSide) / cellSize_, cells_[axis]);
+        last[axis] = cellWithin((at + halfSide) / cellSize_, cells_[axis]);
     }
     Indices found;
     for (int z = first[2]; z <= last[2]; ++z)
