@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Sets the machine up, builds with warnings as errors, and runs the tests: every suite under AddressSanitizer and
 # UndefinedBehaviorSanitizer; what optimization, timing or memory may change also as users build the program; the engine's
-# under ThreadSanitizer; the fuzzers, a minute each. With the name of a CMake preset (release, debug, asan-ubsan or tsan):
+# under ThreadSanitizer; the fuzzers, half a minute each. With the name of a CMake preset (release, debug, asan-ubsan or tsan):
 # all tests of it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -26,4 +26,4 @@ build asan-ubsan
 ctest --preset tsan &
 ctest --preset asan-ubsan --parallel 2
 wait $!
-tests/fuzz/run.sh 60
+tests/fuzz/run.sh 30
