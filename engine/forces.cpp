@@ -55,8 +55,8 @@ bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, 
     if (p >= list.placeOf.size()) return false;
     const double cutoffSq = cutoff * cutoff;
     const std::uint32_t place = list.placeOf[p];
-    for (std::uint32_t entry = list.rowStart[place]; entry < list.rowStart[place + 1]; ++entry) {
-        const std::uint32_t other = list.order[list.places[entry]];
+    for (std::uint32_t k = 0; k < list.rows.length[place]; ++k) {
+        const std::uint32_t other = list.order[static_cast<std::size_t>(list.rows.places[list.rows.at(place, k)])];
         if (other < positions.size() && squaredLength(positions[p] - positions[other]) < cutoffSq) return false;
     }
     return true;

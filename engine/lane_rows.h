@@ -1,12 +1,11 @@
-// The neighbour list as vector units read it: a particle a lane, sixteen particles a group, the rows of a group
+// Rows of neighbours as vector units read them: a particle a lane, sixteen particles a group, the rows of a group
 // interleaved. Every lane walks its own row in the list's order, so that a sum over it does not depend on how many
 // lanes an instruction set has.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "engine/neighbour_list.h"
 
 namespace engine {
 
@@ -26,11 +25,5 @@ struct LaneRows {
         return (start[place / kGroup] + k) * kGroup + place % kGroup;
     }
 };
-
-/// The rows of a list.
-void build(LaneRows& rows, const NeighbourList& list);
-
-/// Empty rows with room for those of a list.
-void makeRoom(LaneRows& rows, const NeighbourList& list);
 
 }  // namespace engine

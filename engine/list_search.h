@@ -1,4 +1,5 @@
-// The inner loop of building a neighbour list: which of the candidates in the cells around a particle are within reach.
+// The inner loop of building a neighbour list: which of the candidates in the cells around some particles are within
+// reach of each.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace engine {
 
-/// Candidates that findInReach reads and entries that it writes beyond those that there are.
+/// Candidates that a search reads beyond those that there are.
 inline constexpr std::size_t kSearchOverhang = 8;
 
 /// Positions by place, m: cells lie one after the other, so that candidates are read in a row. After the last one come
@@ -17,9 +18,25 @@ struct Candidates {
     std::vector<double> x, y, z;
 };
 
-/// Writes the places of all others within reach of the particle at a place, in the order of the neighbourhood's ranges,
-/// and returns where they end. `out` has room for every candidate and the overhang.
-std::uint32_t* findInReach(const Candidates& candidates, const Neighbourhood& around, std::uint32_t self,
-                           double reachSq, std::uint32_t* out);
+/// Candidates side by side, seen from an origin close by: there float tells distances apart, and twice as many fit a
+/// vector. Scratch of a search.
+struct Surroundings {
+    std::vector<float> x, y, z;  ///< from the origin, in reaches
+    std::vector<std::uint32_t> places;
+};
+
+/// Rows one after the other, each followed by its own particle's place.
+struct FoundRows {
+    std::vector<std::uint32_t> places;  ///< more than are used
+    std::size_t used = 0;
+};
+
+/// Of the reach squared: float errs by 1e-6 of it, and no pair within may be missed.
+inline constexpr float kFloatMargin = 1.00001F;
+
+/// Appends for one place of a cell after the other the row of the places of all others within reach (m) of it, and of
+/// none beyond reach^2 kFloatMargin, in the order of the neighbourhood's ranges. Writes the length of each.
+void findInReach(const Candidates& candidates, const Neighbourhood& around, CellRange selves, double reach,
+                 Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths);
 
 }  // namespace engine

@@ -1,7 +1,8 @@
-// Rows are found chunk by chunk of cells, then put together in order, whoever found them.
+// Rows are found chunk by chunk, then put together in order, whoever found them.
 #include "engine/neighbour_list.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,44 +11,50 @@
 namespace engine {
 namespace {
 
-constexpr std::size_t kCellsPerChunk = 16;  // chosen: cells of a dense scene take some microseconds each
+/// Groups whose rows are found together. Chosen: some tens of microseconds in a dense scene.
+constexpr std::size_t kGroupsPerChunk = 8;
 
-/// The rows of the particles of some cells, one after the other.
-struct Chunk {
-    std::size_t firstCell = 0;
-    std::size_t endCell = 0;
-};
-
-Chunk chunkOf(const CellGrid& grid, std::size_t number) {
-    return {number * kCellsPerChunk, std::min((number + 1) * kCellsPerChunk, grid.cellCount())};
+/// Places of a chunk.
+CellRange chunkOf(const NeighbourList& list, std::size_t number) {
+    const std::size_t size = kGroupsPerChunk * kGroup;
+    return {static_cast<std::uint32_t>(number * size),
+            static_cast<std::uint32_t>(std::min((number + 1) * size, list.count()))};
 }
 
-std::size_t candidateCount(const Neighbourhood& around) {
-    std::size_t sum = 0;
-    for (int r = 0; r < around.count; ++r) {
-        const CellRange range = around.ranges[static_cast<std::size_t>(r)];
-        sum += range.end - range.begin;
+/// Finds the chunk's rows; the start of a group becomes the length of the longest one before it.
+void search(NeighbourList& list, const CellRange& chunk, FoundRows& found) {
+    Surroundings scratch;
+    for (std::uint32_t place = chunk.begin; place < chunk.end;) {
+        const std::uint32_t cell = list.grid.cellOf[list.order[place]];
+        const CellRange selves{place, std::min(list.grid.start[cell + 1], chunk.end)};
+        findInReach(list.candidates, neighbourhood(list.grid, cell), selves, list.reach, scratch, found,
+                    &list.rows.length[place]);
+        place = selves.end;
     }
-    return sum;
+    for (std::size_t group = chunk.begin / kGroup; group * kGroup < chunk.end; ++group) {
+        const auto first = list.rows.length.begin() + static_cast<std::ptrdiff_t>(group * kGroup);
+        list.rows.start[group + 1] = *std::max_element(first, first + kGroup);
+    }
 }
 
-/// Fills the chunk's rows; rowStart[place + 1] becomes the length of the row.
-void search(NeighbourList& list, const Chunk& chunk, std::vector<std::uint32_t>& rows) {
-    const CellGrid& grid = list.grid;
-    std::size_t used = 0;
-    for (std::size_t cell = chunk.firstCell; cell < chunk.endCell; ++cell) {
-        if (grid.start[cell] == grid.start[cell + 1]) continue;
-        const Neighbourhood around = neighbourhood(grid, static_cast<std::uint32_t>(cell));
-        const std::size_t room = candidateCount(around) + kSearchOverhang;
-        for (std::uint32_t self = grid.start[cell]; self < grid.start[cell + 1]; ++self) {
-            if (rows.size() < used + room) rows.resize(2 * (used + room));
-            std::uint32_t* const row = rows.data() + used;
-            const std::uint32_t* const end = findInReach(list.candidates, around, self, list.reach * list.reach, row);
-            list.rowStart[self + 1] = static_cast<std::uint32_t>(end - row);
-            used += static_cast<std::size_t>(end - row);
+/// Interleaves the chunk's rows.
+void layOut(LaneRows& rows, const CellRange& chunk, const FoundRows& found) {
+    const std::uint32_t* next = found.places.data();
+    for (std::uint32_t first = chunk.begin; first < chunk.end; first += kGroup) {
+        std::array<const std::uint32_t*, kGroup> row;
+        std::array<std::uint32_t, kGroup> length;
+        for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
+            const bool isThere = first + lane < chunk.end;
+            length[lane] = rows.length[first + lane];
+            row[lane] = isThere ? next : next - 1;  // the last particle's own place
+            if (isThere) next += length[lane] + 1;
         }
+        const std::uint32_t longest = rows.start[first / kGroup + 1] - rows.start[first / kGroup];
+        std::int32_t* to = &rows.places[rows.at(first, 0)];
+        for (std::uint32_t k = 0; k < longest; ++k)
+            for (std::uint32_t lane = 0; lane < kGroup; ++lane)
+                *to++ = static_cast<std::int32_t>(row[lane][std::min(k, length[lane])]);
     }
-    rows.resize(used);
 }
 
 void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
@@ -70,20 +77,24 @@ void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
 
 void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutoff, double skin) {
     list.reach = cutoff + skin;
-    list.builtAt = positions;
+    copy(positions, list.builtAt);
     build(list.grid, positions, list.reach);
     sortByPlace(list, positions);
-    list.rowStart.assign(positions.size() + 1, 0);
-    const std::size_t chunks = (list.grid.cellCount() + kCellsPerChunk - 1) / kCellsPerChunk;
+    const std::size_t groups = (list.count() + kGroup - 1) / kGroup;
+    const std::size_t chunks = (groups + kGroupsPerChunk - 1) / kGroupsPerChunk;
+    list.rows.length.assign(groups * kGroup, 0);
+    list.rows.start.assign(groups + 1, 0);
     list.found.resize(chunks);
-    inParallel(chunks, 1, [&](std::size_t c) { search(list, chunkOf(list.grid, c), list.found[c]); });
-    for (std::size_t place = 1; place < list.rowStart.size(); ++place) list.rowStart[place] += list.rowStart[place - 1];
-    list.places.resize(list.rowStart.back());
     inParallel(chunks, 1, [&](std::size_t c) {
-        const std::uint32_t first = list.rowStart[list.grid.start[chunkOf(list.grid, c).firstCell]];
-        std::copy(list.found[c].begin(), list.found[c].end(), list.places.begin() + first);
-        list.found[c].clear();
+        list.found[c].used = 0;
+        search(list, chunkOf(list, c), list.found[c]);
     });
+    for (std::size_t group = 0; group < groups; ++group) list.rows.start[group + 1] += list.rows.start[group];
+    list.entryCount = 0;
+    for (const std::uint32_t length : list.rows.length) list.entryCount += length;
+    // One more than there are: kernels step past the end of a row before they see that it is the last, or empty.
+    list.rows.places.resize((list.rows.start[groups] + 1) * kGroup);
+    inParallel(chunks, 1, [&](std::size_t c) { layOut(list.rows, chunkOf(list, c), list.found[c]); });
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {

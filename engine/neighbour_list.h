@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/lane_rows.h"
 #include "engine/list_search.h"
 #include "engine/neighbours.h"
 
@@ -12,20 +13,20 @@ namespace engine {
 
 /// Rows of places in the order of the cell grid that they were built with.
 struct NeighbourList {
-    std::vector<std::uint32_t> order;               ///< particle index at each place
-    std::vector<std::uint32_t> rowStart;            ///< of each place, and one past the last; at most 2^32 entries
-    std::vector<std::uint32_t> places;              ///< neighbours, row by row
-    std::vector<std::uint32_t> placeOf;             ///< of each particle index
-    std::vector<Vec3> builtAt;                      ///< positions by particle index when the list was built, m
-    double reach = 0.0;                             ///< cutoff and skin together, m
-    CellGrid grid;                                  ///< scratch of the build
-    Candidates candidates;                          ///< scratch of the build
-    std::vector<std::vector<std::uint32_t>> found;  ///< scratch of the build: rows of some cells each
+    std::vector<std::uint32_t> order;    ///< particle index at each place
+    std::vector<std::uint32_t> placeOf;  ///< of each particle index
+    LaneRows rows;                       ///< neighbours of each place
+    std::size_t entryCount = 0;          ///< of all rows
+    std::vector<Vec3> builtAt;           ///< positions by particle index when the list was built, m
+    double reach = 0.0;                  ///< cutoff and skin together, m
+    CellGrid grid;                       ///< scratch of the build
+    Candidates candidates;               ///< scratch of the build
+    std::vector<FoundRows> found;        ///< scratch of the build: rows of some groups each
 
     std::size_t count() const { return order.size(); }
 };
 
-/// Builds the list for positions in metres. Holds: the same rows for any number of threads.
+/// Builds the list for positions in metres. Holds: the same rows for any number of threads and any instruction set.
 /// Shape:  cutoff and skin in metres, at least 0.
 void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutoff, double skin);
 

@@ -91,16 +91,18 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
 
 Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {
     const auto [nx, ny, nz] = grid.dimensions;
-    const std::int64_t x = cell % nx;
-    const std::int64_t y = (cell / nx) % ny;
-    const std::int64_t z = cell / (nx * ny);
+    // In 32 bits, which hold any cell's number, divisions take half as long.
+    const std::uint32_t row = cell / static_cast<std::uint32_t>(nx);
+    const std::int64_t x = cell % static_cast<std::uint32_t>(nx);
+    const std::int64_t y = row % static_cast<std::uint32_t>(ny);
+    const std::int64_t z = row / static_cast<std::uint32_t>(ny);
     // With one or two cells along an axis, steps of -1 and +1 meet: visit each cell once.
     const auto firstStep = [](std::int64_t size) { return size >= 3 ? -1 : 0; };
     const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
 
     Neighbourhood found;
-    const auto add = [&](std::int64_t first, std::int64_t last) {
-        const CellRange range{grid.start[static_cast<std::size_t>(first)],
+    const auto add = [&](std::int64_t from, std::int64_t last) {
+        const CellRange range{grid.start[static_cast<std::size_t>(from)],
                               grid.start[static_cast<std::size_t>(last) + 1]};
         if (range.begin == range.end) return;
         CellRange* before = found.count > 0 ? &found.ranges[static_cast<std::size_t>(found.count - 1)] : nullptr;
@@ -112,13 +114,13 @@ Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {
     const bool isInside = x > 0 && x + 1 < nx;  // its neighbours along x lie side by side
     for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
         for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
-            const std::int64_t row = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;
+            const std::int64_t first = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;
             if (isInside) {
-                add(row + x - 1, row + x + 1);
+                add(first + x - 1, first + x + 1);
                 continue;
             }
             for (std::int64_t dx = firstStep(nx); dx <= lastStep(nx); ++dx) {
-                const std::int64_t at = row + wrappedStep(x + dx, nx);
+                const std::int64_t at = first + wrappedStep(x + dx, nx);
                 add(at, at);
             }
         }

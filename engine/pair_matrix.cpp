@@ -16,7 +16,9 @@ void PairMatrix::add(std::size_t place, std::int32_t other, double alongOf, doub
 }
 
 void makeRoom(PairMatrix& matrix, const NeighbourList& list, bool hasFriction) {
-    makeRoom(matrix.rows, list);
+    matrix.rows.start = list.rows.start;
+    matrix.rows.length.assign(list.rows.length.size(), 0);
+    matrix.rows.places.resize(list.rows.places.size());
     matrix.along.resize(matrix.rows.places.size());
     matrix.across.resize(hasFriction ? matrix.rows.places.size() : 0);
 }

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "engine/lane_rows.h"
+#include "engine/neighbour_list.h"
 #include "engine/pair_record.h"
 #include "engine/vec3.h"
 

@@ -128,11 +128,12 @@ double run(const PairTraversal& pairs, const PairSums& sums) {
 /// those do to each other is less than a rounding of what they do in contact.
 bool isCoincident(const PairTraversal& pairs, std::size_t place) {
     const PairRecord& p = pairs.records[place];
-    const auto entry = [&](std::size_t of) { return pairs.list.places.begin() + pairs.list.rowStart[of]; };
-    return std::any_of(entry(place), entry(place + 1), [&](std::uint32_t other) {
-        const PairRecord& i = pairs.records[other];
-        return p.x == i.x && p.y == i.y && p.z == i.z;
-    });
+    const LaneRows& rows = pairs.list.rows;
+    for (std::uint32_t k = 0; k < rows.length[place]; ++k) {
+        const PairRecord& i = pairs.records[static_cast<std::size_t>(rows.places[rows.at(place, k)])];
+        if (p.x == i.x && p.y == i.y && p.z == i.z) return true;
+    }
+    return false;
 }
 
 /// What is wanted of uniform particles, a particle a lane. Coincident ones are done again by the scalar kernel, which
@@ -141,7 +142,7 @@ bool isCoincident(const PairTraversal& pairs, std::size_t place) {
 template <PairTerms terms>
 double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
-    const LanePass pass{pairs.lanes, pairs.records, pairs.singles, pairs.unit,  pairs.uniform,
+    const LanePass pass{pairs.list.rows, pairs.records, pairs.singles, pairs.unit,  pairs.uniform,
                         terms,       hasEnergy,     sums.matrix,   sums.weights};
     const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
     const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};

@@ -32,7 +32,7 @@ double fastest(const std::vector<Vec3>& velocities) {
 /// Entries of a row that lie within the cutoff (m), if they are spread evenly.
 double neighboursWithin(double cutoff, const NeighbourList& list) {
     const double share = cutoff / list.reach;
-    return share * share * share * static_cast<double>(list.places.size()) / static_cast<double>(list.count());
+    return share * share * share * static_cast<double>(list.entryCount) / static_cast<double>(list.count());
 }
 
 }  // namespace
@@ -42,19 +42,16 @@ PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
 
 void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                             double step) {
-    const bool hadLanes = terms.uniform;
     terms = termsFor(law, particles);
     if (terms.uniform && particles.count() > 0)
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * particles.radius.front());
-    const bool isNew = !covers(list, particles.position, terms.cutoff);
-    if (isNew) {
+    if (!covers(list, particles.position, terms.cutoff)) {
         const bool isForeseen = step > 0.0 && list.count() > 0;
         const double skin =
             isForeseen ? cheapestSkin(neighboursWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
                        : kListSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
     }
-    if (terms.uniform && (isNew || !hadLanes)) build(lanes, list);
     const bool hasSingles = terms.uniform && precision == Precision::singles;
     records.resize(particles.count());
     singles.resize(hasSingles ? particles.count() : 0);
@@ -82,7 +79,6 @@ void PairTraversal::restoreList(const ForceLaw& law, const Particles& particles,
                                 double reach) {
     terms = termsFor(law, particles);
     build(list, builtAt, reach, 0.0);
-    if (terms.uniform) build(lanes, list);
 }
 
 }  // namespace engine

@@ -25,7 +25,6 @@ struct PairTraversal {
     ForceTerms terms;
     PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
     NeighbourList list;
-    LaneRows lanes;                              ///< the list once more, where the terms are uniform
     std::vector<PairRecord> records;             ///< in the list's order
     Precision precision = Precision::doubles;    ///< of forces where the terms are uniform
     std::vector<SinglePrecisionRecord> singles;  ///< in the list's order; empty in double
@@ -56,13 +55,15 @@ struct PairTraversal {
         const double cutoffSq = terms.cutoff * terms.cutoff;
         constexpr std::uint32_t kSieve = 128;  // chosen: longer than most rows
         std::array<std::uint32_t, kSieve> within;
-        const std::uint32_t rowEnd = list.rowStart[self + 1];
-        for (std::uint32_t begin = list.rowStart[self]; begin < rowEnd; begin += kSieve) {
-            const std::uint32_t end = std::min(begin + kSieve, rowEnd);
+        const std::int32_t* row = &list.rows.places[list.rows.at(self, 0)];
+        const std::uint32_t length = list.rows.length[self];
+        for (std::uint32_t begin = 0; begin < length; begin += kSieve) {
+            const std::uint32_t end = std::min(begin + kSieve, length);
             std::size_t found = 0;
-            for (std::uint32_t entry = begin; entry < end; ++entry) {
-                within[found] = list.places[entry];
-                found += squaredLength(separationOf(p, records[list.places[entry]])) < cutoffSq ? 1U : 0U;
+            for (std::uint32_t k = begin; k < end; ++k) {
+                const auto other = static_cast<std::uint32_t>(row[k * kGroup]);
+                within[found] = other;
+                found += squaredLength(separationOf(p, records[other])) < cutoffSq ? 1U : 0U;
             }
             for (std::size_t k = 0; k < found; ++k) visitOne(p, within[k], visit);
         }

@@ -69,7 +69,7 @@ Subject subjectOf(const Packed& packed, std::size_t count) {
     subject.row.material = packed.name;
     subject.row.particles = particles.count();
     subject.row.neighbours = meanNeighbours(subject.setup, particles);
-    const auto entries = static_cast<double>(pairs.list.places.size() + pairs.lanes.places.size());
+    const auto entries = static_cast<double>(pairs.list.rows.places.size());
     subject.row.bytesPerParticle =
         sizeof(engine::PairRecord) + entries * sizeof(std::uint32_t) / static_cast<double>(particles.count());
     return subject;
@@ -134,17 +134,13 @@ class Bench {
         const engine::Particles& particles = subject.setup.initial;
         const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
         engine::NeighbourList list;
-        engine::LaneRows lanes;
         BenchRow row = subject.row;
         row.name = "list";
-        const Work work = [&] {
-            engine::build(list, particles.position, cutoff, engine::kListSkin * cutoff);
-            engine::build(lanes, list);
-        };
+        const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kListSkin * cutoff); };
         work();
         row.seconds = measured(work, settings_);
         std::uint64_t hash = engine::fnv1a("");
-        for (const std::uint32_t place : list.places) hash = engine::fnv1a(std::uint64_t{place}, hash);
+        for (const std::int32_t place : list.rows.places) hash = engine::fnv1a(static_cast<std::uint64_t>(place), hash);
         row.stateHash = engine::hexadecimal(hash);
         add(row);
     }

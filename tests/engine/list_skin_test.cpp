@@ -36,7 +36,7 @@ TEST_CASE("The skin is narrow where a list serves for long and where no skin wou
 
 TEST_CASE("The skin is wider for fast particles, and where few are near", "[list-skin]") {
     double before = cheapestSkin(45.0, 1e-5);
-    for (const double way : {1e-3, 5e-3, 0.02}) {
+    for (const double way : {1e-3, 5e-3, 0.02, 0.03}) {
         const double skin = cheapestSkin(45.0, way);
         CHECK(skin >= before);
         before = skin;
