@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 /// Changed whenever what is kept changes.
-constexpr std::uint64_t kFormat = 0x33504B434C424C47;  // "GLBLCKP3"
+constexpr std::uint64_t kFormat = 0x34504B434C424C47;  // "GLBLCKP4"
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -120,6 +120,7 @@ void exchangeParticles(Archive& archive, Of& particles) {
     archive(particles.birthTime);
     archive(particles.material);
     archive(particles.id);
+    archive(particles.nextId);
 }
 
 /// As many emitters and schedules as the set-up has: their numbers are not kept.
@@ -172,6 +173,7 @@ template <class Archive, class Of>
 void exchange(Archive& archive, Of& simulation) {
     exchangeParticles(archive, simulation.particles);
     exchangeEmitters(archive, simulation.emitters);
+    archive(simulation.deaths);
     archive(simulation.time);
     archive(simulation.stepper);
     archive(simulation.forces);

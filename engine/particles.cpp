@@ -10,10 +10,11 @@ void append(Particles& particles, const NewParticle& particle) {
     particles.mass.push_back(particle.mass);
     particles.birthTime.push_back(particle.birthTime);
     particles.material.push_back(particle.material);
-    particles.id.push_back(static_cast<std::uint32_t>(particles.id.size()));
+    particles.id.push_back(particles.nextId++);
 }
 
 void truncate(Particles& particles, std::size_t count) {
+    if (count < particles.count()) particles.nextId = particles.id[count];
     particles.position.resize(count);
     particles.velocity.resize(count);
     particles.radius.resize(count);

@@ -6,6 +6,7 @@
 
 #include "engine/audited_steps.h"
 #include "engine/auto_stepper.h"
+#include "engine/deaths.h"
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
 #include "engine/steppers.h"
@@ -56,6 +57,7 @@ Simulation start(const Setup& setup) {
 
 void advance(Simulation& simulation, double time) {
     if (time <= simulation.time) return;
+    removeLeavers(simulation);
     if (simulation.stepper == StepperKind::symplecticEuler)
         advanceAsPrinted(simulation, time);
     else if (simulation.setup.stepper == StepperKind::automatic)

@@ -36,12 +36,24 @@ constexpr bool isVerlet(StepperKind stepper) {
     return stepper == StepperKind::velocityVerlet || stepper == StepperKind::leapfrog;
 }
 
+/// A box with faces along the axes, m; infinite where it is open.
+struct Bounds {
+    Vec3 minimum = Vec3::Constant(-std::numeric_limits<double>::infinity());
+    Vec3 maximum = Vec3::Constant(std::numeric_limits<double>::infinity());
+};
+
+/// A face belongs to the box.
+inline bool contains(const Bounds& box, const Vec3& position) {
+    return (position.array() >= box.minimum.array()).all() && (position.array() <= box.maximum.array()).all();
+}
+
 /// Everything the scene says about the motion.
 struct Setup {
     std::vector<Material> materials = {Material{}};
     Vec3 gravity = Vec3(0.0, -9.8, 0.0);  ///< m/s^2
     double drag = 0.0;                    ///< k, 1/s: free motion decays like exp(-k t)
     Scenery scenery;
+    std::optional<Bounds> world;  ///< a particle beyond leaves the run
     std::vector<Emitter> emitters;
     Particles initial;  ///< at time zero
     StepperKind stepper = StepperKind::velocityVerlet;
@@ -121,6 +133,7 @@ struct Simulation {
     ForceEvaluator evaluator;
     Particles particles;
     std::vector<EmitterState> emitters;
+    std::uint64_t deaths = 0;                           ///< particles that have left a bounded world
     double time = 0.0;                                  ///< s
     StepperKind stepper = StepperKind::velocityVerlet;  ///< in use; the automatic one is never
     std::vector<Vec3> forces;  ///< pairs and gravity, N; while forcesCurrent those that the next step starts with
@@ -155,7 +168,8 @@ inline constexpr double kWorldLimit = 1e8;
 Simulation start(const Setup& setup);
 
 /// Brings the simulation to the given time, which is hit exactly. The paper's stepper takes equal steps no longer than
-/// the set-up's; the others also take back and retry what the audit does not let pass.
+/// the set-up's; the others also take back and retry what the audit does not let pass. What is beyond the bounds of the
+/// world now has left it before the first step.
 /// Throws InstabilityError when a particle is no longer finite or has left the world.
 void advance(Simulation& simulation, double time);
 

@@ -26,10 +26,11 @@ bool haveEqualLengths(const Simulation& simulation) {
 bool isOfSetup(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
     const Particles& initial = simulation.setup.initial;
-    if (particles.id[p] != p) return false;
-    if (p < initial.count())
-        return particles.radius[p] == initial.radius[p] && particles.mass[p] == initial.mass[p] &&
-               particles.material[p] == initial.material[p];
+    const std::size_t id = particles.id[p];
+    if (id >= particles.nextId || (p > 0 && id <= particles.id[p - 1])) return false;
+    if (id < initial.count())
+        return particles.radius[p] == initial.radius[id] && particles.mass[p] == initial.mass[id] &&
+               particles.material[p] == initial.material[id];
     const std::vector<Material>& materials = simulation.setup.materials;
     const std::uint32_t material = particles.material[p];
     return material < materials.size() && particles.radius[p] == materials[material].radius &&
@@ -37,7 +38,10 @@ bool isOfSetup(const Simulation& simulation, std::size_t p) {
 }
 
 bool areOfSetup(const Simulation& simulation) {
-    if (simulation.particles.count() != simulation.setup.initial.count() + birthCount(simulation)) return false;
+    const std::size_t everBorn = simulation.setup.initial.count() + birthCount(simulation);
+    if (simulation.deaths > 0 && !simulation.setup.world) return false;
+    if (simulation.particles.nextId != everBorn || simulation.particles.count() + simulation.deaths != everBorn)
+        return false;
     for (std::size_t p = 0; p < simulation.particles.count(); ++p)
         if (!isOfSetup(simulation, p)) return false;
     return true;

@@ -30,17 +30,6 @@ void completeCorners(Section& section, BuildContext& context) {
     }
 }
 
-void checkCorners(Section& section, BuildContext& context) {
-    if (!section.has("minimum") || !section.has("maximum")) return;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(section.vector("minimum")[axis] < section.vector("maximum")[axis]))
-            report(
-                section, "maximum",
-                fmt::format("maximum[{}] is {}, must be above the minimum {} (metres)", axis,
-                            numberText(section.vector("maximum")[axis]), numberText(section.vector("minimum")[axis])),
-                context);
-}
-
 /// The plane's normal with unit length, also in the list of values.
 engine::Plane planeFrom(Section& section, BuildContext& context) {
     engine::Plane plane;

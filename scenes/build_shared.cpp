@@ -48,6 +48,17 @@ std::string allowedText(std::string_view limit, double most) {
     return fmt::format("at most {:.2g} are allowed; --limit {}=N allows more", most, limit);
 }
 
+void checkCorners(Section& section, BuildContext& context) {
+    if (!section.has("minimum") || !section.has("maximum")) return;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(section.vector("minimum")[axis] < section.vector("maximum")[axis]))
+            report(
+                section, "maximum",
+                fmt::format("maximum[{}] is {}, must be above the minimum {} (metres)", axis,
+                            numberText(section.vector("maximum")[axis]), numberText(section.vector("minimum")[axis])),
+                context);
+}
+
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context) {
     if (!section.has("material")) return 0;
     const std::string& wanted = section.text("material");

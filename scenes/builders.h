@@ -68,6 +68,9 @@ bool expect(Section& section, std::string_view name, double particles, std::stri
 /// "at most 2e+06 are allowed; --limit particles=N allows more"
 std::string allowedText(std::string_view limit, double most);
 
+/// Records a problem where maximum is not above minimum along every axis; one that is not there is not looked at.
+void checkCorners(Section& section, BuildContext& context);
+
 /// Index of the material that a section names, the first if it names none; nothing if there is no such material.
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context);
 

@@ -100,7 +100,7 @@ void reportUnknownTables(Reader& reader) {
 }  // namespace
 
 std::vector<const Section*> Sections::all() const {
-    std::vector<const Section*> list = {&top, &physics};
+    std::vector<const Section*> list = {&top, &physics, &world};
     for (const std::vector<Section>* group : {&materials, &bodies, &emitters, &obstacles, &cameras})
         for (const Section& section : *group) list.push_back(&section);
     for (const Section* section : {&look, &overlay, &still}) list.push_back(section);
@@ -114,6 +114,7 @@ Sections readSections(const Document& document, ProblemList& problems) {
     Sections sections{
         .top = readOne(reader, *findTable(""), "", document.root),
         .physics = readSingle(reader, "physics"),
+        .world = readSingle(reader, "world"),
         .look = readSingle(reader, "look"),
         .overlay = readSingle(reader, "overlay"),
         .still = readSingle(reader, "still"),

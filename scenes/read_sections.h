@@ -13,6 +13,7 @@ namespace scenes {
 struct Sections {
     Section top;
     Section physics;
+    Section world;
     Section look;
     Section overlay;
     Section still;

@@ -39,6 +39,15 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 
+std::optional<engine::Bounds> buildWorld(Section& section, BuildContext& context) {
+    if (!section.has("minimum") && !section.has("maximum")) return std::nullopt;
+    checkCorners(section, context);
+    engine::Bounds world;
+    if (section.has("minimum")) world.minimum = section.vector("minimum");
+    if (section.has("maximum")) world.maximum = section.vector("maximum");
+    return world;
+}
+
 /// Each after the one before, and none after the end.
 std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
     Section& still = sections.still;
@@ -135,6 +144,7 @@ BuildContext contextOf(const Sections& sections, const std::string& fileName, Pr
 
 void build(Sections& sections, BuildContext& context, Scene& scene) {
     Materials materials = buildMaterials(sections.materials, context);
+    scene.setup.world = buildWorld(sections.world, context);
     scene.setup.initial = buildBodies(sections.bodies, materials, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
     Obstacles obstacles = buildObstacles(sections.obstacles, sections.look, context);

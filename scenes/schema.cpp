@@ -14,6 +14,7 @@ const std::vector<TableInfo>& tables() {
     static const std::vector<TableInfo> kTables = {
         {.name = "", .article = "a scene", .help = "keys above the first table"},
         {.name = "physics", .article = "[physics]", .help = "what acts on every particle, and how time advances"},
+        {.name = "world", .article = "[world]", .help = "bounds beyond which a particle leaves the run, once a frame"},
         {.name = "material",
          .list = true,
          .article = "a material",

@@ -67,6 +67,17 @@ std::vector<Key> worldRows() {
          .choices = {"grid", "reference"},
          .help = "how pairs are found: a cell grid, or every pair as in the paper"},
 
+        {.path = "world.minimum",
+         .type = Type::vec3,
+         .unit = "m",
+         .derived = "no bound",
+         .help = "corner with the least coordinates"},
+        {.path = "world.maximum",
+         .type = Type::vec3,
+         .unit = "m",
+         .derived = "no bound",
+         .help = "corner with the greatest coordinates"},
+
         {.path = "material[].name",
          .type = Type::text,
          .derived = "the preset's name",

@@ -24,6 +24,7 @@ still lava 195
 still mud 75
 still molten-metal 168
 still sand 345
+still cascade 180
 
 for figure in 1 2 3 4; do
     "$globular" strip "figure-$figure" --size 360x270 --quiet -o "docs/figure-$figure-strip.png"

@@ -142,6 +142,7 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
     json["particles"] = simulation.particles.count();
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);
+    json["deaths"] = simulation.deaths;
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;

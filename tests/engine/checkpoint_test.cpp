@@ -18,8 +18,6 @@ using engine::Simulation;
 using engine::StepperKind;
 using engine::Vec3;
 
-constexpr double kFrame = 1.0 / 30.0;
-
 /// A block that falls on a floor and a sphere, and a nozzle above it that needs to wait for room now and then.
 Setup busySetup(StepperKind stepper) {
     engine::Material solid = *engine::materialPreset("solid");
@@ -40,23 +38,19 @@ Setup busySetup(StepperKind stepper) {
     return setup;
 }
 
-void advanceFrames(Simulation& simulation, int from, int to) {
-    for (int frame = from + 1; frame <= to; ++frame) engine::advance(simulation, frame * kFrame);
-}
-
 /// Goes on from checkpoints at several frames and compares everything that a checkpoint holds at the end.
 void checkGoingOn(const Setup& setup, int frames) {
     Simulation whole = engine::start(setup);
     std::vector<std::vector<std::uint8_t>> checkpoints = {encodeCheckpoint(whole)};
     for (int frame = 1; frame <= frames; ++frame) {
-        engine::advance(whole, frame * kFrame);
+        engine::advance(whole, frame * runs::kFrame);
         checkpoints.push_back(encodeCheckpoint(whole));
     }
     for (int frame = 0; frame <= frames; frame += 3) {
         INFO("from frame " << frame);
         Simulation resumed = decodeCheckpoint(setup, checkpoints[static_cast<std::size_t>(frame)]);
         CHECK(encodeCheckpoint(resumed) == checkpoints[static_cast<std::size_t>(frame)]);
-        advanceFrames(resumed, frame, frames);
+        runs::advanceFrames(resumed, frame, frames);
         CHECK(engine::stateHash(resumed.particles) == engine::stateHash(whole.particles));
         CHECK(encodeCheckpoint(resumed) == checkpoints.back());
     }
@@ -64,7 +58,7 @@ void checkGoingOn(const Setup& setup, int frames) {
 
 std::vector<std::uint8_t> checkpointOf(const Setup& setup, int frames) {
     Simulation simulation = engine::start(setup);
-    advanceFrames(simulation, 0, frames);
+    runs::advanceFrames(simulation, 0, frames);
     return encodeCheckpoint(simulation);
 }
 
@@ -166,7 +160,7 @@ TEST_CASE("A checkpoint with a right checksum and wrong contents is refused", "[
 TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoint]") {
     const Setup setup = busySetup(StepperKind::automatic);
     Simulation whole = engine::start(setup);
-    advanceFrames(whole, 0, 3);
+    runs::advanceFrames(whole, 0, 3);
     REQUIRE(birthCount(whole) > 0);
     REQUIRE(complaint(setup, encodeCheckpoint(whole)).empty());
     const auto complaintAfter = [&](const auto& change) {

@@ -10,6 +10,13 @@
 
 namespace runs {
 
+inline constexpr double kFrame = 1.0 / 30.0;  // s
+
+/// Frame by frame.
+inline void advanceFrames(engine::Simulation& simulation, int from, int to) {
+    for (int frame = from + 1; frame <= to; ++frame) engine::advance(simulation, frame * kFrame);
+}
+
 /// A set-up of one material without gravity, drag and obstacles; step in seconds.
 inline engine::Setup freeSetup(const engine::Material& material, engine::StepperKind stepper, double step) {
     engine::Setup setup;

@@ -6,6 +6,7 @@ namespace golden {
 
 const std::vector<GoldenScene>& scenes() {
     static const std::vector<GoldenScene> kScenes = {
+        {"cascade", 30, 130, {}},
         {"fountain", 20, 75, {}},
         {"honey", 30, 90, {}},
         {"jam", 5, 30, {"physics.stepper=linearly-implicit", "physics.step=0.01"}},

@@ -86,6 +86,13 @@ TEST_CASE("the bounds themselves are accepted where they are closed") {
     CHECK(problemsOf(kBall + "[look]\nsize = [16, 8192]\n") == Lines{});
 }
 
+TEST_CASE("a world has its maximum above its minimum, where it has both") {
+    CHECK(problemsOf(kBall + "[world]\nminimum = [0, 1, 0]\nmaximum = [2, 1, -1]\n") ==
+          Lines{"pile.toml:8:11: maximum[1] is 1, must be above the minimum 1 (metres)",
+                "pile.toml:8:11: maximum[2] is -1, must be above the minimum 0 (metres)"});
+    CHECK(problemsOf(kBall + "[world]\nmaximum = [2, 1, -1]\n") == Lines{});
+}
+
 TEST_CASE("numbers that are not finite are refused") {
     CHECK(problemsOf(kBall + "[physics]\ngravity = [0, -inf, nan]\n") ==
           Lines{"pile.toml:7:15: gravity[1] is -inf, must be finite (m/s^2)",

@@ -23,6 +23,7 @@ TEST_CASE("a scene that says little has the defaults of the schema") {
     CHECK(scene.setup.stepper == engine::StepperKind::automatic);
     CHECK(scene.setup.step == 0.002);
     CHECK(scene.setup.forces == engine::ForceMethod::grid);
+    CHECK_FALSE(scene.setup.world);
     CHECK(scene.stillTime == 1.0);
     CHECK(scene.size.width == 1280);
     CHECK(scene.size.height == 720);
@@ -38,6 +39,7 @@ TEST_CASE("a scene says what it says") {
         "title = \"all\"\ndescription = \"d\"\nduration = 3\nfps = 25\nseed = 9007199254740993\n"
         "[physics]\ngravity = [1, 2, 3]\ndrag = 0.5\nstepper = \"symplectic-euler\"\nstep = 0.01\nforces = "
         "\"reference\"\n"
+        "[world]\nminimum = [-9, -2, -9]\n"
         "[[body]]\nshape = \"ball\"\nradius = 1\n[still]\ntime = 3\n[look]\nsize = [640, 480]\nstyle = "
         "\"metaballs\"\n");
     CHECK(scene.description == "d");
@@ -50,6 +52,9 @@ TEST_CASE("a scene says what it says") {
     CHECK(scene.setup.stepper == engine::StepperKind::symplecticEuler);
     CHECK(scene.setup.step == 0.01);
     CHECK(scene.setup.forces == engine::ForceMethod::reference);
+    REQUIRE(scene.setup.world);
+    CHECK(scene.setup.world->minimum == Vec3(-9.0, -2.0, -9.0));
+    CHECK(std::isinf(scene.setup.world->maximum.y()));
     CHECK(scene.stillTime == 3.0);
     CHECK(scene.size.width == 640);
     CHECK(scene.size.height == 480);

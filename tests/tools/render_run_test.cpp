@@ -47,7 +47,7 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
 
     const auto json = nlohmann::json::parse(textOf(folder / "a/run.json"));
     for (const char* key : {"scene", "scene_hash", "version", "threads", "instruction_set", "gl_renderer", "particles",
-                            "refused_births", "frames", "stepper", "steps", "seconds", "error_estimate", "energy",
+                            "births", "refused_births", "deaths", "frames", "stepper", "steps", "seconds", "error_estimate", "energy",
                             "linear_momentum", "angular_momentum", "state_hash"})
         CHECK(json.contains(key));
     CHECK(json["frames"] == 10);

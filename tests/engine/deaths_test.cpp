@@ -1,0 +1,127 @@
+// Particles that leave a bounded world: who, when, and that nobody else notices.
+#include "tests/catch.h"
+
+#include "engine/checkpoint.h"
+#include "engine/diagnostics.h"
+#include "tests/engine/runs.h"
+
+using namespace engine;
+
+namespace {
+
+/// A jet that falls on a floor, the end of which is the end of the world.
+Setup overflowing(StepperKind stepper) {
+    Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 0.004);
+    setup.gravity = Vec3(0.0, -9.8, 0.0);
+    setup.scenery.colliders = {Plane{Vec3(0.0, 0.0, 0.0), Vec3::UnitY()}};
+    Emitter emitter;
+    emitter.sites = discSites(Vec3(0.0, 1.5, 0.0), Vec3(1.0, -1.0, 0.0), 0.5, 0.3);
+    emitter.velocity = Vec3(4.0, -4.0, 0.0);
+    emitter.interval = 0.06;
+    setup.emitters = {emitter};
+    setup.world = Bounds{};
+    setup.world->maximum.x() = 2.5;
+    return setup;
+}
+
+}  // namespace
+
+TEST_CASE("Who is beyond the bounds leaves with the next interval; the others keep order and ids", "[deaths]") {
+    Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 0.01);
+    for (const double x : {-3.0, 2.0, 3.0, 4.0, 2.0 + 1e-12}) append(setup.initial, {.position = Vec3(x, x, 0.0)});
+    setup.world = Bounds{};
+    setup.world->maximum = Vec3(3.5, 2.0, 1.0);  // a face belongs to it
+    Simulation simulation = start(setup);
+    CHECK(simulation.particles.count() == 5);
+    advance(simulation, runs::kFrame);
+    CHECK(simulation.particles.id == std::vector<std::uint32_t>{0, 1});
+    CHECK(simulation.deaths == 3);
+    append(simulation.particles, {.position = Vec3(-9.0, 0.0, 0.0)});
+    CHECK(simulation.particles.id.back() == 5);  // of the dead nobody takes the place
+    truncate(simulation.particles, 2);
+    append(simulation.particles, {.position = Vec3(-9.0, 0.0, 0.0)});
+    CHECK(simulation.particles.id.back() == 5);
+}
+
+TEST_CASE("The others go on as if nobody had been there", "[deaths]") {
+    for (const StepperKind stepper : kSteppers) {
+        Setup alone = runs::freeSetup(*materialPreset("liquid"), stepper, 0.004);
+        runs::addPacking(alone, {4, 4, 4});
+        Setup accompanied = alone;
+        append(accompanied.initial, {.position = Vec3(0.1, 50.0, 0.0), .radius = alone.initial.radius[0]});
+        accompanied.world = Bounds{Vec3::Constant(-40.0), Vec3::Constant(40.0)};
+        Simulation expected = start(alone);
+        Simulation actual = start(accompanied);
+        advance(expected, 3.0 * runs::kFrame);
+        advance(actual, 3.0 * runs::kFrame);
+        INFO(nameOf(stepper));
+        CHECK(stateHash(actual.particles) == stateHash(expected.particles));
+    }
+}
+
+TEST_CASE("A world of nobody stays one", "[deaths]") {
+    Setup setup = overflowing(StepperKind::automatic);
+    setup.emitters[0].limit = 3;
+    setup.world->maximum.y() = -1.0;
+    Simulation simulation = start(setup);
+    runs::advanceFrames(simulation, 0, 10);
+    CHECK(simulation.particles.count() == 0);
+    CHECK(simulation.deaths == 3);
+}
+
+TEST_CASE("Births and deaths leave as many as there are, and none outside for longer than a frame", "[deaths]") {
+    for (const StepperKind stepper : kSteppers) {
+        Simulation simulation = start(overflowing(stepper));
+        runs::advanceFrames(simulation, 0, 45);
+        INFO(nameOf(stepper));
+        CHECK(simulation.deaths > 20);
+        CHECK(simulation.particles.count() + simulation.deaths == birthCount(simulation));
+        for (const Vec3& position : simulation.particles.position)
+            CHECK(position.x() < 2.5 + 10.0 * runs::kFrame);  // nothing moves at 10 m/s
+    }
+}
+
+TEST_CASE("Deaths keep a run's bits: any number of threads, and resumed", "[deaths]") {
+    for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::automatic}) {
+        const Setup setup = overflowing(stepper);
+        Simulation whole = start(setup);
+        runs::advanceFrames(whole, 0, 36);
+        REQUIRE(whole.deaths > 0);
+        const std::vector<std::uint8_t> checkpoint = encodeCheckpoint(whole);
+        runs::advanceFrames(whole, 36, 42);
+        INFO(nameOf(stepper));
+        Simulation resumed = decodeCheckpoint(setup, checkpoint);
+        runs::advanceFrames(resumed, 36, 42);
+        CHECK(stateHash(resumed.particles) == stateHash(whole.particles));
+        CHECK(resumed.deaths == whole.deaths);
+        clouds::onThreads(3, [&] {
+            Simulation other = start(setup);
+            runs::advanceFrames(other, 0, 42);
+            CHECK(stateHash(other.particles) == stateHash(whole.particles));
+        });
+    }
+}
+
+TEST_CASE("A checkpoint with deaths that cannot have been is refused", "[deaths]") {
+    const Setup setup = overflowing(StepperKind::velocityVerlet);
+    Simulation simulation = start(setup);
+    runs::advanceFrames(simulation, 0, 36);
+    REQUIRE(simulation.deaths > 0);
+    const auto isTaken = [&](const Setup& by, const auto& change) {
+        Simulation other = simulation;
+        change(other);
+        try {
+            decodeCheckpoint(by, encodeCheckpoint(other));
+        } catch (const CheckpointError&) {
+            return false;
+        }
+        return true;
+    };
+    CHECK(isTaken(setup, [](Simulation&) {}));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { ++s.deaths; }));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { ++s.particles.nextId; }));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { std::swap(s.particles.id[0], s.particles.id[1]); }));
+    Setup boundless = setup;
+    boundless.world.reset();
+    CHECK_FALSE(isTaken(boundless, [](Simulation&) {}));
+}
