@@ -106,4 +106,15 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
            }) <= slack * slack;
 }
 
+std::size_t bytesOf(const NeighbourList& list) {
+    const auto held = [](const auto&... vectors) {
+        return (std::size_t{0} + ... + (vectors.capacity() * sizeof(vectors[0])));
+    };
+    std::size_t bytes = held(list.order, list.placeOf, list.rows.start, list.rows.length, list.rows.places,
+                             list.builtAt, list.grid.start, list.grid.order, list.grid.cellOf, list.candidates.x,
+                             list.candidates.y, list.candidates.z, list.found);
+    for (const FoundRows& found : list.found) bytes += held(found.places);
+    return bytes;
+}
+
 }  // namespace engine

@@ -33,4 +33,7 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
 /// Whether every pair closer than the cutoff (m) is certainly in the list.
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff);
 
+/// Bytes that the list holds, with the scratch of its build.
+std::size_t bytesOf(const NeighbourList& list);
+
 }  // namespace engine

@@ -69,9 +69,8 @@ Subject subjectOf(const Packed& packed, std::size_t count) {
     subject.row.material = packed.name;
     subject.row.particles = particles.count();
     subject.row.neighbours = meanNeighbours(subject.setup, particles);
-    const auto entries = static_cast<double>(pairs.list.rows.places.size());
-    subject.row.bytesPerParticle =
-        sizeof(engine::PairRecord) + entries * sizeof(std::uint32_t) / static_cast<double>(particles.count());
+    subject.row.bytesPerParticle = sizeof(engine::PairRecord) + static_cast<double>(engine::bytesOf(pairs.list)) /
+                                                                    static_cast<double>(particles.count());
     return subject;
 }
 

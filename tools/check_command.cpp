@@ -49,11 +49,12 @@ engine::Particles everyKind(const scenes::Scene& scene) {
     return particles;
 }
 
-/// Bytes a particle takes while a frame is in flight, its row of the neighbour list apart: state, forces, prediction
-/// and the step's start, sorted record and cells, spheres to draw.
+/// Bytes a particle takes while a frame is in flight, the neighbour list apart: state, forces, prediction and the
+/// step's start, the states that steps can be taken back to, sorted record, spheres to draw.
 std::size_t bytesPerParticle() {
     const std::size_t state = 2 * sizeof(engine::Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
-    const std::size_t scratch = 3 * sizeof(engine::Vec3) + sizeof(engine::PairRecord) + 4 * sizeof(std::uint32_t);
+    constexpr std::size_t kStatesBefore = 5;  // position, velocity and force of each
+    const std::size_t scratch = (3 + 3 * kStatesBefore) * sizeof(engine::Vec3) + sizeof(engine::PairRecord);
     constexpr std::size_t kFramesInFlight = 4;
     return state + scratch + kFramesInFlight * sizeof(render::Sphere);
 }
@@ -98,6 +99,8 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
         automatic.looks > 0 ? Json(automatic.errorSum / static_cast<double>(automatic.looks)) : Json(nullptr);
     json["seconds_simulating"] =
         preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
+    const std::size_t count = std::max<std::size_t>(1, simulation.particles.count());
+    json["bytes_per_particle"] = bytesPerParticle() + engine::bytesOf(simulation.evaluator.list()) / count;
     return json;
 }
 
@@ -141,8 +144,8 @@ Json checkJson(const scenes::Scene& scene) {
         scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);
     json["predicted"] = predictionJson(scene, meanParticles);
     json["step_bound_at_start"] = boundJson(scene, json["predicted"]["stepper"].get<std::string>());
-    json["bytes_per_particle"] = bytesPerParticle();
-    json["memory_bytes"] = most * bytesPerParticle();
+    json["bytes_per_particle"] = json["predicted"]["bytes_per_particle"];
+    json["memory_bytes"] = most * json["bytes_per_particle"].get<std::uint64_t>();
     return json;
 }
 
