@@ -45,7 +45,7 @@ FlickerRow measured(const std::vector<render::Image>& frames) {
 
 }  // namespace
 
-std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings) {
+std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const FlickerListener& listener) {
     render::Context context(settings.backend);
     std::vector<FlickerRow> rows;
     for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
@@ -60,6 +60,7 @@ std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings) {
             row.style = style;
             row.quality = quality;
             rows.push_back(row);
+            listener(rows);
         }
     }
     return rows;

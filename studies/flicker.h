@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct FlickerSettings {
     render::Backend backend = render::Backend::osmesa;
 };
 
+/// Told of all rows so far, after each.
+using FlickerListener = std::function<void(const std::vector<FlickerRow>&)>;
+
 /// Every style and quality. Throws render::SystemError.
-std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings);
+std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const FlickerListener& listener);
 
 std::string flickerCsv(const std::vector<FlickerRow>& rows);
 

@@ -165,8 +165,8 @@ void measureSubject(const PictureSettings& settings, render::Context& context, c
         row.baseline = baseline;
         render::Renderer renderer(context, subject.size, quality);
         row.error = errorOf(renderer.draw(view), renderer.surfaces(view), view, exact);
-        listener(row);
         rows.push_back(row);
+        listener(rows);
     }
 }
 

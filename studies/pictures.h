@@ -50,7 +50,8 @@ struct PictureSettings {
 const char* nameOf(render::Style style);
 const char* nameOf(render::Quality quality);
 
-using PictureListener = std::function<void(const PictureRow&)>;
+/// Told of all rows so far, after each.
+using PictureListener = std::function<void(const std::vector<PictureRow>&)>;
 
 /// Measures every style, number, size and quality. Throws render::SystemError.
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, const PictureListener& listener);

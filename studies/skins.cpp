@@ -155,7 +155,7 @@ double fieldVolume(const render::View& view, double spacing) {
     return static_cast<double>(sum) * step * step * step;
 }
 
-std::vector<SkinRow> measureSkins(const SkinSettings& settings) {
+std::vector<SkinRow> measureSkins(const SkinSettings& settings, const SkinListener& listener) {
     render::Context context(settings.backend);
     std::vector<SkinRow> rows;
     for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
@@ -164,6 +164,7 @@ std::vector<SkinRow> measureSkins(const SkinSettings& settings) {
             row.particles = particles;
             row.draw = secondsAFrame(settings, context, particles, skin);
             rows.push_back(row);
+            listener(rows);
         }
     }
     return rows;

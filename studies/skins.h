@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,11 @@ struct SkinSettings {
 
 const char* nameOf(render::Skin skin);
 
+/// Told of all rows so far, after each.
+using SkinListener = std::function<void(const std::vector<SkinRow>&)>;
+
 /// Plain and smooth for each number of particles. Throws render::SystemError.
-std::vector<SkinRow> measureSkins(const SkinSettings& settings);
+std::vector<SkinRow> measureSkins(const SkinSettings& settings, const SkinListener& listener);
 
 /// Volume within the surface of a view's metaballs (at least one), m^3: cubes with sides of so many mean radii, whose
 /// middles are inside.

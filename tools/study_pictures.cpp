@@ -69,22 +69,38 @@ studies::FlickerSettings flickerSettingsFor(const PicturesOptions& options) {
     return settings;
 }
 
-studies::PictureListener reporter(Talk talk) {
-    return [talk](const studies::PictureRow& row) {
-        if (talk == Talk::json)
-            printJson(Json{{"event", "row"},
-                           {"style", studies::nameOf(row.style)},
-                           {"particles", row.particles},
-                           {"width", row.size.width},
-                           {"quality", studies::nameOf(row.quality)},
-                           {"seconds", row.draw},
-                           {"ratio", row.ratio()},
-                           {"ssim", row.error.ssim}});
-        else if (talk == Talk::normal)
-            fmt::print(stderr, "{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
-                       studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
-                       studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim);
-    };
+void tellRow(const studies::PictureRow& row, Talk talk) {
+    if (talk == Talk::json)
+        printJson(Json{{"event", "row"},
+                       {"style", studies::nameOf(row.style)},
+                       {"particles", row.particles},
+                       {"width", row.size.width},
+                       {"quality", studies::nameOf(row.quality)},
+                       {"seconds", row.draw},
+                       {"ratio", row.ratio()},
+                       {"ssim", row.error.ssim}});
+    else if (talk == Talk::normal)
+        fmt::print(stderr, "{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
+                   studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
+                   studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim);
+}
+
+/// Writes a table after each of its rows: the study takes long, and what interrupts it leaves what was measured.
+PictureResults measure(const PicturesOptions& options, const studies::PictureSettings& settings) {
+    const fs::path folder = options.folder;
+    PictureResults results;
+    results.rows = studies::measurePictures(settings, [&](const std::vector<studies::PictureRow>& rows) {
+        writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
+        tellRow(rows.back(), options.run.talk());
+    });
+    results.flicker =
+        studies::measureFlicker(flickerSettingsFor(options), [&](const std::vector<studies::FlickerRow>& rows) {
+            writeFile(folder / "flicker.csv", studies::flickerCsv(rows));
+        });
+    results.skins = studies::measureSkins(
+        {settings.particles, settings.sizes.front(), settings.frames},
+        [&](const std::vector<studies::SkinRow>& rows) { writeFile(folder / "skins.csv", studies::skinsCsv(rows)); });
+    return results;
 }
 
 void print(const std::vector<studies::PictureRow>& rows) {
@@ -106,16 +122,9 @@ void study(const PicturesOptions& options) {
     createFolder(folder);
     const studies::PictureSettings settings = settingsFor(options);
     PictureResults results;
-    onThreads(threads, [&] {
-        results.rows = studies::measurePictures(settings, reporter(options.run.talk()));
-        results.flicker = studies::measureFlicker(flickerSettingsFor(options));
-        results.skins = studies::measureSkins({settings.particles, settings.sizes.front(), settings.frames});
-    });
+    onThreads(threads, [&] { results = measure(options, settings); });
     const std::vector<studies::PictureRow>& rows = results.rows;
     fs::remove(settings.videoPath);
-    writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
-    writeFile(folder / "flicker.csv", studies::flickerCsv(results.flicker));
-    writeFile(folder / "skins.csv", studies::skinsCsv(results.skins));
     const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows, results.skins)),
                              drawPlot(studies::pictureErrorsPlot(rows))};
     writeFile(folder / "times.svg", plots.times);
@@ -131,8 +140,8 @@ void study(const PicturesOptions& options) {
         fmt::print("{} {}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n", studies::nameOf(row.style),
                    studies::nameOf(row.quality), row.change, row.jerk);
     for (const studies::SkinRow& row : results.skins)
-        fmt::print("{} skin, {} particles: {:.4g} ms, volume {:.3f}, bumps {:.2f} degrees\n",
-                   studies::nameOf(row.skin), row.particles, 1e3 * row.draw, row.volume, row.bumps);
+        fmt::print("{} skin, {} particles: {:.4g} ms, volume {:.3f}, bumps {:.2f} degrees\n", studies::nameOf(row.skin),
+                   row.particles, 1e3 * row.draw, row.volume, row.bumps);
     fmt::print("all of it: {}\n", (folder / "index.html").string());
 }
 

@@ -103,8 +103,11 @@ TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictu
     settings.particles = 1500;
     settings.size = {320, 180};
     settings.frames = 5;
-    const std::vector<FlickerRow> rows = measureFlicker(settings);
+    std::size_t told = 0;
+    const std::vector<FlickerRow> rows =
+        measureFlicker(settings, [&](const std::vector<FlickerRow>& soFar) { CHECK(soFar.size() == ++told); });
     REQUIRE(rows.size() == 6);
+    CHECK(told == 6);
     for (std::size_t k = 0; k < rows.size(); k += 3) {  // draft, normal, final of a style
         CAPTURE(k, rows[k].jerk, rows[k + 1].jerk, rows[k + 2].jerk);
         CHECK(rows[k].change > 0.0);
@@ -112,7 +115,7 @@ TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictu
         CHECK(rows[k + 2].jerk < rows[k + 1].jerk);
     }
     settings.pixelsPerFrame = 0.0;
-    for (const FlickerRow& row : measureFlicker(settings)) CHECK(row.change == 0.0);
+    for (const FlickerRow& row : measureFlicker(settings, [](const auto&) {})) CHECK(row.change == 0.0);
     const std::string csv = flickerCsv(rows);
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 7);
 }
@@ -129,8 +132,11 @@ TEST_CASE("A lone ball has its sphere's volume in either skin, and a pool its ow
     settings.size = kSize;
     settings.frames = 1;
     settings.spacing = 0.5;
-    const std::vector<SkinRow> rows = measureSkins(settings);
+    std::size_t told = 0;
+    const std::vector<SkinRow> rows =
+        measureSkins(settings, [&](const std::vector<SkinRow>& soFar) { CHECK(soFar.size() == ++told); });
     REQUIRE(rows.size() == 2);
+    CHECK(told == 2);
     CHECK(rows[0].skin == render::Skin::plain);
     for (const SkinRow& row : rows) {
         CHECK(row.draw > 0.0);
@@ -155,8 +161,9 @@ TEST_CASE("A small study has a row for each style, number, size and quality", "[
     settings.windowRows = 2;
     settings.samplesPerAxis = 1;
     settings.videoPath = (std::filesystem::temp_directory_path() / "globular-pictures-test.mp4").string();
-    int told = 0;
-    const auto rows = measurePictures(settings, [&](const PictureRow&) { ++told; });
+    std::size_t told = 0;
+    const auto rows =
+        measurePictures(settings, [&](const std::vector<PictureRow>& soFar) { CHECK(soFar.size() == ++told); });
     std::filesystem::remove(settings.videoPath);
     REQUIRE(rows.size() == 6);
     CHECK(told == 6);

@@ -82,6 +82,20 @@ TEST_CASE("The study of scaling writes tables, a plot and a page, and says when 
     CHECK(run("study scaling --peer gromacs").code == 2);
 }
 
+TEST_CASE("A study of pictures that is interrupted leaves the rows that it has told of", "[tools]") {
+    const program::Folder folder;
+    const std::string table = (folder / "pictures" / "pictures.csv").string();
+    // Its next line after the first has no reader, which ends the study.
+    const auto outcome = run("study pictures --quick --particles 100 200 --size 256x144 --threads 1 -o " +
+                             (folder / "pictures").string() + " 2>&1 >/dev/null | (read row; cat " + table + ")");
+    INFO(outcome.out);
+    REQUIRE(outcome.code == 0);
+    CHECK(program::lineCount(outcome.out) >= 2);  // a head, and the row just told of
+    CHECK(program::lineCount(outcome.out) < 1 + 2 * 2 * 3);
+    CHECK(outcome.out.find("spheres,100,256,144,draft,") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "pictures" / "index.html"));
+}
+
 TEST_CASE("The study of pictures writes its table, plots and a page, and leaves no film behind", "[tools]") {
     const program::Folder folder;
     const std::string command = "study pictures --quick --particles 100 200 --size 256x144 --threads 1";
