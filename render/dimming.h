@@ -1,9 +1,9 @@
 // Bounds of all that may dim the ground. Called by the picture pass.
 #pragma once
 
+#include "render/depth_map.h"
 #include "render/ground_tiles.h"
 #include "render/light_space.h"
-#include "render/metaball_frame.h"
 #include "render/openness.h"
 #include "render/view.h"
 

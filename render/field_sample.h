@@ -1,10 +1,11 @@
-// Hits of the metaball cast, packed to 16 bytes for the shaders. Written by metaball_frame.cpp, read by
-// shaders/surface.glsl.
+// Hits of the metaball cast, packed to 16 bytes for the shaders. Written by metaball_frame.cpp and outline_rays.cpp,
+// read by shaders/surface.glsl.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "render/camera_frame.h"
 #include "render/metaball_cast.h"
@@ -17,6 +18,12 @@ struct FieldSample {
     std::uint32_t normal = 0;     ///< octahedral, 16 + 16 bits, in world axes
     std::uint32_t color = 0;      ///< square roots, 11 + 11 + 10 bits
     std::uint32_t extra = 0;      ///< first of four more samples at the sub-pixel places; 0: none
+};
+
+struct FieldPicture {
+    std::vector<FieldSample> samples;  ///< 256 a slot, row by row, then the extra samples
+    std::vector<std::uint32_t> open;   ///< of each sample, as packBlock() has it; empty without
+    std::vector<std::int32_t> slots;   ///< per tile; -1 where nothing of the surface is seen
 };
 
 /// A block's samples, and the openness of each along the normal, against it and along the mirrored ray, 10 bits each.

@@ -5,8 +5,8 @@
 #include <array>
 #include <span>
 
+#include "render/depth_map.h"
 #include "render/light_space.h"
-#include "render/metaball_frame.h"
 #include "render/openness.h"
 #include "render/surface_points.h"
 #include "render/view.h"

@@ -12,7 +12,7 @@ namespace render {
 namespace {
 
 // Enough for cells of two radii in a pile of a million; more would cost more to clear than it saves.
-constexpr int kMostCells = 512;
+constexpr int kMostCellsPerSide = 512;
 
 int cellOf(float at, float origin, float cellSize, int count) {
     return std::clamp(static_cast<int>(std::floor((at - origin) / cellSize)), 0, count - 1);
@@ -22,8 +22,8 @@ float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {
     double sum = 0.0;
     for (const ViewSphere& sphere : spheres) sum += sphere.radius;
     const auto meanDiameter = static_cast<float>(2.0 * sum / static_cast<double>(spheres.size()));
-    return std::max({meanDiameter, extent.x / static_cast<float>(kMostCells - 1),
-                     extent.y / static_cast<float>(kMostCells - 1), 1e-6F});
+    return std::max({meanDiameter, extent.x / static_cast<float>(kMostCellsPerSide - 1),
+                     extent.y / static_cast<float>(kMostCellsPerSide - 1), 1e-6F});
 }
 
 }  // namespace
@@ -69,8 +69,8 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     }
     grid.origin = low;
     grid.cellSize = wantedCellSize(spheres, high - low);
-    grid.columns = std::clamp(static_cast<int>((high.x - low.x) / grid.cellSize) + 1, 1, kMostCells);
-    grid.rows = std::clamp(static_cast<int>((high.y - low.y) / grid.cellSize) + 1, 1, kMostCells);
+    grid.columns = std::clamp(static_cast<int>((high.x - low.x) / grid.cellSize) + 1, 1, kMostCellsPerSide);
+    grid.rows = std::clamp(static_cast<int>((high.y - low.y) / grid.cellSize) + 1, 1, kMostCellsPerSide);
 
     std::vector<BinItem> items(spheres.size());
     const std::vector<std::uint32_t> order = orderByKey(keys);

@@ -1,5 +1,5 @@
 // The ray cast of the metaball field: where rays first meet the surface, on the CPU, as many rays at a time as the
-// machine has lanes. Called by metaball_frame.cpp once per tile of the picture and of the light's depth map.
+// machine has lanes. Called for each tile of the picture and of the light's depth map.
 #pragma once
 
 #include <array>

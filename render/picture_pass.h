@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "render/camera_frame.h"
+#include "render/depth_map.h"
 #include "render/draw_times.h"
 #include "render/drawn_spheres.h"
 #include "render/gl_objects.h"

@@ -8,11 +8,11 @@
 
 #include <glm/glm.hpp>
 
+#include "render/field_sample.h"
 #include "render/first_hits.h"
 #include "render/ground_tiles.h"
 #include "render/light_reach.h"
 #include "render/line_list.h"
-#include "render/metaball_frame.h"
 #include "render/surface_points.h"
 
 namespace render {

@@ -6,6 +6,7 @@
 
 #include <hwy/highway.h>
 
+#include "render/depth_map.h"
 #include "render/metaball_frame.h"
 #include "tests/render/pictures.h"
 

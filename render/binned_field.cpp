@@ -1,0 +1,57 @@
+// Balls from particles, and which tiles they reach.
+#include "render/binned_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace render {
+
+namespace {
+
+std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin) {
+    std::vector<FieldBall> balls;
+    balls.reserve(skin.balls.size());
+    for (std::size_t k = 0; k < skin.balls.size(); ++k) {
+        const Sphere& particle = skin.view.particles[k];
+        if (!(particle.radius > 0.0F)) continue;
+        const float reach = skin.view.field.reach * particle.radius;
+        const float peak = std::sqrt(skin.balls[k].weight);
+        balls.push_back({frame.toView(skin.balls[k].center), reach, peak, std::sqrt(peak) / reach, particle.color,
+                         skin.open.empty() ? kOpen : skin.open[k]});
+    }
+    return balls;
+}
+
+}  // namespace
+
+BinnedField binField(const CameraFrame& frame, const Skinned& skin) {
+    BinnedField field;
+    field.balls = fieldBalls(frame, skin);
+    std::vector<ViewSphere> reaches(field.balls.size());
+    float smallest = std::numeric_limits<float>::max();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < field.balls.size(); ++k) {
+        reaches[k] = {field.balls[k].center, field.balls[k].reach};
+        smallest = std::min(smallest, field.balls[k].reach);
+        sum += field.balls[k].reach;
+    }
+    // A dwarf among giants may not make every ray crawl: a tenth of the mean radius is as small as it gets.
+    const double mean = sum / static_cast<double>(std::max<std::size_t>(field.balls.size(), 1));
+    field.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / skin.view.field.reach;
+    field.tiles = binToTiles(frame, reaches, touchedPixels(frame, reaches));
+    return field;
+}
+
+FieldCast fieldCast(const CameraFrame& frame, const View& view, const BinnedField& field) {
+    FieldCast cast;
+    cast.frame = frame;
+    cast.balls = field.balls;
+    cast.tiles = &field.tiles;
+    const float root = 1.0F - 1.0F / (view.field.reach * view.field.reach);
+    cast.threshold = root * root;
+    cast.step = 0.5F * field.smallestRadius;
+    return cast;
+}
+
+}  // namespace render
