@@ -124,7 +124,7 @@ void findInReachHere(const Candidates& candidates, const Neighbourhood& around, 
         // Particles that are far apart may share a cell; others are no further apart than a cell is wide.
         const Vec3 position = search.positionOf(self);
         if (!((position - search.origin).cwiseAbs().maxCoeff() < 1.5 * reach)) search.look(position);
-        if (rows.places.size() < rows.used + room) rows.places.resize(2 * (rows.used + room));
+        if (rows.places.size() < rows.used + room) rows.places.resize(rows.used + rows.used / 2 + room);
         const std::size_t length = search.sift(self, &rows.places[rows.used]);
         lengths[self - selves.begin] = static_cast<std::uint32_t>(length);
         rows.used += length;

@@ -58,7 +58,7 @@ void layOut(LaneRows& rows, const CellRange& chunk, const FoundRows& found) {
 }
 
 void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
-    list.order = list.grid.order;
+    list.order.swap(list.grid.order);
     const std::size_t count = list.order.size();
     list.placeOf.resize(count);
     list.candidates.x.resize(count + kSearchOverhang);

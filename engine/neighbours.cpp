@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/parallel.h"
+
 namespace engine {
 namespace {
 
@@ -72,15 +74,15 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
 
     const double width = cellWidth * kRoundingMargin;
     grid.dimensions = chooseDimensions(positions, width);
-    const auto [nx, ny, nz] = grid.dimensions;
-    grid.start.assign(static_cast<std::size_t>(nx * ny * nz) + 1, 0);
-    for (std::size_t p = 0; p < positions.size(); ++p) {
-        const std::int64_t x = cellAlong(positions[p].x(), width, nx);
-        const std::int64_t y = cellAlong(positions[p].y(), width, ny);
-        const std::int64_t z = cellAlong(positions[p].z(), width, nz);
-        grid.cellOf[p] = static_cast<std::uint32_t>((z * ny + y) * nx + x);
-        ++grid.start[grid.cellOf[p] + 1];
-    }
+    const std::array<std::int64_t, 3>& size = grid.dimensions;
+    grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 1, 0);
+    inParallel(positions.size(), kParticleGrain, [&](std::size_t p) {
+        const std::int64_t x = cellAlong(positions[p].x(), width, size[0]);
+        const std::int64_t y = cellAlong(positions[p].y(), width, size[1]);
+        const std::int64_t z = cellAlong(positions[p].z(), width, size[2]);
+        grid.cellOf[p] = static_cast<std::uint32_t>((z * size[1] + y) * size[0] + x);
+    });
+    for (const std::uint32_t cell : grid.cellOf) ++grid.start[cell + 1];
     for (std::size_t cell = 1; cell < grid.start.size(); ++cell) grid.start[cell] += grid.start[cell - 1];
     // Filling moves each start to its cell's end, which is the next cell's start: shift back afterwards.
     for (std::size_t p = 0; p < positions.size(); ++p)

@@ -95,23 +95,30 @@ double lammpsSeconds(const std::string& script, int ranks) {
     throw render::SystemError(fmt::format("mpirun lmp ended with {}", ended.empty() ? "no time" : ended));
 }
 
-/// Our time of a step at the peer's number of particles.
-const studies::ScalingRow& rowBeside(const ScalingResults& results) {
-    return *std::find_if(results.rows.begin(), results.rows.end(), [](const studies::ScalingRow& row) {
-        return row.subject == kMaterials[0] && row.particles == studies::kPeerParticles;
-    });
+/// Our times of a step at the peer's number of particles.
+studies::ScalingRow rowBeside(const ScalingOptions& options) {
+    studies::ScalingSettings settings = settingsFor(options);
+    settings.blocks = {studies::kPeerParticles};
+    settings.mostByEveryPair = 0;
+    settings.rounds = 1;
+    return studies::measureBlocks(kMaterials[0], settings, [](const studies::ScalingRow&) {}).front();
 }
 
 void measurePeer(ScalingResults& results, const ScalingOptions& options) {
-    constexpr int kRounds = 3;
+    constexpr int kRounds = 5;
     const int ranks = threadCount(options.run);
-    results.peerText = fmt::format("LAMMPS with {} MPI ranks; ours: {} with {} threads, {:.1f} neighbours.", ranks,
-                                   kMaterials[0], ranks, rowBeside(results).neighbours);
+    results.peerText = fmt::format("LAMMPS with {} MPI ranks and, in turn, ours with {} threads: {}, {} particles.",
+                                   ranks, ranks, kMaterials[0], studies::kPeerParticles);
     for (const studies::PeerForce force : {studies::PeerForce::lennardJones, studies::PeerForce::dissipative}) {
-        std::vector<double> rounds;
+        std::vector<double> rounds, ours, oursInFloat;
         try {
-            for (int round = 0; round < kRounds; ++round)
+            for (int round = 0; round < kRounds; ++round) {
                 rounds.push_back(lammpsSeconds(studies::lammpsScript(force), ranks));
+                studies::ScalingRow beside;
+                onThreads(ranks, [&] { beside = rowBeside(options); });
+                ours.push_back(beside.list);
+                oursInFloat.push_back(beside.listInFloat);
+            }
         } catch (const render::SystemError& error) {
             results.peerText +=
                 fmt::format(" {}: {} (install LAMMPS: Debian's package lammps).", studies::nameOf(force), error.what());
@@ -120,8 +127,8 @@ void measurePeer(ScalingResults& results, const ScalingOptions& options) {
         studies::PeerRow row;
         row.name = "LAMMPS " + studies::nameOf(force);
         row.secondsPerStep = studies::median(rounds) / studies::kPeerSteps;
-        row.ratio = row.secondsPerStep / rowBeside(results).list;
-        row.ratioInFloat = row.secondsPerStep / rowBeside(results).listInFloat;
+        row.ratio = row.secondsPerStep / studies::median(ours);
+        row.ratioInFloat = row.secondsPerStep / studies::median(oursInFloat);
         results.peers.push_back(row);
     }
 }
