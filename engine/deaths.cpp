@@ -17,6 +17,7 @@ void removeLeavers(Simulation& simulation) {
     // All of it is by index.
     simulation.forcesCurrent = false;
     simulation.clearance.clear();
+    simulation.evaluator.forgetList();
     simulation.energy.reset();
 }
 

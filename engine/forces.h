@@ -51,6 +51,9 @@ class ForceEvaluator {
     /// The neighbour list as it was built last.
     const NeighbourList& list() const { return pairs_.list; }
 
+    /// Particles have other indices now: the list serves nobody any more.
+    void forgetList();
+
     /// Brings back a list by what it was built for, as of a run that is gone on with.
     void restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double reach) {
         pairs_.restoreList(law_, particles, builtAt, reach);

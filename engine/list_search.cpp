@@ -123,7 +123,7 @@ void findInReachHere(const Candidates& candidates, const Neighbourhood& around, 
     for (std::uint32_t self = selves.begin; self < selves.end; ++self) {
         // Particles that are far apart may share a cell; others are no further apart than a cell is wide.
         const Vec3 position = search.positionOf(self);
-        if (!((position - search.origin).cwiseAbs().maxCoeff() < 1.5 * reach)) search.look(position);
+        if (!((position - search.origin).array().abs() < 1.5 * reach).all()) search.look(position);
         if (rows.places.size() < rows.used + room) rows.places.resize(rows.used + rows.used / 2 + room);
         const std::size_t length = search.sift(self, &rows.places[rows.used]);
         lengths[self - selves.begin] = static_cast<std::uint32_t>(length);

@@ -34,8 +34,9 @@ struct FoundRows {
 /// Of the reach squared: float errs by 1e-6 of it, and no pair within may be missed.
 inline constexpr float kFloatMargin = 1.00001F;
 
-/// Appends for one place of a cell after the other the row of the places of all others within reach (m) of it, and of
-/// none beyond reach^2 kFloatMargin, in the order of the neighbourhood's ranges. Writes the length of each.
+/// Appends for one place of a cell after the other the row of the places of all others within reach (m) of it, in the
+/// order of the neighbourhood's ranges; of none whose distance squared is beyond reach^2 kFloatMargin by more than
+/// float's error. Writes the length of each.
 void findInReach(const Candidates& candidates, const Neighbourhood& around, CellRange selves, double reach,
                  Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths);
 

@@ -19,7 +19,7 @@ struct NeighbourList {
     std::size_t entryCount = 0;          ///< of all rows
     std::vector<Vec3> builtAt;           ///< positions by particle index when the list was built, m
     double reach = 0.0;                  ///< cutoff and skin together, m
-    CellGrid grid;                       ///< scratch of the build
+    CellGrid grid;                       ///< scratch of the build; its order is an older one
     Candidates candidates;               ///< scratch of the build
     std::vector<FoundRows> found;        ///< scratch of the build: rows of some groups each
 

@@ -48,6 +48,23 @@ std::optional<engine::Bounds> buildWorld(Section& section, BuildContext& context
     return world;
 }
 
+/// Who begins outside would be gone before it is seen.
+void checkWorld(const Section& section, const engine::Setup& setup, BuildContext& context) {
+    if (!setup.world || !section.isSound()) return;
+    const auto isInside = [&](const engine::Vec3& position, const char* what) {
+        if (contains(*setup.world, position)) return true;
+        context.problems.add(section.at(),
+                             fmt::format("{} at [{}, {}, {}] is outside the world", what, numberText(position.x()),
+                                         numberText(position.y()), numberText(position.z())));
+        return false;
+    };
+    for (const engine::Vec3& position : setup.initial.position)
+        if (!isInside(position, "a body's particle")) return;
+    for (const engine::Emitter& emitter : setup.emitters)
+        for (const engine::Vec3& site : emitter.sites)
+            if (!isInside(site, "an emitter's point of birth")) return;
+}
+
 /// Each after the one before, and none after the end.
 std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
     Section& still = sections.still;
@@ -155,6 +172,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     checkSize(sections, context);
     if (sections.study) scene.study = buildStudy(*sections.study, context);
     checkPopulation(sections, scene.setup, context);
+    checkWorld(sections.world, scene.setup, context);
     scene.setup.materials = std::move(materials.list);
     scene.materialColors = std::move(materials.colors);
     scene.setup.scenery.colliders = std::move(obstacles.colliders);

@@ -71,11 +71,13 @@ std::vector<Key> worldRows() {
          .type = Type::vec3,
          .unit = "m",
          .derived = "no bound",
+         .range = {.low = -1e8, .high = 1e8},
          .help = "corner with the least coordinates"},
         {.path = "world.maximum",
          .type = Type::vec3,
          .unit = "m",
          .derived = "no bound",
+         .range = {.low = -1e8, .high = 1e8},
          .help = "corner with the greatest coordinates"},
 
         {.path = "material[].name",

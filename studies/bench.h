@@ -13,7 +13,8 @@ namespace studies {
 
 /// One thing measured.
 struct BenchRow {
-    std::string name;      ///< "forces", "list", "step velocity-verlet", "simulate frame", "draw frame", "multiply-add", "copy"
+    std::string
+        name;  ///< "forces", "list", "step velocity-verlet", "simulate frame", "draw frame", "multiply-add", "copy"
     std::string material;  ///< and how it is packed, where not at its rest length; a frame's scene; empty where none
     std::size_t particles = 0;
     double neighbours = 0.0;  ///< mean number within the cutoff; 0 where no pair is looked at

@@ -11,7 +11,7 @@ namespace studies {
 
 namespace {
 
-/// Particles do not die; a run that loses some is broken, and what is measured of the rest means nothing.
+/// Nobody leaves; a run that loses some is broken, and what is measured of the rest means nothing.
 void requireAll(const Run& run) {
     if (!run.frames.empty() && run.end.particles.count() < run.frames.back().count())
         throw engine::InstabilityError(fmt::format("the run lost particles: {} of {} are left at {} s",
@@ -29,7 +29,9 @@ void keepFrame(Run& run) {
 Run runScene(const scenes::Scene& scene) {
     Run run;
     const auto begin = std::chrono::steady_clock::now();
-    run.end = engine::start(scene.setup);
+    engine::Setup setup = scene.setup;
+    setup.world.reset();  // observables follow every particle
+    run.end = engine::start(setup);
     try {
         keepFrame(run);
         // frameCount() is the number of pictures; the last moment of the scene is one interval after the last of them.

@@ -15,6 +15,7 @@ namespace {
 engine::Simulation begin(const Window& window, const Variant& variant) {
     engine::Setup setup = window.start.setup;
     setup.initial = {};
+    setup.world.reset();  // what is compared particle by particle has all of them at its end
     setup.stepper = variant.stepper;
     setup.precision = variant.precision;
     if (variant.stepper == engine::StepperKind::automatic)

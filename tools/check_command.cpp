@@ -50,7 +50,8 @@ engine::Particles everyKind(const scenes::Scene& scene) {
 }
 
 /// Bytes a particle takes while a frame is in flight, the neighbour list apart: state, forces, prediction and the
-/// step's start, the states that steps can be taken back to, sorted record, spheres to draw.
+/// step's start, the states that steps can be taken back to, sorted record, spheres to draw. Not the implicit steppers'
+/// matrix, nor the copies with which the automatic stepper looks ahead.
 std::size_t bytesPerParticle() {
     const std::size_t state = 2 * sizeof(engine::Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
     constexpr std::size_t kStatesBefore = 5;  // position, velocity and force of each
@@ -65,6 +66,7 @@ struct Preview {
     int frames = 0;        ///< that were simulated
     double seconds = 0.0;  ///< of wall clock, births and looks included
     double particleFrames = 0.0;
+    std::size_t mostParticles = 1;  ///< at a time
 };
 
 /// Simulates until a share of the work of a short run is done: what is predicted is what happened so far.
@@ -76,6 +78,7 @@ Preview simulateBeginning(const scenes::Scene& scene) {
         scenes::advanceToFrame(scene, preview.simulation, ++preview.frames);
         preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
+        preview.mostParticles = std::max(preview.mostParticles, preview.simulation.particles.count());
     }
     return preview;
 }
@@ -99,8 +102,8 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
         automatic.looks > 0 ? Json(automatic.errorSum / static_cast<double>(automatic.looks)) : Json(nullptr);
     json["seconds_simulating"] =
         preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
-    const std::size_t count = std::max<std::size_t>(1, simulation.particles.count());
-    json["bytes_per_particle"] = bytesPerParticle() + engine::bytesOf(simulation.evaluator.list()) / count;
+    json["bytes_per_particle"] =
+        bytesPerParticle() + engine::bytesOf(simulation.evaluator.list()) / preview.mostParticles;
     return json;
 }
 
@@ -122,7 +125,7 @@ Json checkJson(const scenes::Scene& scene) {
     const std::uint64_t births = plannedBirths(scene);
     const std::uint64_t most = scene.setup.initial.count() + births;
     const int frames = scenes::frameCount(scene);
-    // Births come evenly, so that half of them are there on average.
+    // Births come evenly, so that half of them are there on average; in a bounded world fewer, nobody knows how many.
     const double meanParticles = static_cast<double>(scene.setup.initial.count()) + 0.5 * static_cast<double>(births);
 
     Json json;

@@ -33,6 +33,9 @@ std::set<std::uint32_t> neighboursOf(const std::vector<Vec3>& positions, std::si
     return near;
 }
 
+/// Of the reach squared: float errs by 1e-6 of it.
+constexpr double kFarthest = kFloatMargin + 2e-6;
+
 bool isWithin(const std::set<std::uint32_t>& part, const std::set<std::uint32_t>& all) {
     return std::includes(all.begin(), all.end(), part.begin(), part.end());
 }
@@ -48,11 +51,22 @@ void checkRows(const std::vector<Vec3>& positions) {
         INFO("particle " << list.order[place]);
         const auto row = rowOf(list, place);
         CHECK(isWithin(neighboursOf(positions, list.order[place], kCutoff + kSkin), row));
-        CHECK(isWithin(row, neighboursOf(positions, list.order[place], (kCutoff + kSkin) * std::sqrt(kFloatMargin))));
+        CHECK(isWithin(row, neighboursOf(positions, list.order[place], (kCutoff + kSkin) * std::sqrt(kFarthest))));
         entries += row.size();
     }
     CHECK(list.entryCount == entries);
     CHECK(covers(list, positions, kCutoff));
+}
+
+/// Coincident ones, some on faces of cells, and some so far away that cells are shared.
+std::vector<Vec3> hardPositions() {
+    std::vector<Vec3> positions = clouds::strewn(60, 0.8).position;
+    for (std::size_t p = 0; p < 20; ++p) positions[p] = Vec3(0.1, 0.1, 0.1);
+    for (int k = -3; k <= 3; ++k) positions.emplace_back((kCutoff + kSkin) * k, 0.0, 0.0);
+    positions.emplace_back(9e7, -9e7, 9e7);
+    positions.emplace_back(9e7, -9e7, 9e7 + 0.3);
+    positions.emplace_back(-9e7, 8e7, 0.0);
+    return positions;
 }
 
 /// A list over a cloud, one of whose particles is then moved this far (m) in some direction.
@@ -74,13 +88,21 @@ TEST_CASE("Rows hold every other particle within the reach once", "[neighbour-li
 }
 
 TEST_CASE("Rows hold coincident particles, those on cell faces and far outliers", "[neighbour-list]") {
-    std::vector<Vec3> positions = clouds::strewn(60, 0.8).position;
-    for (std::size_t p = 0; p < 20; ++p) positions[p] = Vec3(0.1, 0.1, 0.1);
-    for (int k = -3; k <= 3; ++k) positions.emplace_back((kCutoff + kSkin) * k, 0.0, 0.0);
-    positions.emplace_back(9e7, -9e7, 9e7);
-    positions.emplace_back(9e7, -9e7, 9e7 + 0.3);
-    positions.emplace_back(-9e7, 8e7, 0.0);
-    checkRows(positions);
+    checkRows(hardPositions());
+}
+
+TEST_CASE("Positions that are no numbers leave the rows of the others as they are", "[neighbour-list]") {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<Vec3> sound = clouds::strewn(300, 0.3).position;
+    for (const Vec3& lost : {Vec3(kNan, 0, 0), Vec3(0, kNan, 0), Vec3(0, 0, kNan), Vec3(1e300, -1e300, 0)}) {
+        std::vector<Vec3> positions = {lost};  // the first of its cell, whichever that is
+        positions.insert(positions.end(), sound.begin(), sound.end());
+        NeighbourList list;
+        build(list, positions, kCutoff, kSkin);
+        for (std::size_t p = 1; p < positions.size(); ++p)
+            CHECK(isWithin(neighboursOf(positions, p, kCutoff + kSkin), rowOf(list, list.placeOf[p])));
+        CHECK(rowOf(list, list.placeOf[0]).empty());
+    }
 }
 
 TEST_CASE("A list covers until a particle has moved by half the skin", "[neighbour-list]") {
@@ -133,16 +155,19 @@ TEST_CASE("The same rows for any number of threads", "[neighbour-list]") {
 }
 
 TEST_CASE("The same rows with every kind of vectors", "[neighbour-list]") {
-    const std::vector<Vec3> positions = clouds::strewn(1000, 1.5).position;
-    NeighbourList expected;
-    build(expected, positions, kCutoff, kSkin);
-    for (const std::string& name : instructionSets()) {
-        const OnInstructionSet only(name);
-        NeighbourList list;
-        build(list, positions, kCutoff, kSkin);
-        INFO(name);
-        CHECK(list.rows.length == expected.rows.length);
-        CHECK(list.rows.places == expected.rows.places);
+    for (const std::vector<Vec3>& positions :
+         {clouds::strewn(1000, 1.5).position, clouds::strewn(1, 1.0).position, clouds::strewn(37, 0.1).position,
+          clouds::strewn(100, 40.0).position, hardPositions()}) {
+        NeighbourList expected;
+        build(expected, positions, kCutoff, kSkin);
+        for (const std::string& name : instructionSets()) {
+            const OnInstructionSet only(name);
+            NeighbourList list;
+            build(list, positions, kCutoff, kSkin);
+            INFO(positions.size() << " with " << name);
+            CHECK(list.rows.length == expected.rows.length);
+            CHECK(list.rows.places == expected.rows.places);
+        }
     }
 }
 

@@ -90,7 +90,16 @@ TEST_CASE("a world has its maximum above its minimum, where it has both") {
     CHECK(problemsOf(kBall + "[world]\nminimum = [0, 1, 0]\nmaximum = [2, 1, -1]\n") ==
           Lines{"pile.toml:8:11: maximum[1] is 1, must be above the minimum 1 (metres)",
                 "pile.toml:8:11: maximum[2] is -1, must be above the minimum 0 (metres)"});
-    CHECK(problemsOf(kBall + "[world]\nmaximum = [2, 1, -1]\n") == Lines{});
+    CHECK(problemsOf(kBall + "[world]\nmaximum = [9, 9, 9]\n") == Lines{});
+    CHECK(problemsOf(kBall + "[world]\nmaximum = [9, 9, 2e8]\n") ==
+          Lines{"pile.toml:7:18: maximum[2] is 200000000, must be -100000000 to 100000000 (metres)"});
+}
+
+TEST_CASE("nobody begins outside the world") {
+    CHECK(problemsOf(kTop + "[world]\nmaximum = [9, 9, 9]\n[[body]]\nshape = \"points\"\npositions = [[1, 10, 1]]\n") ==
+          Lines{"pile.toml:3:1: a body's particle at [1, 10, 1] is outside the world"});
+    CHECK(problemsOf(kTop + "[world]\nmaximum = [9, 9, 9]\n[[emitter]]\nposition = [1, 1, 9.5]\ninterval = 1\n") ==
+          Lines{"pile.toml:3:1: an emitter's point of birth at [1, 1, 9.5] is outside the world"});
 }
 
 TEST_CASE("numbers that are not finite are refused") {
