@@ -18,15 +18,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/lane_rays-inl.h"
+#include "render/near_balls-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, 16>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
 
 // Newton steps on the cubic between two samples, then at most so many on the field, until they would move by less than
 // this share of the distance between samples. Measured by metaball_test.cpp: with two on the field and no more, one ray
@@ -38,8 +35,7 @@ constexpr int kPeakSearches = 4;  // steps towards the maximum of a suspected sl
 
 /// The balls that the rays of a group meet, in the order of the tile's list.
 struct NearBalls {
-    std::vector<float> lanes;  ///< per ball: w, then t0 s, each one vector
-    std::vector<float> slope;
+    std::vector<float> lanes;  ///< per ball: w, t0 s and s, each one vector
     std::vector<float> farDepth;
     std::vector<std::uint32_t> index;
     std::size_t count = 0;
@@ -48,8 +44,7 @@ struct NearBalls {
     void prepare(std::size_t most, std::size_t laneCount) {
         count = 0;
         if (index.size() >= most) return;
-        lanes.resize(2 * laneCount * most);
-        slope.resize(most);
+        lanes.resize(3 * laneCount * most);
         farDepth.resize(most);
         index.resize(most);
     }
@@ -80,38 +75,35 @@ struct Root {
 /// One group of rays on its way through a tile.
 class Group {
  public:
-    Group(const FieldCast& cast, std::size_t tile, NearBalls& near, const float* px, const float* py)
-        : cast_(cast), near_(near), next_(cast.tiles->begin[tile]), end_(cast.tiles->begin[tile + 1]) {
+    /// at: where its rays cross the plane; open, from: as cast() has them.
+    Group(const FieldCast& cast, const TileBalls& balls, NearBalls& near, const Plane& at, M open, V from)
+        : cast_(cast),
+          balls_(balls),
+          near_(near),
+          start_(balls.index.empty() ? 0.0F : std::max(0.0F, balls.nearDepth(0))),
+          begin_(sampleBefore(leastOf(from, open))),
+          candidates_(balls, Bundle(cast.frame, at, open), depthOf(begin_)) {
         const D d;
-        near_.prepare(end_ - next_, hn::Lanes(d));
-        const CameraFrame& frame = cast.frame;
+        near_.prepare(balls.index.size(), hn::Lanes(d));
+        const bool perspective = cast.frame.perspective;
         const V one = hn::Set(d, 1.0F);
-        const V x = hn::Mul(hn::Sub(hn::Mul(hn::LoadU(d, px), hn::Set(d, 2.0F / static_cast<float>(frame.width))), one),
-                            hn::Set(d, frame.halfWidth));
-        const V y =
-            hn::Mul(hn::Sub(one, hn::Mul(hn::LoadU(d, py), hn::Set(d, 2.0F / static_cast<float>(frame.height)))),
-                    hn::Set(d, frame.halfHeight));
         const V zero = hn::Zero(d);
-        directionX_ = frame.perspective ? x : zero;
-        directionY_ = frame.perspective ? y : zero;
-        originX_ = frame.perspective ? zero : x;
-        originY_ = frame.perspective ? zero : y;
+        directionX_ = perspective ? at.x : zero;
+        directionY_ = perspective ? at.y : zero;
+        originX_ = perspective ? zero : at.x;
+        originY_ = perspective ? zero : at.y;
         const V square = hn::Add(hn::Add(hn::Mul(directionX_, directionX_), hn::Mul(directionY_, directionY_)), one);
         length_ = hn::Sqrt(square);
         inverseSquare_ = hn::Div(one, square);
-        start_ = next_ == end_ ? 0.0F : std::max(0.0F, nearDepth(next_));
     }
 
     /// Walks until every lane of `open` has met the surface, left the balls behind or come to its end; returns the
-    /// depth, negative without a hit.
+    /// depth, negative without a hit. from, to: view depths between which the surface is looked for.
     V cast(M open, V from, V to) {
         const D d;
         const V threshold = hn::Set(d, cast_.threshold);
-        const V never = hn::Set(d, std::numeric_limits<float>::infinity());
-        const float earliest = hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(open, from, never)));
-        long k = std::max(0L, static_cast<long>(std::floor((earliest - start_) / cast_.step)));
+        long k = begin_;
         float t = depthOf(k);
-        begin_ = t;
         admit(t);
         Sample here = sampleAt(hn::Set(d, t));
         Sample low = here;
@@ -122,6 +114,7 @@ class Group {
             // Rays that begin within the surface.
             const M inside = hn::And(hn::And(open, hn::Le(from, hn::Set(d, t))), hn::Ge(here.value.field, threshold));
             if (!hn::AllFalse(d, inside)) {
+                if (hn::AllFalse(d, found)) firstFound_ = first_;
                 low = chosen(inside, here, low);
                 high = chosen(inside, here, high);
                 found = hn::Or(found, inside);
@@ -147,13 +140,15 @@ class Group {
                 reached = chosen(sliver, peak, reached);
                 crossed = hn::Or(crossed, sliver);
             }
-            low = chosen(crossed, here, low);
-            high = chosen(crossed, reached, high);
-            found = hn::Or(found, crossed);
+            if (!hn::AllFalse(d, crossed)) {
+                if (hn::AllFalse(d, found)) firstFound_ = first_;
+                low = chosen(crossed, here, low);
+                high = chosen(crossed, reached, high);
+                found = hn::Or(found, crossed);
+            }
             t = ahead;
             open = hn::AndNot(crossed, hn::And(open, hn::Le(hn::Set(d, t), to)));
             here = there;
-            if (hn::AllFalse(d, found)) firstFound_ = first_;
             pass(t);
         }
         return hn::IfThenElse(found, refine(low, high), hn::Set(d, -1.0F));
@@ -176,7 +171,7 @@ class Group {
             const V k = hn::Max(rootOf(b, depth).root, hn::Zero(d));
             // Many of the balls on the way end before the hit or begin behind it.
             if (hn::AllTrue(d, hn::Le(k, hn::Zero(d)))) continue;
-            const V pull = hn::Mul(k, hn::Set(d, near_.slope[b] * near_.slope[b]));
+            const V pull = hn::Mul(k, hn::Set(d, ball.slope * ball.slope));
             n[0] = hn::Add(n[0], hn::Mul(pull, hn::Sub(px, hn::Set(d, ball.center.x))));
             n[1] = hn::Add(n[1], hn::Mul(pull, hn::Sub(py, hn::Set(d, ball.center.y))));
             n[2] = hn::Add(n[2], hn::Mul(pull, hn::Sub(depth, hn::Set(d, ball.center.z))));
@@ -238,19 +233,18 @@ class Group {
     }
 
     float depthOf(long k) const { return start_ + static_cast<float>(k) * cast_.step; }
-    float nearDepth(std::uint32_t place) const {
-        const FieldBall& ball = cast_.balls[cast_.tiles->items[place]];
-        return ball.center.z - ball.reach;
+
+    /// The last sample that does not lie beyond this depth; the first where all do.
+    long sampleBefore(float depth) const {
+        return std::max(0L, static_cast<long>(std::floor((depth - start_) / cast_.step)));
     }
 
     /// Takes in the balls of the tile's list that begin before depth t and that some ray meets.
     void admit(float t) {
         const D d;
-        for (; next_ < end_; ++next_) {
-            const std::uint32_t index = cast_.tiles->items[next_];
+        for (; candidates_.nearDepth() <= t; candidates_.next()) {
+            const std::uint32_t index = balls_.index[candidates_.place()];
             const FieldBall& ball = cast_.balls[index];
-            if (ball.center.z - ball.reach > t) break;
-            if (ball.center.z + ball.reach < begin_) continue;
             const V x = hn::Sub(hn::Set(d, ball.center.x), originX_);
             const V y = hn::Sub(hn::Set(d, ball.center.y), originY_);
             const V z = hn::Set(d, ball.center.z);
@@ -262,10 +256,11 @@ class Group {
             const V square = hn::Add(hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY)), hn::Mul(offZ, offZ));
             const V w = hn::Sub(hn::Set(d, ball.peak), hn::Mul(square, hn::Set(d, ball.slope * ball.slope)));
             if (hn::AllTrue(d, hn::Le(w, hn::Zero(d)))) continue;
-            float* lanes = &near_.lanes[2 * near_.count * hn::Lanes(d)];
+            const V s = hn::Mul(length_, hn::Set(d, ball.slope));
+            float* lanes = &near_.lanes[3 * near_.count * hn::Lanes(d)];
             hn::StoreU(w, d, lanes);
-            hn::StoreU(hn::Mul(closest, hn::Mul(length_, hn::Set(d, ball.slope))), d, lanes + hn::Lanes(d));
-            near_.slope[near_.count] = ball.slope;
+            hn::StoreU(hn::Mul(closest, s), d, lanes + hn::Lanes(d));
+            hn::StoreU(s, d, lanes + 2 * hn::Lanes(d));
             near_.farDepth[near_.count] = ball.center.z + ball.reach;
             near_.index[near_.count] = index;
             ++near_.count;
@@ -279,9 +274,9 @@ class Group {
 
     /// No ball is near: moves to the last sample before the next ball. False when there is none.
     bool leap(long& k) {
-        while (next_ < end_ && near_.count == first_) {
-            const float begin = nearDepth(next_);
-            k = std::max(k, static_cast<long>(std::floor((begin - start_) / cast_.step)) - 1);
+        while (candidates_.any() && near_.count == first_) {
+            const float begin = candidates_.nearDepth();
+            k = std::max(k, sampleBefore(begin) - 1);
             admit(std::max(begin, depthOf(k)));
         }
         return near_.count != first_;
@@ -289,8 +284,8 @@ class Group {
 
     Root rootOf(std::size_t b, V t) const {
         const D d;
-        const float* lanes = &near_.lanes[2 * b * hn::Lanes(d)];
-        const V s = hn::Mul(length_, hn::Set(d, near_.slope[b]));
+        const float* lanes = &near_.lanes[3 * b * hn::Lanes(d)];
+        const V s = hn::LoadU(d, lanes + 2 * hn::Lanes(d));
         const V u = hn::Sub(hn::Mul(t, s), hn::LoadU(d, lanes + hn::Lanes(d)));
         return {hn::Sub(hn::LoadU(d, lanes), hn::Mul(u, u)), hn::Mul(u, s)};
     }
@@ -387,25 +382,29 @@ class Group {
     }
 
     const FieldCast& cast_;
+    const TileBalls& balls_;
     NearBalls& near_;
+    float start_;                 // where the tile's samples begin
+    long begin_;                  // the first sample of these rays
+    Candidates candidates_;       // balls that are still to come
     std::size_t first_ = 0;       // balls before it end before the present depth
     std::size_t firstFound_ = 0;  // first_ when the first lane met the surface
-    std::uint32_t next_;
-    std::uint32_t end_;
     V directionX_, directionY_, originX_, originY_, length_, inverseSquare_;
     V most_;
-    float start_ = 0.0F;  // where the tile's samples begin
-    float begin_ = 0.0F;  // where these rays do
 };
 
 void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
     const D d;
     const std::size_t lanes = hn::Lanes(d);
+    thread_local TileBalls balls;
     thread_local NearBalls near;
+    balls.load(cast, tile);
     for (std::size_t place = 0; place < block.count; place += lanes) {
-        const std::size_t left = std::min(lanes, block.count - place);
-        Group group(cast, tile, near, &block.x[place], &block.y[place]);
-        const V depth = group.cast(hn::FirstN(d, left), hn::Load(d, &block.from[place]), hn::Load(d, &block.to[place]));
+        const M open = hn::FirstN(d, std::min(lanes, block.count - place));
+        const V from = hn::Load(d, &block.from[place]);
+        const Plane at = planeAt(cast.frame, hn::Load(d, &block.x[place]), hn::Load(d, &block.y[place]));
+        Group group(cast, balls, near, at, open, from);
+        const V depth = group.cast(open, from, hn::Load(d, &block.to[place]));
         hn::StoreU(depth, d, &block.depth[place]);
         hn::StoreU(group.most(), d, &block.most[place]);
         if (!cast.depthOnly && !hn::AllTrue(d, hn::Lt(depth, hn::Zero(d)))) group.look(depth, place, block);

@@ -1,0 +1,149 @@
+// The balls of a tile that a group of rays may meet, told a vector of balls at a time. Part of metaball_cast.cpp,
+// compiled once per instruction set.
+#if defined(RENDER_NEAR_BALLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_NEAR_BALLS_INL_H_
+#undef RENDER_NEAR_BALLS_INL_H_
+#else
+#define RENDER_NEAR_BALLS_INL_H_
+#endif
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <hwy/highway.h>
+
+#include "render/lane_rays-inl.h"
+#include "render/metaball_cast.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+/// The balls of a tile's list side by side, front to back.
+struct TileBalls {
+    std::vector<float> x, y, z, reach;
+    std::vector<float> distance;  ///< from the eye or, in parallel projection, from the picture's middle
+    std::span<const std::uint32_t> index;
+
+    void load(const FieldCast& cast, std::size_t tile) {
+        const CellLists& tiles = *cast.tiles;
+        index = std::span(tiles.items).subspan(tiles.begin[tile], tiles.begin[tile + 1] - tiles.begin[tile]);
+        // Whole vectors are read.
+        const std::size_t room = index.size() + hn::Lanes(D());
+        for (std::vector<float>* values : {&x, &y, &z, &reach, &distance})
+            if (values->size() < room) values->resize(room);
+        for (std::size_t k = 0; k < index.size(); ++k) {
+            const FieldBall& ball = cast.balls[index[k]];
+            x[k] = ball.center.x;
+            y[k] = ball.center.y;
+            z[k] = ball.center.z;
+            reach[k] = ball.reach;
+            distance[k] = std::sqrt(dot(ball.center, ball.center));
+        }
+    }
+
+    float nearDepth(std::size_t k) const { return z[k] - reach[k]; }
+};
+
+/// The least of these lanes; no lanes: as much as a float holds.
+HWY_INLINE float leastOf(V values, M lanes) {
+    return hn::GetLane(hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, all(std::numeric_limits<float>::max()))));
+}
+
+/// A line that no ray of a group is far from.
+struct Bundle {
+    glm::vec3 origin{0.0F};
+    glm::vec3 direction{0.0F, 0.0F, 1.0F};
+    float apart = 0.0F;  ///< of the origins
+    float widen = 0.0F;  ///< of the directions
+
+    /// at: where the group's rays cross the plane, all of `rays` lie.
+    Bundle(const CameraFrame& frame, const Plane& at, M rays) {
+        // Centres are known to some 1e-7 of their distance, and the kernels see the rounding of their squares.
+        constexpr float kRounding = 1e-5F;
+        const glm::vec2 least(leastOf(at.x, rays), leastOf(at.y, rays));
+        const glm::vec2 most(-leastOf(hn::Neg(at.x), rays), -leastOf(hn::Neg(at.y), rays));
+        const glm::vec2 middle = 0.5F * (least + most);
+        const glm::vec2 half = most - middle;
+        const float spread = std::sqrt(dot(half, half)) * (1.0F + kRounding);
+        (frame.perspective ? direction : origin) += glm::vec3(middle, 0.0F);
+        (frame.perspective ? widen : apart) = spread;
+        widen += kRounding;
+    }
+};
+
+/// Walks through those balls of a tile that rays may meet beyond a depth. A ball that is left out is out of reach of
+/// each of them: on a ray of the bundle, a place t from its beginning is at most apart + widen t from the bundle's
+/// line.
+class Candidates {
+ public:
+    Candidates(const TileBalls& balls, const Bundle& bundle, float begin)
+        : balls_(balls),
+          bundle_(bundle),
+          inverseSquare_(1.0F / dot(bundle.direction, bundle.direction)),
+          begin_(begin) {
+        sieve();
+        next();
+    }
+
+    bool any() const { return place_ < balls_.index.size(); }
+    std::size_t place() const { return place_; }
+    float nearDepth() const { return nearDepth_; }
+
+    void next() {
+        while (left_ == 0) {
+            first_ += hn::Lanes(D());
+            if (first_ >= balls_.index.size()) {
+                place_ = balls_.index.size();
+                nearDepth_ = std::numeric_limits<float>::infinity();
+                return;
+            }
+            sieve();
+        }
+        place_ = first_ + static_cast<std::size_t>(std::countr_zero(left_));
+        nearDepth_ = balls_.nearDepth(place_);
+        left_ &= left_ - 1;
+    }
+
+ private:
+    /// Sets the bits of those of the vector of balls from first_ on that may be met.
+    void sieve() {
+        const D d;
+        left_ = 0;
+        if (first_ >= balls_.index.size()) return;
+        const Vec3 direction = uniform(bundle_.direction);
+        const Vec3 off{hn::Sub(hn::LoadU(d, &balls_.x[first_]), all(bundle_.origin.x)),
+                       hn::Sub(hn::LoadU(d, &balls_.y[first_]), all(bundle_.origin.y)),
+                       hn::LoadU(d, &balls_.z[first_])};
+        const V reach = hn::LoadU(d, &balls_.reach[first_]);
+        const V closest = hn::Mul(dotted(off, direction), all(inverseSquare_));
+        const Vec3 away = along(off, hn::Neg(closest), direction);
+        const V limit = hn::Add(hn::Add(reach, all(bundle_.apart)),
+                                hn::Mul(all(bundle_.widen), hn::LoadU(d, &balls_.distance[first_])));
+        const M met =
+            hn::And(hn::Lt(dotted(away, away), hn::Mul(limit, limit)), hn::Ge(hn::Add(off.z, reach), all(begin_)));
+        std::array<std::uint8_t, 8> bytes{};
+        hn::StoreMaskBits(d, hn::And(met, hn::FirstN(d, balls_.index.size() - first_)), bytes.data());
+        left_ = static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+    }
+
+    const TileBalls& balls_;
+    Bundle bundle_;
+    float inverseSquare_;
+    float begin_;
+    std::size_t first_ = 0;   // of the vector of balls that was sieved last
+    std::uint32_t left_ = 0;  // those of it that are still to come, a bit each
+    std::size_t place_ = 0;
+    float nearDepth_ = 0.0F;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#endif
