@@ -213,7 +213,6 @@ FrameBlock PicturePass::uploadFrame(const View& view, const Sampling& sampling) 
     block.groundCenter = glm::vec4(ground.center - frame_.eye, ground.fadeDistance);
     block.backgroundTop = glm::vec4(view.background.top, 0.0F);
     block.backgroundBottom = glm::vec4(view.background.bottom, 0.0F);
-    block.counts = glm::ivec4(view.surface.glossExponent, 0, 0, 0);
     const Surface& surface = view.surface;
     block.material = glm::vec4(surface.reflection, surface.metal, surface.roughness, surface.translucency);
     block.tone = glm::vec4(surface.absorption, surface.glow, view.ambient.occlusion, view.exposure);
@@ -238,6 +237,7 @@ Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int
     const bool particles = features.field || (features.spheres && view.style == Style::spheres);
     const Surface& surface = view.surface;
     features.specular = particles && (surface.specular > 0.0F || surface.metal > 0.0F);
+    features.gloss = features.specular ? surface.glossExponent : 0;
     features.metal = particles && surface.metal > 0.0F;
     features.mirror = particles && surface.reflection > 0.0F;
     features.rough = particles && surface.roughness > 0.0F;

@@ -24,11 +24,10 @@
 
 namespace render {
 
-/// Mirrors FrameBlock of shaders/frame.glsl, where the fields are explained.
+/// Mirrors Frame of shaders/frame.glsl, where the fields are explained.
 struct FrameBlock {
     glm::vec4 right, up, forward, picture, toLight, lightColor, ambientSky, ambientGround, groundColor, groundCenter;
     glm::vec4 backgroundTop, backgroundBottom;
-    glm::ivec4 counts;
     glm::vec4 material, tone, mirrorTop, mirrorHorizon, mirrorBottom;
 };
 

@@ -41,6 +41,7 @@ std::string definesOf(const Features& features) {
     define("LINES", features.lines);
     define("SHADOWS", features.shadows);
     define("SPECULAR", features.specular);
+    if (features.specular) text += fmt::format("#define GLOSS {}\n", features.gloss);
     define("METAL", features.metal);
     define("MIRROR", features.mirror);
     define("ROUGH", features.rough);
@@ -107,15 +108,16 @@ GLuint ProgramCache::keep(ProgramName& place, ProgramName program) const {
 GLuint ProgramCache::picture(const Features& features) {
     ProgramName& place = pictures_[features];
     if (place.get() != 0) return place.get();
-    const std::string defines = definesOf(features);
+    const std::string forVertices = joined(definesOf(features) + "#define VERTEX\n", {"frame.glsl"});
+    const std::string forPixels = joined(definesOf(features), {"frame.glsl", "encode.glsl", "shade.glsl"});
     if (features.drawing == Drawing::plain)
-        return keep(place, buildProgram(*gl_, joined(defines, {"frame.glsl", "shade.glsl", "tile.vert"}),
-                                        joined(defines, {"frame.glsl", "encode.glsl", "shade.glsl", "plain.frag"})));
-    const std::string surfaces = joined(defines, {"frame.glsl", "encode.glsl", "shade.glsl", "surface.glsl"});
+        return keep(place, buildProgram(*gl_, joined(forVertices, {"shade.glsl", "tile.vert"}),
+                                        joined(forPixels, {"plain.frag"})));
+    const std::string forSurfaces = joined(forPixels, {"surface.glsl"});
     if (features.drawing == Drawing::edges)
-        return keep(place, buildProgram(*gl_, joined(defines, {"full_screen.vert"}), joined(surfaces, {"edges.frag"})));
-    return keep(place,
-                buildProgram(*gl_, joined(defines, {"frame.glsl", "tile.vert"}), joined(surfaces, {"picture.frag"})));
+        return keep(place,
+                    buildProgram(*gl_, joined(forVertices, {"edges.vert"}), joined(forSurfaces, {"edges.frag"})));
+    return keep(place, buildProgram(*gl_, joined(forVertices, {"tile.vert"}), joined(forSurfaces, {"picture.frag"})));
 }
 
 GLuint ProgramCache::resolve() {

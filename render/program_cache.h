@@ -37,6 +37,7 @@ struct Features {
     bool lines = false;
     bool shadows = false;
     bool specular = false;
+    int gloss = 0;  ///< the highlight's exponent is 2 to the power of this
     bool metal = false;
     bool mirror = false;
     bool rough = false;

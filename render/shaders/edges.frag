@@ -8,7 +8,7 @@ const vec4 kSampleX = vec4(-0.125, 0.375, -0.375, 0.125);
 const vec4 kSampleY = vec4(-0.375, -0.125, 0.125, 0.375);
 
 void main() {
-    int place = int(gl_FragCoord.y) * targetWidth + int(gl_FragCoord.x);
+    int place = int(gl_FragCoord.y) * rowLength + int(gl_FragCoord.x);
     // The last row is not full.
     if (place >= textureSize(edgePixels)) discard;
     ivec4 edge = texelFetch(edgePixels, place);

@@ -1,6 +1,6 @@
 // What every shader knows of the frame; mirrors FrameBlock in picture_pass.h. All positions are relative to the eye, which keeps
 // single precision where the picture is.
-layout(std140) uniform FrameBlock {
+struct Frame {
     vec4 right;             // half the picture's width, on the plane at view depth 1; w: 1 perspective, 0 orthographic
     vec4 up;                // half its height, likewise
     vec4 forward;           // unit; w: width of a pixel at view depth 1 (perspective), or anywhere (orthographic)
@@ -13,7 +13,6 @@ layout(std140) uniform FrameBlock {
     vec4 groundCenter;      // w: fade distance
     vec4 backgroundTop;
     vec4 backgroundBottom;
-    ivec4 counts;           // gloss exponent, unused
     vec4 material;          // reflection, metal, roughness, translucency
     vec4 tone;              // absorption, glow, occlusion, exposure
     vec4 mirrorTop;
@@ -21,7 +20,22 @@ layout(std140) uniform FrameBlock {
     vec4 mirrorBottom;
 };
 
-uniform int targetWidth;             // pixels of the target, a whole number of tiles
+// Vertex shaders hand the frame over: a software renderer gathers a uniform lane by lane for each few pixels, but keeps a flat
+// input ready for all of them.
+#ifdef VERTEX
+layout(std140) uniform FrameBlock { Frame block; };
+uniform int targetWidth;    // pixels of the target, a whole number of tiles
+flat out Frame frame;
+flat out int rowLength;
+
+void handOver() {
+    frame = block;
+    rowLength = targetWidth;
+}
+#else
+flat in Frame frame;
+flat in int rowLength;      // pixels of the target, a whole number of tiles
+#endif
 
 struct Ray {
     vec3 origin;
@@ -31,11 +45,11 @@ struct Ray {
 
 // at: pixels from the top left corner of the picture.
 Ray rayThrough(vec2 at) {
-    vec2 plane = vec2(2.0 * at.x / picture.x - 1.0, 1.0 - 2.0 * at.y / picture.y);
-    vec3 across = plane.x * right.xyz + plane.y * up.xyz;
+    vec2 plane = vec2(2.0 * at.x / frame.picture.x - 1.0, 1.0 - 2.0 * at.y / frame.picture.y);
+    vec3 across = plane.x * frame.right.xyz + plane.y * frame.up.xyz;
     Ray ray;
-    ray.origin = (1.0 - right.w) * across;
-    ray.direction = forward.xyz + right.w * across;
+    ray.origin = (1.0 - frame.right.w) * across;
+    ray.direction = frame.forward.xyz + frame.right.w * across;
     ray.inverseSquare = 1.0 / dot(ray.direction, ray.direction);
     return ray;
 }

@@ -6,8 +6,8 @@ out vec4 pixel;
 
 void main() {
     ivec2 place = ivec2(gl_FragCoord.xy);
-    ivec2 fragment = texelFetch(pixels, place.y * targetWidth + place.x).xy;
-    vec2 at = vec2(place) + 0.5 + picture.zw;
+    ivec2 fragment = texelFetch(pixels, place.y * rowLength + place.x).xy;
+    vec2 at = vec2(place) + 0.5 + frame.picture.zw;
 #ifdef SURFACE
     Point point = pointOn(fragment.x, rayThrough(at));
     pixel = vec4(point.normal, point.depth);

@@ -6,11 +6,11 @@ flat in vec3 groundLit;
 #endif
 
 void main() {
-    vec2 at = floor(gl_FragCoord.xy) + 0.5 + picture.zw;
+    vec2 at = floor(gl_FragCoord.xy) + 0.5 + frame.picture.zw;
     vec3 color = background(at.y);
 #ifdef GROUND
     Ray ray = rayThrough(at);
-    float depth = (groundColor.w - ray.origin.y) / ray.direction.y;
+    float depth = (frame.groundColor.w - ray.origin.y) / ray.direction.y;
     color = mix(groundLit, color, groundFade(ray.origin + depth * ray.direction));
 #endif
     color = clamp(color, 0.0, 1.0);

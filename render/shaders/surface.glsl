@@ -44,12 +44,12 @@ Point pointOn(int id, Ray ray) {
     Point point;
     float depth = 0.0;
     // Away from the light, so that the background looks for no shadow.
-    point.normal = -toLight.xyz;
-    point.albedo = groundColor.xyz;
+    point.normal = -frame.toLight.xyz;
+    point.albedo = frame.groundColor.xyz;
     point.particle = 0.0;
     point.open = vec3(1.0);
 #ifdef GROUND
-    depth = id == kGround ? (groundColor.w - ray.origin.y) / ray.direction.y : depth;
+    depth = id == kGround ? (frame.groundColor.w - ray.origin.y) / ray.direction.y : depth;
     point.normal = id == kGround ? vec3(0.0, 1.0, 0.0) : point.normal;
 #endif
 #ifdef SPHERES

@@ -9,6 +9,7 @@ flat out vec3 groundLit;
 #endif
 
 void main() {
+    handOver();
     tile = texelFetch(tileTable, firstTile + gl_VertexID);
     vec2 center = (vec2(tile.xy) + 0.5 * float(tile.z)) * 16.0;
     // Row 0 of the target is the top row of the picture, so that reading back needs no flip.
@@ -17,7 +18,7 @@ void main() {
 #if defined(PLAIN) && defined(GROUND)
     Point point;
     point.normal = vec3(0.0, 1.0, 0.0);
-    point.albedo = groundColor.xyz;
+    point.albedo = frame.groundColor.xyz;
     point.particle = 0.0;
     groundLit = shade(point, vec3(0.0, 1.0, 0.0));
 #endif
