@@ -20,7 +20,7 @@ struct Cover {
 Cover shadowsOf(const View& view, const Dimmers& dimmers) {
     Cover cover;
     const LightGrid& grid = dimmers.spheres;
-    if (!grid.spheres.empty()) cover.add(grid.origin, grid.origin + grid.cellSize * glm::vec2(grid.columns, grid.rows));
+    if (!grid.empty()) cover.add(grid.origin, grid.origin + grid.cellSize * glm::vec2(grid.columns, grid.rows));
     const DepthMap& map = dimmers.field;
     // A texel more on each side: the map may be shifted.
     if (map.heights.size() > 1)

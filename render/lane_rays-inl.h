@@ -6,6 +6,9 @@
 #define RENDER_LANE_RAYS_INL_H_
 #endif
 
+#include <array>
+#include <cstdint>
+
 #include <hwy/highway.h>
 
 #include "render/camera_frame.h"
@@ -61,6 +64,13 @@ HWY_INLINE V clamped(V value, float low, float high) {
 /// Of lanes of integers, for lanes of floats.
 HWY_INLINE M laneMask(hn::Mask<DI> mask) {
     return hn::RebindMask(D(), mask);
+}
+
+/// A bit for each lane.
+HWY_INLINE std::uint32_t bitsOf(M mask) {
+    std::array<std::uint8_t, 8> bytes{};
+    hn::StoreMaskBits(D(), mask, bytes.data());
+    return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
 }
 
 /// Where rays through these pixels cross the plane at view depth 1 (parallel projection: any plane).

@@ -5,6 +5,7 @@
 #include "render/light_reach.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -36,41 +37,75 @@ V sharp(V x) {
 }
 
 /// What one sphere covers of a strip one pixel wide around each ray to the light.
-V coverOfSphere(const LightSphere& sphere, const LitPoints& at, V square, float softness) {
-    const float radius = sphere.radius;
+V coverOfSphere(float height, float radius, const LitPoints& at, V square, float softness) {
     const V drop = hn::Max(hn::Sub(all(radius * radius), square), all(0.0F));
-    const V top = hn::Add(all(sphere.height), hn::Sqrt(drop));
+    const V top = hn::Add(all(height), hn::Sqrt(drop));
     // A point of this very sphere lies at `top`; one hundredth of a radius is far above the rounding and invisible.
     const M above = hn::Gt(top, hn::Add(at.height, all(0.01F * radius)));
     // The light's grid leaves a tenth of a radius for the softened edge.
     V edge = clamped(at.pixelWidth, 1.0e-4F * radius, 0.2F * radius);
     const V depth = hn::Sub(all(radius), hn::Sqrt(square));
     if (softness > 0.0F) {
-        const V half = hn::Mul(all(0.5F), hn::Sub(all(sphere.height), at.height));
+        const V half = hn::Mul(all(0.5F), hn::Sub(all(height), at.height));
         edge = hn::Max(edge, hn::Mul(all(softness), clamped(half, 0.0F, radius)));
         return hn::IfThenElseZero(above, softened(hn::Div(depth, edge)));
     }
     return hn::IfThenElseZero(above, sharp(hn::Div(depth, edge)));
 }
 
+/// What points on the light's plane lie within, and the lowest of them.
+struct Spread {
+    V lowU, highU, lowV, highV, bottom;
+
+    Spread(const LitPoints& at, M here)
+        : lowU(leastOf(at.u, here)),
+          highU(hn::Neg(leastOf(hn::Neg(at.u), here))),
+          lowV(leastOf(at.v, here)),
+          highV(hn::Neg(leastOf(hn::Neg(at.v), here))),
+          bottom(leastOf(at.height, here)) {}
+
+ private:
+    static V leastOf(V values, M lanes) { return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, all(kFarDepth))); }
+};
+
+/// Bits of those of a vector of spheres, from place k of the grid's on, that may cover points of this spread.
+std::uint32_t coveringBits(const LightSpheres& spheres, std::size_t k, const Spread& spread) {
+    const D d;
+    const V zero = all(0.0F);
+    const V u = hn::LoadU(d, &spheres.u[k]);
+    const V v = hn::LoadU(d, &spheres.v[k]);
+    const V height = hn::LoadU(d, &spheres.height[k]);
+    const V radius = hn::LoadU(d, &spheres.radius[k]);
+    const V offU = hn::Max(hn::Max(hn::Sub(spread.lowU, u), hn::Sub(u, spread.highU)), zero);
+    const V offV = hn::Max(hn::Max(hn::Sub(spread.lowV, v), hn::Sub(v, spread.highV)), zero);
+    // Beyond half the widest edge nothing is covered; a little more than that for the rounding.
+    const V farthest = hn::Mul(all(1.501F), radius);
+    const M near = hn::Lt(hn::Add(hn::Mul(offU, offU), hn::Mul(offV, offV)), hn::Mul(farthest, farthest));
+    return bitsOf(hn::And(near, hn::Ge(hn::Add(height, radius), spread.bottom)));
+}
+
 /// Of the spheres of one cell, for the points in it. The sum (not the product) closes the seam between two spheres that
 /// touch.
 V coverInCell(const LightGrid& grid, std::size_t cell, const LitPoints& at, M here, float softness) {
     const D d;
+    const LightSpheres& spheres = grid.spheres;
+    const Spread spread(at, here);
+    const float bottom = hn::GetLane(spread.bottom);
+    const auto end = static_cast<std::size_t>(grid.cells[cell].end);
     V cover = all(0.0F);
-    for (std::int32_t k = grid.cells[cell].begin; k < grid.cells[cell].end; ++k) {
-        const LightSphere& sphere = grid.spheres[static_cast<std::size_t>(k)];
+    for (auto first = static_cast<std::size_t>(grid.cells[cell].begin); first < end; first += hn::Lanes(d)) {
         // Front to back: nothing further on the list reaches above the points.
-        const M below = hn::And(here, hn::Ge(all(sphere.height + sphere.radius), at.height));
-        if (hn::AllFalse(d, below)) break;
-        const V offU = hn::Sub(at.u, all(sphere.u));
-        const V offV = hn::Sub(at.v, all(sphere.v));
-        const V square = hn::Add(hn::Mul(offU, offU), hn::Mul(offV, offV));
-        // Beyond half the widest edge nothing is covered.
-        const float farthest = 1.5F * sphere.radius;
-        if (hn::AllFalse(d, hn::And(below, hn::Lt(square, all(farthest * farthest))))) continue;
-        cover = hn::Add(cover, coverOfSphere(sphere, at, square, softness));
-        if (hn::AllFalse(d, hn::And(here, hn::Lt(cover, all(1.0F))))) break;
+        if (spheres.height[first] + spheres.radius[first] < bottom) break;
+        const std::size_t left = std::min(end - first, hn::Lanes(d));
+        for (std::uint32_t bits = coveringBits(spheres, first, spread) & ((1U << left) - 1U); bits != 0;
+             bits &= bits - 1) {
+            const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(bits));
+            const V offU = hn::Sub(at.u, all(spheres.u[k]));
+            const V offV = hn::Sub(at.v, all(spheres.v[k]));
+            const V square = hn::Add(hn::Mul(offU, offU), hn::Mul(offV, offV));
+            cover = hn::Add(cover, coverOfSphere(spheres.height[k], spheres.radius[k], at, square, softness));
+            if (hn::AllFalse(d, hn::And(here, hn::Lt(cover, all(1.0F))))) return cover;
+        }
     }
     return cover;
 }

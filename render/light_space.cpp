@@ -55,14 +55,14 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
 
     // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see light_reach.cpp.
     const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
-    std::vector<LightSphere> seen(spheres.size());
+    std::vector<glm::vec3> seen(spheres.size());
     std::vector<float> keys(spheres.size());
     glm::vec2 low(std::numeric_limits<float>::max());
     glm::vec2 high(std::numeric_limits<float>::lowest());
     for (std::size_t k = 0; k < spheres.size(); ++k) {
         const glm::vec3 at = basis.toLightSpace(spheres[k].center);
         const float radius = spheres[k].radius;
-        seen[k] = {at.x, at.y, at.z, radius};
+        seen[k] = at;
         keys[k] = -(at.z + radius);
         low = min(low, glm::vec2(at) - margin * radius);
         high = max(high, glm::vec2(at) + margin * radius);
@@ -75,21 +75,29 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     std::vector<BinItem> items(spheres.size());
     const std::vector<std::uint32_t> order = orderByKey(keys);
     for (std::size_t place = 0; place < order.size(); ++place) {
-        const LightSphere& sphere = seen[order[place]];
-        const float reach = margin * sphere.radius;
+        const glm::vec3 at = seen[order[place]];
+        const float reach = margin * spheres[order[place]].radius;
         items[place] = {order[place],
-                        {cellOf(sphere.u - reach, low.x, grid.cellSize, grid.columns),
-                         cellOf(sphere.v - reach, low.y, grid.cellSize, grid.rows),
-                         cellOf(sphere.u + reach, low.x, grid.cellSize, grid.columns),
-                         cellOf(sphere.v + reach, low.y, grid.cellSize, grid.rows)}};
+                        {cellOf(at.x - reach, low.x, grid.cellSize, grid.columns),
+                         cellOf(at.y - reach, low.y, grid.cellSize, grid.rows),
+                         cellOf(at.x + reach, low.x, grid.cellSize, grid.columns),
+                         cellOf(at.y + reach, low.y, grid.cellSize, grid.rows)}};
     }
     const CellLists lists = binItems(items, grid.columns, grid.rows);
     grid.cells.resize(lists.begin.size() - 1);
-    grid.spheres.resize(lists.items.size());
+    LightSpheres& listed = grid.spheres;
+    for (std::vector<float>* values : {&listed.u, &listed.v, &listed.height, &listed.radius})
+        values->resize(lists.items.size() + kTileSize);
     tbb::parallel_for(std::size_t{0}, grid.cells.size(), [&](std::size_t cell) {
         grid.cells[cell] = {static_cast<std::int32_t>(lists.begin[cell]),
                             static_cast<std::int32_t>(lists.begin[cell + 1])};
-        for (std::size_t k = lists.begin[cell]; k < lists.begin[cell + 1]; ++k) grid.spheres[k] = seen[lists.items[k]];
+        for (std::size_t k = lists.begin[cell]; k < lists.begin[cell + 1]; ++k) {
+            const std::uint32_t sphere = lists.items[k];
+            listed.u[k] = seen[sphere].x;
+            listed.v[k] = seen[sphere].y;
+            listed.height[k] = seen[sphere].z;
+            listed.radius[k] = spheres[sphere].radius;
+        }
     });
     return grid;
 }

@@ -24,12 +24,9 @@ struct LightBasis {
 
 LightBasis lightBasis(glm::vec3 toLight);
 
-/// A sphere that casts shadows.
-struct LightSphere {
-    float u = 0.0F;
-    float v = 0.0F;
-    float height = 0.0F;
-    float radius = 0.0F;
+/// Spheres that cast shadows, side by side for the lanes.
+struct LightSpheres {
+    std::vector<float> u, v, height, radius;
 };
 
 /// Begin and end of a cell's list.
@@ -44,7 +41,10 @@ struct LightGrid {
     int columns = 1;
     int rows = 1;
     std::vector<ListRange> cells;
-    std::vector<LightSphere> spheres;  ///< cell after cell, the nearest to the light first
+    /// Cell after cell, the nearest to the light first; behind the last as many more as a vector holds.
+    LightSpheres spheres;
+
+    bool empty() const { return spheres.u.empty(); }
 };
 
 /// Bins spheres (center relative to the eye) for a light whose shadows are this soft.

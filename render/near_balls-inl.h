@@ -7,7 +7,6 @@
 #define RENDER_NEAR_BALLS_INL_H_
 #endif
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -127,9 +126,7 @@ class Candidates {
                                 hn::Mul(all(bundle_.widen), hn::LoadU(d, &balls_.distance[first_])));
         const M met =
             hn::And(hn::Lt(dotted(away, away), hn::Mul(limit, limit)), hn::Ge(hn::Add(off.z, reach), all(begin_)));
-        std::array<std::uint8_t, 8> bytes{};
-        hn::StoreMaskBits(d, hn::And(met, hn::FirstN(d, balls_.index.size() - first_)), bytes.data());
-        left_ = static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+        left_ = bitsOf(hn::And(met, hn::FirstN(d, balls_.index.size() - first_)));
     }
 
     const TileBalls& balls_;

@@ -156,14 +156,14 @@ void PicturePass::castField(const View& view, const Sampling& sampling) {
 // Whether anything stands in the light's way.
 bool PicturePass::castsShadows(const View& view) const {
     return view.light.shadows &&
-           (!lightGrid_.spheres.empty() || depthMap_.heights.size() > 1 || !view.boxObstacles.empty());
+           (!lightGrid_.empty() || depthMap_.heights.size() > 1 || !view.boxObstacles.empty());
 }
 
 Obstruction PicturePass::obstructionOf(const View& view) const {
     Obstruction obstruction;
     obstruction.light = light_;
     obstruction.eye = frame_.eye;
-    if (!lightGrid_.spheres.empty()) obstruction.spheres = &lightGrid_;
+    if (!lightGrid_.empty()) obstruction.spheres = &lightGrid_;
     if (depthMap_.heights.size() > 1) obstruction.field = &depthMap_;
     if (view.light.shadows) obstruction.boxes = view.boxObstacles;
     obstruction.softness = view.light.softness;
