@@ -52,6 +52,7 @@ namespace render {
     X(GetUniformBlockIndex, PFNGLGETUNIFORMBLOCKINDEXPROC)     \
     X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)         \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                       \
+    X(MapBufferRange, PFNGLMAPBUFFERRANGEPROC)                 \
     X(PixelStorei, PFNGLPIXELSTOREIPROC)                       \
     X(ReadPixels, PFNGLREADPIXELSPROC)                         \
     X(ShaderSource, PFNGLSHADERSOURCEPROC)                     \
@@ -60,6 +61,7 @@ namespace render {
     X(TexParameteri, PFNGLTEXPARAMETERIPROC)                   \
     X(Uniform1i, PFNGLUNIFORM1IPROC)                           \
     X(UniformBlockBinding, PFNGLUNIFORMBLOCKBINDINGPROC)       \
+    X(UnmapBuffer, PFNGLUNMAPBUFFERPROC)                       \
     X(UseProgram, PFNGLUSEPROGRAMPROC)                         \
     X(Viewport, PFNGLVIEWPORTPROC)
 

@@ -1,9 +1,12 @@
 // Creation and use of GL objects, with every limit that depends on data checked.
 #include "render/gl_objects.h"
 
-#include <cstdint>
+#include <algorithm>
+#include <cstring>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "render/system_error.h"
 
@@ -26,10 +29,23 @@ GLint limitOf(const Gl& gl, GLenum name) {
 
 }  // namespace
 
+Mapped::Mapped(const Gl& gl, std::size_t bytes) : gl_(&gl), bytes_(bytes) {
+    // Nothing that was drawn still reads the old contents: every drawing is waited for.
+    const GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT | GL_MAP_UNSYNCHRONIZED_BIT;
+    memory_ = gl.MapBufferRange(GL_TEXTURE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), access);
+    if (memory_ == nullptr) throw SystemError(fmt::format("OpenGL does not lend {} bytes of a buffer", bytes));
+}
+
+Mapped::~Mapped() {
+    // GL_FALSE where a display driver has lost the contents; the next frame brings new ones.
+    gl_->UnmapBuffer(GL_TEXTURE_BUFFER);
+}
+
 TextureBuffer::TextureBuffer(const Gl& gl, std::string_view name, GLenum format, std::size_t texelBytes)
     : gl_(&gl),
       name_(name),
       texelBytes_(texelBytes),
+      room_(texelBytes),
       buffer_(generate<BufferName>(gl, gl.GenBuffers)),
       texture_(generate<TextureName>(gl, gl.GenTextures)) {
     gl.BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
@@ -38,18 +54,28 @@ TextureBuffer::TextureBuffer(const Gl& gl, std::string_view name, GLenum format,
     gl.TexBuffer(GL_TEXTURE_BUFFER, format, buffer_.get());
 }
 
-void TextureBuffer::upload(std::span<const std::byte> bytes) {
+Mapped TextureBuffer::map(std::size_t bytes) {
     const auto limit = static_cast<std::size_t>(limitOf(*gl_, GL_MAX_TEXTURE_BUFFER_SIZE));
-    const std::size_t texels = bytes.size() / texelBytes_;
+    const std::size_t texels = bytes / texelBytes_;
     if (texels > limit) {
         throw SystemError(
             fmt::format("{} entries of {} are more than OpenGL's texture buffers hold ({})", texels, name_, limit));
     }
     gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
-    // An empty buffer may not be sampled at all; one texel always stands.
-    const std::size_t size = bytes.empty() ? texelBytes_ : bytes.size();
-    gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(),
-                    GL_STREAM_DRAW);
+    if (bytes > room_) {
+        room_ = std::min(bytes + bytes / 2, limit * texelBytes_);
+        gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(room_), nullptr, GL_STREAM_DRAW);
+    }
+    return {*gl_, bytes};
+}
+
+void TextureBuffer::upload(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;
+    const Mapped mapped = map(bytes.size());
+    const std::span<std::byte> to = mapped.as<std::byte>();
+    constexpr std::size_t kGrain = 1U << 16U;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size(), kGrain),
+                      [&](const auto& range) { std::memcpy(&to[range.begin()], &bytes[range.begin()], range.size()); });
 }
 
 void TextureBuffer::bind(int unit) const {

@@ -54,13 +54,38 @@ using FramebufferName = GlName<deleteFramebuffer>;
 using VertexArrayName = GlName<deleteVertexArray>;
 using ProgramName = GlName<deleteProgram>;
 
+/// The new contents of a buffer until it dies: written, never read.
+class Mapped {
+ public:
+    /// Of the buffer that is bound to GL_TEXTURE_BUFFER.
+    Mapped(const Gl& gl, std::size_t bytes);
+    ~Mapped();
+    Mapped(const Mapped&) = delete;
+    Mapped& operator=(const Mapped&) = delete;
+
+    /// As many items as fit.
+    template <typename T>
+    std::span<T> as() const {
+        return {static_cast<T*>(memory_), bytes_ / sizeof(T)};
+    }
+
+ private:
+    const Gl* gl_;
+    void* memory_;
+    std::size_t bytes_;
+};
+
 /// A list that shaders read by texelFetch; a texture buffer is read twice as fast as a storage buffer in llvmpipe.
 class TextureBuffer {
  public:
     /// format: GL_RGBA32F and the like; texelBytes: its size.
     TextureBuffer(const Gl& gl, std::string_view name, GLenum format, std::size_t texelBytes);
 
-    /// Replaces the contents. Throws SystemError beyond what OpenGL can address.
+    /// Replaces the contents by so many bytes to be written. Throws SystemError beyond what OpenGL can address. No
+    /// other buffer may be mapped or filled meanwhile.
+    Mapped map(std::size_t bytes);
+
+    /// Replaces the contents, by all threads.
     void upload(std::span<const std::byte> bytes);
     void bind(int unit) const;
 
@@ -68,6 +93,7 @@ class TextureBuffer {
     const Gl* gl_;
     std::string_view name_;
     std::size_t texelBytes_;
+    std::size_t room_;  // bytes
     BufferName buffer_;
     TextureName texture_;
 };

@@ -155,8 +155,7 @@ void PicturePass::castField(const View& view, const Sampling& sampling) {
 
 // Whether anything stands in the light's way.
 bool PicturePass::castsShadows(const View& view) const {
-    return view.light.shadows &&
-           (!lightGrid_.empty() || depthMap_.heights.size() > 1 || !view.boxObstacles.empty());
+    return view.light.shadows && (!lightGrid_.empty() || depthMap_.heights.size() > 1 || !view.boxObstacles.empty());
 }
 
 Obstruction PicturePass::obstructionOf(const View& view) const {
@@ -190,8 +189,11 @@ void PicturePass::look(const View& view, const Sampling& sampling) {
                                 surfaces,
                                 dims ? &obstruction : nullptr,
                                 sampling.output == Output::surface};
-    takeSamples(contents, sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples, samples_);
-    pixels_.upload(bytesOf(samples_.pixels));
+    {
+        const Mapped pixels = pixels_.map(groundTiles_.size() * kTilePixels * sizeof(Fragment));
+        takeSamples(contents, sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
+                    pixels.as<Fragment>(), samples_);
+    }
     edgePixels_.upload(bytesOf(samples_.edges));
     fragments_.upload(bytesOf(samples_.fragments));
     lines_.upload(bytesOf(samples_.lines));
@@ -303,7 +305,7 @@ void PicturePass::drawEdges(const View& view, const Sampling& sampling, PictureS
     if (samples_.edges.empty()) return;
     Features features = featuresOf(view, sampling, samples_.edgeClass);
     features.drawing = Drawing::edges;
-    useProgram(features, target);
+    programs_.setInteger(useProgram(features, target), "edgeCount", static_cast<int>(samples_.edges.size()));
     const int rows = (static_cast<int>(samples_.edges.size()) + target.width - 1) / target.width;
     gl_->Viewport(0, 0, target.width, rows);
     gl_->DrawArrays(GL_TRIANGLES, 0, 3);

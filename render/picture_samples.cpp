@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -18,13 +19,6 @@ constexpr std::size_t kMostFragments = 4;
 
 // Light and sky reach a fragment, which no sample shows yet.
 constexpr auto kAllReaches = static_cast<std::int32_t>(0xfffffff0U);
-
-/// The edge pixels of one tile by the number of their fragments, whose places are counted from the tile's first.
-struct TileEdges {
-    std::array<std::vector<EdgePixel>, kMostFragments> pixels;
-    std::array<std::vector<Fragment>, kMostFragments> fragments;
-    int classBits = 0;
-};
 
 // Without branches, so that compilers turn loops over it into lanes.
 int kindOf(std::int32_t seen) {
@@ -141,14 +135,13 @@ class TileSamples {
             if (f == count) found[count++] = {seen, kAllReaches};
             found[f].reach |= 1 << s;
         }
-        std::vector<Fragment>& fragments = edges.fragments[count - 1];
         EdgePixel pixel;
         pixel.place = place;
-        pixel.first = static_cast<std::int32_t>(fragments.size());
+        pixel.first = static_cast<std::int32_t>(edges.fragments.size());
         pixel.count = static_cast<std::int32_t>(count);
-        edges.pixels[count - 1].push_back(pixel);
+        edges.pixels.push_back(pixel);
         for (std::size_t f = 0; f < count; ++f) {
-            fragments.push_back(found[f]);
+            edges.fragments.push_back(found[f]);
             edges.classBits |= kindOf(found[f].seen);
         }
     }
@@ -203,19 +196,21 @@ void putPixels(const TileContents& contents, std::size_t tile, std::span<const s
     }
 }
 
-glm::vec2 middleOf(int samples) {
-    glm::vec2 sum(0.0F);
-    float count = 0.0F;
-    for (std::size_t s = 0; s < kFourSamples.size(); ++s) {
-        if ((samples >> s & 1) == 0) continue;
-        sum += kFourSamples[s];
-        count += 1.0F;
+/// Of the samples whose bits are set.
+std::array<glm::vec2, 16> middles() {
+    std::array<glm::vec2, 16> found{};
+    for (unsigned samples = 1; samples < found.size(); ++samples) {
+        glm::vec2 sum(0.0F);
+        for (std::size_t s = 0; s < kFourSamples.size(); ++s)
+            if ((samples >> s & 1U) != 0) sum += kFourSamples[s];
+        found[samples] = sum / static_cast<float>(std::popcount(samples));
     }
-    return sum / count;
+    return found;
 }
 
 /// Adds what light and sky reach the fragments of these pixels.
 void reachEdges(const TileContents& contents, std::span<const EdgePixel> pixels, std::span<Fragment> fragments) {
+    static const std::array<glm::vec2, 16> kMiddles = middles();
     SurfacePoints points;
     LightReach found;
     std::size_t begun = 0;  // the first fragment of those in `points`
@@ -233,7 +228,7 @@ void reachEdges(const TileContents& contents, std::span<const EdgePixel> pixels,
         const glm::vec2 middle = glm::vec2(pixel.place % 65536, pixel.place / 65536) + 0.5F;
         for (std::int32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
             const Fragment& fragment = fragments[static_cast<std::size_t>(f)];
-            const glm::vec2 at = middle + middleOf(fragment.reach & 15);
+            const glm::vec2 at = middle + kMiddles[static_cast<std::size_t>(fragment.reach & 15)];
             points.seen[points.count] = fragment.seen;
             points.x[points.count] = at.x;
             points.y[points.count] = at.y;
@@ -243,39 +238,74 @@ void reachEdges(const TileContents& contents, std::span<const EdgePixel> pixels,
     if (points.count > 0) flush();
 }
 
-/// Puts the tiles' edge pixels side by side, those with few fragments first.
-void joinEdges(const std::vector<TileEdges>& tiles, PictureSamples& samples) {
-    std::size_t pixels = 0;
-    std::size_t fragments = 0;
-    samples.edgeClass = 0;
-    for (const TileEdges& tile : tiles) {
-        for (const std::vector<EdgePixel>& some : tile.pixels) pixels += some.size();
-        for (const std::vector<Fragment>& some : tile.fragments) fragments += some.size();
-        samples.edgeClass |= static_cast<std::uint8_t>(tile.classBits);
+/// Where edge pixels with one to four fragments go, and these.
+struct EdgePlaces {
+    std::array<std::int32_t, kMostFragments> pixels{};
+    std::array<std::int32_t, kMostFragments> fragments{};
+};
+
+EdgePlaces countsOf(const TileEdges& edges) {
+    EdgePlaces counts;
+    for (const EdgePixel& pixel : edges.pixels) {
+        const auto kind = static_cast<std::size_t>(pixel.count - 1);
+        ++counts.pixels[kind];
+        counts.fragments[kind] += pixel.count;
     }
-    samples.edges.clear();
-    samples.fragments.clear();
-    samples.edges.reserve(pixels);
-    samples.fragments.reserve(fragments);
-    for (std::size_t count = 0; count < kMostFragments; ++count) {
-        for (std::size_t k = 0; k < tiles.size(); ++k) {
-            const auto base = static_cast<std::int32_t>(samples.fragments.size());
-            for (EdgePixel pixel : tiles[k].pixels[count]) {
-                pixel.first += base;
-                if (samples.lineSlots[k] >= 0)
-                    pixel.line = samples.lineSlots[k] * static_cast<std::int32_t>(kTilePixels) +
-                                 pixel.place / 65536 % kTileSize * kTileSize + pixel.place % kTileSize;
-                samples.edges.push_back(pixel);
-            }
-            const std::vector<Fragment>& some = tiles[k].fragments[count];
-            samples.fragments.insert(samples.fragments.end(), some.begin(), some.end());
+    return counts;
+}
+
+/// Turns the counts of each tile into its places; returns the ends.
+EdgePlaces addUp(std::span<EdgePlaces> tiles) {
+    EdgePlaces next;
+    for (std::size_t kind = 0; kind < kMostFragments; ++kind) {
+        if (kind > 0) {
+            next.pixels[kind] = next.pixels[kind - 1];
+            next.fragments[kind] = next.fragments[kind - 1];
         }
+        for (EdgePlaces& tile : tiles) {
+            next.pixels[kind] += std::exchange(tile.pixels[kind], next.pixels[kind]);
+            next.fragments[kind] += std::exchange(tile.fragments[kind], next.fragments[kind]);
+        }
+    }
+    return next;
+}
+
+/// Puts a tile's edge pixels where they belong.
+void putEdges(const TileEdges& edges, std::int32_t lineSlot, EdgePlaces at, PictureSamples& samples) {
+    for (EdgePixel pixel : edges.pixels) {
+        const auto kind = static_cast<std::size_t>(pixel.count - 1);
+        const auto to = static_cast<std::size_t>(at.fragments[kind]);
+        std::copy_n(edges.fragments.begin() + pixel.first, pixel.count,
+                    samples.fragments.begin() + static_cast<std::ptrdiff_t>(to));
+        pixel.first = std::exchange(at.fragments[kind], at.fragments[kind] + pixel.count);
+        if (lineSlot >= 0)
+            pixel.line = lineSlot * static_cast<std::int32_t>(kTilePixels) +
+                         pixel.place / 65536 % kTileSize * kTileSize + pixel.place % kTileSize;
+        samples.edges[static_cast<std::size_t>(at.pixels[kind]++)] = pixel;
     }
 }
 
+/// Puts the tiles' edge pixels side by side, those with few fragments first.
+void joinEdges(PictureSamples& samples) {
+    const std::vector<TileEdges>& tiles = samples.tileEdges;
+    std::vector<EdgePlaces> places(tiles.size());
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t tile) { places[tile] = countsOf(tiles[tile]); });
+    const EdgePlaces end = addUp(places);
+    samples.edges.resize(static_cast<std::size_t>(end.pixels.back()));
+    samples.fragments.resize(static_cast<std::size_t>(end.fragments.back()));
+    samples.edgeClass = 0;
+    for (const TileEdges& tile : tiles) samples.edgeClass |= static_cast<std::uint8_t>(tile.classBits);
+    tbb::parallel_for(std::size_t{0}, tiles.size(),
+                      [&](std::size_t tile) { putEdges(tiles[tile], samples.lineSlots[tile], places[tile], samples); });
+}
+
 /// Takes the samples of one tile; returns its class.
-int takeTile(const TileContents& contents, SampleOffsets offsets, std::size_t tile, PictureSamples& samples,
-             TileEdges& edges) {
+int takeTile(const TileContents& contents, SampleOffsets offsets, std::size_t tile, std::span<Fragment> pixels,
+             PictureSamples& samples) {
+    TileEdges& edges = samples.tileEdges[tile];
+    edges.pixels.clear();
+    edges.fragments.clear();
+    edges.classBits = 0;
     const GroundKind ground = contents.ground[tile].kind;
     const std::int32_t lineSlot = samples.lineSlots[tile];
     const glm::vec2 where = 0.5F + (offsets.size() == 1 ? offsets[0] : glm::vec2(0.0F));
@@ -285,19 +315,17 @@ int takeTile(const TileContents& contents, SampleOffsets offsets, std::size_t ti
         if (!dims && !contents.plainToo) return bits;
         std::array<std::int32_t, kTilePixels> seen;
         seen.fill(bits == kGroundBit ? kSeesGround : kSeesBackground);
-        putPixels(contents, tile, seen, where, dims, samples.pixels);
+        putPixels(contents, tile, seen, where, dims, pixels);
         return dims ? bits | kDimBit : bits;
     }
     TileSamples here(contents, offsets, tile);
     here.look();
     bits = here.resolve(edges);
     const bool dims = isDimmed(bits, ground);
-    putPixels(contents, tile, here.seen(), where, dims, samples.pixels);
+    putPixels(contents, tile, here.seen(), where, dims, pixels);
     if (isDimmed(edges.classBits, ground)) {
         edges.classBits |= kDimBit;
-        if (contents.obstruction != nullptr)
-            for (std::size_t count = 0; count < kMostFragments; ++count)
-                reachEdges(contents, edges.pixels[count], edges.fragments[count]);
+        if (contents.obstruction != nullptr) reachEdges(contents, edges.pixels, edges.fragments);
     }
     if (lineSlot >= 0) {
         const LineCover over = lineCover(contents.solids, contents.lines, tile, here.rays(), where);
@@ -310,21 +338,21 @@ int takeTile(const TileContents& contents, SampleOffsets offsets, std::size_t ti
 
 }  // namespace
 
-void takeSamples(const TileContents& contents, SampleOffsets offsets, PictureSamples& samples) {
+void takeSamples(const TileContents& contents, SampleOffsets offsets, std::span<Fragment> pixels,
+                 PictureSamples& samples) {
     const CellLists& tiles = *contents.solids.tiles;
     const std::size_t tileCount = tiles.begin.size() - 1;
-    samples.pixels.resize(tileCount * kTilePixels);
     samples.classes.resize(tileCount);
     samples.lineSlots.assign(tileCount, -1);
     std::int32_t lineSlots = 0;
     for (std::size_t tile = 0; tile < tileCount; ++tile)
         if (hasItems(contents.lines.tiles, tile)) samples.lineSlots[tile] = lineSlots++;
     samples.lines.resize(static_cast<std::size_t>(lineSlots) * kTilePixels);
-    std::vector<TileEdges> edges(tileCount);
+    samples.tileEdges.resize(tileCount);
     tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
-        samples.classes[tile] = static_cast<std::uint8_t>(takeTile(contents, offsets, tile, samples, edges[tile]));
+        samples.classes[tile] = static_cast<std::uint8_t>(takeTile(contents, offsets, tile, pixels, samples));
     });
-    joinEdges(edges, samples);
+    joinEdges(samples);
 }
 
 }  // namespace render

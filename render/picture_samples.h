@@ -44,20 +44,29 @@ struct TileContents {
     bool plainToo = false;                     ///< the pixels of plain tiles are asked for
 };
 
+/// The edge pixels of one tile; places of fragments are counted from the tile's first.
+struct TileEdges {
+    std::vector<EdgePixel> pixels;
+    std::vector<Fragment> fragments;
+    int classBits = 0;
+};
+
 struct PictureSamples {
-    std::vector<Fragment> pixels;         ///< of whole tiles, row by row; of edge pixels nothing of use
     std::vector<std::uint8_t> classes;    ///< per tile, as tile_class.h has it; what edge pixels show left out
     std::vector<EdgePixel> edges;         ///< those with as many fragments side by side
     std::vector<Fragment> fragments;      ///< edge pixel after edge pixel
     std::uint8_t edgeClass = 0;           ///< what edge pixels show
     std::vector<glm::vec4> lines;         ///< 256 a tile that has lines: what line_cover.h lays over its pixels
     std::vector<std::int32_t> lineSlots;  ///< per tile: its place in `lines` over 256, or -1
+    std::vector<TileEdges> tileEdges;     ///< what edges and fragments were put together from
 };
 
 /// The places of the samples within a pixel, from its middle.
 using SampleOffsets = std::span<const glm::vec2>;
 
-/// offsets: one, or kFourSamples. Overwrites `samples`, whose memory is used again.
-void takeSamples(const TileContents& contents, SampleOffsets offsets, PictureSamples& samples);
+/// offsets: one, or kFourSamples. pixels: of whole tiles, row by row; written, never read; those of edge pixels and,
+/// unless they are asked for, of plain tiles become nothing of use. Overwrites `samples`, whose memory is used again.
+void takeSamples(const TileContents& contents, SampleOffsets offsets, std::span<Fragment> pixels,
+                 PictureSamples& samples);
 
 }  // namespace render

@@ -1,4 +1,4 @@
-// Neighbours from a grid of cells as wide as the longest reach; each particle adds its own up in a fixed order.
+// Neighbours from a grid of cells as wide as the longest reach, gathered once for the particles of a cell.
 #include "render/skin.h"
 
 #include <algorithm>
@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include <tbb/parallel_for.h>
+
+#include "render/crowd_sums.h"
 
 namespace render {
 
@@ -21,12 +24,13 @@ struct Cells {
     float side = 1.0F;
     glm::ivec3 count{1};
     std::vector<std::uint32_t> begin;
-    std::vector<glm::vec4> places;  ///< center, radius
+    std::vector<glm::vec4> places;     ///< center, radius
+    std::vector<std::uint32_t> index;  ///< of the particle at each place
 
     glm::ivec3 cellOf(glm::vec3 at) const {
         return clamp(glm::ivec3(glm::floor((at - low) / side)), glm::ivec3(0), count - 1);
     }
-    std::size_t index(int x, int y, int z) const {
+    std::size_t cellIndex(int x, int y, int z) const {
         return (static_cast<std::size_t>(z) * static_cast<std::size_t>(count.y) + static_cast<std::size_t>(y)) *
                    static_cast<std::size_t>(count.x) +
                static_cast<std::size_t>(x);
@@ -47,43 +51,59 @@ Cells sortedToCells(const View& view) {
     const auto along = [&](int axis) { return std::floor(double(high[axis] - cells.low[axis]) / cells.side) + 1.0; };
     while (along(0) * along(1) * along(2) > kMostSkinCells) cells.side *= 2.0F;
     for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(along(axis));
-    cells.begin.assign(cells.index(0, 0, cells.count.z) + 1, 0);
+    cells.begin.assign(cells.cellIndex(0, 0, cells.count.z) + 1, 0);
     const auto indexOf = [&](const Sphere& particle) {
         const glm::ivec3 cell = cells.cellOf(particle.center);
-        return cells.index(cell.x, cell.y, cell.z);
+        return cells.cellIndex(cell.x, cell.y, cell.z);
     };
     for (const Sphere& particle : view.particles) ++cells.begin[indexOf(particle) + 1];
     for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];
     std::vector<std::uint32_t> next(cells.begin.begin(), cells.begin.end() - 1);
     cells.places.resize(view.particles.size());
-    for (const Sphere& particle : view.particles)
-        cells.places[next[indexOf(particle)]++] = glm::vec4(particle.center, particle.radius);
+    cells.index.resize(view.particles.size());
+    for (std::uint32_t k = 0; k < view.particles.size(); ++k) {
+        const Sphere& particle = view.particles[k];
+        const std::uint32_t place = next[indexOf(particle)]++;
+        cells.places[place] = glm::vec4(particle.center, particle.radius);
+        cells.index[place] = k;
+    }
     return cells;
 }
 
-// Sums over all particles in reach of one, itself included.
-SkinBall smoothed(const Cells& cells, const View& view, const Sphere& particle) {
-    const glm::ivec3 here = cells.cellOf(particle.center);
-    const glm::ivec3 first = max(here - 1, glm::ivec3(0));
-    const glm::ivec3 last = min(here + 1, cells.count - 1);
-    float crowd = 0.0F;
-    glm::vec3 pull(0.0F);
+/// All that may be in reach of the particles of one cell, themselves included.
+void gather(const Cells& cells, glm::ivec3 cell, Crowd& crowd) {
+    const glm::ivec3 first = max(cell - 1, glm::ivec3(0));
+    const glm::ivec3 last = min(cell + 1, cells.count - 1);
+    crowd.clear();
     for (int z = first.z; z <= last.z; ++z) {
         for (int y = first.y; y <= last.y; ++y) {
-            const std::uint32_t end = cells.begin[cells.index(last.x, y, z) + 1];
-            for (std::uint32_t k = cells.begin[cells.index(first.x, y, z)]; k < end; ++k) {
-                const glm::vec3 off = glm::vec3(cells.places[k]) - particle.center;
-                const float reach = view.field.reach * 0.5F * (particle.radius + cells.places[k].w);
-                const float root = std::max(0.0F, 1.0F - dot(off, off) / (reach * reach));
-                const float share = root * root;
-                crowd += share;
-                pull += share * off;
-            }
+            const std::uint32_t begin = cells.begin[cells.cellIndex(first.x, y, z)];
+            const std::uint32_t end = cells.begin[cells.cellIndex(last.x, y, z) + 1];
+            crowd.add(std::span(cells.places).subspan(begin, end - begin));
         }
     }
+    crowd.finish();
+}
+
+SkinBall smoothed(const CrowdSum& sum, glm::vec3 center) {
     // crowd^(-3/4): between a sum, which swells where many overlap, and a mean, which sinks in at the border.
-    const float root = std::sqrt(crowd);
-    return {particle.center + kSkinPull * pull / crowd, 1.0F / (root * std::sqrt(root))};
+    const float root = std::sqrt(sum.crowd);
+    return {center + kSkinPull * sum.pull / sum.crowd, 1.0F / (root * std::sqrt(root))};
+}
+
+// The cells of one row along x.
+void smoothRow(const Cells& cells, float reach, int row, std::vector<SkinBall>& balls) {
+    thread_local Crowd crowd;
+    for (int x = 0; x < cells.count.x; ++x) {
+        const glm::ivec3 cell(x, row % cells.count.y, row / cells.count.y);
+        const std::size_t here = cells.cellIndex(cell.x, cell.y, cell.z);
+        if (cells.begin[here] == cells.begin[here + 1]) continue;
+        gather(cells, cell, crowd);
+        for (std::uint32_t k = cells.begin[here]; k < cells.begin[here + 1]; ++k) {
+            const glm::vec4 particle = cells.places[k];
+            if (particle.w > 0.0F) balls[cells.index[k]] = smoothed(sumOver(crowd, particle, reach), particle);
+        }
+    }
 }
 
 }  // namespace
@@ -96,12 +116,8 @@ std::vector<SkinBall> skinOf(const View& view) {
     }
     if (balls.empty()) return balls;
     const Cells cells = sortedToCells(view);
-    constexpr std::size_t kChunk = 256;
-    tbb::parallel_for(std::size_t{0}, balls.size() / kChunk + 1, [&](std::size_t chunk) {
-        for (std::size_t k = chunk * kChunk; k < std::min((chunk + 1) * kChunk, balls.size()); ++k) {
-            if (view.particles[k].radius > 0.0F) balls[k] = smoothed(cells, view, view.particles[k]);
-        }
-    });
+    tbb::parallel_for(0, cells.count.y * cells.count.z,
+                      [&](int row) { smoothRow(cells, view.field.reach, row, balls); });
     return balls;
 }
 

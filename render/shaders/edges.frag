@@ -2,6 +2,7 @@
 uniform isamplerBuffer edgePixels;      // column + 65536 row, first of its fragments, how many, place in `lines` or -1
 uniform isamplerBuffer fragments;       // what is seen, what reaches it and which samples show it
 
+flat in int placeCount;
 out vec4 pixel;
 
 const vec4 kSampleX = vec4(-0.125, 0.375, -0.375, 0.125);
@@ -10,7 +11,7 @@ const vec4 kSampleY = vec4(-0.375, -0.125, 0.125, 0.375);
 void main() {
     int place = int(gl_FragCoord.y) * rowLength + int(gl_FragCoord.x);
     // The last row is not full.
-    if (place >= textureSize(edgePixels)) discard;
+    if (place >= placeCount) discard;
     ivec4 edge = texelFetch(edgePixels, place);
     vec2 middle = vec2(edge.x & 0xffff, edge.x >> 16) + 0.5;
     vec3 color = vec3(0.0);

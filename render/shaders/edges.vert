@@ -1,6 +1,10 @@
 // Covers the target.
+uniform int edgeCount;
+flat out int placeCount;
+
 void main() {
     handOver();
+    placeCount = edgeCount;
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(corner, 0.0, 1.0);
 }

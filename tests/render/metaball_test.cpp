@@ -182,13 +182,18 @@ TEST_CASE("Every instruction set gives the same bits") {
         const float part = 0.001F * static_cast<float>(k);
         open.push_back({part, 1.0F - part, 0.5F, 0.5F + part, 0.9F, 0.1F});
     }
-    const std::vector<render::SkinBall> skin = render::skinOf(view);
+    view.field.skin = render::Skin::smooth;
     std::vector<std::uint32_t> first;
     std::vector<float> firstHeights;
+    std::vector<float> firstSkin;
     int sets = 0;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        const std::vector<render::SkinBall> skin = render::skinOf(view);
+        std::vector<float> places;
+        for (const render::SkinBall& ball : skin)
+            places.insert(places.end(), {ball.center.x, ball.center.y, ball.center.z, ball.weight});
         render::FieldPicture picture;
         render::castPicture(frame, {view, skin, open}, {glm::vec2(0.0F), true, true}, picture);
         std::vector<std::uint32_t> bits;
@@ -199,8 +204,10 @@ TEST_CASE("Every instruction set gives the same bits") {
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;
         if (sets == 1) firstHeights = heights;
+        if (sets == 1) firstSkin = places;
         CHECK(bits == first);
         CHECK(heights == firstHeights);
+        CHECK(places == firstSkin);
     }
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
