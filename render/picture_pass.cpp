@@ -201,18 +201,17 @@ void PicturePass::look(const View& view, const Sampling& sampling) {
 
 FrameBlock PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
     const Ground ground = view.ground.value_or(Ground{});
-    const float perspective = frame_.perspective ? 1.0F : 0.0F;
     FrameBlock block;
-    block.right = glm::vec4(frame_.right * frame_.halfWidth, perspective);
+    block.right = glm::vec4(frame_.right * frame_.halfWidth, 0.0F);
     block.up = glm::vec4(frame_.up * frame_.halfHeight, 0.0F);
     block.forward = glm::vec4(frame_.forward, frame_.pixelWidth());
-    block.picture = glm::vec4(frame_.width, frame_.height, sampling.offset);
+    block.picture = glm::vec4(1.0F / glm::vec2(frame_.width, frame_.height), sampling.offset);
     block.toLight = glm::vec4(light_.toLight, view.surface.specular);
     block.lightColor = glm::vec4(view.light.color, 0.0F);
     block.ambientSky = glm::vec4(view.ambient.sky, 0.0F);
     block.ambientGround = glm::vec4(view.ambient.ground, 0.0F);
     block.groundColor = glm::vec4(ground.color, ground.height - frame_.eye.y);
-    block.groundCenter = glm::vec4(ground.center - frame_.eye, ground.fadeDistance);
+    block.groundCenter = glm::vec4(ground.center - frame_.eye, 1.0F / ground.fadeDistance);
     block.backgroundTop = glm::vec4(view.background.top, 0.0F);
     block.backgroundBottom = glm::vec4(view.background.bottom, 0.0F);
     const Surface& surface = view.surface;
@@ -229,6 +228,7 @@ FrameBlock PicturePass::uploadFrame(const View& view, const Sampling& sampling) 
 Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int classBits) const {
     Features features;
     features.output = sampling.output;
+    features.perspective = frame_.perspective;
     features.spheres = (classBits & kSphereBit) != 0;
     features.field = (classBits & kFieldBit) != 0;
     features.lines = (classBits & kLineBit) != 0;

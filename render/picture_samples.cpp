@@ -171,7 +171,7 @@ std::int32_t packedReach(const LightReach& found, std::size_t k) {
     return bits(found.light[k]) << 4 | bits(found.sky[k]) << 18;
 }
 
-/// Writes what a tile's pixels show to the picture's rows. where: of the sample within the pixel, from its corner.
+/// Writes what a tile's pixels show. where: of the sample within the pixel, from its corner.
 void putPixels(const TileContents& contents, std::size_t tile, std::span<const std::int32_t> seen, glm::vec2 where,
                bool isDimmed, std::span<Fragment> pixels) {
     const CellLists& tiles = *contents.solids.tiles;
@@ -185,15 +185,8 @@ void putPixels(const TileContents& contents, std::size_t tile, std::span<const s
         placePoints(contents.surfaces, points);
         reach(*contents.obstruction, contents.surfaces, points, found);
     }
-    const auto columns = static_cast<std::size_t>(tiles.columns);
-    const std::size_t rowLength = columns * kTileSize;
-    const std::size_t first = tile / columns * kTileSize * rowLength + tile % columns * kTileSize;
-    for (std::size_t row = 0; row < kTileSize; ++row) {
-        Fragment* out = &pixels[first + row * rowLength];
-        const std::size_t begin = row * kTileSize;
-        for (std::size_t k = 0; k < kTileSize; ++k)
-            out[k] = {seen[begin + k], asks ? packedReach(found, begin + k) : kAllReaches};
-    }
+    for (std::size_t k = 0; k < kTilePixels; ++k)
+        pixels[tile * kTilePixels + k] = {seen[k], asks ? packedReach(found, k) : kAllReaches};
 }
 
 /// Of the samples whose bits are set.

@@ -64,7 +64,7 @@ struct PictureSamples {
 /// The places of the samples within a pixel, from its middle.
 using SampleOffsets = std::span<const glm::vec2>;
 
-/// offsets: one, or kFourSamples. pixels: of whole tiles, row by row; written, never read; those of edge pixels and,
+/// offsets: one, or kFourSamples. pixels: 256 a tile, row by row; written, never read; those of edge pixels and,
 /// unless they are asked for, of plain tiles become nothing of use. Overwrites `samples`, whose memory is used again.
 void takeSamples(const TileContents& contents, SampleOffsets offsets, std::span<Fragment> pixels,
                  PictureSamples& samples);

@@ -34,6 +34,7 @@ std::string definesOf(const Features& features) {
         if (wanted) text += fmt::format("#define {}\n", name);
     };
     define("PLAIN", features.drawing == Drawing::plain);
+    define("PERSPECTIVE", features.perspective);
     define("SPHERES", features.spheres);
     define("FIELD", features.field);
     define("BOXES", features.boxes);

@@ -30,6 +30,7 @@ enum class Drawing {
 /// What one drawing needs.
 struct Features {
     Drawing drawing = Drawing::picture;
+    bool perspective = true;
     bool spheres = false;
     bool field = false;
     bool boxes = false;

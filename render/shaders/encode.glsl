@@ -9,4 +9,4 @@ vec3 encodeSrgb(vec3 linear) {
 }
 
 // The nearest 8-bit value, so that the conversion to bytes has nothing left to round.
-vec3 encodeBytes(vec3 linear) { return floor(encodeSrgb(linear) * 255.0 + 0.5) / 255.0; }
+vec3 encodeBytes(vec3 linear) { return floor(encodeSrgb(linear) * 255.0 + 0.5) * (1.0 / 255.0); }

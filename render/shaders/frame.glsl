@@ -1,16 +1,16 @@
 // What every shader knows of the frame; mirrors FrameBlock in picture_pass.h. All positions are relative to the eye, which keeps
 // single precision where the picture is.
 struct Frame {
-    vec4 right;             // half the picture's width, on the plane at view depth 1; w: 1 perspective, 0 orthographic
+    vec4 right;             // half the picture's width, on the plane at view depth 1
     vec4 up;                // half its height, likewise
     vec4 forward;           // unit; w: width of a pixel at view depth 1 (perspective), or anywhere (orthographic)
-    vec4 picture;           // width, height, offset of the sample in the pixel x, y
+    vec4 picture;           // one over the width and the height, offset of the sample in the pixel x, y
     vec4 toLight;           // unit; w: specular
     vec4 lightColor;
     vec4 ambientSky;
     vec4 ambientGround;
     vec4 groundColor;       // w: height
-    vec4 groundCenter;      // w: fade distance
+    vec4 groundCenter;      // w: one over the fade distance
     vec4 backgroundTop;
     vec4 backgroundBottom;
     vec4 material;          // reflection, metal, roughness, translucency
@@ -45,11 +45,16 @@ struct Ray {
 
 // at: pixels from the top left corner of the picture.
 Ray rayThrough(vec2 at) {
-    vec2 plane = vec2(2.0 * at.x / frame.picture.x - 1.0, 1.0 - 2.0 * at.y / frame.picture.y);
+    vec2 plane = vec2(2.0, -2.0) * (at * frame.picture.xy) + vec2(-1.0, 1.0);
     vec3 across = plane.x * frame.right.xyz + plane.y * frame.up.xyz;
     Ray ray;
-    ray.origin = (1.0 - frame.right.w) * across;
-    ray.direction = frame.forward.xyz + frame.right.w * across;
+#ifdef PERSPECTIVE
+    ray.origin = vec3(0.0);
+    ray.direction = frame.forward.xyz + across;
+#else
+    ray.origin = across;
+    ray.direction = frame.forward.xyz;
+#endif
     ray.inverseSquare = 1.0 / dot(ray.direction, ray.direction);
     return ray;
 }

@@ -1,5 +1,5 @@
 // The shading model of view.h.
-vec3 background(float y) { return mix(frame.backgroundTop.xyz, frame.backgroundBottom.xyz, y / frame.picture.y); }
+vec3 background(float y) { return mix(frame.backgroundTop.xyz, frame.backgroundBottom.xyz, y * frame.picture.y); }
 
 #if defined(SPECULAR) || defined(MIRROR)
 vec3 fresnel(Point point, float cosine) {
@@ -89,7 +89,7 @@ vec3 shade(Point point, vec3 toEye) {
 
 // How much of the ground's colour is left at a point: 1 / (1 + (d / fadeDistance)^4) shows, the rest is background.
 float groundFade(vec3 position) {
-    vec3 off = (position - frame.groundCenter.xyz) / frame.groundCenter.w;
+    vec3 off = (position - frame.groundCenter.xyz) * frame.groundCenter.w;
     float square = dot(off, off);
     float fade = square * square;
     return min(fade, 1.0e30) / (1.0 + min(fade, 1.0e30));

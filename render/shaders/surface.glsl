@@ -11,7 +11,7 @@ const int kBoxes = 1 << 28;
 const int kField = 1 << 29;
 
 vec3 octahedralNormal(uint bits) {
-    vec2 folded = vec2(float(bits & 0xffffu), float(bits >> 16)) / 32767.5 - 1.0;
+    vec2 folded = vec2(float(bits & 0xffffu), float(bits >> 16)) * (1.0 / 32767.5) - 1.0;
     vec3 normal = vec3(folded, 1.0 - abs(folded.x) - abs(folded.y));
     float under = max(-normal.z, 0.0);
     normal.xy -= under * vec2(normal.x >= 0.0 ? 1.0 : -1.0, normal.y >= 0.0 ? 1.0 : -1.0);
@@ -20,12 +20,12 @@ vec3 octahedralNormal(uint bits) {
 
 // Square roots of the colour in 11, 11 and 10 bits: finer than an 8-bit sRGB step everywhere.
 vec3 unpackColor(uint bits) {
-    vec3 root = vec3(float(bits & 0x7ffu), float((bits >> 11) & 0x7ffu), float(bits >> 22)) / vec3(2047.0, 2047.0, 1023.0);
+    vec3 root = vec3(float(bits & 0x7ffu), float((bits >> 11) & 0x7ffu), float(bits >> 22)) * (1.0 / vec3(2047.0, 2047.0, 1023.0));
     return root * root;
 }
 
 vec3 unpackOpen(uint bits) {
-    return vec3(float(bits & 0x3ffu), float((bits >> 10) & 0x3ffu), float((bits >> 20) & 0x3ffu)) / 1023.0;
+    return vec3(float(bits & 0x3ffu), float((bits >> 10) & 0x3ffu), float((bits >> 20) & 0x3ffu)) * (1.0 / 1023.0);
 }
 
 float openAlong(vec3 direction, vec3 plus, vec3 minus) {
@@ -110,9 +110,9 @@ vec3 colorOf(int id, int reach, vec2 at) {
 #if defined(GROUND) || defined(SPHERES) || defined(BOXES) || defined(FIELD)
     Ray ray = rayThrough(at);
     Point point = pointOn(id, ray);
-    point.lit = float((reach >> 4) & 0x3fff) / 16383.0;
+    point.lit = float((reach >> 4) & 0x3fff) * (1.0 / 16383.0);
 #ifdef OCCLUSION
-    point.open.x = point.particle > 0.0 ? point.open.x : float((reach >> 18) & 0x3fff) / 16383.0;
+    point.open.x = point.particle > 0.0 ? point.open.x : float((reach >> 18) & 0x3fff) * (1.0 / 16383.0);
 #endif
     vec3 color = shade(point, -ray.direction * sqrt(ray.inverseSquare));
 #ifdef GROUND
