@@ -28,7 +28,7 @@ namespace HWY_NAMESPACE {
 // Newton steps on the cubic between two samples, then at most so many on the field, until they would move by less than
 // this share of the distance between samples. Measured by metaball_test.cpp: with two on the field and no more, one ray
 // in 75,000 is left 0.05 radii off where it grazes.
-constexpr int kGuesses = 4;
+constexpr int kGuesses = 2;
 constexpr int kRefinements = 6;
 constexpr float kTinyStep = 2e-4F;
 constexpr int kPeakSearches = 4;  // steps towards the maximum of a suspected sliver
