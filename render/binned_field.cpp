@@ -5,21 +5,27 @@
 #include <cmath>
 #include <limits>
 
+#include <tbb/parallel_for.h>
+
 namespace render {
 
 namespace {
 
+// Those that are nothing to look at left out.
 std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin) {
-    std::vector<FieldBall> balls;
-    balls.reserve(skin.balls.size());
-    for (std::size_t k = 0; k < skin.balls.size(); ++k) {
+    std::vector<std::size_t> shown;
+    shown.reserve(skin.balls.size());
+    for (std::size_t k = 0; k < skin.balls.size(); ++k)
+        if (skin.view.particles[k].radius > 0.0F) shown.push_back(k);
+    std::vector<FieldBall> balls(shown.size());
+    tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t place) {
+        const std::size_t k = shown[place];
         const Sphere& particle = skin.view.particles[k];
-        if (!(particle.radius > 0.0F)) continue;
         const float reach = skin.view.field.reach * particle.radius;
         const float peak = std::sqrt(skin.balls[k].weight);
-        balls.push_back({frame.toView(skin.balls[k].center), reach, peak, std::sqrt(peak) / reach, particle.color,
-                         skin.open.empty() ? kOpen : skin.open[k]});
-    }
+        balls[place] = {frame.toView(skin.balls[k].center),      reach, peak, std::sqrt(peak) / reach, particle.color,
+                        skin.open.empty() ? kOpen : skin.open[k]};
+    });
     return balls;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "render/draw_overlay.h"
@@ -183,11 +184,14 @@ struct Renderer::Parts {
         if (places.empty()) return;
         edges->bindForDrawing();
         readRows((static_cast<int>(places.size()) + padded.width - 1) / padded.width, pixels);
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const auto row = static_cast<std::size_t>(places[k].place / 65536);
-            const auto column = static_cast<std::size_t>(places[k].place % 65536);
-            std::copy_n(pixels[k].begin(), 3, &image.rgb[3 * (row * static_cast<std::size_t>(size.width) + column)]);
-        }
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size()), [&](const auto& range) {
+            for (std::size_t k = range.begin(); k < range.end(); ++k) {
+                const auto row = static_cast<std::size_t>(places[k].place / 65536);
+                const auto column = static_cast<std::size_t>(places[k].place % 65536);
+                const std::size_t at = row * static_cast<std::size_t>(size.width) + column;
+                std::copy_n(pixels[k].begin(), 3, &image.rgb[3 * at]);
+            }
+        });
     }
 
     void readRows(int rows, std::vector<Rgba>& to) {
