@@ -2,6 +2,8 @@
 // set gives the same bits; this file is compiled once per instruction set.
 #include "render/crowd_sums.h"
 
+#include <stdexcept>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/crowd_sums.cpp"
 #include <hwy/foreach_target.h>
@@ -40,9 +42,9 @@ CrowdSum sumOver(const Crowd& crowd, glm::vec4 particle, float reach) {
     for (std::size_t block = 0; block < crowd.size(); block += kCrowdBlock) {
         for (std::size_t part = 0; part < kParts; ++part) {
             const std::size_t k = block + part * hn::Lanes(d);
-            const Vec3 off{hn::Sub(hn::LoadU(d, &crowd.x[k]), here.x), hn::Sub(hn::LoadU(d, &crowd.y[k]), here.y),
-                           hn::Sub(hn::LoadU(d, &crowd.z[k]), here.z)};
-            const V far = hn::Mul(all(0.5F * reach), hn::Add(all(particle.w), hn::LoadU(d, &crowd.radius[k])));
+            const Vec3 off{hn::Sub(hn::LoadU(d, crowd.x() + k), here.x), hn::Sub(hn::LoadU(d, crowd.y() + k), here.y),
+                           hn::Sub(hn::LoadU(d, crowd.z() + k), here.z)};
+            const V far = hn::Mul(all(0.5F * reach), hn::Add(all(particle.w), hn::LoadU(d, crowd.radius() + k)));
             const V root = hn::Max(zero, hn::Sub(one, hn::Div(dotted(off, off), hn::Mul(far, far))));
             const V weight = hn::Mul(root, root);
             share[part] = hn::Add(share[part], weight);
@@ -65,25 +67,23 @@ namespace render {
 HWY_EXPORT(sumOver);
 
 CrowdSum sumOver(const Crowd& crowd, glm::vec4 particle, float reach) {
+    if (crowd.size() % kCrowdBlock != 0) throw std::logic_error("render: sums over a crowd that is not finished");
     return HWY_DYNAMIC_DISPATCH(sumOver)(crowd, particle, reach);
 }
 
-void Crowd::resize(std::size_t count) {
-    if (x.size() >= count) return;
-    for (std::vector<float>* values : {&x, &y, &z, &radius}) values->resize(2 * count);
-}
-
 void Crowd::add(std::span<const glm::vec4> places) {
-    resize(count_ + places.size());
+    if (x_.size() < count_ + places.size())
+        for (std::vector<float>* values : {&x_, &y_, &z_, &radius_}) values->resize(2 * (count_ + places.size()));
     for (const glm::vec4& place : places) {
-        x[count_] = place.x;
-        y[count_] = place.y;
-        z[count_] = place.z;
-        radius[count_++] = place.w;
+        x_[count_] = place.x;
+        y_[count_] = place.y;
+        z_[count_] = place.z;
+        radius_[count_++] = place.w;
     }
 }
 
 void Crowd::finish() {
+    // Far beyond any reach, and its distance squared still a number.
     constexpr glm::vec4 kNobody(1e18F, 1e18F, 1e18F, 0.0F);
     while (count_ % kCrowdBlock != 0) add({&kNobody, 1});
 }

@@ -9,7 +9,7 @@
 
 namespace render {
 
-/// Particles side by side.
+/// Particles side by side, in whole blocks for the lanes.
 class Crowd {
  public:
     void clear() { count_ = 0; }
@@ -21,13 +21,14 @@ class Crowd {
     void finish();
 
     std::size_t size() const { return count_; }
-
-    std::vector<float> x, y, z, radius;
+    const float* x() const { return x_.data(); }
+    const float* y() const { return y_.data(); }
+    const float* z() const { return z_.data(); }
+    const float* radius() const { return radius_.data(); }
 
  private:
-    void resize(std::size_t count);
-
     std::size_t count_ = 0;
+    std::vector<float> x_, y_, z_, radius_;  // with room for more than `count_`
 };
 
 /// With k = max(0, 1 - d^2 / reach^2)^2 of each particle in reach, which is so many mean radii of both.
@@ -36,6 +37,7 @@ struct CrowdSum {
     glm::vec3 pull{0.0F};  ///< sum of k times the way there
 };
 
+/// Of a crowd that is finished; throws std::logic_error otherwise.
 /// Holds:  the same bits on every instruction set.
 CrowdSum sumOver(const Crowd& crowd, glm::vec4 particle, float reach);
 

@@ -54,14 +54,18 @@ using FramebufferName = GlName<deleteFramebuffer>;
 using VertexArrayName = GlName<deleteVertexArray>;
 using ProgramName = GlName<deleteProgram>;
 
-/// The new contents of a buffer until it dies: written, never read.
+/// The new contents of a texture buffer while they are written; they are never read.
 class Mapped {
  public:
-    /// Of the buffer that is bound to GL_TEXTURE_BUFFER.
-    Mapped(const Gl& gl, std::size_t bytes);
+    /// bytes: more than none, and no more than the buffer has room for.
+    Mapped(const Gl& gl, GLuint buffer, std::size_t bytes);
+    /// Without finish() the contents are nothing of use.
     ~Mapped();
     Mapped(const Mapped&) = delete;
     Mapped& operator=(const Mapped&) = delete;
+
+    /// Hands the contents over. Throws SystemError where OpenGL has lost them.
+    void finish();
 
     /// As many items as fit.
     template <typename T>
@@ -71,6 +75,7 @@ class Mapped {
 
  private:
     const Gl* gl_;
+    GLuint buffer_;
     void* memory_;
     std::size_t bytes_;
 };
@@ -81,11 +86,11 @@ class TextureBuffer {
     /// format: GL_RGBA32F and the like; texelBytes: its size.
     TextureBuffer(const Gl& gl, std::string_view name, GLenum format, std::size_t texelBytes);
 
-    /// Replaces the contents by so many bytes to be written. Throws SystemError beyond what OpenGL can address. No
-    /// other buffer may be mapped or filled meanwhile.
+    /// Replaces the contents by so many bytes (more than none) to be written. Throws SystemError beyond what OpenGL can
+    /// address.
     Mapped map(std::size_t bytes);
 
-    /// Replaces the contents, by all threads.
+    /// Replaces the contents, by all threads. An empty list changes nothing, as no shader looks at it.
     void upload(std::span<const std::byte> bytes);
     void bind(int unit) const;
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include <hwy/highway.h>
 
@@ -64,6 +65,11 @@ HWY_INLINE V clamped(V value, float low, float high) {
 /// Of lanes of integers, for lanes of floats.
 HWY_INLINE M laneMask(hn::Mask<DI> mask) {
     return hn::RebindMask(D(), mask);
+}
+
+/// The least of these lanes, in each; no lanes: as much as a float holds.
+HWY_INLINE V leastOf(V values, M lanes) {
+    return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, all(std::numeric_limits<float>::max())));
 }
 
 /// A bit for each lane.

@@ -63,9 +63,6 @@ struct Spread {
           lowV(leastOf(at.v, here)),
           highV(hn::Neg(leastOf(hn::Neg(at.v), here))),
           bottom(leastOf(at.height, here)) {}
-
- private:
-    static V leastOf(V values, M lanes) { return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, all(kFarDepth))); }
 };
 
 /// Bits of those of a vector of spheres, from place k of the grid's on, that may cover points of this spread.

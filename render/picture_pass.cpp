@@ -190,9 +190,10 @@ void PicturePass::look(const View& view, const Sampling& sampling) {
                                 dims ? &obstruction : nullptr,
                                 sampling.output == Output::surface};
     {
-        const Mapped pixels = pixels_.map(groundTiles_.size() * kTilePixels * sizeof(Fragment));
+        Mapped pixels = pixels_.map(groundTiles_.size() * kTilePixels * sizeof(Fragment));
         takeSamples(contents, sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
                     pixels.as<Fragment>(), samples_);
+        pixels.finish();
     }
     edgePixels_.upload(bytesOf(samples_.edges));
     fragments_.upload(bytesOf(samples_.fragments));
@@ -202,7 +203,7 @@ void PicturePass::look(const View& view, const Sampling& sampling) {
 FrameBlock PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
     const Ground ground = view.ground.value_or(Ground{});
     FrameBlock block;
-    block.right = glm::vec4(frame_.right * frame_.halfWidth, 0.0F);
+    block.right = glm::vec4(frame_.right * frame_.halfWidth, frame_.perspective ? 1.0F : 0.0F);
     block.up = glm::vec4(frame_.up * frame_.halfHeight, 0.0F);
     block.forward = glm::vec4(frame_.forward, frame_.pixelWidth());
     block.picture = glm::vec4(1.0F / glm::vec2(frame_.width, frame_.height), sampling.offset);

@@ -231,7 +231,7 @@ void reachEdges(const TileContents& contents, std::span<const EdgePixel> pixels,
     if (points.count > 0) flush();
 }
 
-/// Where edge pixels with one to four fragments go, and these.
+/// Where edge pixels with one to four fragments are put, and where their fragments are.
 struct EdgePlaces {
     std::array<std::int32_t, kMostFragments> pixels{};
     std::array<std::int32_t, kMostFragments> fragments{};

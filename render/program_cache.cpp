@@ -117,7 +117,7 @@ GLuint ProgramCache::picture(const Features& features) {
     const std::string forSurfaces = joined(forPixels, {"surface.glsl"});
     if (features.drawing == Drawing::edges)
         return keep(place,
-                    buildProgram(*gl_, joined(forVertices, {"edges.vert"}), joined(forSurfaces, {"edges.frag"})));
+                    buildProgram(*gl_, joined(forVertices, {"full_screen.vert"}), joined(forSurfaces, {"edges.frag"})));
     return keep(place, buildProgram(*gl_, joined(forVertices, {"tile.vert"}), joined(forSurfaces, {"picture.frag"})));
 }
 

@@ -57,13 +57,19 @@ PictureSize checkedSize(PictureSize size) {
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
 }
 
-// Squares of tiles are drawn as points.
-void requirePoints(const Gl& gl) {
+// Squares of tiles are drawn as points, and vertex shaders hand the frame over (shaders/frame.glsl).
+void requireLimits(const Gl& gl) {
     std::array<GLint, 2> sizes{};
     gl.GetIntegerv(GL_POINT_SIZE_RANGE, sizes.data());
     if (sizes[1] < kSquareSide * kTileSize)
         throw SystemError(fmt::format("OpenGL draws points of {} pixels at most, and globular needs {}", sizes[1],
                                       kSquareSide * kTileSize));
+    constexpr GLint kOutputs = sizeof(FrameBlock) / sizeof(float) + 8;
+    GLint outputs = 0;
+    gl.GetIntegerv(GL_MAX_VERTEX_OUTPUT_COMPONENTS, &outputs);
+    if (outputs < kOutputs)
+        throw SystemError(
+            fmt::format("OpenGL hands over {} numbers a vertex at most, and globular needs {}", outputs, kOutputs));
 }
 
 VertexArrayName vertexArray(const Gl& gl) {
@@ -87,8 +93,7 @@ struct Renderer::Parts {
             linear = std::make_unique<Target>(context_.gl(), GL_RGBA32F, padded.width, padded.height);
         if (quality == Quality::normal)
             edges = std::make_unique<Target>(context_.gl(), GL_RGBA8, padded.width, padded.height);
-        requirePoints(context_.gl());
-        context.gl().BindVertexArray(vertices.get());
+        requireLimits(context_.gl());
         context.gl().Enable(GL_PROGRAM_POINT_SIZE);
         context.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
         context.gl().BlendFunc(GL_ONE, GL_ONE);
@@ -155,6 +160,8 @@ struct Renderer::Parts {
     }
 
     void prepare(const View& view) {
+        // Another renderer of this context may have been at work.
+        context.gl().BindVertexArray(vertices.get());
         pass.prepare(cameraFrame(view.camera, size), view, depthMapTexels(quality), times);
     }
 

@@ -2,12 +2,12 @@
 #include "render/skin.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "render/crowd_sums.h"
@@ -91,18 +91,16 @@ SkinBall smoothed(const CrowdSum& sum, glm::vec3 center) {
     return {center + kSkinPull * sum.pull / sum.crowd, 1.0F / (root * std::sqrt(root))};
 }
 
-// The cells of one row along x.
-void smoothRow(const Cells& cells, float reach, int row, std::vector<SkinBall>& balls) {
+// The particles at these places.
+void smooth(const Cells& cells, float reach, std::size_t begin, std::size_t end, std::vector<SkinBall>& balls) {
     thread_local Crowd crowd;
-    for (int x = 0; x < cells.count.x; ++x) {
-        const glm::ivec3 cell(x, row % cells.count.y, row / cells.count.y);
-        const std::size_t here = cells.cellIndex(cell.x, cell.y, cell.z);
-        if (cells.begin[here] == cells.begin[here + 1]) continue;
-        gather(cells, cell, crowd);
-        for (std::uint32_t k = cells.begin[here]; k < cells.begin[here + 1]; ++k) {
-            const glm::vec4 particle = cells.places[k];
-            if (particle.w > 0.0F) balls[cells.index[k]] = smoothed(sumOver(crowd, particle, reach), particle);
-        }
+    glm::ivec3 gathered(-1);
+    for (std::size_t k = begin; k < end; ++k) {
+        const glm::vec4 particle = cells.places[k];
+        const glm::ivec3 cell = cells.cellOf(particle);
+        if (cell != gathered) gather(cells, cell, crowd);
+        gathered = cell;
+        if (particle.w > 0.0F) balls[cells.index[k]] = smoothed(sumOver(crowd, particle, reach), particle);
     }
 }
 
@@ -116,8 +114,8 @@ std::vector<SkinBall> skinOf(const View& view) {
     }
     if (balls.empty()) return balls;
     const Cells cells = sortedToCells(view);
-    tbb::parallel_for(0, cells.count.y * cells.count.z,
-                      [&](int row) { smoothRow(cells, view.field.reach, row, balls); });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, balls.size(), 64),
+                      [&](const auto& range) { smooth(cells, view.field.reach, range.begin(), range.end(), balls); });
     return balls;
 }
 

@@ -81,7 +81,7 @@ void placeOnBoxes(const Surfaces& surfaces, const WorldRay& ray, VI seen, M wher
 
 /// Sixteen bits as a number from -1 to 1.
 V folded(VI bits) {
-    return hn::Sub(hn::Div(hn::ConvertTo(D(), hn::And(bits, allOf(0xffff))), all(32767.5F)), all(1.0F));
+    return hn::Sub(hn::Mul(hn::ConvertTo(D(), hn::And(bits, allOf(0xffff))), all(1.0F / 32767.5F)), all(1.0F));
 }
 
 void placeOnField(const Surfaces& surfaces, VI seen, M where, Placed& placed) {

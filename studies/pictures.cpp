@@ -132,6 +132,25 @@ struct Subject {
     render::PictureSize size;
 };
 
+/// Draws every frame with the quads and with the renderer in turn, so that both meet the machine in the same mood.
+void measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
+                    PictureRow& row) {
+    std::vector<DrawTimes> times;
+    std::vector<double> baseline;
+    std::vector<double> draw;
+    // The first frame compiles shaders.
+    quads.draw(frames.front());
+    renderer.draw(frames.front());
+    for (const render::View& view : frames) {
+        baseline.push_back(secondsOf([&] { quads.draw(view); }, 1));
+        draw.push_back(secondsOf([&] { renderer.draw(view); }, 1));
+        times.push_back(renderer.times());
+    }
+    row.baseline = median(baseline);
+    row.draw = median(draw);
+    row.stages = medianStages(times);
+}
+
 PictureRow measureQuality(const PictureSettings& settings, render::Context& context, const Subject& subject,
                           Quality quality, const std::vector<render::View>& frames) {
     PictureRow row;
@@ -140,13 +159,10 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
     row.size = subject.size;
     row.quality = quality;
     render::Renderer renderer(context, subject.size, quality);
-    std::vector<DrawTimes> times;
-    row.draw = medianSeconds(frames, [&](const render::View& view) {
-        renderer.draw(view);
-        times.push_back(renderer.times());
-    });
-    times.erase(times.begin());
-    row.stages = medianStages(times);
+    {
+        QuadBaseline quads(context, subject.size);
+        measureDrawing(quads, renderer, frames, row);
+    }
     row.atRest = medianSeconds(framesAtRest(frames.front(), settings.frames),
                                [&](const render::View& view) { renderer.draw(view); });
     measureEncoding(settings, frames, renderer, row);
@@ -157,12 +173,9 @@ void measureSubject(const PictureSettings& settings, render::Context& context, c
                     const PictureListener& listener, std::vector<PictureRow>& rows) {
     const render::View view = pictureCloud(subject.particles, subject.style);
     const std::vector<render::View> frames = framesOf(view, settings.frames);
-    QuadBaseline quads(context, subject.size);
-    const double baseline = medianSeconds(frames, [&](const render::View& frame) { quads.draw(frame); });
     const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
     for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
         PictureRow row = measureQuality(settings, context, subject, quality, frames);
-        row.baseline = baseline;
         render::Renderer renderer(context, subject.size, quality);
         row.error = errorOf(renderer.draw(view), renderer.surfaces(view), view, exact);
         rows.push_back(row);

@@ -28,7 +28,7 @@ struct PictureRow {
     double atRest = 0.0;    ///< likewise where the camera rests and the particles move, s
     double withPng = 0.0;   ///< a frame of many, one encoded while the next is drawn, s
     double withMp4 = 0.0;   ///< likewise
-    double baseline = 0.0;  ///< the lit quads of the same spheres and size, drawn and read back, s; median
+    double baseline = 0.0;  ///< the lit quads of the same spheres and size, drawn and read back in turn, s; median
     PictureError error;
 
     double ratio() const { return draw / baseline; }
@@ -37,7 +37,7 @@ struct PictureRow {
 struct PictureSettings {
     std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};
     std::vector<render::PictureSize> sizes = {{1280, 720}, {1920, 1080}};
-    int frames = 7;          ///< to take medians of
+    int frames = 11;         ///< to take medians of
     int encodedFrames = 20;  ///< of the runs with encoding
     int windowColumns = 6;   ///< of windows over the picture, in which the error is taken
     int windowRows = 4;

@@ -1,7 +1,7 @@
 // What every shader knows of the frame; mirrors FrameBlock in picture_pass.h. All positions are relative to the eye, which keeps
 // single precision where the picture is.
 struct Frame {
-    vec4 right;             // half the picture's width, on the plane at view depth 1
+    vec4 right;             // half the picture's width, on the plane at view depth 1; w: 1 perspective, 0 orthographic
     vec4 up;                // half its height, likewise
     vec4 forward;           // unit; w: width of a pixel at view depth 1 (perspective), or anywhere (orthographic)
     vec4 picture;           // one over the width and the height, offset of the sample in the pixel x, y

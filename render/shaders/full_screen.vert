@@ -1,5 +1,14 @@
 // A triangle that covers the target.
+#ifdef VERTEX
+uniform int edgeCount;
+flat out int placeCount;
+#endif
+
 void main() {
+#ifdef VERTEX
+    handOver();
+    placeCount = edgeCount;
+#endif
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(corner, 0.0, 1.0);
 }

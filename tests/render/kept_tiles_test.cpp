@@ -1,8 +1,11 @@
 // What is kept from the picture before must be what would be drawn.
 #include "tests/catch.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "render/kept_tiles.h"
 #include "tests/render/pictures.h"
@@ -52,9 +55,21 @@ std::vector<Change> changes() {
             {"the eye", [](render::View& v) { v.camera.eye.x += 0.3F; }},
             {"the target", [](render::View& v) { v.camera.target.y += 0.3F; }},
             {"the field of view", [](render::View& v) { v.camera.verticalFov *= 1.2F; }},
-            {"the projection", [](render::View& v) { v.camera.projection = render::Projection::orthographic; }},
+            {"the projection alone",
+             [](render::View& v) {
+                 v.camera.projection = render::Projection::orthographic;
+                 v.camera.halfHeight = std::tan(0.5F * v.camera.verticalFov);
+             }},
+            {"a plane as large as the picture", [](render::View& v) { v.camera.halfHeight = 3.0F; }},
+            {"many more particles", [](render::View& v) { v.particles = pictures::cloud(900).particles; }},
             {"no shadows", [](render::View& v) { v.light.shadows = false; }},
             {"no ground", [](render::View& v) { v.ground.reset(); }}};
+}
+
+bool same(const std::vector<render::SurfacePoint>& a, const std::vector<render::SurfacePoint>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+        return one.normal == other.normal && one.depth == other.depth;
+    });
 }
 
 }  // namespace
@@ -73,7 +88,7 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
             const render::Image alone = drawn(view, kSize, quality);
             CHECK((renderer.draw(view).rgb == alone.rgb));
             // A drawing to another target in between.
-            renderer.surfaces(before);
+            CHECK(same(renderer.surfaces(before), render::Renderer(context, kSize, quality).surfaces(before)));
             CHECK((renderer.draw(view).rgb == alone.rgb));
         }
     }

@@ -222,6 +222,40 @@ TEST_CASE("A smooth skin is the oracle's") {
     }
 }
 
+TEST_CASE("A smooth skin's balls are the sums over all particles in reach") {
+    render::View view = cloud(0);
+    view.style = Style::metaballs;
+    view.field = {2.5F, render::Skin::smooth};
+    for (const int count : {1, 2, 15, 16, 17, 33}) {
+        view.particles.clear();
+        for (int k = 0; k < count; ++k) {
+            const glm::vec3 at(std::sin(12.9F * float(k)), std::sin(7.3F * float(k)), std::sin(3.1F * float(k)));
+            view.particles.push_back({0.25F * at, 0.1F + 0.02F * float(k % 3), {0.5F, 0.5F, 0.5F}});
+        }
+        view.particles.push_back({{0.05F, 0.0F, 0.0F}, 0.0F, {0.5F, 0.5F, 0.5F}});
+        view.particles.push_back({{9.0F, 9.0F, 9.0F}, 0.2F, {0.5F, 0.5F, 0.5F}});
+        const std::vector<render::SkinBall> skin = render::skinOf(view);
+        for (std::size_t p = 0; p < view.particles.size(); ++p) {
+            const render::Sphere& here = view.particles[p];
+            if (here.radius == 0.0F) continue;
+            double crowd = 0.0;
+            glm::dvec3 pull(0.0);
+            for (const render::Sphere& other : view.particles) {
+                const glm::dvec3 off = glm::dvec3(other.center) - glm::dvec3(here.center);
+                const double reach = 0.5 * double(view.field.reach) * (double(here.radius) + double(other.radius));
+                const double root = std::max(0.0, 1.0 - glm::dot(off, off) / (reach * reach));
+                crowd += root * root;
+                pull += root * root * off;
+            }
+            const glm::dvec3 center = glm::dvec3(here.center) + double(render::kSkinPull) * pull / crowd;
+            INFO("particle " << p << " of " << count);
+            // Some forty additions of numbers below 1 in single precision.
+            CHECK(glm::length(glm::dvec3(skin[p].center) - center) < 3e-6);
+            CHECK(std::abs(double(skin[p].weight) - std::pow(crowd, -0.75)) < 3e-6);
+        }
+    }
+}
+
 TEST_CASE("In a smooth skin a lone ball keeps its place and radius, and a flat pile is flatter than the plain one") {
     render::View view = cloud(0);
     view.style = Style::metaballs;

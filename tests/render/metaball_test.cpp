@@ -6,8 +6,10 @@
 
 #include <hwy/highway.h>
 
+#include "render/binned_field.h"
 #include "render/depth_map.h"
 #include "render/metaball_frame.h"
+#include "render/ray_places.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -125,6 +127,39 @@ TEST_CASE("Where metaballs are smooth, the rays that are not cast are told from 
         // A fiftieth of the smallest radius is allowed between what two hits say, and their mean is nearer.
         CHECK(worst < 0.02 * 0.08);
         if (height == 1000) CHECK(told > 0.4 * hits);  // counted: half; a quarter is cast, the rest is not smooth
+    }
+}
+
+TEST_CASE("What a ray meets does not depend on the rays that it is cast with") {
+    render::View view = blobs(200);
+    for (const render::Projection projection : {render::Projection::perspective, render::Projection::orthographic}) {
+        view.camera.projection = projection;
+        view.camera.halfHeight = 1.5F;
+        const render::CameraFrame frame = render::cameraFrame(view.camera, {64, 48});
+        const std::vector<render::SkinBall> skin = render::skinOf(view);
+        const render::BinnedField field = render::binField(frame, {view, skin, {}});
+        const render::FieldCast cast = render::fieldCast(frame, view, field);
+        int hits = 0;
+        int differing = 0;
+        for (std::size_t tile = 0; tile + 1 < field.tiles.begin.size(); ++tile) {
+            render::RayBlock together;
+            render::placeRays(together, render::cornerOf(field.tiles, tile), render::kZCurve, {});
+            render::castBlock(cast, tile, together);
+            for (std::size_t k = 0; k < together.count; ++k) {
+                render::RayBlock alone;
+                render::placeRays(alone, render::cornerOf(field.tiles, tile), std::array{render::kZCurve[k]}, {});
+                render::castBlock(cast, tile, alone);
+                const bool isHit = together.depth[k] >= 0.0F;
+                hits += isHit ? 1 : 0;
+                bool same = alone.depth[0] == together.depth[k] && alone.most[0] == together.most[k];
+                for (std::size_t axis = 0; axis < 3 && isHit; ++axis)
+                    same = same && alone.normal[axis][0] == together.normal[axis][k] &&
+                           alone.color[axis][0] == together.color[axis][k];
+                differing += same ? 0 : 1;
+            }
+        }
+        CHECK(hits > 500);
+        CHECK(differing == 0);
     }
 }
 

@@ -1,10 +1,10 @@
 // The balls of a tile that a group of rays may meet, told a vector of balls at a time. Part of metaball_cast.cpp,
 // compiled once per instruction set.
-#if defined(RENDER_NEAR_BALLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RENDER_NEAR_BALLS_INL_H_
-#undef RENDER_NEAR_BALLS_INL_H_
+#if defined(RENDER_CANDIDATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_CANDIDATES_INL_H_
+#undef RENDER_CANDIDATES_INL_H_
 #else
-#define RENDER_NEAR_BALLS_INL_H_
+#define RENDER_CANDIDATES_INL_H_
 #endif
 
 #include <bit>
@@ -49,11 +49,6 @@ struct TileBalls {
     float nearDepth(std::size_t k) const { return z[k] - reach[k]; }
 };
 
-/// The least of these lanes; no lanes: as much as a float holds.
-HWY_INLINE float leastOf(V values, M lanes) {
-    return hn::GetLane(hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, all(std::numeric_limits<float>::max()))));
-}
-
 /// A line that no ray of a group is far from.
 struct Bundle {
     glm::vec3 origin{0.0F};
@@ -61,12 +56,12 @@ struct Bundle {
     float apart = 0.0F;  ///< of the origins
     float widen = 0.0F;  ///< of the directions
 
-    /// at: where the group's rays cross the plane, all of `rays` lie.
+    /// at: where the group's rays cross the plane; rays: those of its lanes that are cast.
     Bundle(const CameraFrame& frame, const Plane& at, M rays) {
         // Centres are known to some 1e-7 of their distance, and the kernels see the rounding of their squares.
         constexpr float kRounding = 1e-5F;
-        const glm::vec2 least(leastOf(at.x, rays), leastOf(at.y, rays));
-        const glm::vec2 most(-leastOf(hn::Neg(at.x), rays), -leastOf(hn::Neg(at.y), rays));
+        const glm::vec2 least(hn::GetLane(leastOf(at.x, rays)), hn::GetLane(leastOf(at.y, rays)));
+        const glm::vec2 most(-hn::GetLane(leastOf(hn::Neg(at.x), rays)), -hn::GetLane(leastOf(hn::Neg(at.y), rays)));
         const glm::vec2 middle = 0.5F * (least + most);
         const glm::vec2 half = most - middle;
         const float spread = std::sqrt(dot(half, half)) * (1.0F + kRounding);
@@ -123,7 +118,7 @@ class Candidates {
         const V closest = hn::Mul(dotted(off, direction), all(inverseSquare_));
         const Vec3 away = along(off, hn::Neg(closest), direction);
         const V limit = hn::Add(hn::Add(reach, all(bundle_.apart)),
-                                hn::Mul(all(bundle_.widen), hn::LoadU(d, &balls_.distance[first_])));
+                                hn::Mul(all(bundle_.widen), hn::Add(reach, hn::LoadU(d, &balls_.distance[first_]))));
         const M met =
             hn::And(hn::Lt(dotted(away, away), hn::Mul(limit, limit)), hn::Ge(hn::Add(off.z, reach), all(begin_)));
         left_ = bitsOf(hn::And(met, hn::FirstN(d, balls_.index.size() - first_)));
