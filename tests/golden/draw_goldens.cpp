@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <span>
 
 #include "engine/diagnostics.h"
 #include "render/png.h"
@@ -34,10 +35,11 @@ class Drawing {
     explicit Drawing(const fs::path& folder)
         : folder_(folder), context_(render::Backend::osmesa), renderer_(context_, kSize, render::Quality::normal) {}
 
-    void draw(const GoldenScene& golden) {
+    void draw(const GoldenScene& golden, std::size_t moments) {
         const std::array scenes = {sceneIn(golden, kStyles[0]), sceneIn(golden, kStyles[1])};
         engine::Simulation simulation = engine::start(scenes[0].setup);
-        for (const int frame : {golden.first, golden.second}) {
+        const std::array frames = {golden.first, golden.second};
+        for (const int frame : std::span(frames).first(moments)) {
             scenes::advanceToFrame(scenes[0], simulation, frame);
             for (std::size_t k = 0; k < kStyles.size(); ++k) {
                 const fs::path folder = folder_ / golden.name / kStyles[k];
@@ -68,9 +70,9 @@ class Drawing {
 
 }  // namespace
 
-void draw(const std::vector<GoldenScene>& scenes, const fs::path& folder) {
+void draw(const std::vector<GoldenScene>& scenes, std::size_t moments, const fs::path& folder) {
     Drawing drawing(folder);
-    for (const GoldenScene& scene : scenes) drawing.draw(scene);
+    for (const GoldenScene& scene : scenes) drawing.draw(scene, moments);
 }
 
 }  // namespace golden

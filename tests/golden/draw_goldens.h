@@ -8,7 +8,7 @@
 namespace golden {
 
 /// Writes SCENE/STYLE/frame-NNNNN.png below the folder, each with its sidecar, so that `globular approve` knows where
-/// it comes from.
-void draw(const std::vector<GoldenScene>& scenes, const std::filesystem::path& folder);
+/// it comes from; of the first moment or of both.
+void draw(const std::vector<GoldenScene>& scenes, std::size_t moments, const std::filesystem::path& folder);
 
 }  // namespace golden

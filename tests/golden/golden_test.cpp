@@ -22,6 +22,18 @@ const fs::path kExpected = fs::path(GLOBULAR_SOURCE) / "tests/golden/frames";
 const fs::path kActual = fs::path(GOLDEN_OUTPUT) / "actual";
 const fs::path kReport = fs::path(GOLDEN_OUTPUT) / "report";
 
+// A sanitized suite would spend most of its time on later frames, where no other code runs than in early ones.
+constexpr std::size_t kMoments = GOLDEN_MOMENTS;
+
+/// Names of the pictures that are not drawn here.
+std::set<std::string> leftOut() {
+    std::set<std::string> names;
+    for (const golden::GoldenScene& scene : golden::scenes())
+        for (const char* style : {"spheres", "metaballs"})
+            if (kMoments == 1) names.insert(fmt::format("{}/{}/frame-{:05}.png", scene.name, style, scene.second));
+    return names;
+}
+
 std::string saidOf(const tools::PictureResult& result) {
     std::string text = result.name;
     for (const std::string& reason : result.reasons) text += ": " + reason;
@@ -33,11 +45,13 @@ std::string saidOf(const tools::PictureResult& result) {
 
 TEST_CASE("Every built-in scene looks as it did", "[golden]") {
     fs::remove_all(kActual);
-    golden::draw(golden::scenes(), kActual);
+    golden::draw(golden::scenes(), kMoments, kActual);
+    const std::set<std::string> undrawn = leftOut();
     const tools::CompareJob job{kActual, kExpected, render::limitsOf("vendor"), {}};
     tools::ComparePage page;
     std::vector<std::string> failed;
     const tools::CompareCounts counts = tools::comparePictures(job, [&](const tools::PictureResult& result) {
+        if (undrawn.contains(result.name)) return;
         if (!result.passed()) failed.push_back(result.name);
         page.add(result, result.passed() ? "" : tools::approvalLine(kActual, kExpected, {result.name}));
         INFO(saidOf(result) << "\nThe report: " << (kReport / "index.html").string()
