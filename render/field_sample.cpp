@@ -60,15 +60,14 @@ void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, P
         // A hit at the eye itself still has to differ from no hit.
         const VI bits = hn::BitCast(di, hn::Max(depth, all(1e-30F)));
         const VI color = packedRoots(of(block.color[0]), of(block.color[1]), of(block.color[2]));
-        hn::StoreInterleaved4(hn::IfThenElseZero(isHit, bits), hn::IfThenElseZero(isHit, packedNormal(normal)),
-                              hn::IfThenElseZero(isHit, color), hn::Zero(di), di,
-                              reinterpret_cast<std::int32_t*>(&packed.samples[k]));
-        if (!openness) continue;
-        const auto open = [&](std::size_t which) {
+        const auto share = [&](std::size_t which) {
             return rounded(hn::Mul(of(block.open[which]), all(1023.0F)), 1023.0F);
         };
-        const VI all3 = hn::Or(hn::Or(open(0), hn::ShiftLeft<10>(open(1))), hn::ShiftLeft<20>(open(2)));
-        hn::Store(hn::IfThenElseZero(isHit, all3), di, reinterpret_cast<std::int32_t*>(&packed.open[k]));
+        VI open = hn::Zero(di);
+        if (openness) open = hn::Or(hn::Or(share(0), hn::ShiftLeft<10>(share(1))), hn::ShiftLeft<20>(share(2)));
+        hn::StoreInterleaved4(hn::IfThenElseZero(isHit, bits), hn::IfThenElseZero(isHit, packedNormal(normal)),
+                              hn::IfThenElseZero(isHit, color), hn::IfThenElseZero(isHit, open), di,
+                              reinterpret_cast<std::int32_t*>(&packed[k]));
     }
 }
 

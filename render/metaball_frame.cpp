@@ -34,9 +34,7 @@ void putSamples(const FieldCast& cast, const RayBlock& block, const Places& plac
     const std::size_t out = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
     PackedBlock packed;
     packBlock(cast.frame, block, cast.openness, packed);
-    for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed.samples[k];
-    if (!cast.openness) return;
-    for (std::size_t k = 0; k < block.count; ++k) picture.open[out + places[k]] = packed.open[k];
+    for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed[k];
 }
 
 /// A tile's coarse hits with those of its neighbours to the right and below; none where they have no slot.
@@ -57,6 +55,16 @@ CoarseHits coarseHits(const std::vector<CoarseHits>& own, const FieldPicture& pi
     return hits;
 }
 
+// Where a ray between cast ones begins to look for the surface: a radius before the nearest hit around it, as the rays
+// of outlines do; at the eye where the rays around it met nothing.
+float startBetween(const CoarseHits& hits, std::uint8_t place, float radius) {
+    const std::size_t corner = place / kTileSize / 2 * CoarseHits::kSide + place % kTileSize / 2;
+    float nearest = kEndless;
+    for (const std::size_t at : {corner, corner + 1, corner + CoarseHits::kSide, corner + CoarseHits::kSide + 1})
+        if (hits.depth[at] >= 0.0F) nearest = std::min(nearest, hits.depth[at]);
+    return nearest < kEndless ? nearest - radius : 0.0F;
+}
+
 // Within a pixel the field rises by less than this times the pixel's share of the smallest ball's radius (a lone ball's
 // by half of it, and a pixel's diagonal away).
 constexpr float kSteepest = 2.0F;
@@ -71,7 +79,7 @@ Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field, float r
     return {0.02F * field.smallestRadius, cast.threshold - missed - kSteepest * pixel / field.smallestRadius};
 }
 
-void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness, FieldPicture& picture) {
+void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness, float radius, FieldPicture& picture) {
     const CellLists& tiles = *cast.tiles;
     std::vector<CoarseHits> coarse(picture.samples.size() / kBlockRays);
     const auto forTiles = [&](const auto& visit) {
@@ -102,6 +110,7 @@ void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness
         for (const std::uint8_t place : kZCurve)
             if (isRough[place]) rough.push_back(place);
         placeRays(block, corner, rough, offset);
+        for (std::size_t k = 0; k < rough.size(); ++k) block.from[k] = startBetween(hits, rough[k], radius);
         castBlock(cast, tile, block);
         putSamples(cast, block, rough, tile, picture);
     });
@@ -111,9 +120,13 @@ void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness
 void forgetEmptyTiles(FieldPicture& picture) {
     tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
         if (picture.slots[tile] < 0) return;
-        const FieldSample* samples = &picture.samples[static_cast<std::size_t>(picture.slots[tile]) * kBlockRays];
-        const auto isSeen = [](const FieldSample& sample) { return sample.depthBits != 0 || sample.extra != 0; };
-        if (std::none_of(samples, samples + kBlockRays, isSeen)) picture.slots[tile] = -1;
+        const auto first = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
+        const auto samples = std::span(picture.samples).subspan(first, kBlockRays);
+        const auto extras = std::span(picture.extras).subspan(first, kBlockRays);
+        const bool isSeen =
+            std::ranges::any_of(samples, [](const FieldSample& sample) { return sample.depthBits != 0; });
+        if (!isSeen && std::ranges::all_of(extras, [](std::uint32_t extra) { return extra == 0; }))
+            picture.slots[tile] = -1;
     });
 }
 
@@ -130,9 +143,10 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampl
         if (field.tiles.begin[tile + 1] > field.tiles.begin[tile]) picture.slots[tile] = slotCount++;
     }
     picture.samples.resize(static_cast<std::size_t>(slotCount) * kBlockRays);
-    picture.open.resize(cast.openness ? picture.samples.size() : 0);
+    picture.extras.assign(picture.samples.size(), 0);
     if (sampling.sparse) {
-        castSparsely(cast, sampling.offset, smoothnessOf(cast, field, skin.view.field.reach), picture);
+        castSparsely(cast, sampling.offset, smoothnessOf(cast, field, skin.view.field.reach), field.smallestRadius,
+                     picture);
     } else {
         tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
             if (picture.slots[tile] < 0) return;

@@ -90,7 +90,6 @@ class Depths {
 struct TileExtras {
     std::vector<std::uint8_t> pixels;
     std::vector<FieldSample> samples;  ///< four a pixel
-    std::vector<std::uint32_t> open;
 };
 
 TileExtras castExtras(const FieldCast& cast, const Depths& depths, float radius, std::size_t tile,
@@ -102,9 +101,7 @@ TileExtras castExtras(const FieldCast& cast, const Depths& depths, float radius,
         castBlock(cast, tile, block);
         PackedBlock packed;
         packBlock(cast.frame, block, cast.openness, packed);
-        const auto count = static_cast<std::ptrdiff_t>(block.count);
-        extras.samples.insert(extras.samples.end(), packed.samples.begin(), packed.samples.begin() + count);
-        if (cast.openness) extras.open.insert(extras.open.end(), packed.open.begin(), packed.open.begin() + count);
+        extras.samples.insert(extras.samples.end(), packed.begin(), &packed[block.count]);
         block.count = 0;
     };
     for (const std::uint8_t pixel : pixels) {
@@ -138,15 +135,19 @@ void castOutlines(const FieldCast& cast, float radius, FieldPicture& picture) {
             if (outlines[place]) pixels.push_back(place);
         if (!pixels.empty()) extras[tile] = castExtras(cast, depths, radius, tile, std::move(pixels));
     });
-    for (std::size_t tile = 0; tile < extras.size(); ++tile) {
-        const std::size_t base = static_cast<std::size_t>(std::max(picture.slots[tile], 0)) * kBlockRays;
-        for (std::size_t k = 0; k < extras[tile].pixels.size(); ++k) {
-            picture.samples[base + extras[tile].pixels[k]].extra =
-                static_cast<std::uint32_t>(picture.samples.size() + 4 * k);
-        }
-        picture.samples.insert(picture.samples.end(), extras[tile].samples.begin(), extras[tile].samples.end());
-        picture.open.insert(picture.open.end(), extras[tile].open.begin(), extras[tile].open.end());
-    }
+    std::vector<std::size_t> first(extras.size());
+    std::size_t end = picture.samples.size();
+    for (std::size_t tile = 0; tile < extras.size(); ++tile)
+        first[tile] = std::exchange(end, end + extras[tile].samples.size());
+    picture.samples.resize(end);
+    tbb::parallel_for(std::size_t{0}, extras.size(), [&](std::size_t tile) {
+        const TileExtras& own = extras[tile];
+        if (own.pixels.empty()) return;
+        std::ranges::copy(own.samples, &picture.samples[first[tile]]);
+        const std::size_t base = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
+        for (std::size_t k = 0; k < own.pixels.size(); ++k)
+            picture.extras[base + own.pixels[k]] = static_cast<std::uint32_t>(first[tile] + 4 * k);
+    });
 }
 
 }  // namespace render

@@ -55,8 +55,7 @@ PicturePass::PicturePass(const Gl& gl)
       spheres_(gl, "spheres", GL_RGBA32F, 16),
       sphereLooks_(gl, "looks of spheres", GL_RGBA32UI, 16),
       fieldSamples_(gl, "metaball samples", GL_RGBA32UI, 16),
-      lines_(gl, "pixels in tiles with lines", GL_RGBA32F, 16),
-      fieldOpen_(gl, "openness of metaball samples", GL_R32UI, 4) {
+      lines_(gl, "pixels in tiles with lines", GL_RGBA32F, 16) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     frameBlock_ = BufferName(gl, name);
@@ -150,7 +149,6 @@ void PicturePass::castField(const View& view, const Sampling& sampling) {
     if (!castsField_) return;
     castPicture(frame_, {view, skin_, particleOpen_}, {sampling.offset, sampling.samples > 1, sampling.sparse}, field_);
     fieldSamples_.upload(bytesOf(field_.samples));
-    fieldOpen_.upload(bytesOf(field_.open));
 }
 
 // Whether anything stands in the light's way.
@@ -275,7 +273,6 @@ void PicturePass::bindAll() const {
     sphereLooks_.bind(kSphereLooksUnit);
     fieldSamples_.bind(kFieldSamplesUnit);
     lines_.bind(kLinesUnit);
-    fieldOpen_.bind(kFieldOpenUnit);
 }
 
 GLuint PicturePass::useProgram(const Features& features, PictureSize target) {

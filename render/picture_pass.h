@@ -83,8 +83,7 @@ class PicturePass {
 
     const Gl* gl_;
     ProgramCache programs_;
-    TextureBuffer boxes_, tileTable_, pixels_, edgePixels_, fragments_, spheres_, sphereLooks_, fieldSamples_;
-    TextureBuffer lines_, fieldOpen_;
+    TextureBuffer boxes_, tileTable_, pixels_, edgePixels_, fragments_, spheres_, sphereLooks_, fieldSamples_, lines_;
     BufferName frameBlock_;
 
     CameraFrame frame_;

@@ -103,9 +103,11 @@ class TileSamples {
         if (contents_.field == nullptr || contents_.field->slots[tile_] < 0) return false;
         if (hasItems(*contents_.solids.tiles, tile_) || contents_.boxes[tile_] != 0) return false;
         const auto samples = std::span(contents_.field->samples).subspan(fieldSlot(), kTilePixels);
+        const auto extras = std::span(contents_.field->extras).subspan(fieldSlot(), kTilePixels);
+        if (std::ranges::any_of(extras, [](std::uint32_t extra) { return extra != 0; })) return false;
         float farthest = 0.0F;
         for (const FieldSample& sample : samples) {
-            if (sample.depthBits == 0 || sample.extra != 0) return false;
+            if (sample.depthBits == 0) return false;
             farthest = std::max(farthest, std::bit_cast<float>(sample.depthBits));
         }
         return farthest < contents_.ground[tile_].nearest;
@@ -116,7 +118,7 @@ class TileSamples {
         const std::size_t slot = fieldSlot();
         TileRays& rays = samples_[s];
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const std::uint32_t extra = field.samples[slot + k].extra;
+            const std::uint32_t extra = field.extras[slot + k];
             const std::size_t place = samples_.size() == 1 || extra == 0 ? slot + k : extra + s;
             const float depth = std::bit_cast<float>(field.samples[place].depthBits);
             if (!(depth > 0.0F && depth < rays.depth[k])) continue;

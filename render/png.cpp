@@ -1,4 +1,4 @@
-// stb's PNG with libdeflate in place of its compressor.
+// stb's PNG with libdeflate in place of its compressor and its checksum.
 #include "render/png.h"
 
 #include <libdeflate.h>
@@ -12,6 +12,11 @@
 #include "render/system_error.h"
 
 namespace {
+
+// stb's own goes byte by byte.
+unsigned int checksum(const unsigned char* data, int size) {
+    return libdeflate_crc32(0, data, static_cast<std::size_t>(size));
+}
 
 // Signature given by stb: returns a malloc'd zlib stream, which stb frees.
 unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, int /*quality*/) {
@@ -50,6 +55,7 @@ bool holdsItsChunks(std::span<const std::uint8_t> bytes) {
 #define STBI_WRITE_NO_STDIO
 #define STB_IMAGE_WRITE_STATIC
 #define STBIW_ZLIB_COMPRESS compressZlib
+#define STBIW_CRC32 checksum
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb_image_write.h>
 #define STBI_NO_STDIO

@@ -16,7 +16,7 @@ struct Unit {
     TextureUnit unit;
 };
 
-constexpr std::array<Unit, 11> kUnits = {{{"boxes", kBoxesUnit},
+constexpr std::array<Unit, 10> kUnits = {{{"boxes", kBoxesUnit},
                                           {"tileTable", kTileTableUnit},
                                           {"pixels", kPixelsUnit},
                                           {"edgePixels", kEdgePixelsUnit},
@@ -25,8 +25,7 @@ constexpr std::array<Unit, 11> kUnits = {{{"boxes", kBoxesUnit},
                                           {"sphereLooks", kSphereLooksUnit},
                                           {"fieldSamples", kFieldSamplesUnit},
                                           {"lines", kLinesUnit},
-                                          {"accumulated", kAccumulatedUnit},
-                                          {"fieldOpen", kFieldOpenUnit}}};
+                                          {"accumulated", kAccumulatedUnit}}};
 
 std::string definesOf(const Features& features) {
     std::string text = "#version 330 core\n";

@@ -64,8 +64,7 @@ enum TextureUnit : int {
     kSphereLooksUnit,
     kFieldSamplesUnit,
     kLinesUnit,
-    kAccumulatedUnit,
-    kFieldOpenUnit
+    kAccumulatedUnit
 };
 
 /// A linked program; throws SystemError with the compiler's or linker's words.

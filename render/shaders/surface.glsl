@@ -2,8 +2,8 @@
 uniform samplerBuffer spheres;          // center and radius
 uniform samplerBuffer boxes;            // minimum, maximum, color per box
 uniform usamplerBuffer sphereLooks;     // colour, openness along +x, +y, +z, along -x, -y, -z, 1 for particles and 0 for obstacles
-uniform usamplerBuffer fieldSamples;    // view depth bits (0: no hit), octahedral normal, colour, first of the extra samples or 0
-uniform usamplerBuffer fieldOpen;       // a sample's openness along the normal, against it, along the mirrored ray
+uniform usamplerBuffer fieldSamples;    // view depth bits (0: no hit), octahedral normal, colour, openness along the normal,
+                                        // against it and along the mirrored ray
 
 const int kBackground = -1;
 const int kGround = -2;
@@ -98,7 +98,7 @@ Point pointOn(int id, Ray ray) {
     point.open = isParticle ? openOfSphere(look, point.normal, mirrored) : point.open;
 #endif
 #ifdef FIELD
-    point.open = isField ? unpackOpen(texelFetch(fieldOpen, isField ? id - kField : 0).x) : point.open;
+    point.open = isField ? unpackOpen(texel.w) : point.open;
 #endif
 #endif
     return point;

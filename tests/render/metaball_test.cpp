@@ -233,8 +233,8 @@ TEST_CASE("Every instruction set gives the same bits") {
         render::castPicture(frame, {view, skin, open}, {glm::vec2(0.0F), true, true}, picture);
         std::vector<std::uint32_t> bits;
         for (const render::FieldSample& s : picture.samples)
-            bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.extra});
-        bits.insert(bits.end(), picture.open.begin(), picture.open.end());
+            bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.open});
+        bits.insert(bits.end(), picture.extras.begin(), picture.extras.end());
         const std::vector<float> heights = render::castDepthMap(light, {view, skin, {}}, {256, {}}).heights;
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;
