@@ -12,19 +12,22 @@ namespace render {
 namespace {
 
 // Those that are nothing to look at left out.
-std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin) {
+std::vector<std::size_t> shownBalls(const Skinned& skin) {
     std::vector<std::size_t> shown;
     shown.reserve(skin.balls.size());
     for (std::size_t k = 0; k < skin.balls.size(); ++k)
         if (skin.view.particles[k].radius > 0.0F) shown.push_back(k);
+    return shown;
+}
+
+std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin) {
+    const std::vector<std::size_t> shown = shownBalls(skin);
     std::vector<FieldBall> balls(shown.size());
     tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t place) {
-        const std::size_t k = shown[place];
-        const Sphere& particle = skin.view.particles[k];
-        const float reach = skin.view.field.reach * particle.radius;
-        const float peak = std::sqrt(skin.balls[k].weight);
-        balls[place] = {frame.toView(skin.balls[k].center),      reach, peak, std::sqrt(peak) / reach, particle.color,
-                        skin.open.empty() ? kOpen : skin.open[k]};
+        const SkinBall& ball = skin.balls[shown[place]];
+        const float reach = skin.view.field.reach * skin.view.particles[shown[place]].radius;
+        const float peak = std::sqrt(ball.weight);
+        balls[place] = {frame.toView(ball.center), reach, peak, std::sqrt(peak) / reach};
     });
     return balls;
 }
@@ -47,6 +50,16 @@ BinnedField binField(const CameraFrame& frame, const Skinned& skin) {
     field.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / skin.view.field.reach;
     field.tiles = binToTiles(frame, reaches, touchedPixels(frame, reaches));
     return field;
+}
+
+std::vector<BallLook> ballLooks(const Skinned& skin) {
+    const std::vector<std::size_t> shown = shownBalls(skin);
+    std::vector<BallLook> looks(shown.size());
+    tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t place) {
+        const std::size_t k = shown[place];
+        looks[place] = {skin.view.particles[k].color, skin.open.empty() ? kOpen : skin.open[k]};
+    });
+    return looks;
 }
 
 FieldCast fieldCast(const CameraFrame& frame, const View& view, const BinnedField& field) {

@@ -30,8 +30,11 @@ struct BinnedField {
 /// Radii not above zero are left out.
 BinnedField binField(const CameraFrame& frame, const Skinned& skin);
 
+/// Of each of the field's balls.
+std::vector<BallLook> ballLooks(const Skinned& skin);
+
 /// Half a radius of the smallest ball per step: metaball_test.cpp finds no hit missed against the oracle's exact roots.
-/// The field must outlive it.
+/// The field must outlive it. Without looks.
 FieldCast fieldCast(const CameraFrame& frame, const View& view, const BinnedField& field);
 
 }  // namespace render

@@ -42,7 +42,10 @@ struct TileBalls {
             y[k] = ball.center.y;
             z[k] = ball.center.z;
             reach[k] = ball.reach;
-            distance[k] = std::sqrt(dot(ball.center, ball.center));
+        }
+        for (std::size_t k = 0; k < index.size(); k += hn::Lanes(D())) {
+            const Vec3 center{hn::LoadU(D(), &x[k]), hn::LoadU(D(), &y[k]), hn::LoadU(D(), &z[k])};
+            hn::StoreU(hn::Sqrt(dotted(center, center)), D(), &distance[k]);
         }
     }
 

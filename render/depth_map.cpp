@@ -73,8 +73,7 @@ DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthM
     frame.eye += view.camera.eye;
 
     const BinnedField field = binField(frame, skin);
-    FieldCast cast = fieldCast(frame, view, field);
-    cast.depthOnly = true;
+    const FieldCast cast = fieldCast(frame, view, field);
     tbb::parallel_for(std::size_t{0}, field.tiles.begin.size() - 1, [&](std::size_t tile) {
         if (field.tiles.begin[tile + 1] == field.tiles.begin[tile]) return;
         RayBlock block;

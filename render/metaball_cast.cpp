@@ -176,11 +176,12 @@ class Group {
             n[2] = hn::Add(n[2], hn::Mul(pull, hn::Sub(depth, hn::Set(d, ball.center.z))));
             const V share = hn::Mul(k, k);
             weight = hn::Add(weight, share);
+            const BallLook& own = cast_.looks[near_.index[b]];
             for (int channel = 0; channel < 3; ++channel)
-                c[channel] = hn::Add(c[channel], hn::Mul(share, hn::Set(d, ball.color[channel])));
+                c[channel] = hn::Add(c[channel], hn::Mul(share, hn::Set(d, own.color[channel])));
             if (!cast_.openness) continue;
             for (std::size_t side = 0; side < 6; ++side)
-                open[side] = hn::Add(open[side], hn::Mul(share, hn::Set(d, ball.open[side])));
+                open[side] = hn::Add(open[side], hn::Mul(share, hn::Set(d, own.open[side])));
         }
         const V square = hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2]));
         const V scale = hn::Div(hn::Set(d, 1.0F), hn::Sqrt(hn::Max(square, hn::Set(d, 1e-30F))));
@@ -407,7 +408,7 @@ void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
         const V depth = group.cast(open, from, hn::Load(d, &block.to[place]));
         hn::StoreU(depth, d, &block.depth[place]);
         hn::StoreU(group.most(), d, &block.most[place]);
-        if (!cast.depthOnly && !hn::AllTrue(d, hn::Lt(depth, hn::Zero(d)))) group.look(depth, place, block);
+        if (!cast.looks.empty() && !hn::AllTrue(d, hn::Lt(depth, hn::Zero(d)))) group.look(depth, place, block);
     }
 }
 

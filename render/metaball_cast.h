@@ -20,6 +20,10 @@ struct FieldBall {
     float reach = 1.0F;  ///< where its kernel ends, m
     float peak = 1.0F;   ///< square root of its weight, so that its share of the field is (peak - d^2 slope^2)^2
     float slope = 1.0F;  ///< fourth root of its weight over its reach
+};
+
+/// What it lends to the surface around it.
+struct BallLook {
     glm::vec3 color{0.0F};
     Openness open = kOpen;
 };
@@ -28,11 +32,11 @@ struct FieldBall {
 struct FieldCast {
     CameraFrame frame;
     std::span<const FieldBall> balls;
+    std::span<const BallLook> looks;   ///< one a ball; or none, which leaves normal, color and open unwritten
     const CellLists* tiles = nullptr;  ///< of the balls' reaches, front to back
     float threshold = 0.5F;
-    float step = 0.05F;      ///< view depth between samples of the field, m
-    bool depthOnly = false;  ///< leaves normal, color and open unwritten
-    bool openness = false;   ///< writes open
+    float step = 0.05F;     ///< view depth between samples of the field, m
+    bool openness = false;  ///< writes open
 };
 
 inline constexpr std::size_t kBlockRays = 256;

@@ -135,6 +135,8 @@ void forgetEmptyTiles(FieldPicture& picture) {
 void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling, FieldPicture& picture) {
     const BinnedField field = binField(frame, skin);
     FieldCast cast = fieldCast(frame, skin.view, field);
+    const std::vector<BallLook> looks = ballLooks(skin);
+    cast.looks = looks;
     cast.openness = !skin.open.empty();
     const std::size_t tileCount = field.tiles.begin.size() - 1;
     picture.slots.assign(tileCount, -1);
