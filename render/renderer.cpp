@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include "render/draw_overlay.h"
 #include "render/picture_pass.h"
@@ -167,19 +168,19 @@ struct Renderer::Parts {
 
     Image readBack() {
         StageClock clock;
-        // Four bytes a pixel are read several times faster than three.
-        bytes.bindForDrawing();
-        readRows(size.height, pixels);
         Image image{size.width, size.height, {}};
         image.rgb.resize(image.byteCount());
-        tbb::parallel_for(0, size.height, [&](int row) {
-            const auto last = static_cast<std::size_t>(size.width) - 1;
-            const Rgba* from = &pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(padded.width)];
-            std::uint8_t* to = &image.rgb[3 * (last + 1) * static_cast<std::size_t>(row)];
-            // Whole words: the fourth byte is overwritten by the next pixel.
-            for (std::size_t k = 0; k < last; ++k) std::memcpy(to + 3 * k, from[k].data(), sizeof(Rgba));
-            std::memcpy(to + 3 * last, from[last].data(), 3);
-        });
+        bytes.bindForDrawing();
+        pixels.resize(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height));
+        // What has been read loses its fourth byte while OpenGL hands over the next rows.
+        tbb::task_group packing;
+        constexpr int kBand = 64;
+        for (int row = 0; row < size.height; row += kBand) {
+            const int rows = std::min(kBand, size.height - row);
+            readRows(row, rows);
+            packing.run([this, &image, row, rows] { packRows(row, rows, image); });
+        }
+        packing.wait();
         if (quality == Quality::normal) putEdges(image);
         checkGl(context.gl(), "drawing a frame");
         clock.add(times.readBack);
@@ -190,7 +191,7 @@ struct Renderer::Parts {
         const std::span<const EdgePixel> places = pass.edges();
         if (places.empty()) return;
         edges->bindForDrawing();
-        readRows((static_cast<int>(places.size()) + padded.width - 1) / padded.width, pixels);
+        readRows(0, (static_cast<int>(places.size()) + padded.width - 1) / padded.width);
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size()), [&](const auto& range) {
             for (std::size_t k = range.begin(); k < range.end(); ++k) {
                 const auto row = static_cast<std::size_t>(places[k].place / 65536);
@@ -201,9 +202,22 @@ struct Renderer::Parts {
         });
     }
 
-    void readRows(int rows, std::vector<Rgba>& to) {
-        to.resize(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(rows));
-        context.gl().ReadPixels(0, 0, padded.width, rows, GL_RGBA, GL_UNSIGNED_BYTE, to.data());
+    // Four bytes a pixel are read several times faster than three.
+    void readRows(int row, int rows) {
+        context.gl().ReadPixels(0, row, padded.width, rows, GL_RGBA, GL_UNSIGNED_BYTE, rowOf(row));
+    }
+
+    Rgba* rowOf(int row) { return &pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(padded.width)]; }
+
+    void packRows(int first, int rows, Image& image) {
+        const auto last = static_cast<std::size_t>(size.width) - 1;
+        for (int row = first; row < first + rows; ++row) {
+            const Rgba* from = rowOf(row);
+            std::uint8_t* to = &image.rgb[3 * (last + 1) * static_cast<std::size_t>(row)];
+            // Whole words: the fourth byte is overwritten by the next pixel.
+            for (std::size_t k = 0; k < last; ++k) std::memcpy(to + 3 * k, from[k].data(), sizeof(Rgba));
+            std::memcpy(to + 3 * last, from[last].data(), 3);
+        }
     }
 
     Context& context;
