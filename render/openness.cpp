@@ -40,15 +40,20 @@ struct Trilinear {
     glm::vec3 part{0.0F};
 };
 
-Trilinear placeIn(const OpennessGrid& grid, glm::vec3 place) {
-    const glm::vec3 at = (place - grid.origin) / grid.side;
-    const glm::vec3 corner = glm::floor(at);
-    return {static_cast<int>(corner.x), static_cast<int>(corner.y), static_cast<int>(corner.z), at - corner};
+// In sides of a cube, from the middle of the first.
+glm::vec3 placeIn(const OpennessGrid& grid, glm::vec3 place) {
+    return (place - grid.origin) / grid.side;
 }
 
-bool inside(const OpennessGrid& grid, const Trilinear& at) {
-    return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x + 1 < grid.cells.x && at.y + 1 < grid.cells.y &&
-           at.z + 1 < grid.cells.z;
+// at: not below zero, where whole numbers are what conversion leaves.
+Trilinear cubesAround(glm::vec3 at) {
+    const glm::ivec3 corner(at);
+    return {corner.x, corner.y, corner.z, at - glm::vec3(corner)};
+}
+
+bool inside(const OpennessGrid& grid, glm::vec3 at) {
+    const glm::vec3 last(grid.cells - 1);
+    return at.x >= 0.0F && at.y >= 0.0F && at.z >= 0.0F && at.x < last.x && at.y < last.y && at.z < last.z;
 }
 
 // Calls visit(cell, weight) for the eight cubes around a place.
@@ -99,57 +104,50 @@ std::vector<float> filling(const OpennessGrid& grid, std::span<const Sphere> par
     for (const Sphere& particle : particles) {
         const float share = particle.radius / grid.side;
         const float volume = 4.1887902F * share * share * share;
-        forCorners(grid, placeIn(grid, particle.center),
+        forCorners(grid, cubesAround(placeIn(grid, particle.center)),
                    [&](std::size_t cell, float weight) { full[cell] += volume * weight; });
     }
     return full;
-}
-
-// Calls visit(begin, count) for every row of cubes along x, in parallel; rows at the border in y and z left out.
-template <typename Visit>
-void forRows(const OpennessGrid& grid, int border, const Visit& visit) {
-    tbb::parallel_for(border, grid.cells.z - border, [&](int z) {
-        for (int y = border; y < grid.cells.y - border; ++y) visit(grid.cellIndex(0, y, z));
-    });
 }
 
 // Weights 1/4, 1/2, 1/4 along one axis; nothing lies at the border.
 std::vector<float> blurred(const OpennessGrid& grid, const std::vector<float>& from, std::size_t stride) {
     std::vector<float> to(from.size(), 0.0F);
     const auto count = static_cast<std::size_t>(grid.cells.x);
-    forRows(grid, 1, [&](std::size_t row) {
-        for (std::size_t k = row + 1; k < row + count - 1; ++k)
-            to[k] = 0.25F * (from[k - stride] + from[k + stride]) + 0.5F * from[k];
+    tbb::parallel_for(1, grid.cells.z - 1, [&](int z) {
+        for (int y = 1; y < grid.cells.y - 1; ++y) {
+            const std::size_t row = grid.cellIndex(0, y, z);
+            for (std::size_t k = row + 1; k < row + count - 1; ++k)
+                to[k] = 0.25F * (from[k - stride] + from[k + stride]) + 0.5F * from[k];
+        }
     });
     return to;
 }
 
-// 1 / (1 + tau)^2 with tau = sum over j = 1 ... 6 of (1 - (j - 1/2)/6) F(j cubes ahead). A whole row at a time, for
-// compilers to make lanes of.
-std::vector<float> lookedAlong(const OpennessGrid& grid, const std::vector<float>& full, std::ptrdiff_t stride) {
-    std::vector<float> open(full.size(), 0.0F);
-    const auto count = static_cast<std::ptrdiff_t>(grid.cells.x);
+// 1 / (1 + tau)^2 with tau = sum over j = 1 ... 6 of (1 - (j - 1/2)/6) F(j cubes ahead), for one row of cubes along x,
+// whose values begin at `row`. All of it at a time, for compilers to make lanes of.
+void lookAlong(const std::vector<float>& full, std::size_t row, std::ptrdiff_t stride, std::span<float> open) {
+    const auto count = static_cast<std::ptrdiff_t>(open.size());
     const auto all = static_cast<std::ptrdiff_t>(full.size());
-    forRows(grid, 0, [&](std::size_t row) {
-        float* out = &open[row];
-        for (int j = 1; j <= kReach; ++j) {
-            const float weight = 1.0F - (static_cast<float>(j) - 0.5F) / static_cast<float>(kReach);
-            // What leaves the grid comes in on its other side, where nothing lies either.
-            const std::ptrdiff_t ahead = static_cast<std::ptrdiff_t>(row) + j * stride;
-            const std::ptrdiff_t end = std::min(count, all - ahead);
-            for (std::ptrdiff_t k = std::max(std::ptrdiff_t{0}, -ahead); k < end; ++k)
-                out[k] += weight * full[static_cast<std::size_t>(ahead + k)];
-        }
-        for (std::ptrdiff_t k = 0; k < count; ++k) out[k] = 1.0F / ((1.0F + out[k]) * (1.0F + out[k]));
-    });
-    return open;
+    float* out = open.data();
+    for (int j = 1; j <= kReach; ++j) {
+        const float weight = 1.0F - (static_cast<float>(j) - 0.5F) / static_cast<float>(kReach);
+        // What leaves the grid comes in on its other side, where nothing lies either.
+        const std::ptrdiff_t ahead = static_cast<std::ptrdiff_t>(row) + j * stride;
+        const std::ptrdiff_t end = std::min(count, all - ahead);
+        for (std::ptrdiff_t k = std::max(std::ptrdiff_t{0}, -ahead); k < end; ++k)
+            out[k] += weight * full[static_cast<std::size_t>(ahead + k)];
+    }
+    for (std::ptrdiff_t k = 0; k < count; ++k) out[k] = 1.0F / ((1.0F + out[k]) * (1.0F + out[k]));
 }
 
-float valueAt(const OpennessGrid& grid, std::size_t direction, glm::vec3 place) {
-    const Trilinear at = placeIn(grid, place + kOpennessAhead * grid.side * kDirections[direction]);
-    if (!inside(grid, at)) return 1.0F;
+// at: as placeIn() has it.
+float valueAt(const OpennessGrid& grid, std::size_t direction, glm::vec3 at) {
+    const glm::vec3 ahead = at + kOpennessAhead * kDirections[direction];
+    if (!inside(grid, ahead)) return 1.0F;
     float sum = 0.0F;
-    forCorners(grid, at, [&](std::size_t cell, float weight) { sum += weight * grid.values[direction][cell]; });
+    forCorners(grid, cubesAround(ahead),
+               [&](std::size_t cell, float weight) { sum += weight * grid.values[direction][cell]; });
     return sum;
 }
 
@@ -164,17 +162,25 @@ OpennessGrid opennessGrid(std::span<const Sphere> particles) {
     for (const std::size_t stride : {std::size_t{1}, row, slice}) full = blurred(grid, full, stride);
     const std::array<std::ptrdiff_t, 3> strides = {1, static_cast<std::ptrdiff_t>(row),
                                                    static_cast<std::ptrdiff_t>(slice)};
-    for (std::size_t direction = 0; direction < 6; ++direction) {
-        const std::ptrdiff_t stride = strides[direction / 2];
-        grid.values[direction] = lookedAlong(grid, full, direction % 2 == 0 ? stride : -stride);
-    }
+    for (std::vector<float>& values : grid.values) values.assign(full.size(), 0.0F);
+    tbb::parallel_for(0, grid.cells.z, [&](int z) {
+        for (int y = 0; y < grid.cells.y; ++y) {
+            const std::size_t first = grid.cellIndex(0, y, z);
+            for (std::size_t direction = 0; direction < 6; ++direction) {
+                const std::ptrdiff_t stride = strides[direction / 2];
+                lookAlong(full, first, direction % 2 == 0 ? stride : -stride,
+                          std::span(grid.values[direction]).subspan(first, row));
+            }
+        }
+    });
     return grid;
 }
 
 Openness opennessAt(const OpennessGrid& grid, glm::vec3 place) {
     Openness open = kOpen;
     if (grid.cells.x == 0) return open;
-    for (std::size_t direction = 0; direction < 6; ++direction) open[direction] = valueAt(grid, direction, place);
+    const glm::vec3 at = placeIn(grid, place);
+    for (std::size_t direction = 0; direction < 6; ++direction) open[direction] = valueAt(grid, direction, at);
     return open;
 }
 
