@@ -3,8 +3,12 @@
 // Chebyshev nodes of [0.0031308^(1/4), 1] is within 0.0025 of an 8-bit step. tests/render/encode_test.cpp measures it.
 vec3 encodeSrgb(vec3 linear) {
     vec3 c = clamp(linear, 0.0, 1.0);
-    vec3 y = sqrt(sqrt(c));
-    vec3 curve = ((((-0.0627590 * y + 0.2727522) * y - 0.5575557) * y + 1.2442140) * y + 0.1649740) * y - 0.0616297;
+    // The powers of y are at hand but for two, so that little waits for the second root.
+    vec3 square = sqrt(c);
+    vec3 y = sqrt(square);
+    vec3 even = 0.2727522 * c + 1.2442140 * square - 0.0616297;
+    vec3 odd = -0.0627590 * c - 0.5575557 * square + 0.1649740;
+    vec3 curve = even + y * odd;
     return mix(curve, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
 }
 
