@@ -34,15 +34,6 @@ std::vector<render::View> framesAtRest(const render::View& view, int count) {
     return frames;
 }
 
-/// Median seconds of drawing, the first frame (which compiles shaders) left out.
-template <typename Draw>
-double medianSeconds(const std::vector<render::View>& frames, const Draw& draw) {
-    std::vector<double> seconds;
-    draw(frames.front());
-    for (const render::View& view : frames) seconds.push_back(secondsOf([&] { draw(view); }, 1));
-    return median(seconds);
-}
-
 DrawTimes medianStages(const std::vector<DrawTimes>& times) {
     const auto of = [&times](double DrawTimes::*stage) {
         std::vector<double> values;
@@ -132,9 +123,15 @@ struct Subject {
     render::PictureSize size;
 };
 
+/// Medians over some frames.
+struct Drawing {
+    double baseline = 0.0;  ///< s
+    double draw = 0.0;      ///< s
+    DrawTimes stages;
+};
+
 /// Draws every frame with the quads and with the renderer in turn, so that both meet the machine in the same mood.
-void measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
-                    PictureRow& row) {
+Drawing measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames) {
     std::vector<DrawTimes> times;
     std::vector<double> baseline;
     std::vector<double> draw;
@@ -146,9 +143,7 @@ void measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::
         draw.push_back(secondsOf([&] { renderer.draw(view); }, 1));
         times.push_back(renderer.times());
     }
-    row.baseline = median(baseline);
-    row.draw = median(draw);
-    row.stages = medianStages(times);
+    return {median(baseline), median(draw), medianStages(times)};
 }
 
 PictureRow measureQuality(const PictureSettings& settings, render::Context& context, const Subject& subject,
@@ -161,10 +156,14 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
     render::Renderer renderer(context, subject.size, quality);
     {
         QuadBaseline quads(context, subject.size);
-        measureDrawing(quads, renderer, frames, row);
+        const Drawing moving = measureDrawing(quads, renderer, frames);
+        row.baseline = moving.baseline;
+        row.draw = moving.draw;
+        row.stages = moving.stages;
+        const Drawing resting = measureDrawing(quads, renderer, framesAtRest(frames.front(), settings.frames));
+        row.atRestBaseline = resting.baseline;
+        row.atRest = resting.draw;
     }
-    row.atRest = medianSeconds(framesAtRest(frames.front(), settings.frames),
-                               [&](const render::View& view) { renderer.draw(view); });
     measureEncoding(settings, frames, renderer, row);
     return row;
 }

@@ -24,14 +24,16 @@ struct PictureRow {
     render::DrawTimes stages;  ///< medians over the frames, s
     double png = 0.0;          ///< of encoding alone, s
     double mp4 = 0.0;
-    double draw = 0.0;      ///< one frame, drawn and read back, s; median
-    double atRest = 0.0;    ///< likewise where the camera rests and the particles move, s
-    double withPng = 0.0;   ///< a frame of many, one encoded while the next is drawn, s
-    double withMp4 = 0.0;   ///< likewise
+    double draw = 0.0;            ///< one frame, drawn and read back, s; median
+    double atRest = 0.0;          ///< likewise where the camera rests and the particles move, s
+    double atRestBaseline = 0.0;  ///< the quads of those frames, in turn with them, s
+    double withPng = 0.0;         ///< a frame of many, one encoded while the next is drawn, s
+    double withMp4 = 0.0;         ///< likewise
     double baseline = 0.0;  ///< the lit quads of the same spheres and size, drawn and read back in turn, s; median
     PictureError error;
 
     double ratio() const { return draw / baseline; }
+    double ratioAtRest() const { return atRest / atRestBaseline; }
 };
 
 struct PictureSettings {

@@ -32,10 +32,29 @@ std::string timeTable(const std::vector<studies::PictureRow>& rows) {
                                      row.mp4, row.draw, row.atRest, row.withPng, row.withMp4, row.baseline})
             cells.push_back(milliseconds(seconds));
         cells.push_back(fmt::format("{:.2f}", row.ratio()));
+        cells.push_back(fmt::format("{:.2f}", row.ratioAtRest()));
         table_.push_back(cells);
     }
-    return table({"style", "particles", "size", "quality", "bin", "occlusion", "shadow", "cast", "look", "shade",
-                  "read back", "PNG", "MP4", "frame", "at rest", "with PNG", "with MP4", "quads", "frame over quads"},
+    return table({"style",
+                  "particles",
+                  "size",
+                  "quality",
+                  "bin",
+                  "occlusion",
+                  "shadow",
+                  "cast",
+                  "look",
+                  "shade",
+                  "read back",
+                  "PNG",
+                  "MP4",
+                  "frame",
+                  "at rest",
+                  "with PNG",
+                  "with MP4",
+                  "quads",
+                  "frame over quads",
+                  "at rest over quads"},
                  table_);
 }
 
