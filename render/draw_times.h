@@ -5,7 +5,8 @@
 
 namespace render {
 
-/// Wall-clock seconds of one picture; a stage that the view does not need takes next to nothing.
+/// Wall-clock seconds of one picture; a stage that the view does not need takes next to nothing. The first three run
+/// side by side, so that together they may be more than the picture took.
 struct DrawTimes {
     double bin = 0.0;        ///< spheres, boxes and lines to tiles, and their upload
     double occlusion = 0.0;  ///< how open to the sky the particles are
@@ -30,5 +31,13 @@ class StageClock {
  private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// Adds the time that some work takes to a stage.
+template <typename Work>
+void timed(double& seconds, const Work& work) {
+    StageClock clock;
+    work();
+    clock.add(seconds);
+}
 
 }  // namespace render

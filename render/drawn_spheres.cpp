@@ -28,29 +28,36 @@ SphereLook particleLook(glm::vec3 color, const Openness& open) {
 
 }  // namespace
 
-DrawnSpheres drawnSpheres(const View& view, std::span<const Openness> open) {
+DrawnSpheres drawnSpheres(const View& view) {
     DrawnSpheres drawn;
-    std::vector<std::uint32_t> shown;  // particles
-    if (view.style == Style::spheres)
+    const auto add = [&](const auto& sphere) {
+        if (!(sphere.radius > 0.0F)) return false;
+        drawn.spheres.push_back({sphere.center - view.camera.eye, sphere.radius});
+        return true;
+    };
+    if (view.style == Style::spheres) {
+        drawn.spheres.reserve(view.particles.size() + view.sphereObstacles.size());
+        drawn.particles.reserve(view.particles.size());
         for (std::size_t k = 0; k < view.particles.size(); ++k)
-            if (view.particles[k].radius > 0.0F) shown.push_back(static_cast<std::uint32_t>(k));
-    drawn.firstObstacle = static_cast<std::int32_t>(shown.size());
-    drawn.spheres.resize(shown.size());
-    drawn.looks.resize(shown.size());
+            if (add(view.particles[k])) drawn.particles.push_back(static_cast<std::uint32_t>(k));
+    }
+    drawn.firstObstacle = static_cast<std::int32_t>(drawn.spheres.size());
+    for (const SphereObstacle& obstacle : view.sphereObstacles) add(obstacle);
+    return drawn;
+}
+
+std::vector<SphereLook> looksOf(const View& view, const DrawnSpheres& drawn, std::span<const Openness> open) {
+    std::vector<SphereLook> looks(drawn.particles.size());
     constexpr std::size_t kChunk = 2048;
-    tbb::parallel_for(std::size_t{0}, shown.size() / kChunk + 1, [&](std::size_t chunk) {
-        for (std::size_t k = chunk * kChunk; k < std::min((chunk + 1) * kChunk, shown.size()); ++k) {
-            const Sphere& particle = view.particles[shown[k]];
-            drawn.spheres[k] = {particle.center - view.camera.eye, particle.radius};
-            drawn.looks[k] = particleLook(particle.color, open.empty() ? kOpen : open[shown[k]]);
+    tbb::parallel_for(std::size_t{0}, looks.size() / kChunk + 1, [&](std::size_t chunk) {
+        for (std::size_t k = chunk * kChunk; k < std::min((chunk + 1) * kChunk, looks.size()); ++k) {
+            const std::uint32_t particle = drawn.particles[k];
+            looks[k] = particleLook(view.particles[particle].color, open.empty() ? kOpen : open[particle]);
         }
     });
-    for (const SphereObstacle& obstacle : view.sphereObstacles) {
-        if (!(obstacle.radius > 0.0F)) continue;
-        drawn.spheres.push_back({obstacle.center - view.camera.eye, obstacle.radius});
-        drawn.looks.push_back({packedColor(obstacle.color), 0, 0, 0});
-    }
-    return drawn;
+    for (const SphereObstacle& obstacle : view.sphereObstacles)
+        if (obstacle.radius > 0.0F) looks.push_back({packedColor(obstacle.color), 0, 0, 0});
+    return looks;
 }
 
 }  // namespace render

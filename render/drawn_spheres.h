@@ -20,13 +20,15 @@ struct SphereLook {
 };
 
 struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;  ///< center relative to the eye, in world axes; particles first
-    std::vector<SphereLook> looks;    ///< likewise
+    std::vector<ViewSphere> spheres;       ///< center relative to the eye, in world axes; particles first
+    std::vector<std::uint32_t> particles;  ///< which each of the first is
     std::int32_t firstObstacle = 0;
 };
 
-/// Obstacles always, particles unless they are metaballs; radii not above zero are left out. open: of each particle, or
-/// empty.
-DrawnSpheres drawnSpheres(const View& view, std::span<const Openness> open);
+/// Obstacles always, particles unless they are metaballs; radii not above zero are left out.
+DrawnSpheres drawnSpheres(const View& view);
+
+/// Of each drawn sphere; open: of each particle of the view, or empty.
+std::vector<SphereLook> looksOf(const View& view, const DrawnSpheres& drawn, std::span<const Openness> open);
 
 }  // namespace render

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include "render/dimming.h"
 #include "render/tile_class.h"
@@ -62,27 +63,27 @@ PicturePass::PicturePass(const Gl& gl)
 }
 
 void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times) {
-    StageClock clock;
     frame_ = frame;
     light_ = lightBasis(view.light.toLight);
     castsField_ = view.style == Style::metaballs && !view.particles.empty();
     meanRadius_ = meanRadiusOf(view);
-    findOpenness(view);
-    clock.add(times.occlusion);
-    skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
-    binSpheres(view);
-    lineList_ = projectEdges(frame_, view.edges);
-    uploadBoxes(view);
-    clock.add(times.bin);
+    timed(times.bin, [&] { drawn_ = drawnSpheres(view); });
+    // None needs what the others find, and each has parts that keep one thread alone busy.
+    tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); },
+                         [&] { timed(times.bin, [&] { bin(view); }); },
+                         [&] { timed(times.shadow, [&] { binShadows(view); }); });
+    timed(times.bin, [&] { upload(view); });
     depthMapTexels_ = depthMapTexels;
-    castLight(view);
-    clock.add(times.shadow);
+    timed(times.shadow, [&] { castDepths(view, glm::vec2(0.0F)); });
+    timed(times.bin, [&] { findGround(view); });
+}
+
+void PicturePass::findGround(const View& view) {
     groundTiles_.assign(sphereTiles_.begin.size() - 1, {});
     if (view.ground) {
         const Dimmers dimmers{light_, lightGrid_, depthMap_, opens_ ? &openMap_ : nullptr, meanRadius_};
         groundTiles_ = groundTiles(frame_, view.ground->height - frame_.eye.y, dimmingOf(view, dimmers));
     }
-    clock.add(times.bin);
 }
 
 void PicturePass::findOpenness(const View& view) {
@@ -97,20 +98,18 @@ void PicturePass::findOpenness(const View& view) {
     if (view.ground) openMap_ = opennessAtHeight(openGrid_, view.ground->height);
 }
 
-void PicturePass::binSpheres(const View& view) {
-    drawn_ = drawnSpheres(view, particleOpen_);
+void PicturePass::bin(const View& view) {
     viewSpheres_.resize(drawn_.spheres.size());
     for (std::size_t k = 0; k < viewSpheres_.size(); ++k)
         viewSpheres_[k] = {frame_.toView(drawn_.spheres[k].center + frame_.eye), drawn_.spheres[k].radius};
     spherePixels_ = touchedPixels(frame_, viewSpheres_);
     sphereTiles_ = binToTiles(frame_, viewSpheres_, spherePixels_);
-    spheres_.upload(bytesOf(drawn_.spheres));
-    sphereLooks_.upload(bytesOf(drawn_.looks));
+    lineList_ = projectEdges(frame_, view.edges);
+    skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
 }
 
-void PicturePass::castLight(const View& view) {
+void PicturePass::binShadows(const View& view) {
     lightGrid_ = view.light.shadows ? lightGrid(light_, drawn_.spheres, view.light.softness) : LightGrid{};
-    castDepths(view, glm::vec2(0.0F));
 }
 
 void PicturePass::castDepths(const View& view, glm::vec2 shift) {
@@ -123,6 +122,12 @@ void PicturePass::castDepths(const View& view, glm::vec2 shift) {
 // mean of the maps.
 void PicturePass::castShadow(const View& view, const Sampling& sampling) {
     if (castsField_ && view.light.shadows && sampling.offset != depthMapShift_) castDepths(view, sampling.offset);
+}
+
+void PicturePass::upload(const View& view) {
+    spheres_.upload(bytesOf(drawn_.spheres));
+    sphereLooks_.upload(bytesOf(looksOf(view, drawn_, particleOpen_)));
+    uploadBoxes(view);
 }
 
 void PicturePass::uploadBoxes(const View& view) {

@@ -68,11 +68,13 @@ class PicturePass {
     ProgramCache& programs() { return programs_; }
 
  private:
-    void binSpheres(const View& view);
+    void bin(const View& view);
     void findOpenness(const View& view);
-    void castLight(const View& view);
+    void binShadows(const View& view);
     void castDepths(const View& view, glm::vec2 shift);
+    void upload(const View& view);
     void uploadBoxes(const View& view);
+    void findGround(const View& view);
     bool castsShadows(const View& view) const;
     Obstruction obstructionOf(const View& view) const;
     FrameBlock uploadFrame(const View& view, const Sampling& sampling);
