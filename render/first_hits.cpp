@@ -5,6 +5,7 @@
 #include "render/first_hits.h"
 
 #include <algorithm>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/first_hits.cpp"
@@ -193,20 +194,24 @@ Rect withinTile(const Rect& pixels, int left, int top) {
             std::min(pixels.y1 - top, kTileSize - 1)};
 }
 
+/// Returns the height over the eye of the lowest of those that were looked at.
 template <bool kPerspective>
-void addSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
+float addSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
     const D d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
     SphereRays rays(solids.frame, samples);
     const auto columns = static_cast<std::size_t>(solids.tiles->columns);
     const int left = static_cast<int>(tile % columns) * kTileSize;
     const int top = static_cast<int>(tile / columns) * kTileSize;
+    const glm::vec3 upwards(solids.frame.right.y, solids.frame.up.y, solids.frame.forward.y);
+    float lowest = kFarDepth;
     for (std::size_t k = solids.tiles->begin[tile]; k < solids.tiles->begin[tile + 1]; ++k) {
         const std::uint32_t index = solids.tiles->items[k];
         const ViewSphere& sphere = solids.spheres[index];
         const float front = sphere.center.z - sphere.radius;
         // Front to back: what comes later on the list is behind what is already seen.
         if (front > rays.mostOfAll()) break;
+        lowest = std::min(lowest, dot(sphere.center, upwards) - sphere.radius);
         const Rect touched = withinTile(solids.pixels[index], left, top);
         for (int row = touched.y0; row <= touched.y1; ++row) {
             for (int column = touched.x0 / lanes * lanes; column <= touched.x1; column += lanes) {
@@ -221,13 +226,41 @@ void addSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samp
             }
         }
     }
+    return lowest;
+}
+
+float addSpheresOf(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
+    return solids.frame.perspective ? addSpheres<true>(solids, tile, samples)
+                                    : addSpheres<false>(solids, tile, samples);
 }
 
 void lookAtSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
-    if (solids.frame.perspective)
-        addSpheres<true>(solids, tile, samples);
-    else
-        addSpheres<false>(solids, tile, samples);
+    addSpheresOf(solids, tile, samples);
+}
+
+/// The ground hides what lies behind it.
+void hideBehindGround(const Solids& solids, float height, TileRays& rays) {
+    const D d;
+    const DI di;
+    for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
+        const Plane at = planeAt(solids.frame, hn::Load(d, &rays.x[place]), hn::Load(d, &rays.y[place]));
+        const M isNearer = hn::Le(depthOfGround(worldRay(solids.frame, at), height), hn::Load(d, &rays.depth[place]));
+        const VI seen = hn::Load(di, &rays.seen[place]);
+        hn::Store(hn::IfThenElse(hn::RebindMask(di, isNearer), hn::Set(di, kSeesGround), seen), di, &rays.seen[place]);
+    }
+}
+
+void lookAtSpheresOnGround(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
+    for (TileRays& rays : samples) {
+        rays.depth.fill(kFarDepth);
+        rays.seen.fill(kSeesGround);
+    }
+    const float lowest = addSpheresOf(solids, tile, samples);
+    const float ground = solids.ground.value_or(0.0F);
+    // Close above it rounding decides which is nearer. Seen from below, the ground hides what stands on it.
+    constexpr float kRounding = 1e-4F;
+    if (ground < 0.0F && lowest > ground + kRounding * std::abs(ground)) return;
+    for (TileRays& rays : samples) hideBehindGround(solids, ground, rays);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -240,6 +273,7 @@ namespace render {
 
 HWY_EXPORT(lookAtFlats);
 HWY_EXPORT(lookAtSpheres);
+HWY_EXPORT(lookAtSpheresOnGround);
 
 void lookAtFlats(const Solids& solids, Flats flats, TileRays& rays) {
     HWY_DYNAMIC_DISPATCH(lookAtFlats)(solids, flats, rays);
@@ -247,6 +281,10 @@ void lookAtFlats(const Solids& solids, Flats flats, TileRays& rays) {
 
 void lookAtSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
     HWY_DYNAMIC_DISPATCH(lookAtSpheres)(solids, tile, samples);
+}
+
+void lookAtSpheresOnGround(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
+    HWY_DYNAMIC_DISPATCH(lookAtSpheresOnGround)(solids, tile, samples);
 }
 
 }  // namespace render

@@ -57,4 +57,8 @@ void lookAtFlats(const Solids& solids, Flats flats, TileRays& rays);
 /// Adds the spheres of this tile.  \pre  every ray goes through the tile.
 void lookAtSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples);
 
+/// Begins a picture of rays that all meet the ground, and adds the spheres: the same as with lookAtFlats(), but for the
+/// depth of the ground, which stays kFarDepth. What stands on the ground hides it, so that its depth is rarely needed.
+void lookAtSpheresOnGround(const Solids& solids, std::size_t tile, std::span<TileRays> samples);
+
 }  // namespace render

@@ -61,6 +61,10 @@ class TileSamples {
             lookAtField(0);
             return;
         }
+        if (isSpheresOnGround()) {
+            lookAtSpheresOnGround(contents_.solids, tile_, samples_);
+            return;
+        }
         const Flats flats{contents_.ground[tile_].kind != GroundKind::none, contents_.boxes[tile_] != 0};
         for (std::size_t s = 0; s < samples_.size(); ++s) {
             lookAtFlats(contents_.solids, flats, samples_[s]);
@@ -111,6 +115,14 @@ class TileSamples {
             farthest = std::max(farthest, std::bit_cast<float>(sample.depthBits));
         }
         return farthest < contents_.ground[tile_].nearest;
+    }
+
+    /// Whether the ground fills the tile behind spheres and nothing else, and no line asks for its depth.
+    bool isSpheresOnGround() const {
+        const GroundKind ground = contents_.ground[tile_].kind;
+        if (ground != GroundKind::plain && ground != GroundKind::dimmed) return false;
+        if (contents_.boxes[tile_] != 0 || hasItems(contents_.lines.tiles, tile_)) return false;
+        return contents_.field == nullptr || contents_.field->slots[tile_] < 0;
     }
 
     void lookAtField(std::size_t s) {
