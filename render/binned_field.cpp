@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -20,8 +21,7 @@ std::vector<std::size_t> shownBalls(const Skinned& skin) {
     return shown;
 }
 
-std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin) {
-    const std::vector<std::size_t> shown = shownBalls(skin);
+std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin, std::span<const std::size_t> shown) {
     std::vector<FieldBall> balls(shown.size());
     tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t place) {
         const SkinBall& ball = skin.balls[shown[place]];
@@ -36,7 +36,8 @@ std::vector<FieldBall> fieldBalls(const CameraFrame& frame, const Skinned& skin)
 
 BinnedField binField(const CameraFrame& frame, const Skinned& skin) {
     BinnedField field;
-    field.balls = fieldBalls(frame, skin);
+    field.particles = shownBalls(skin);
+    field.balls = fieldBalls(frame, skin, field.particles);
     std::vector<ViewSphere> reaches(field.balls.size());
     float smallest = std::numeric_limits<float>::max();
     double sum = 0.0;
@@ -52,11 +53,10 @@ BinnedField binField(const CameraFrame& frame, const Skinned& skin) {
     return field;
 }
 
-std::vector<BallLook> ballLooks(const Skinned& skin) {
-    const std::vector<std::size_t> shown = shownBalls(skin);
-    std::vector<BallLook> looks(shown.size());
-    tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t place) {
-        const std::size_t k = shown[place];
+std::vector<BallLook> ballLooks(const Skinned& skin, const BinnedField& field) {
+    std::vector<BallLook> looks(field.particles.size());
+    tbb::parallel_for(std::size_t{0}, looks.size(), [&](std::size_t place) {
+        const std::size_t k = field.particles[place];
         looks[place] = {skin.view.particles[k].color, skin.open.empty() ? kOpen : skin.open[k]};
     });
     return looks;

@@ -23,15 +23,16 @@ struct Skinned {
 
 struct BinnedField {
     std::vector<FieldBall> balls;
-    CellLists tiles;              ///< of the balls' reaches, front to back
-    float smallestRadius = 1.0F;  ///< of the particles, or a tenth of the mean where that is more
+    std::vector<std::size_t> particles;  ///< which each ball is
+    CellLists tiles;                     ///< of the balls' reaches, front to back
+    float smallestRadius = 1.0F;         ///< of the particles, or a tenth of the mean where that is more
 };
 
 /// Radii not above zero are left out.
 BinnedField binField(const CameraFrame& frame, const Skinned& skin);
 
 /// Of each of the field's balls.
-std::vector<BallLook> ballLooks(const Skinned& skin);
+std::vector<BallLook> ballLooks(const Skinned& skin, const BinnedField& field);
 
 /// Half a radius of the smallest ball per step: metaball_test.cpp finds no hit missed against the oracle's exact roots.
 /// The field must outlive it. Without looks.

@@ -15,8 +15,6 @@ struct DrawTimes {
     double look = 0.0;       ///< what the samples see, and what light and sky reach it, on the CPU
     double shade = 0.0;      ///< OpenGL: colours
     double readBack = 0.0;
-
-    double all() const { return bin + occlusion + shadow + cast + look + shade + readBack; }
 };
 
 /// Adds the time since its last call, or since it was made, to a stage.

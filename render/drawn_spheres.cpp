@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace render {
@@ -30,33 +31,33 @@ SphereLook particleLook(glm::vec3 color, const Openness& open) {
 
 DrawnSpheres drawnSpheres(const View& view) {
     DrawnSpheres drawn;
-    const auto add = [&](const auto& sphere) {
-        if (!(sphere.radius > 0.0F)) return false;
-        drawn.spheres.push_back({sphere.center - view.camera.eye, sphere.radius});
-        return true;
+    const auto addAll = [&](const auto& spheres) {
+        for (std::size_t k = 0; k < spheres.size(); ++k) {
+            if (!(spheres[k].radius > 0.0F)) continue;
+            drawn.spheres.push_back({spheres[k].center - view.camera.eye, spheres[k].radius});
+            drawn.sources.push_back(static_cast<std::uint32_t>(k));
+        }
     };
-    if (view.style == Style::spheres) {
-        drawn.spheres.reserve(view.particles.size() + view.sphereObstacles.size());
-        drawn.particles.reserve(view.particles.size());
-        for (std::size_t k = 0; k < view.particles.size(); ++k)
-            if (add(view.particles[k])) drawn.particles.push_back(static_cast<std::uint32_t>(k));
-    }
+    drawn.spheres.reserve(view.particles.size() + view.sphereObstacles.size());
+    drawn.sources.reserve(view.particles.size() + view.sphereObstacles.size());
+    if (view.style == Style::spheres) addAll(view.particles);
     drawn.firstObstacle = static_cast<std::int32_t>(drawn.spheres.size());
-    for (const SphereObstacle& obstacle : view.sphereObstacles) add(obstacle);
+    addAll(view.sphereObstacles);
     return drawn;
 }
 
 std::vector<SphereLook> looksOf(const View& view, const DrawnSpheres& drawn, std::span<const Openness> open) {
-    std::vector<SphereLook> looks(drawn.particles.size());
+    std::vector<SphereLook> looks(drawn.sources.size());
+    const auto firstObstacle = static_cast<std::size_t>(drawn.firstObstacle);
     constexpr std::size_t kChunk = 2048;
-    tbb::parallel_for(std::size_t{0}, looks.size() / kChunk + 1, [&](std::size_t chunk) {
-        for (std::size_t k = chunk * kChunk; k < std::min((chunk + 1) * kChunk, looks.size()); ++k) {
-            const std::uint32_t particle = drawn.particles[k];
-            looks[k] = particleLook(view.particles[particle].color, open.empty() ? kOpen : open[particle]);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, looks.size(), kChunk), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) {
+            const std::uint32_t source = drawn.sources[k];
+            looks[k] = k < firstObstacle
+                           ? particleLook(view.particles[source].color, open.empty() ? kOpen : open[source])
+                           : SphereLook{packedColor(view.sphereObstacles[source].color), 0, 0, 0};
         }
     });
-    for (const SphereObstacle& obstacle : view.sphereObstacles)
-        if (obstacle.radius > 0.0F) looks.push_back({packedColor(obstacle.color), 0, 0, 0});
     return looks;
 }
 

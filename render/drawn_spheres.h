@@ -20,8 +20,8 @@ struct SphereLook {
 };
 
 struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;       ///< center relative to the eye, in world axes; particles first
-    std::vector<std::uint32_t> particles;  ///< which each of the first is
+    std::vector<ViewSphere> spheres;     ///< center relative to the eye, in world axes; particles first
+    std::vector<std::uint32_t> sources;  ///< which particle each is and, from firstObstacle on, which obstacle
     std::int32_t firstObstacle = 0;
 };
 

@@ -5,7 +5,6 @@
 #include "render/first_hits.h"
 
 #include <algorithm>
-#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/first_hits.cpp"
@@ -194,7 +193,7 @@ Rect withinTile(const Rect& pixels, int left, int top) {
             std::min(pixels.y1 - top, kTileSize - 1)};
 }
 
-/// Returns the height over the eye of the lowest of those that were looked at.
+/// Returns a height over the eye that those that were looked at do not reach under.
 template <bool kPerspective>
 float addSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
     const D d;
@@ -205,13 +204,16 @@ float addSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> sam
     const int top = static_cast<int>(tile / columns) * kTileSize;
     const glm::vec3 upwards(solids.frame.right.y, solids.frame.up.y, solids.frame.forward.y);
     float lowest = kFarDepth;
+    constexpr float kRounding = 1e-6F;  // of a centre's height, as a share of its distance
     for (std::size_t k = solids.tiles->begin[tile]; k < solids.tiles->begin[tile + 1]; ++k) {
         const std::uint32_t index = solids.tiles->items[k];
         const ViewSphere& sphere = solids.spheres[index];
         const float front = sphere.center.z - sphere.radius;
         // Front to back: what comes later on the list is behind what is already seen.
         if (front > rays.mostOfAll()) break;
-        lowest = std::min(lowest, dot(sphere.center, upwards) - sphere.radius);
+        const glm::vec3 off = abs(sphere.center);
+        const float rounding = kRounding * (off.x + off.y + off.z);
+        lowest = std::min(lowest, dot(sphere.center, upwards) - sphere.radius - rounding);
         const Rect touched = withinTile(solids.pixels[index], left, top);
         for (int row = touched.y0; row <= touched.y1; ++row) {
             for (int column = touched.x0 / lanes * lanes; column <= touched.x1; column += lanes) {
@@ -257,9 +259,9 @@ void lookAtSpheresOnGround(const Solids& solids, std::size_t tile, std::span<Til
     }
     const float lowest = addSpheresOf(solids, tile, samples);
     const float ground = solids.ground.value_or(0.0F);
-    // Close above it rounding decides which is nearer. Seen from below, the ground hides what stands on it.
-    constexpr float kRounding = 1e-4F;
-    if (ground < 0.0F && lowest > ground + kRounding * std::abs(ground)) return;
+    // Seen from below, the ground hides what stands on it; in parallel projection rays begin on both sides of it.
+    const bool isFromAbove = solids.frame.perspective ? ground < 0.0F : solids.frame.forward.y < 0.0F;
+    if (isFromAbove && lowest > ground) return;
     for (TileRays& rays : samples) hideBehindGround(solids, ground, rays);
 }
 

@@ -56,30 +56,35 @@ CoarseHits coarseHits(const std::vector<CoarseHits>& own, const FieldPicture& pi
 }
 
 // Where a ray between cast ones begins to look for the surface: a radius before the nearest hit around it, as the rays
-// of outlines do; at the eye where the rays around it met nothing.
-float startBetween(const CoarseHits& hits, std::uint8_t place, float radius) {
+// of outlines do, so that nothing is missed but what fits between the cast rays. At the eye where they met nothing, and
+// where a ball may be as small as that.
+float startBetween(const CameraFrame& frame, const CoarseHits& hits, std::uint8_t place, float radius) {
     const std::size_t corner = place / kTileSize / 2 * CoarseHits::kSide + place % kTileSize / 2;
     float nearest = kEndless;
     for (const std::size_t at : {corner, corner + 1, corner + CoarseHits::kSide, corner + CoarseHits::kSide + 1})
         if (hits.depth[at] >= 0.0F) nearest = std::min(nearest, hits.depth[at]);
-    return nearest < kEndless ? nearest - radius : 0.0F;
+    // Half the diagonal between four cast rays, two pixels apart, is 1.42 pixels.
+    const float least = 1.5F * frame.pixelWidth() * (frame.perspective ? nearest : 1.0F);
+    return nearest < kEndless && radius > least ? nearest - radius : 0.0F;
 }
 
 // Within a pixel the field rises by less than this times the pixel's share of the smallest ball's radius (a lone ball's
 // by half of it, and a pixel's diagonal away).
 constexpr float kSteepest = 2.0F;
 
-Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field, float reach) {
+Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field) {
     float farthest = 0.0F;
     for (const FieldBall& ball : field.balls) farthest = std::max(farthest, ball.center.z + ball.reach);
     const float pixel = cast.frame.pixelWidth() * (cast.frame.perspective ? farthest : 1.0F);
     // A ray's greatest sample lies a quarter of a radius from the field's peak at most, where a lone ball at the
     // threshold bends by 4 sqrt(threshold) / reach^2 a square radius.
-    const float missed = 0.125F * std::sqrt(cast.threshold) / (reach * reach);
+    const float root = std::sqrt(cast.threshold);  // 1 - 1 / reach^2
+    const float missed = 0.125F * root * (1.0F - root);
     return {0.02F * field.smallestRadius, cast.threshold - missed - kSteepest * pixel / field.smallestRadius};
 }
 
-void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness, float radius, FieldPicture& picture) {
+void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 offset, FieldPicture& picture) {
+    const Smoothness smoothness = smoothnessOf(cast, field);
     const CellLists& tiles = *cast.tiles;
     std::vector<CoarseHits> coarse(picture.samples.size() / kBlockRays);
     const auto forTiles = [&](const auto& visit) {
@@ -110,7 +115,8 @@ void castSparsely(const FieldCast& cast, glm::vec2 offset, Smoothness smoothness
         for (const std::uint8_t place : kZCurve)
             if (isRough[place]) rough.push_back(place);
         placeRays(block, corner, rough, offset);
-        for (std::size_t k = 0; k < rough.size(); ++k) block.from[k] = startBetween(hits, rough[k], radius);
+        for (std::size_t k = 0; k < rough.size(); ++k)
+            block.from[k] = startBetween(cast.frame, hits, rough[k], field.smallestRadius);
         castBlock(cast, tile, block);
         putSamples(cast, block, rough, tile, picture);
     });
@@ -135,7 +141,7 @@ void forgetEmptyTiles(FieldPicture& picture) {
 void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling, FieldPicture& picture) {
     const BinnedField field = binField(frame, skin);
     FieldCast cast = fieldCast(frame, skin.view, field);
-    const std::vector<BallLook> looks = ballLooks(skin);
+    const std::vector<BallLook> looks = ballLooks(skin, field);
     cast.looks = looks;
     cast.openness = !skin.open.empty();
     const std::size_t tileCount = field.tiles.begin.size() - 1;
@@ -147,8 +153,7 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampl
     picture.samples.resize(static_cast<std::size_t>(slotCount) * kBlockRays);
     picture.extras.assign(picture.samples.size(), 0);
     if (sampling.sparse) {
-        castSparsely(cast, sampling.offset, smoothnessOf(cast, field, skin.view.field.reach), field.smallestRadius,
-                     picture);
+        castSparsely(cast, field, sampling.offset, picture);
     } else {
         tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
             if (picture.slots[tile] < 0) return;

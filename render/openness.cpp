@@ -125,7 +125,7 @@ std::vector<float> blurred(const OpennessGrid& grid, const std::vector<float>& f
 }
 
 // 1 / (1 + tau)^2 with tau = sum over j = 1 ... 6 of (1 - (j - 1/2)/6) F(j cubes ahead), for one row of cubes along x,
-// whose values begin at `row`. All of it at a time, for compilers to make lanes of.
+// whose values begin at `row`. open: zeros. All of it at a time, for compilers to make lanes of.
 void lookAlong(const std::vector<float>& full, std::size_t row, std::ptrdiff_t stride, std::span<float> open) {
     const auto count = static_cast<std::ptrdiff_t>(open.size());
     const auto all = static_cast<std::ptrdiff_t>(full.size());

@@ -101,7 +101,8 @@ TileExtras castExtras(const FieldCast& cast, const Depths& depths, float radius,
         castBlock(cast, tile, block);
         PackedBlock packed;
         packBlock(cast.frame, block, cast.openness, packed);
-        extras.samples.insert(extras.samples.end(), packed.begin(), &packed[block.count]);
+        const auto count = static_cast<std::ptrdiff_t>(block.count);
+        extras.samples.insert(extras.samples.end(), packed.begin(), packed.begin() + count);
         block.count = 0;
     };
     for (const std::uint8_t pixel : pixels) {

@@ -31,8 +31,7 @@ ChildProcess started(const std::vector<std::string>& arguments, const VideoOptio
 // Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes on any processor. The encoder's
 // threads are fixed, because its bytes depend on their number. Without the BT.709 conversion and tags ffmpeg assumes
 // BT.601 and colours shift. An even size is what yuv420p takes. Without -xerror an end that could not be written would
-// count as success. `superfast` keeps more of moving particles at 20 than `veryfast` does at 18, in half the time; its
-// files are larger.
+// count as success. `superfast` because the encoder shares the processor with the drawing.
 std::vector<std::string> commandLine(const VideoOptions& options, const std::string& path) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",

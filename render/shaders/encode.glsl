@@ -3,7 +3,7 @@
 // Chebyshev nodes of [0.0031308^(1/4), 1] is within 0.0025 of an 8-bit step. tests/render/encode_test.cpp measures it.
 vec3 encodeSrgb(vec3 linear) {
     vec3 c = clamp(linear, 0.0, 1.0);
-    // The powers of y are at hand but for two, so that little waits for the second root.
+    // y^2 and y^4 are there before the second root, so that little waits for it.
     vec3 square = sqrt(c);
     vec3 y = sqrt(square);
     vec3 even = 0.2727522 * c + 1.2442140 * square - 0.0616297;

@@ -138,7 +138,7 @@ TEST_CASE("What a ray meets does not depend on the rays that it is cast with") {
         const render::CameraFrame frame = render::cameraFrame(view.camera, {64, 48});
         const std::vector<render::SkinBall> skin = render::skinOf(view);
         const render::BinnedField field = render::binField(frame, {view, skin, {}});
-        const std::vector<render::BallLook> looks = render::ballLooks({view, skin, {}});
+        const std::vector<render::BallLook> looks = render::ballLooks({view, skin, {}}, field);
         render::FieldCast cast = render::fieldCast(frame, view, field);
         cast.looks = looks;
         int hits = 0;
