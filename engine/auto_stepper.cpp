@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::array kCandidates = {StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::implicitDamping,
                                     StepperKind::linearlyImplicit};
+static_assert(kRunsOfLook == kCandidates.size() + 1);
 
 /// Chosen: every so many looks all candidates are compared.
 constexpr std::uint64_t kLooksPerComparison = 5;

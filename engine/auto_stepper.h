@@ -11,6 +11,10 @@ namespace engine {
 /// two of them are followed. Looks are close together at the start and spread out to every so many intervals.
 inline constexpr std::uint64_t kLongestPause = 16;
 
+/// Simulations that a look holds at most beside the one it begins from: one of each candidate, to go on from, and the
+/// one that runs.
+inline constexpr std::size_t kRunsOfLook = 5;
+
 /// Brings the simulation to the given time (s); one call is one interval, e.g. a frame.
 /// Holds:  what it chooses depends on the states alone, never on a clock.
 void advanceAutomatically(Simulation& simulation, double time);

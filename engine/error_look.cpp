@@ -35,12 +35,11 @@ bool run(Simulation& simulation, const Look& look, double step, double mostPasse
 }
 
 /// rms of dx + T dv over the particles that were there at the start, in radii.
-double difference(const Simulation& a, const Simulation& b, std::size_t count, double horizon) {
+double difference(const Particles& a, const Particles& b, std::size_t count, double horizon) {
     double sumSq = 0.0;
     for (std::size_t p = 0; p < count; ++p) {
-        const Vec3 apart = a.particles.position[p] - b.particles.position[p] +
-                           horizon * (a.particles.velocity[p] - b.particles.velocity[p]);
-        sumSq += squaredLength(apart) / (a.particles.radius[p] * a.particles.radius[p]);
+        const Vec3 apart = a.position[p] - b.position[p] + horizon * (a.velocity[p] - b.velocity[p]);
+        sumSq += squaredLength(apart) / (a.radius[p] * a.radius[p]);
     }
     return count == 0 ? 0.0 : std::sqrt(sumSq / static_cast<double>(count));
 }
@@ -51,24 +50,28 @@ Trial measure(const Simulation& simulation, const Look& look, Simulation* finer)
     const double interval = look.time - simulation.time;
     Trial trial;
     trial.stepper = look.stepper;
-    Simulation whole = simulation;
-    trial.finished = run(whole, look, look.step, look.mostPasses);
-    trial.spent = passesOf(whole);
+    // One run after the other in the same memory: a look holds one simulation more, not two.
+    Simulation there = simulation;
+    trial.finished = run(there, look, look.step, look.mostPasses);
+    trial.spent = passesOf(there);
     if (!trial.finished) return trial;
-    const auto meanStep = [&](const Simulation& s) { return interval / static_cast<double>(s.steps.count); };
-    // Where the audit or births shortened the steps of the first run, those of the second are half as long again.
-    Simulation halves = simulation;
-    run(halves, look, 0.5 * meanStep(whole), std::numeric_limits<double>::infinity());
-    const double ratio = meanStep(halves) / meanStep(whole);
-    const double contrast = std::max(kLeastContrast, 1.0 - errorShare(look.stepper, ratio));
+    const auto meanStep = [&] { return interval / static_cast<double>(there.steps.count); };
     trial.asked = interval / std::ceil(interval / look.step * (1.0 - 1e-9));
-    trial.step = meanStep(whole);
-    trial.error = difference(whole, halves, simulation.particles.count(), look.horizon) / contrast / interval;
-    trial.cost = passesOf(whole) / interval;
-    trial.spent += passesOf(halves);
-    trial.restricted = whole.steps.rejected > 0 || whole.restriction.seconds < look.step;
-    if (trial.restricted) trial.reason = whole.restriction.reason;
-    if (finer != nullptr) *finer = std::move(halves);
+    trial.step = meanStep();
+    trial.cost = passesOf(there) / interval;
+    trial.restricted = there.steps.rejected > 0 || there.restriction.seconds < look.step;
+    if (trial.restricted) trial.reason = there.restriction.reason;
+    const Particles coarse = std::move(there.particles);
+    there = simulation;
+    // Where the audit or births shortened the steps of the first run, those of the second are half as long again.
+    run(there, look, 0.5 * trial.step, std::numeric_limits<double>::infinity());
+    const double contrast = std::max(kLeastContrast, 1.0 - errorShare(look.stepper, meanStep() / trial.step));
+    const std::size_t count = simulation.particles.count();
+    trial.error = difference(coarse, there.particles, count, look.horizon) / contrast / interval;
+    trial.spent += passesOf(there);
+    if (finer == nullptr) return trial;
+    *finer = std::move(there);
+    finer->implicit = {};  // several may be kept
     return trial;
 }
 

@@ -25,9 +25,9 @@ CellRange chunkOf(const NeighbourList& list, std::size_t number) {
 void search(NeighbourList& list, const CellRange& chunk, FoundRows& found) {
     Surroundings scratch;
     for (std::uint32_t place = chunk.begin; place < chunk.end;) {
-        const std::uint32_t cell = list.grid.cellOf[list.order[place]];
-        const CellRange selves{place, std::min(list.grid.start[cell + 1], chunk.end)};
-        findInReach(list.candidates, neighbourhood(list.grid, cell), selves, list.reach, scratch, found,
+        const std::uint32_t cell = list.scratch.grid.cellOf[list.order[place]];
+        const CellRange selves{place, std::min(list.scratch.grid.start[cell + 1], chunk.end)};
+        findInReach(list.scratch.candidates, neighbourhood(list.scratch.grid, cell), selves, list.reach, scratch, found,
                     &list.rows.length[place]);
         place = selves.end;
     }
@@ -58,18 +58,18 @@ void layOut(LaneRows& rows, const CellRange& chunk, const FoundRows& found) {
 }
 
 void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
-    list.order.swap(list.grid.order);
+    list.order.swap(list.scratch.grid.order);
     const std::size_t count = list.order.size();
     list.placeOf.resize(count);
-    list.candidates.x.resize(count + kSearchOverhang);
-    list.candidates.y.resize(count + kSearchOverhang);
-    list.candidates.z.resize(count + kSearchOverhang);
+    list.scratch.candidates.x.resize(count + kSearchOverhang);
+    list.scratch.candidates.y.resize(count + kSearchOverhang);
+    list.scratch.candidates.z.resize(count + kSearchOverhang);
     inParallel(count, kParticleGrain, [&](std::size_t place) {
         list.placeOf[list.order[place]] = static_cast<std::uint32_t>(place);
         const Vec3& position = positions[list.order[place]];
-        list.candidates.x[place] = position.x();
-        list.candidates.y[place] = position.y();
-        list.candidates.z[place] = position.z();
+        list.scratch.candidates.x[place] = position.x();
+        list.scratch.candidates.y[place] = position.y();
+        list.scratch.candidates.z[place] = position.z();
     });
 }
 
@@ -78,23 +78,23 @@ void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
 void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutoff, double skin) {
     list.reach = cutoff + skin;
     copy(positions, list.builtAt);
-    build(list.grid, positions, list.reach);
+    build(list.scratch.grid, positions, list.reach);
     sortByPlace(list, positions);
     const std::size_t groups = (list.count() + kGroup - 1) / kGroup;
     const std::size_t chunks = (groups + kGroupsPerChunk - 1) / kGroupsPerChunk;
     list.rows.length.assign(groups * kGroup, 0);
     list.rows.start.assign(groups + 1, 0);
-    list.found.resize(chunks);
+    list.scratch.found.resize(chunks);
     inParallel(chunks, 1, [&](std::size_t c) {
-        list.found[c].used = 0;
-        search(list, chunkOf(list, c), list.found[c]);
+        list.scratch.found[c].used = 0;
+        search(list, chunkOf(list, c), list.scratch.found[c]);
     });
     for (std::size_t group = 0; group < groups; ++group) list.rows.start[group + 1] += list.rows.start[group];
     list.entryCount = 0;
     for (const std::uint32_t length : list.rows.length) list.entryCount += length;
     // One more than there are: kernels step past the end of a row before they see that it is the last, or empty.
     list.rows.places.resize((list.rows.start[groups] + 1) * kGroup);
-    inParallel(chunks, 1, [&](std::size_t c) { layOut(list.rows, chunkOf(list, c), list.found[c]); });
+    inParallel(chunks, 1, [&](std::size_t c) { layOut(list.rows, chunkOf(list, c), list.scratch.found[c]); });
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
@@ -110,10 +110,11 @@ std::size_t bytesOf(const NeighbourList& list) {
     const auto held = [](const auto&... vectors) {
         return (std::size_t{0} + ... + (vectors.capacity() * sizeof(vectors[0])));
     };
-    std::size_t bytes = held(list.order, list.placeOf, list.rows.start, list.rows.length, list.rows.places,
-                             list.builtAt, list.grid.start, list.grid.order, list.grid.cellOf, list.candidates.x,
-                             list.candidates.y, list.candidates.z, list.found);
-    for (const FoundRows& found : list.found) bytes += held(found.places);
+    std::size_t bytes =
+        held(list.order, list.placeOf, list.rows.start, list.rows.length, list.rows.places, list.builtAt,
+             list.scratch.grid.start, list.scratch.grid.order, list.scratch.grid.cellOf, list.scratch.candidates.x,
+             list.scratch.candidates.y, list.scratch.candidates.z, list.scratch.found);
+    for (const FoundRows& found : list.scratch.found) bytes += held(found.places);
     return bytes;
 }
 

@@ -8,8 +8,16 @@
 #include "engine/lane_rows.h"
 #include "engine/list_search.h"
 #include "engine/neighbours.h"
+#include "engine/scratch.h"
 
 namespace engine {
+
+/// Memory of a build.
+struct BuildScratch {
+    CellGrid grid;  ///< its order is an older one
+    Candidates candidates;
+    std::vector<FoundRows> found;  ///< rows of some groups each
+};
 
 /// Rows of places in the order of the cell grid that they were built with.
 struct NeighbourList {
@@ -19,9 +27,7 @@ struct NeighbourList {
     std::size_t entryCount = 0;          ///< of all rows
     std::vector<Vec3> builtAt;           ///< positions by particle index when the list was built, m
     double reach = 0.0;                  ///< cutoff and skin together, m
-    CellGrid grid;                       ///< scratch of the build; its order is an older one
-    Candidates candidates;               ///< scratch of the build
-    std::vector<FoundRows> found;        ///< scratch of the build: rows of some groups each
+    Scratch<BuildScratch> scratch;
 
     std::size_t count() const { return order.size(); }
 };

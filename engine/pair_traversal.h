@@ -11,6 +11,7 @@
 #include "engine/pair_law.h"
 #include "engine/pair_record.h"
 #include "engine/parallel.h"
+#include "engine/scratch.h"
 
 namespace engine {
 
@@ -25,10 +26,10 @@ struct PairTraversal {
     ForceTerms terms;
     PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
     NeighbourList list;
-    std::vector<PairRecord> records;             ///< in the list's order
-    Precision precision = Precision::doubles;    ///< of forces where the terms are uniform
-    std::vector<SinglePrecisionRecord> singles;  ///< in the list's order; empty in double
-    double unit = 0.0;                           ///< of the singles' positions, m
+    Precision precision = Precision::doubles;             ///< of forces where the terms are uniform
+    Scratch<std::vector<PairRecord>> records;             ///< in the list's order
+    Scratch<std::vector<SinglePrecisionRecord>> singles;  ///< in the list's order; empty in double
+    double unit = 0.0;                                    ///< of the singles' positions, m
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);

@@ -16,6 +16,7 @@
 #include "engine/forces.h"
 #include "engine/material.h"
 #include "engine/particles.h"
+#include "engine/scratch.h"
 
 namespace engine {
 
@@ -99,7 +100,7 @@ struct StepRestriction {
     std::uint32_t passed = 0;  ///< good steps since it was set
 };
 
-/// Memory of the implicit steppers, kept between steps.
+/// Memory of the implicit steppers.
 struct ImplicitScratch {
     PairMatrix matrix;
     SolverScratch solver;
@@ -141,18 +142,18 @@ struct Simulation {
     /// Scratch of the drift: no obstacle's surface is nearer to a particle's than this, m, as long as steps alone move
     /// it; empty where nothing is known.
     std::vector<double> clearance;
-    std::vector<Vec3> startPositions;  ///< scratch of the drift: at the step's start, m, while some have moved already
-    double startCutoff = 0.0;          ///< likewise: no pair acts at or beyond it, m
+    Scratch<std::vector<Vec3>> startPositions;  ///< of the drift: at the step's start, m, while some have moved already
+    double startCutoff = 0.0;                   ///< likewise: no pair acts at or beyond it, m
     bool forcesCurrent = false;
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J
     StepRestriction restriction;
     AutoState automatic;
-    std::vector<Vec3> predictedVelocities;  ///< scratch of velocity Verlet, m/s
+    Scratch<std::vector<Vec3>> predictedVelocities;  ///< of velocity Verlet, m/s
     /// rms over the mass of the acceleration that the implicit steppers' solver may leave out, m/s^2; set by the
     /// automatic stepper, whenever it runs one of them.
     double toleratedAcceleration = 0.0;
-    ImplicitScratch implicit;
+    Scratch<ImplicitScratch> implicit;
     StepStatistics steps;
 };
 

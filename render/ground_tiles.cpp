@@ -63,10 +63,13 @@ GroundKind kindOf(const std::array<Corner, 4>& corners, const Dimming& dimming) 
     return dimmed ? GroundKind::dimmed : GroundKind::plain;
 }
 
-GroundTile groundTile(const std::array<Corner, 4>& corners, const Dimming& dimming) {
-    // The depth or its inverse is linear on the picture: it is least at a corner.
+GroundTile groundTile(const std::array<Corner, 4>& corners, const Dimming& dimming, bool perspective) {
+    const GroundKind kind = kindOf(corners, dimming);
+    // In parallel projection the ground comes up to the rays' beginnings.
+    if (kind == GroundKind::horizon && !perspective) return {kind, 0.0F};
+    // The inverse of the depth, or the depth itself, is linear on the picture: the depth is least at a corner.
     const auto isNearer = [](const Corner& a, const Corner& b) { return a.depth < b.depth; };
-    return {kindOf(corners, dimming), std::ranges::min(corners, isNearer).depth};
+    return {kind, std::ranges::min(corners, isNearer).depth};
 }
 
 }  // namespace
@@ -84,8 +87,8 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
         for (int column = 0; column < columns; ++column) {
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
-            tiles.push_back(
-                groundTile({corners[first], corners[first + 1], corners[below], corners[below + 1]}, dimming));
+            tiles.push_back(groundTile({corners[first], corners[first + 1], corners[below], corners[below + 1]},
+                                       dimming, frame.perspective));
         }
     }
     return tiles;

@@ -108,7 +108,7 @@ class Group {
         Sample low = here;
         Sample high = here;
         M found = hn::FirstN(d, 0);
-        most_ = hn::IfThenElseZero(open, here.value.field);
+        most_ = hn::IfThenElseZero(hn::And(open, hn::Le(from, hn::Set(d, t))), here.value.field);
         while (true) {
             // Rays that begin within the surface.
             const M inside = hn::And(hn::And(open, hn::Le(from, hn::Set(d, t))), hn::Ge(here.value.field, threshold));
@@ -128,9 +128,9 @@ class Group {
             const float ahead = depthOf(++k);
             admit(ahead);
             const Sample there = sampleAt(hn::Set(d, ahead));
-            most_ = hn::Max(most_, hn::IfThenElseZero(open, there.value.field));
             Sample reached = there;
             const M begun = hn::And(open, hn::Le(from, hn::Set(d, t)));
+            most_ = hn::Max(most_, hn::IfThenElseZero(begun, there.value.field));
             M crossed = hn::And(begun, hn::Ge(there.value.field, threshold));
             const M suspect = hn::AndNot(crossed, hn::And(begun, mayPeak(here.value, there.value, ahead - t)));
             if (!hn::AllFalse(d, suspect)) {

@@ -238,14 +238,15 @@ std::vector<Ball> ballsOf(const render::View& view) {
         balls.push_back({dvec3(particle.center), double(view.field.reach) * double(particle.radius), 1.0});
     if (view.field.skin == render::Skin::plain || view.style == render::Style::spheres) return balls;
     std::vector<Extent> extents;
-    for (const Ball& ball : balls) extents.push_back({ball.center, 0.0});
+    // Half of each reach: two of them overlap where the pair acts.
+    for (const Ball& ball : balls) extents.push_back({ball.center, 0.5 * ball.reach});
     const Crowd crowd(extents);
     std::vector<Ball> skin = balls;
     for (std::size_t k = 0; k < balls.size(); ++k) {
         const dvec3 here = balls[k].center;
         double crowding = 0.0;
         dvec3 pull(0.0);
-        for (const std::uint32_t other : crowd.within(here, 2.0 * balls[k].reach)) {
+        for (const std::uint32_t other : crowd.within(here, 0.5 * balls[k].reach)) {
             const dvec3 off = balls[other].center - here;
             const double reach = 0.5 * (balls[k].reach + balls[other].reach);
             const double root = std::max(0.0, 1.0 - glm::dot(off, off) / (reach * reach));

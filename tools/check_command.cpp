@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/run_memory.h"
 #include "engine/step_bound.h"
 #include "engine/steppers.h"
 #include "scenes/frame_steps.h"
@@ -49,15 +50,11 @@ engine::Particles everyKind(const scenes::Scene& scene) {
     return particles;
 }
 
-/// Bytes a particle takes while a frame is in flight, the neighbour list apart: state, forces, prediction and the
-/// step's start, the states that steps can be taken back to, sorted record, spheres to draw. Not the implicit steppers'
-/// matrix, nor the copies with which the automatic stepper looks ahead.
-std::size_t bytesPerParticle() {
-    const std::size_t state = 2 * sizeof(engine::Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
-    constexpr std::size_t kStatesBefore = 5;  // position, velocity and force of each
-    const std::size_t scratch = (3 + 3 * kStatesBefore) * sizeof(engine::Vec3) + sizeof(engine::PairRecord);
+/// Bytes a particle takes at most while a frame is in flight: of the run as it goes, and as spheres to draw.
+std::size_t bytesPerParticle(const engine::Simulation& simulation) {
     constexpr std::size_t kFramesInFlight = 4;
-    return state + scratch + kFramesInFlight * sizeof(render::Sphere);
+    const std::size_t count = std::max<std::size_t>(1, simulation.particles.count());
+    return engine::mostBytes(simulation) / count + kFramesInFlight * sizeof(render::Sphere);
 }
 
 /// How the beginning of the run went.
@@ -66,7 +63,6 @@ struct Preview {
     int frames = 0;        ///< that were simulated
     double seconds = 0.0;  ///< of wall clock, births and looks included
     double particleFrames = 0.0;
-    std::size_t mostParticles = 1;  ///< at a time
 };
 
 /// Simulates until a share of the work of a short run is done: what is predicted is what happened so far.
@@ -78,7 +74,6 @@ Preview simulateBeginning(const scenes::Scene& scene) {
         scenes::advanceToFrame(scene, preview.simulation, ++preview.frames);
         preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
-        preview.mostParticles = std::max(preview.mostParticles, preview.simulation.particles.count());
     }
     return preview;
 }
@@ -102,8 +97,7 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
         automatic.looks > 0 ? Json(automatic.errorSum / static_cast<double>(automatic.looks)) : Json(nullptr);
     json["seconds_simulating"] =
         preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
-    json["bytes_per_particle"] =
-        bytesPerParticle() + engine::bytesOf(simulation.evaluator.list()) / preview.mostParticles;
+    json["bytes_per_particle"] = bytesPerParticle(simulation);
     return json;
 }
 
@@ -185,7 +179,7 @@ void printCheck(const Json& json) {
         fmt::print("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
                    json["wanted_error"].get<double>(), predicted["error"].get<double>());
     fmt::print("step bound {}\n", boundText(json));
-    fmt::print("memory     {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
+    fmt::print("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
                json["bytes_per_particle"].get<std::size_t>());
     fmt::print("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
                std::ceil(json["predicted"]["seconds_simulating"].get<double>()));

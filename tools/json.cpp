@@ -7,6 +7,10 @@
 
 namespace tools {
 
+std::string utf8(const std::string& bytes) {
+    return Json::parse(compactText(bytes)).get<std::string>();
+}
+
 std::string compactText(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -11,7 +11,10 @@ namespace tools {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON on one line. Bytes that are no UTF-8, as the name of a file may have, become U+FFFD.
+/// A text with U+FFFD in the place of bytes that are no UTF-8, as the name of a file may have.
+std::string utf8(const std::string& bytes);
+
+/// JSON on one line, its texts as utf8() has them.
 std::string compactText(const Json& json);
 
 /// JSON for people, each level indented by so many spaces, with a line end.

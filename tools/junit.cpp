@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include "tools/html.h"
+#include "tools/json.h"
 
 namespace tools {
 namespace {
 
 /// XML 1.0 has no way to write control characters: they become question marks.
-std::string attribute(std::string text) {
+std::string attribute(const std::string& bytes) {
+    std::string text = utf8(bytes);
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20) c = '?';
     return escaped(text);

@@ -32,10 +32,15 @@ std::map<std::string, fs::path> pngsBelow(const fs::path& folder) {
 PictureSet framesOf(const fs::path& video) {
     PictureSet set;
     set.decoded = std::make_shared<TemporaryFolder>();
-    const std::string pattern = (set.decoded->path() / "frame-%05d.png").string();
-    render::ChildProcess ffmpeg({"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-i", video.string(),
-                                 "-fps_mode", "passthrough", "-sws_flags", "accurate_rnd+full_chroma_int+bitexact",
-                                 "-pix_fmt", "rgb24", "-start_number", "0", pattern});
+    // A path that looks like a protocol is still a file, and a percent sign in the folder's name no part of the
+    // pattern.
+    std::string pattern = "file:";
+    for (const char c : set.decoded->path().string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+    pattern += "/frame-%05d.png";
+    render::ChildProcess ffmpeg({"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-i",
+                                 "file:" + video.string(), "-fps_mode", "passthrough", "-sws_flags",
+                                 "accurate_rnd+full_chroma_int+bitexact", "-pix_fmt", "rgb24", "-start_number", "0",
+                                 pattern});
     if (const std::string ending = ffmpeg.wait(); !ending.empty())
         throw render::SystemError(
             fmt::format("ffmpeg cannot decode {}: {}: {}", video.string(), ending, ffmpeg.output()));

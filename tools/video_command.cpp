@@ -13,6 +13,7 @@
 #include "scenes/input_error.h"
 #include "tools/commands.h"
 #include "tools/json.h"
+#include "tools/number_in.h"
 #include "tools/output_file.h"
 #include "tools/progress.h"
 #include "tools/scene_options.h"
@@ -40,8 +41,8 @@ std::vector<int> frameNumbers(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string stem = entry.path().stem().string();
         if (entry.path().extension() != ".png" || !stem.starts_with("frame-")) continue;
-        const int number = std::atoi(stem.c_str() + 6);
-        if (entry.path().filename() == frameName(number)) numbers.push_back(number);
+        const std::optional<int> number = numberIn(std::string_view(stem).substr(std::string_view("frame-").size()));
+        if (number && *number >= 0 && entry.path().filename() == frameName(*number)) numbers.push_back(*number);
     }
     if (error) throw render::SystemError(fmt::format("cannot read folder {}: {}", folder.string(), error.message()));
     std::sort(numbers.begin(), numbers.end());

@@ -185,6 +185,23 @@ TEST_CASE("Metaballs are coloured and shaded as the oracle's") {
     CHECK(difference.mean < 0.02);             // rounding: one channel in fifty a step off; counted once: 0.008
 }
 
+TEST_CASE("In parallel projection the ground hides metaballs from where the rays begin") {
+    // A wall of balls on both sides of the ground, which the eye's plane cuts in the picture's middle.
+    render::View view = blobs(0);
+    for (int k = 0; k < 25 * 25 * 2; ++k)
+        view.particles.push_back(
+            {0.15F * glm::vec3(k % 25 - 12, k / 25 % 25 - 12, -(k / 625)), 0.1F, {0.1F, 0.2F, 0.9F}});
+    view.camera.projection = render::Projection::orthographic;
+    view.camera.eye = {0.0F, 0.14F, 5.0F};
+    view.camera.target = {0.0F, 0.09F, 0.0F};
+    view.camera.halfHeight = 0.64F;
+    REQUIRE(view.ground);
+    view.ground->height = 0.0F;
+    const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), 20);
+    INFO(difference);
+    CHECK(difference.share <= 10.0 / 9075.0);  // 20 steps: normals between cast rays; outlines as above
+}
+
 TEST_CASE("Metaballs cast the oracle's shadows up to the depth map's resolution") {
     render::View view = blobs(150);
     view.light.shadows = true;

@@ -112,6 +112,20 @@ TEST_CASE("oracle: the field of two balls by hand") {
     CHECK(oracle::fieldAt(unequal, {0.0, 0.0, 0.0}) == 2.0 * 0.75 * 0.75);
 }
 
+TEST_CASE("oracle: in a smooth skin a small ball feels a large one from afar") {
+    // Reach 2.5, radii 0.1 and 1: the pair's reach is 1.375 m, thrice what the small ball has of its own.
+    render::View view = metaballView({{{}, 0.1F, {}}, {{0.7F, 0.0F, 0.0F}, 1.0F, {}}}, 2.5F);
+    view.field.skin = render::Skin::smooth;
+    const double root = 1.0 - 0.49 / (1.375 * 1.375);
+    const double share = root * root;
+    const std::vector<oracle::Ball> balls = oracle::ballsOf(view);
+    const double pull = double(render::kSkinPull) * 0.7 * share / (1.0 + share);
+    constexpr double kSingle = 1e-7;  // radii and places of a view
+    CHECK(std::abs(balls[0].center.x - pull) < kSingle);
+    CHECK(std::abs(balls[1].center.x - (0.7 - pull)) < kSingle);
+    for (const oracle::Ball& ball : balls) CHECK(std::abs(ball.weight - std::pow(1.0 + share, -0.75)) < kSingle);
+}
+
 TEST_CASE("oracle: a ray from inside the surface hits at once, with weighted colour and the field's gradient") {
     // At the origin 1 - d^2/R^2 is 3/4 and 1/2, so the kernels are as 9 to 4, and the field falls fastest along
     // 3/4 (0.5, 0, 0) + 1/2 (-0.5, -0.5, 0) = (0.125, -0.25, 0).

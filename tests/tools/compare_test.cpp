@@ -198,12 +198,14 @@ TEST_CASE("compare: JUnit's XML counts failures and errors, and stays XML", "[co
     two.both("frame-00000.png", balls());
     two.actual("a<b>&\".png", blank(balls()));
     two.expected("a<b>&\".png", balls());
+    two.both("no \xff UTF-8.png", balls());
     two.both("broken.png", balls());
     tools::writeFile(two / "actual/broken.png", std::string("no PNG"));
     CHECK(two.compare("--junit " + (two / "junit.xml").string()).code == 2);
     const std::string xml = program::textOf(two / "junit.xml");
     CHECK(xml.find("<?xml") == 0);
-    CHECK(xml.find("tests=\"3\" failures=\"1\" errors=\"1\"") != std::string::npos);
+    CHECK(xml.find("tests=\"4\" failures=\"1\" errors=\"1\"") != std::string::npos);
+    CHECK(xml.find("name=\"no \xEF\xBF\xBD UTF-8.png\"/>") != std::string::npos);
     CHECK(xml.find("name=\"frame-00000.png\"/>") != std::string::npos);
     CHECK(xml.find("name=\"a&lt;b&gt;&amp;&quot;.png\">\n    <failure type=\"largest\"") != std::string::npos);
     CHECK(xml.find("<error type=\"unreadable\"") != std::string::npos);
@@ -218,6 +220,10 @@ TEST_CASE("compare: frames of two videos", "[compare]") {
     };
     REQUIRE(film("actual", "a.mp4") == 0);
     REQUIRE(film("actual", "same.mp4") == 0);
+    fs::create_directories(two / "50%d");
+    fs::copy(two / "a.mp4", two / "take:1.mp4");
+    const std::string within = "cd " + (two / "").string() + " && TMPDIR=" + (two / "50%d").string();
+    CHECK(run("compare take:1.mp4 a.mp4 --quiet", within).code == 0);
     two.actual("frame-00002.png", shifted(balls()));
     REQUIRE(film("actual", "other.mp4") == 0);
     const std::string compare = "compare --json ";

@@ -3,6 +3,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
 #include "tests/catch.h"
 #include "tests/tools/program.h"
 
@@ -37,4 +41,28 @@ TEST_CASE("A long run takes no more memory than a short one", "[tools]") {
     INFO(brief << " kB, " << lengthy << " kB");
     // 600 pictures of 43 kB would be 25 MB; a frame's line of the manifest is a kilobyte at most.
     CHECK(lengthy - brief < 4000);
+}
+
+TEST_CASE("A run takes no more memory than check says, and not much less", "[tools]") {
+    const program::Folder folder;
+    const auto scene = [&](double height) {
+        const std::string path = (folder / "block.toml").string();
+        std::ofstream(path) << "title = \"block\"\nduration = 0.1\n[physics]\nstepper = \"auto\"\n"
+                               "[material]\npreset = \"liquid\"\n[[body]]\nshape = \"box\"\njitter = 0.02\n"
+                               "minimum = [-3, 0.2, -3]\nmaximum = [3, "
+                            << height
+                            << ", 3]\n"
+                               "[[obstacle]]\nshape = \"plane\"\n";
+        return path;
+    };
+    const auto simulated = [&](const std::string& path) {
+        return peakOf("simulate " + path + " --quiet --overwrite -o " + (folder / "states").string());
+    };
+    const long without = simulated(scene(0.5));
+    const std::string path = scene(8.0);
+    const auto said = nlohmann::json::parse(program::run("check --json " + path).out);
+    const double taken = 1024.0 * static_cast<double>(simulated(path) - without);
+    INFO(said["memory_bytes"] << " said, " << taken << " taken by " << said["particles_at_start"]);
+    CHECK(taken < said["memory_bytes"].get<double>());
+    CHECK(taken > 0.25 * said["memory_bytes"].get<double>());
 }

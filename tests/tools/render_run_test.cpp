@@ -47,8 +47,8 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
 
     const auto json = nlohmann::json::parse(textOf(folder / "a/run.json"));
     for (const char* key : {"scene", "scene_hash", "version", "threads", "instruction_set", "gl_renderer", "particles",
-                            "births", "refused_births", "deaths", "frames", "stepper", "steps", "seconds", "error_estimate", "energy",
-                            "linear_momentum", "angular_momentum", "state_hash"})
+                            "births", "refused_births", "deaths", "frames", "stepper", "steps", "seconds",
+                            "error_estimate", "energy", "linear_momentum", "angular_momentum", "state_hash"})
         CHECK(json.contains(key));
     CHECK(json["frames"] == 10);
     CHECK(json["steps"]["count"] >= 9);  // at least one for each interval
@@ -75,6 +75,8 @@ TEST_CASE("Leaving frames out changes none of those that are drawn", "[tools]") 
 TEST_CASE("globular video makes the same film of the frames, and refuses a gap", "[tools]") {
     const program::Folder folder;
     REQUIRE(run(fountainRun(folder / "a", "")).code == 0);
+    for (const char* foreign : {"frame--0001.png", "frame-99999999999.png", "frame-00001.jpg"})
+        std::ofstream(folder / "a" / foreign) << "no frame";
     REQUIRE(run("video " + (folder / "a").string() + " --quiet -o " + (folder / "again.mp4").string()).code == 0);
     CHECK(textOf(folder / "again.mp4") == textOf(folder / "a.mp4"));
     fs::remove(folder / "a/frame-00004.png");
