@@ -309,6 +309,7 @@ void advanceAutomatically(Simulation& simulation, double time) {
     giveBirth(simulation);
     const AutoState& state = simulation.automatic;
     if (simulation.particles.count() == 0) {
+        simulation.toleratedAcceleration = 0.0;  // of particles that are no more
         advanceAudited(simulation, time, time - simulation.time, StepLimit::frame);
         return;
     }

@@ -60,6 +60,7 @@ Vec3 jitterOf(const Emitter& emitter, const BirthContext& context, const Birth& 
 }
 
 bool isClear(const Particles& particles, const NewParticle& newborn, double clearance) {
+    if (clearance == 0.0) return true;
     for (std::size_t p = 0; p < particles.count(); ++p) {
         const double least = clearance * (particles.radius[p] + newborn.radius);
         if (squaredLength(particles.position[p] - newborn.position) < least * least) return false;

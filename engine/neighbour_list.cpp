@@ -98,7 +98,9 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
-    if (positions.size() != list.builtAt.size() || cutoff > list.reach) return false;
+    // A list that is forgotten has its order still.
+    if (positions.size() != list.builtAt.size() || positions.size() != list.count() || cutoff > list.reach)
+        return false;
     const double slack = 0.5 * (list.reach - cutoff);
     return largestOver(positions.size(), [&](std::size_t p) {
                const double moveSq = squaredLength(positions[p] - list.builtAt[p]);

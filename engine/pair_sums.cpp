@@ -143,7 +143,7 @@ template <PairTerms terms>
 double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
     const LanePass pass{pairs.list.rows, pairs.records, pairs.singles, pairs.unit,  pairs.uniform,
-                        terms,       hasEnergy,     sums.matrix,   sums.weights};
+                        terms,           hasEnergy,     sums.matrix,   sums.weights};
     const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
     const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};
     return overGroups(pairs.records.size(), [&](const Group& group) {
@@ -200,11 +200,12 @@ void addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
 double pairEnergySum(const PairTraversal& pairs) {
     const auto energyOfOne = [&](std::size_t self) {
         double energy = 0.0;
-        pairs.forEachNeighbour(
-            static_cast<std::uint32_t>(self), [&](std::uint32_t other, const Vec3&, double distanceSq) {
-                const auto constants = pairs.constants<false>(pairs.records[self], pairs.records[other]);
-                energy += 0.5 * pairEnergy(std::sqrt(distanceSq), constants);
-            });
+        pairs.forEachNeighbour(static_cast<std::uint32_t>(self),
+                               [&](std::uint32_t other, const Vec3&, double distanceSq) {
+                                   const PairRecord& p = pairs.records[self];
+                                   const PairRecord& i = pairs.records[other];
+                                   energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), pairs.constants<false>(p, i));
+                               });
         return energy;
     };
     return overGroups(pairs.records.size(), [&](const Group& group) { return sumOf(group, energyOfOne); });

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "render/replaceable.h"
 #include "render/system_error.h"
 
 namespace render {
@@ -37,7 +38,7 @@ void removeOld(const std::string& path) {
 
 }  // namespace
 
-PartialFilm::PartialFilm(const std::string& film) : film_(film), path_(film + ".partial") {
+PartialFilm::PartialFilm(const std::string& film) : film_(replaceable(film)), path_(film_ + ".partial") {
     removeOld(path_);
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("write " + path_, errno);

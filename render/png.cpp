@@ -3,9 +3,12 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -31,17 +34,24 @@ unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, 
     return output;
 }
 
-/// Whether every chunk ends within the file: the decoder would reserve whatever length one claims.
+constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+
+bool isPng(std::span<const std::uint8_t> bytes) {
+    return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
+}
+
+/// Whether every chunk up to the last ends within the file: the decoder would reserve whatever length one claims.
 bool holdsItsChunks(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kSignature = 8;
     constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
-    for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
+    constexpr std::string_view kLast = "IEND";
+    for (std::size_t at = kSignature.size(); at + kAround <= bytes.size();) {
         std::size_t length = 0;
         for (std::size_t byte = at; byte < at + 4; ++byte) length = length << 8 | bytes[byte];
         if (length > bytes.size() - at - kAround) return false;
+        if (std::equal(kLast.begin(), kLast.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4)) return true;
         at += kAround + length;
     }
-    return true;
+    return false;
 }
 
 }  // namespace
@@ -80,14 +90,23 @@ std::vector<std::uint8_t> encodePng(const Image& image) {
 }
 
 Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name) {
-    if (!holdsItsChunks(bytes)) throw SystemError(fmt::format("cannot read {} as PNG: it is cut short", name));
+    const auto require = [&](bool holds, const char* what) {
+        if (!holds) throw SystemError(fmt::format("cannot read {} as PNG: {}", name, what));
+    };
+    require(isPng(bytes), "it is no PNG");
+    require(holdsItsChunks(bytes), "it is cut short");
+    const auto size = static_cast<int>(bytes.size());
+    require(stbi_is_16_bit_from_memory(bytes.data(), size) == 0, "it has 16 bits a channel, 8 are wanted");
     Image image;
     int channels = 0;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width, &image.height, &channels, 3),
-        stbi_image_free);
-    if (!pixels) throw SystemError(fmt::format("cannot read {} as PNG: {}", name, stbi_failure_reason()));
-    image.rgb.assign(pixels.get(), pixels.get() + image.byteCount());
+        stbi_load_from_memory(bytes.data(), size, &image.width, &image.height, &channels, 4), stbi_image_free);
+    require(pixels != nullptr, stbi_failure_reason());
+    image.rgb.resize(image.byteCount());
+    for (std::size_t pixel = 0; pixel < image.byteCount() / 3; ++pixel) {
+        require(pixels.get()[4 * pixel + 3] == 255, "it is transparent, an opaque picture is wanted");
+        std::copy_n(pixels.get() + 4 * pixel, 3, image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+    }
     return image;
 }
 

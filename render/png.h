@@ -14,7 +14,7 @@ namespace render {
 /// smaller.
 std::vector<std::uint8_t> encodePng(const Image& image);
 
-/// Eight bits a channel, alpha dropped. Throws SystemError with the name and the decoder's words.
+/// Throws SystemError, with the name, for what is no PNG, has more than eight bits a channel or is not opaque.
 Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace render

@@ -174,12 +174,14 @@ void buildBody(const Body& body, BuildContext& context, engine::Particles& parti
     checkPoints(section, context);
     if (packed && section.isSound()) checkCount(section, context);
     if (!section.isSound()) return;
+    const std::size_t before = particles.count();
     if (shape == "file")
         appendFile(body, context, particles);
     else if (shape == "points")
         appendPoints(body, particles);
     else
-        appendPacked(body, context, particles);
+        return appendPacked(body, context, particles);
+    expect(section, "shape", static_cast<double>(particles.count() - before), "the body has", context);
 }
 
 }  // namespace

@@ -76,7 +76,9 @@ void completeSchedule(Section& section, double scheduleCount) {
 /// Births by the end of the scene have to be possible to hold.
 void checkBirths(Section& section, BuildContext& context) {
     const double until = section.has("until") ? std::min(section.number("until"), context.duration) : context.duration;
-    double births = section.number("rate") * std::max(0.0, until - section.number("start"));
+    // Each schedule gives birth at its start, too.
+    const double time = until - section.number("start");
+    double births = time > 0.0 ? section.number("rate") * (time + section.number("interval")) : 0.0;
     if (section.has("count")) births = std::min(births, static_cast<double>(section.integer("count")));
     expect(section, section.isGiven("rate") ? "rate" : "interval", births, "the emitter would give birth to", context);
 }

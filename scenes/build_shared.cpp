@@ -45,7 +45,7 @@ bool expect(Section& section, std::string_view name, double particles, std::stri
 }
 
 std::string allowedText(std::string_view limit, double most) {
-    return fmt::format("at most {:.2g} are allowed; --limit {}=N allows more", most, limit);
+    return fmt::format("at most {:.7g} are allowed; --limit {}=N allows more", most, limit);
 }
 
 void checkCorners(Section& section, BuildContext& context) {

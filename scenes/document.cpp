@@ -17,6 +17,9 @@ namespace {
 /// Bounds the time spent on a file that is no scene at all; a statement is mended at most twice.
 constexpr int kMostParses = 200;
 
+/// Parts of a key, and tables within tables: as many as the parser takes of values within values.
+constexpr int kDeepest = 256;
+
 /// Stands in for a value that could not be read.
 constexpr std::string_view kBroken =
     "\x7F"
@@ -30,26 +33,28 @@ bool isBefore(const Position& a, const Position& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
 }
 
-Value valueOf(const toml::node& node);
+Value valueOf(const toml::node& node, int depth);
 
-std::vector<Entry> entriesOf(const toml::table& table) {
+/// None beyond the deepest: no key of a scene is there, so that its beginning is reported as unknown.
+std::vector<Entry> entriesOf(const toml::table& table, int depth = 0) {
     std::vector<Entry> entries;
+    if (depth > kDeepest) return entries;
     for (auto&& [key, node] : table)
-        entries.push_back({std::string(key.str()), positionOf(key.source()), valueOf(node)});
+        entries.push_back({std::string(key.str()), positionOf(key.source()), valueOf(node, depth + 1)});
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return isBefore(a.at, b.at); });
     return entries;
 }
 
-Value valueOf(const toml::node& node) {
+Value valueOf(const toml::node& node, int depth = 0) {
     Value value;
     value.at = positionOf(node.source());
     if (const auto* table = node.as_table()) {
         value.kind = Kind::table;
-        value.entries = entriesOf(*table);
+        value.entries = entriesOf(*table, depth);
     } else if (const auto* array = node.as_array()) {
         value.kind = Kind::array;
-        for (const toml::node& item : *array) value.items.push_back(valueOf(item));
+        for (const toml::node& item : *array) value.items.push_back(valueOf(item, depth + 1));
     } else if (const auto* text = node.as_string()) {
         value.text = text->get();
         value.kind = value.text == kBroken ? Kind::broken : Kind::text;
@@ -177,10 +182,22 @@ void mend(Repair& repair, std::size_t index, bool duplicate) {
         repair.damaged = true;
 }
 
+/// The parser has no limit for the parts of a key, but the stack has one.
+void leaveOutDeepKeys(Repair& repair, ProblemList& problems) {
+    for (const Statement& statement : repair.statements) {
+        if (std::ranges::count(statement.name, '.') < kDeepest) continue;
+        problems.add({static_cast<int>(statement.firstLine) + 1, statement.column},
+                     fmt::format("a key of more than {} parts", kDeepest));
+        blank(repair, statement.firstLine, statement.lastLine);
+        repair.damaged = true;
+    }
+}
+
 }  // namespace
 
 Document parseDocument(std::string_view text, ProblemList& problems) {
     Repair repair(text);
+    leaveOutDeepKeys(repair, problems);
     for (int parse = 0; parse < kMostParses; ++parse) {
         try {
             const toml::table root = toml::parse(repair.text());

@@ -57,8 +57,10 @@ std::vector<render::Tick> ticksBetween(double low, double high) {
     const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
     std::vector<render::Tick> ticks;
     // Whole multiples of the step, so that the third tick from 0 by 0.1 is 0.3 and no number near it.
-    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1.0) {
-        const double value = k * step + 0.0;  // no "-0"
+    const double first = std::ceil(low / step - 1e-9);
+    constexpr int kMost = 20;  // more than any step leads to, unless the range is below its own rounding
+    for (int k = 0; k < kMost && (first + k) * step <= high + 1e-9 * step; ++k) {
+        const double value = (first + k) * step + 0.0;  // no "-0"
         ticks.push_back({single((value - low) / (high - low)), fmt::format("{:.{}f}", value, decimals)});
     }
     return ticks;

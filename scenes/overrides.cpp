@@ -97,7 +97,13 @@ void applyOne(Value& root, const std::string& text, Position at, ProblemList& pr
     }
     Value* table = tableFor(root, {*target, at}, problems);
     if (table == nullptr) return;
-    if (table->kind != Kind::table) return;  // the checks say what is wrong with it
+    if (table->kind != Kind::table) {
+        // Of what should be a table the checks say what is wrong with it.
+        if (findTable(target->table) == nullptr)
+            problems.add(at,
+                         fmt::format("{} is no table, {} has no key {}", target->table, target->table, target->key));
+        return;
+    }
     Entry& entry = findOrAdd(*table, target->key, at);
     entry.at = at;
     entry.value = parseOverrideValue(text.substr(equals + 1), at.overrideIndex);

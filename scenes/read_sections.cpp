@@ -87,7 +87,8 @@ void reportUnknownTables(Reader& reader) {
         const bool isTable =
             entry.value.kind == Kind::table ||
             (entry.value.kind == Kind::array && !entry.value.items.empty() && entry.value.items[0].kind == Kind::table);
-        if (!isTable || findTable(entry.key) != nullptr || findKey("", entry.key) != nullptr) continue;
+        const bool isSection = !entry.key.empty() && findTable(entry.key) != nullptr;
+        if (!isTable || isSection || findKey("", entry.key) != nullptr) continue;
         reader.doubtful = true;
         const std::string nearest = nearestName(entry.key, names);
         // The header itself, not the name in it, is where a table begins.

@@ -114,7 +114,7 @@ void checkSize(Sections& sections, BuildContext& context) {
         const double frames = top.number("duration") * static_cast<double>(top.integer("fps"));
         if (frames > context.limits.frames)
             report(top, top.isGiven("duration") ? "duration" : "fps",
-                   fmt::format("the animation would have about {:.2g} frames, {}", frames,
+                   fmt::format("the animation would have about {:.7g} frames, {}", frames,
                                allowedText("frames", context.limits.frames)),
                    context);
     }
@@ -122,7 +122,7 @@ void checkSize(Sections& sections, BuildContext& context) {
     const double pixels = sections.look.numbers("size")[0] * sections.look.numbers("size")[1];
     if (pixels > context.limits.pixels)
         report(sections.look, "size",
-               fmt::format("a picture would have about {:.2g} pixels, {}", pixels,
+               fmt::format("a picture would have about {:.7g} pixels, {}", pixels,
                            allowedText("pixels", context.limits.pixels)),
                context);
 }

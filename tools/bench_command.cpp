@@ -17,6 +17,7 @@
 #include "tools/json.h"
 #include "tools/open_context.h"
 #include "tools/scene_options.h"
+#include "tools/standard_streams.h"
 #include "tools/threads.h"
 
 namespace tools {
@@ -98,7 +99,7 @@ void bench(const BenchOptions& options) {
             print(row);
         else
             printJson(jsonOf(row, threads));
-        std::fflush(stdout);
+        requirePrinted();
     };
     onThreads(threads, [&] {
         runBench(options.settings, tell);

@@ -1,6 +1,8 @@
 // Commands and flags by CLI11.
 #include "tools/command_line.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
@@ -36,7 +38,9 @@ Flag& Flag::within(int least, int most) {
 }
 
 Flag& Flag::within(double least, double most) {
-    option_->check(CLI::Range(least, most));
+    // CLI11's own lets pass what is no number.
+    option_->check(numberThat([=](double value) { return value >= least && value <= most; },
+                              fmt::format("from {:g} to {:g}", least, most)));
     return *this;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,9 +16,11 @@
 #include "tools/compare_page.h"
 #include "tools/compare_pictures.h"
 #include "tools/ended.h"
+#include "tools/interrupt.h"
 #include "tools/json.h"
 #include "tools/junit.h"
 #include "tools/output_file.h"
+#include "tools/standard_streams.h"
 
 namespace tools {
 namespace {
@@ -116,7 +119,9 @@ void compareAll(const CompareOptions& options) {
     JunitReport junit;
     ComparePage page;
     std::vector<std::string> failed;
+    const InterruptWatch watch;
     const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
+        if (watch.signal() != 0) throw Ended(128 + watch.signal(), "");
         if (canBeApproved(result)) failed.push_back(result.name);
         printResult(options, result, job.limits);
         if (!options.junit.empty()) junit.add(result);
@@ -132,11 +137,14 @@ void compareAll(const CompareOptions& options) {
                   page.html({options.actual, options.expected, options.profile, job.limits, counts, approval}));
     }
     printSummary(options, counts, approval);
+    requirePrinted();
     if (counts.unreadable > 0) throw Ended(kTrouble, "");
     if (counts.failed() > 0) throw Ended(kDifferent, "");
 }
 
 void compareOrTrouble(const CompareOptions& options) {
+    // A reader that has seen enough is trouble like any other: the frames of films that were unpacked must go.
+    std::signal(SIGPIPE, SIG_IGN);
     try {
         compareAll(options);
     } catch (const Ended&) {

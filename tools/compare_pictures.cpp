@@ -47,6 +47,12 @@ void judge(PictureResult& result, const CompareJob& job) {
     if (!identical || statesDiffer) result.explanation = explain(result.actual.facts, result.expected.facts);
 }
 
+/// A picture of a folder or a film as its user knows it.
+std::string nameWithin(const fs::path& whole, const std::string& name) {
+    if (whole.extension() == ".png") return whole.string();
+    return whole.extension() == ".mp4" ? fmt::format("{} in {}", name, whole.string()) : (whole / name).string();
+}
+
 PictureResult resultOf(const PicturePair& pair, const CompareJob& job) {
     PictureResult result;
     result.name = pair.name;
@@ -57,10 +63,10 @@ PictureResult resultOf(const PicturePair& pair, const CompareJob& job) {
     } else if (!pair.expected) {
         result.status = PictureStatus::extra;
         result.reasons.push_back(
-            fmt::format("there is no golden for {}; approve it, or remove it", result.actual.path.string()));
+            fmt::format("there is no golden {}; approve it, or remove it", nameWithin(job.expected, pair.name)));
     } else if (!pair.actual) {
         result.status = PictureStatus::missing;
-        result.reasons.push_back(fmt::format("there is no actual picture for {}", result.expected.path.string()));
+        result.reasons.push_back(fmt::format("there is no picture {}", nameWithin(job.actual, pair.name)));
     } else {
         judge(result, job);
     }

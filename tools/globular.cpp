@@ -1,7 +1,6 @@
 // The program: subcommands in, exit codes out. Errors are caught here and nowhere else, one line for each problem.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <sstream>
 
 #include "engine/simulation.h"
@@ -9,6 +8,7 @@
 #include "scenes/input_error.h"
 #include "tools/commands.h"
 #include "tools/ended.h"
+#include "tools/standard_streams.h"
 
 namespace {
 
@@ -18,14 +18,16 @@ constexpr int kUnstable = 3;
 
 int report(const std::string& problems, int exitCode) {
     std::istringstream lines(problems);
-    for (std::string line; std::getline(lines, line);) fmt::print(stderr, "error: {}\n", line);
+    for (std::string line; std::getline(lines, line);) tools::say(fmt::format("error: {}\n", line));
     return exitCode;
 }
 
 int run(const tools::CommandLine& line, int argc, char** argv) {
     try {
-        if (line.run(argc, argv)) return 0;
-        return report("which command? See globular --help", kInputWrong);
+        if (!line.run(argc, argv)) return report("which command? See globular --help", kInputWrong);
+        // Results go to stdout; a full disk behind it is a failure like any other.
+        tools::requirePrinted();
+        return 0;
     } catch (const tools::UsageError& error) {
         return report(error.what(), kInputWrong);
     } catch (const scenes::InputError& error) {
@@ -59,8 +61,5 @@ int main(int argc, char** argv) {
     tools::addSchemaCommand(program);
     tools::addStudyCommand(program);
     tools::addBenchCommand(program);
-    const int code = run(line, argc, argv);
-    // Results go to stdout; a full disk behind it is a failure like any other.
-    if (std::fflush(stdout) != 0 && code == 0) return report("cannot write to standard output", kOutsideFailed);
-    return code;
+    return run(line, argc, argv);
 }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "render/replaceable.h"
 #include "render/system_error.h"
 
 namespace tools {
@@ -70,9 +71,10 @@ void createFolder(const fs::path& folder) {
 }
 
 void writeFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
-    TemporaryFile file(path.parent_path() / fmt::format(".{}.partial", path.filename().string()));
+    const fs::path target = render::replaceable(path);
+    TemporaryFile file(target.parent_path() / fmt::format(".{}.partial", target.filename().string()));
     file.write(bytes);
-    file.keepAs(path);
+    file.keepAs(target);
 }
 
 void writeFile(const fs::path& path, const std::string& text) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/json.h"
+#include "tools/standard_streams.h"
 
 namespace tools {
 namespace {
@@ -32,7 +33,7 @@ Progress::Progress(std::string title, int total, Talk talk)
       start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-    if (talk_ == Talk::normal && terminal_ && done_ > 0) std::fputs("\n", stderr);
+    if (talk_ == Talk::normal && terminal_ && done_ > 0) say("\n");
 }
 
 void Progress::frameDone(int frame, double sceneTime) {
@@ -53,15 +54,14 @@ void Progress::frameDone(int frame, double sceneTime) {
 
 void Progress::drawBar(double elapsed) const {
     const int filled = kBarWidth * done_ / total_;
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "", kBarWidth - filled,
-               done_, total_, done_ / elapsed, timeLeft(done_, total_, elapsed));
-    std::fflush(stderr);
+    say(fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "", kBarWidth - filled,
+                    done_, total_, done_ / elapsed, timeLeft(done_, total_, elapsed)));
 }
 
 void Progress::printLine(double elapsed) {
     lastLine_ = elapsed;
-    fmt::print(stderr, "{}: frame {} of {}, {:.1f} frames/s, {}\n", title_, done_, total_, done_ / elapsed,
-               timeLeft(done_, total_, elapsed));
+    say(fmt::format("{}: frame {} of {}, {:.1f} frames/s, {}\n", title_, done_, total_, done_ / elapsed,
+                    timeLeft(done_, total_, elapsed)));
 }
 
 }  // namespace tools

@@ -11,6 +11,7 @@
 #include "scenes/input_error.h"
 #include "scenes/library.h"
 #include "tools/number_in.h"
+#include "tools/standard_streams.h"
 
 namespace tools {
 namespace {
@@ -101,7 +102,7 @@ FolderOptions folderOf(const FolderFlags& flags, const std::string& name) {
     if (flags.resume) options.existing = Existing::keep;
     if (flags.overwrite) options.existing = Existing::overwrite;
     options.checkpointSeconds = flags.checkpointSeconds;
-    options.warn = [](const std::string& line) { fmt::print(stderr, "warning: {}\n", line); };
+    options.warn = [](const std::string& line) { say(fmt::format("warning: {}\n", line)); };
     return options;
 }
 

@@ -21,6 +21,7 @@
 #include "tools/number_in.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
+#include "tools/standard_streams.h"
 #include "tools/threads.h"
 
 namespace tools {
@@ -103,8 +104,8 @@ studies::RunListener reporter(const std::string& name, Talk talk) {
                            {"ending", studies::nameOf(run.ending)},
                            {"seconds", run.seconds}});
         else if (talk == Talk::normal)
-            fmt::print(stderr, "{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper, run.variant.asked,
-                       run.steps.count, run.seconds, studies::nameOf(run.ending));
+            say(fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper, run.variant.asked,
+                            run.steps.count, run.seconds, studies::nameOf(run.ending)));
     };
 }
 

@@ -16,6 +16,7 @@
 #include "tools/output_file.h"
 #include "tools/pictures_page.h"
 #include "tools/scene_options.h"
+#include "tools/standard_streams.h"
 #include "tools/threads.h"
 
 namespace tools {
@@ -81,9 +82,9 @@ void tellRow(const studies::PictureRow& row, Talk talk) {
                        {"ratio_at_rest", row.ratioAtRest()},
                        {"ssim", row.error.ssim}});
     else if (talk == Talk::normal)
-        fmt::print(stderr, "{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
-                   studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
-                   studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim);
+        say(fmt::format("{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
+                        studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
+                        studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim));
 }
 
 /// Writes a table after each of its rows: the study takes long, and what interrupts it leaves what was measured.

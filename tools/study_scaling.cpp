@@ -18,6 +18,7 @@
 #include "tools/output_file.h"
 #include "tools/scaling_page.h"
 #include "tools/scene_options.h"
+#include "tools/standard_streams.h"
 #include "tools/threads.h"
 
 namespace tools {
@@ -57,7 +58,7 @@ studies::ScalingListener rowReporter(Talk talk) {
                            {"seconds", row.list},
                            {"state_hash", row.stateHash}});
         else if (talk == Talk::normal)
-            fmt::print(stderr, "{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list);
+            say(fmt::format("{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list));
     };
 }
 

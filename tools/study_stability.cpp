@@ -16,6 +16,7 @@
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
 #include "tools/stability_page.h"
+#include "tools/standard_streams.h"
 #include "tools/threads.h"
 
 namespace tools {
@@ -65,7 +66,7 @@ std::vector<studies::CaseOptions> chosenCases(const StabilityOptions& options) {
 void tellCase(const studies::CaseResult& result, Talk talk) {
     const studies::VariantResult& worst = studies::worstOfOurs(result);
     if (talk == Talk::normal)
-        fmt::print(stderr, "{}: {} variants, {:.1f} s\n", result.name, result.variants.size(), result.seconds);
+        say(fmt::format("{}: {} variants, {:.1f} s\n", result.name, result.variants.size(), result.seconds));
     if (talk != Talk::json) return;
     const Json line = {{"event", "case"},
                        {"case", result.name},

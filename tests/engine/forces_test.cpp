@@ -88,6 +88,11 @@ TEST_CASE("Edges: none, one, two, coincident, one cell, outliers", "[forces]") {
     Particles coincident = clouds::strewn(20, 0.3);
     for (std::size_t p = 0; p < 8; ++p) coincident.position[p] = Vec3(0.1, 0.1, 0.1);
     checkGridAgainstReference(law, coincident);
+    ForceEvaluator grid(law, ForceMethod::grid);
+    std::vector<Vec3> forces;
+    const double energy = pairEnergyReference(law, coincident);
+    CHECK_THAT(grid.evaluateFree(coincident, coincident.velocity, forces), Catch::Matchers::WithinRel(energy, 1e-12));
+    CHECK_THAT(grid.pairEnergyGrid(coincident), Catch::Matchers::WithinRel(energy, 1e-12));
     for (const Vec3& force : onGrid(law, coincident)) CHECK(force.allFinite());
     Particles far = clouds::strewn(100, 0.8);
     far.position[3] = Vec3(9e7, -9e7, 9e7);

@@ -34,7 +34,10 @@ TEST_CASE("particles keep place, radius and order, in single precision") {
 }
 
 TEST_CASE("numbers beyond single precision stay finite") {
-    const render::View view = viewOf(kTop + "[[body]]\nshape = \"points\"\npositions = [[1e300, -1e300, 0]]\n");
+    const scenes::Scene scene = sceneOf(kPoint);
+    engine::Particles particles = scene.setup.initial;
+    particles.position.at(0) = Vec3(1e300, -1e300, 0.0);
+    const render::View view = scenes::frameView(scene, particles, 0.0);
     CHECK(view.particles.at(0).center.x == std::numeric_limits<float>::max());
     CHECK(view.particles.at(0).center.y == -std::numeric_limits<float>::max());
 }

@@ -36,14 +36,15 @@ TEST_CASE("tables of a list are counted from 0, with brackets or dots") {
 }
 
 TEST_CASE("problems of overrides name the option, after those of the file and in their order") {
-    CHECK(problemsOf(kBall, {"physics.step=-1"}) == Lines{"--set physics.step=-1: step is -1, must be > 0 (seconds)"});
+    CHECK(problemsOf(kBall, {"physics.step=-1"}) ==
+          Lines{"--set physics.step=-1: step is -1, must be >= 1e-09 (seconds)"});
     CHECK(problemsOf(kBall, {"physics.gravty=1"}) ==
           Lines{"--set physics.gravty=1: unknown key \"physics.gravty\", did you mean \"gravity\"?"});
     CHECK(problemsOf(kBall, {"phisics.step=1"}) ==
           Lines{"--set phisics.step=1: unknown table \"phisics\", did you mean \"physics\"?"});
     CHECK(problemsOf(kBall + "[physics]\ndrag = -1\n", {"physics.step=0", "fps=0"}) ==
           Lines{"pile.toml:7:8: drag is -1, must be >= 0 (per second)",
-                "--set physics.step=0: step is 0, must be > 0 (seconds)",
+                "--set physics.step=0: step is 0, must be >= 1e-09 (seconds)",
                 "--set fps=0: fps is 0, must be 1 to 240 (per second)"});
     CHECK(problemsOf(kBall, {"look.size=[640, 4.5]"}) ==
           Lines{"--set look.size=[640, 4.5]: size[1] is 4.5, must be a whole number (pixels)"});

@@ -96,3 +96,43 @@ TEST_CASE("An unstable run exits with 3 and keeps the frames before", "[tools]")
     CHECK(std::filesystem::exists(folder / "frames/frame-00000.png"));
     CHECK(program::textOf(folder / "frames/run.json").find("unstable") != std::string::npos);
 }
+
+TEST_CASE("Exit codes do not depend on whether anybody listens", "[tools]") {
+    const auto codeOf = [](const std::string& shell) {
+        const int status = std::system(shell.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    const std::string program = GLOBULAR_PROGRAM;
+    for (const char* deaf : {" 2>/dev/full", " 2>&-", " >&- 2>&-"}) {
+        INFO(deaf);
+        CHECK(codeOf(program + " check no-such-file.toml" + deaf) == 2);
+    }
+    CHECK(codeOf(program + " scenes >/dev/full 2>/dev/null") == 1);
+    CHECK(codeOf(program + " --version >/dev/full 2>/dev/null") == 1);
+    CHECK(codeOf(program + " bench --filter copy --rounds 1 >/dev/full 2>/dev/null") == 1);
+}
+
+TEST_CASE("Scenes that would never end, or break the reader, are refused", "[tools]") {
+    const program::Folder folder;
+    const std::string scene = "title = \"t\"\nduration = 1\n[[body]]\nshape = \"ball\"\nradius = 0.3\n";
+    std::string deep;
+    for (int part = 0; part < 20000; ++part) deep += "a.";
+    const auto problem = [&](const std::string& text, const std::string& more = "") {
+        std::ofstream(folder / "a.toml") << text;
+        const auto outcome = run("check " + (folder / "a.toml").string() + more);
+        CHECK(outcome.code == 2);
+        return outcome.err;
+    };
+    CHECK(problem(scene + "[physics]\nstep = 1e-300\n").find("a.toml:7:8: step is 1e-300") != std::string::npos);
+    CHECK(problem(scene + "[[emitter]]\nposition = [0, 0, 0]\ninterval = 1e-17\n").find(":8:12: interval is 1e-17") !=
+          std::string::npos);
+    CHECK(problem(deep + "a = 1\n" + scene).find("a.toml:1:1: a key of more than 256 parts") != std::string::npos);
+    CHECK(problem("\"\" = 3\n" + scene).find("a.toml:1:1: unknown key") != std::string::npos);
+    CHECK(problem(scene + "[\"\"]\n").find("unknown table") != std::string::npos);
+    CHECK(problem(scene, " --set duration.value=9").find("duration is no table") != std::string::npos);
+    CHECK(problem(scene + "[[body]]\nshape = \"points\"\npositions = [[1e300, 0, 0]]\n").find("positions[0][0] is") !=
+          std::string::npos);
+    CHECK(problem("title = \"t\"\nduration = 1\n[[body]]\nshape = \"points\"\npositions = [[0, 0, 0], [1, 0, 0]]\n",
+                  " --limit particles=1")
+              .find("2 particles, at most 1 are allowed") != std::string::npos);
+}

@@ -86,7 +86,7 @@ TEST_CASE("compare: two files, whatever their names", "[compare]") {
     CHECK(run("compare " + (two / "actual/a.png").string() + " " + (two / "actual/a.png").string()).code == 0);
     const auto missing = run("compare " + (two / "actual/a.png").string() + " " + (two / "expected/none.png").string());
     CHECK(missing.code == 1);
-    CHECK(missing.out.find("there is no golden for") != std::string::npos);
+    CHECK(missing.out.find("there is no golden") != std::string::npos);
 }
 
 TEST_CASE("compare: missing, extra, unreadable and differently sized pictures are reasons of their own", "[compare]") {
@@ -265,4 +265,42 @@ TEST_CASE("compare: runs of the program say themselves what changed", "[compare]
     CHECK(changed() == "renderer");
     REQUIRE(draw("actual", " --set physics.drag=3") == 0);
     CHECK(changed() == "simulation");
+}
+
+TEST_CASE("compare: pictures that say more than eight opaque bits a channel are not read as if they did not",
+          "[compare]") {
+    Two two;
+    const auto made = [&](const std::string& source, const std::string& format, const std::string& name) {
+        const std::string command = "ffmpeg -loglevel error -nostdin -f lavfi -i " + source + " -frames:v 1 -pix_fmt " +
+                                    format + " " + (two / name).string();
+        REQUIRE(std::system(command.c_str()) == 0);
+        return run("compare " + (two / name).string() + " " + (two / name).string());
+    };
+    CHECK(made("color=red@0.5:s=16x16,format=rgba", "rgba", "half.png").out.find("transparent") != std::string::npos);
+    CHECK(made("color=red:s=16x16", "rgb48be", "deep.png").out.find("16 bits") != std::string::npos);
+    CHECK(made("color=red:s=16x16,format=rgba", "rgba", "opaque.png").code == 0);
+    tools::writeFile(two / "text.png", std::string("no picture at all"));
+    CHECK(run("compare " + (two / "text.png").string() + " " + (two / "text.png").string()).out.find("it is no PNG") !=
+          std::string::npos);
+}
+
+TEST_CASE("compare: what is no verdict is trouble", "[compare]") {
+    Two two;
+    two.both("a.png", noisy(balls(), 1));
+    CHECK(two.compare("--max-mean nan").code == 2);
+    CHECK(two.compare("--min-ssim nan").code == 2);
+    CHECK(two.compare("--max-share -1").code == 2);
+    CHECK(std::system((GLOBULAR_PROGRAM " compare " + (two / "actual").string() + " " + (two / "expected").string() +
+                       " >/dev/full 2>/dev/null")
+                          .c_str()) == 2 << 8);
+    for (int k = 0; k < 20; ++k)
+        two.actual("film/frame-" + std::string(k < 10 ? "0000" : "000") + std::to_string(k) + ".png",
+                   noisy(balls(), k));
+    REQUIRE(run("video " + (two / "actual/film").string() + " --quiet -o " + (two / "a.mp4").string()).code == 0);
+    fs::copy(two / "a.mp4", two / "short.mp4");
+    fs::resize_file(two / "short.mp4", fs::file_size(two / "a.mp4") / 2);
+    const auto cut = run("compare " + (two / "short.mp4").string() + " " + (two / "a.mp4").string());
+    INFO(cut.out << cut.err);
+    CHECK(cut.code == 2);
+    CHECK(cut.err.find("short.mp4") != std::string::npos);
 }

@@ -1,4 +1,6 @@
 // Files are written whole or not at all; base64 is the standard's.
+#include <sys/stat.h>
+
 #include <filesystem>
 
 #include "render/system_error.h"
@@ -45,6 +47,27 @@ TEST_CASE("A file that cannot be written names itself and the reason, and leaves
         CHECK(std::string(error.what()).find("No such file or directory") != std::string::npos);
     }
     CHECK_THROWS_AS(tools::readFile(folder / "nothing"), render::SystemError);
+}
+
+TEST_CASE("What a link leads to is replaced, a device or a pipe is not", "[tools]") {
+    const program::Folder folder;
+    tools::createFolder(folder / "else");
+    fs::create_symlink("else/target.txt", folder / "link");  // which is not there yet
+    for (const char* text : {"first", "second"}) {
+        tools::writeFile(folder / "link", std::string(text));
+        CHECK(fs::is_symlink(folder / "link"));
+        CHECK(program::textOf(folder / "else/target.txt") == text);
+    }
+    fs::create_symlink("circle", folder / "circle");
+    CHECK_THROWS_AS(tools::writeFile(folder / "circle", std::string("x")), render::SystemError);
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    CHECK_THROWS_AS(tools::writeFile(folder / "pipe", std::string("x")), render::SystemError);
+    CHECK(fs::is_fifo(folder / "pipe"));
+    const auto film = program::run("render fountain --size 64x36 --frames 0 --quiet -o " + (folder / "a").string() +
+                                   " --video " + (folder / "pipe").string());
+    CHECK(film.code == 1);
+    CHECK(film.err.find("a file is wanted") != std::string::npos);
+    CHECK(fs::is_fifo(folder / "pipe"));
 }
 
 TEST_CASE("Base64 as in RFC 4648, section 10", "[tools]") {
