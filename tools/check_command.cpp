@@ -50,11 +50,11 @@ engine::Particles everyKind(const scenes::Scene& scene) {
     return particles;
 }
 
-/// Bytes a particle takes at most while a frame is in flight: of the run as it goes, and as spheres to draw.
+/// Bytes a particle takes at most while a frame is in flight: of the run as it goes, and as spheres to draw. Of a run
+/// that has any.
 std::size_t bytesPerParticle(const engine::Simulation& simulation) {
     constexpr std::size_t kFramesInFlight = 4;
-    const std::size_t count = std::max<std::size_t>(1, simulation.particles.count());
-    return engine::mostBytes(simulation) / count + kFramesInFlight * sizeof(render::Sphere);
+    return engine::mostBytes(simulation) / simulation.particles.count() + kFramesInFlight * sizeof(render::Sphere);
 }
 
 /// How the beginning of the run went.
@@ -63,17 +63,28 @@ struct Preview {
     int frames = 0;        ///< that were simulated
     double seconds = 0.0;  ///< of wall clock, births and looks included
     double particleFrames = 0.0;
+    std::size_t mostParticles = 0;     ///< at the end of a frame
+    std::size_t bytesPerParticle = 0;  ///< then
 };
+
+void noteMemory(Preview& preview) {
+    const std::size_t count = preview.simulation.particles.count();
+    if (count == 0 || count < preview.mostParticles) return;
+    preview.mostParticles = count;
+    preview.bytesPerParticle = bytesPerParticle(preview.simulation);
+}
 
 /// Simulates until a share of the work of a short run is done: what is predicted is what happened so far.
 Preview simulateBeginning(const scenes::Scene& scene) {
     constexpr double kSecondsEnough = 2.0;  // chosen: as long as one likes to wait for a check
     Preview preview{engine::start(scene.setup)};
+    noteMemory(preview);
     const auto start = std::chrono::steady_clock::now();
     while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
         scenes::advanceToFrame(scene, preview.simulation, ++preview.frames);
         preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
+        noteMemory(preview);
     }
     return preview;
 }
@@ -97,7 +108,7 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
         automatic.looks > 0 ? Json(automatic.errorSum / static_cast<double>(automatic.looks)) : Json(nullptr);
     json["seconds_simulating"] =
         preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
-    json["bytes_per_particle"] = bytesPerParticle(simulation);
+    json["bytes_per_particle"] = preview.bytesPerParticle;
     return json;
 }
 
