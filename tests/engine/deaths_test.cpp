@@ -142,16 +142,16 @@ TEST_CASE("A checkpoint with deaths that cannot have been is refused", "[deaths]
 
 TEST_CASE("A world that has emptied takes steps, births and checkpoints like one that was empty from the start",
           "[deaths]") {
-    for (const StepperKind stepper : kSteppers) {
-        if (stepper == StepperKind::symplecticEuler) continue;
+    for (const StepperKind stepper :
+         {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::automatic}) {
         Setup setup = runs::freeSetup(*materialPreset("honey"), stepper, 0.004);
         setup.gravity = Vec3(0.0, -9.8, 0.0);
         setup.scenery.colliders = {Plane{Vec3(0.0, -50.0, 0.0), Vec3::UnitY()}};
-        runs::addPacking(setup, {4, 3, 4});
+        runs::addPacking(setup, {2, 2, 2});
         setup.world = Bounds{};
         setup.world->minimum.y() = -0.5;
         Emitter emitter;
-        emitter.sites = discSites(Vec3(0.0, 1.5, 0.0), Vec3::UnitY(), 0.6, 0.25);
+        emitter.sites = discSites(Vec3(0.0, 1.5, 0.0), Vec3::UnitY(), 0.4, 0.25);
         emitter.start = 0.62;
         emitter.interval = 0.05;
         emitter.clearance = 0.0;
@@ -164,8 +164,8 @@ TEST_CASE("A world that has emptied takes steps, births and checkpoints like one
         REQUIRE(whole.particles.count() == 0);
         Simulation resumed = decodeCheckpoint(setup, encodeCheckpoint(whole));
         Simulation copied = whole;
-        for (Simulation* simulation : {&whole, &resumed, &copied}) runs::advanceFrames(*simulation, frame, 34);
-        REQUIRE(whole.particles.count() > 30);
+        for (Simulation* simulation : {&whole, &resumed, &copied}) runs::advanceFrames(*simulation, frame, 24);
+        REQUIRE(whole.particles.count() > 10);
         CHECK(stateHash(resumed.particles) == stateHash(whole.particles));
         CHECK(stateHash(copied.particles) == stateHash(whole.particles));
     }
