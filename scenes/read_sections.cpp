@@ -87,8 +87,7 @@ void reportUnknownTables(Reader& reader) {
         const bool isTable =
             entry.value.kind == Kind::table ||
             (entry.value.kind == Kind::array && !entry.value.items.empty() && entry.value.items[0].kind == Kind::table);
-        const bool isSection = !entry.key.empty() && findTable(entry.key) != nullptr;
-        if (!isTable || isSection || findKey("", entry.key) != nullptr) continue;
+        if (!isTable || isSection(entry.key) || findKey("", entry.key) != nullptr) continue;
         reader.doubtful = true;
         const std::string nearest = nearestName(entry.key, names);
         // The header itself, not the name in it, is where a table begins.

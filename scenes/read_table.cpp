@@ -150,8 +150,7 @@ Section readTable(const TableSource& source, ProblemList& problems) {
         const bool isTable =
             entry.value.kind == Kind::table ||
             (entry.value.kind == Kind::array && !entry.value.items.empty() && entry.value.items[0].kind == Kind::table);
-        const bool isSection = !entry.key.empty() && findTable(entry.key) != nullptr;
-        if (isTop && (isSection || (isTable && findKey("", entry.key) == nullptr))) continue;
+        if (isTop && (isSection(entry.key) || (isTable && findKey("", entry.key) == nullptr))) continue;
         readEntry(reading, entry);
     }
     for (const Key* key : keysOf(source.info.name)) completeKey(reading, *key);

@@ -68,6 +68,11 @@ const std::vector<Key>& schema();
 /// nullptr if there is no such table.
 const TableInfo* findTable(std::string_view name);
 
+/// Whether a table of a scene has this name; the one at the top has none.
+inline bool isSection(std::string_view name) {
+    return !name.empty() && findTable(name) != nullptr;
+}
+
 /// nullptr if the table has no such key.
 const Key* findKey(std::string_view table, std::string_view name);
 
