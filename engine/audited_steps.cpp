@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/births.h"
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
 #include "engine/step_cost.h"

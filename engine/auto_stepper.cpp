@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "engine/audited_steps.h"
+#include "engine/births.h"
 #include "engine/error_look.h"
 #include "engine/far_look.h"
 #include "engine/parallel.h"

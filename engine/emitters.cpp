@@ -59,13 +59,14 @@ Vec3 jitterOf(const Emitter& emitter, const BirthContext& context, const Birth& 
            symmetricUnit(drawBits(context, birth, Purpose::jitterSecond)) * plane.second;
 }
 
-bool isClear(const Particles& particles, const NewParticle& newborn, double clearance) {
+bool isClear(const Particles& particles, const LinkedCells& cells, const NewParticle& newborn, double clearance) {
     if (clearance == 0.0) return true;
-    for (std::size_t p = 0; p < particles.count(); ++p) {
+    bool isClear = true;
+    cells.forEachNear(newborn.position, [&](std::size_t p) {
         const double least = clearance * (particles.radius[p] + newborn.radius);
-        if (squaredLength(particles.position[p] - newborn.position) < least * least) return false;
-    }
-    return true;
+        if (squaredLength(particles.position[p] - newborn.position) < least * least) isClear = false;
+    });
+    return isClear;
 }
 
 NewParticle newbornOf(const Emitter& emitter, const BirthContext& context, const Material& material,
@@ -140,8 +141,12 @@ double nextBirth(const Emitter& emitter, const EmitterState& state) {
     return next;
 }
 
+double birthReach(const Emitter& emitter, double largestRadius) {
+    return emitter.clearance * 2.0 * largestRadius;
+}
+
 std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext& context, const Material& material,
-                 Particles& particles) {
+                 Particles& particles, LinkedCells& cells) {
     std::size_t born = 0;
     for (std::size_t s = 0; s < state.schedules.size(); ++s) {
         Schedule& schedule = state.schedules[s];
@@ -150,13 +155,14 @@ std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext
             const Birth birth{s, schedule.births};
             NewParticle newborn = newbornOf(emitter, context, material, birth);
             fly(newborn, context.gravity, std::max(0.0, context.time - schedule.due));
-            if (!isClear(particles, newborn, emitter.clearance)) {
+            if (!isClear(particles, cells, newborn, emitter.clearance)) {
                 if (!schedule.delayed) ++state.refusals;
                 schedule.delayed = true;
                 schedule.due += emitter.interval / kTries;
                 continue;
             }
             append(particles, newborn);
+            cells.add(newborn.position);
             // A delay shifts the schedule, or its births would come in a burst.
             ++schedule.births;
             if (schedule.delayed)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/linked_cells.h"
 #include "engine/material.h"
 #include "engine/particles.h"
 
@@ -69,9 +70,13 @@ struct BirthContext {
     std::uint64_t emitterIndex = 0;  ///< keys the random numbers
 };
 
-/// Appends the particles that are due at or before the context's time and have room; returns how many.
-/// A birth that was due earlier starts where its flight would have taken it by now.
+/// How far from its own place a birth looks for others, m. Shape: the largest radius that anybody has, m.
+double birthReach(const Emitter& emitter, double largestRadius);
+
+/// Appends the particles that are due at or before the context's time and have room, and adds them to the cells, which
+/// hold all others and are as wide as the birth's reach; returns how many. A birth that was due earlier starts where
+/// its flight would have taken it by now.
 std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext& context, const Material& material,
-                 Particles& particles);
+                 Particles& particles, LinkedCells& cells);
 
 }  // namespace engine

@@ -20,24 +20,30 @@ std::vector<Material> mixedPairs(const std::vector<Material>& materials) {
     return pairs;
 }
 
+double reachOf(const std::vector<Material>& materials) {
+    double reach = 0.0;
+    for (const Material& material : materials) {
+        // The mix's reaches lie between those of its parts.
+        reach = std::max(reach, material.repulsionReach);
+        if (material.damping > 0.0) reach = std::max(reach, material.dampingReach);
+    }
+    return reach;
+}
+
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
     ForceTerms terms;
-    double reach = 0.0;
     for (const Material& material : law.materials) {
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;
         terms.pair.friction |= material.friction > 0.0;
         terms.uniform &= sameLaw(material, law.materials.front());
-        // The mix's reaches lie between those of its parts.
-        reach = std::max(reach, material.repulsionReach);
-        if (material.damping > 0.0) reach = std::max(reach, material.dampingReach);
     }
     double largestRadius = 0.0;
     for (const double radius : particles.radius) {
         terms.uniform &= radius == particles.radius.front();
         largestRadius = std::max(largestRadius, radius);
     }
-    terms.cutoff = reach * 2.0 * largestRadius;
+    terms.cutoff = reachOf(law.materials) * 2.0 * largestRadius;
     return terms;
 }
 

@@ -24,6 +24,9 @@ struct ForceTerms {
     double cutoff = 0.0;  ///< no pair acts at or beyond it, m
 };
 
+/// How far a pair of these materials may act on each other, in sums of radii.
+double reachOf(const std::vector<Material>& materials);
+
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles);
 
 /// Every particle's material against every other's, mixed once. Row-major, materials.size() squared.

@@ -22,7 +22,10 @@ enum class ForceMethod {
 void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                          std::vector<Vec3>& forces);
 
-/// Pair energy of the conservative part, in joules, by every pair.
+/// Energy of the conservative part of one pair, in joules.
+double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i);
+
+/// The same of every pair.
 double pairEnergyReference(const ForceLaw& law, const Particles& particles);
 
 /// Evaluates forces again and again and keeps the memory it needs for that.

@@ -47,17 +47,18 @@ void pairForcesReference(const ForceLaw& law, const Particles& particles, const 
     }
 }
 
+double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i) {
+    const Pair pair = pairOf(law, particles, p, i);
+    const double energy = pairEnergy(std::sqrt(squaredLength(pair.separation)), pair.constants);
+    // What parts a coincident pair is above its energy by as much as its stand-in lies below.
+    const bool isCoincident = particles.position[p] == particles.position[i];
+    return isCoincident ? 2.0 * pairEnergy(0.0, pair.constants) - energy : energy;
+}
+
 double pairEnergyReference(const ForceLaw& law, const Particles& particles) {
     double energy = 0.0;
-    for (std::size_t p = 0; p < particles.count(); ++p) {
-        for (std::size_t i = p + 1; i < particles.count(); ++i) {
-            const Pair pair = pairOf(law, particles, p, i);
-            const double own = pairEnergy(std::sqrt(squaredLength(pair.separation)), pair.constants);
-            // What parts a coincident pair is above its energy by as much as its stand-in lies below.
-            const bool isCoincident = particles.position[p] == particles.position[i];
-            energy += isCoincident ? 2.0 * pairEnergy(0.0, pair.constants) - own : own;
-        }
-    }
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        for (std::size_t i = p + 1; i < particles.count(); ++i) energy += pairEnergyReference(law, particles, p, i);
     return energy;
 }
 

@@ -1,4 +1,4 @@
-// The run, seen whole: how a simulation starts, how it gets to a point in time, and how particles are born.
+// The run, seen whole: how a simulation starts, and how it gets to a point in time.
 #include "engine/simulation.h"
 
 #include <algorithm>
@@ -6,9 +6,9 @@
 
 #include "engine/audited_steps.h"
 #include "engine/auto_stepper.h"
+#include "engine/births.h"
 #include "engine/deaths.h"
 #include "engine/soundness.h"
-#include "engine/step_audit.h"
 #include "engine/steppers.h"
 
 namespace engine {
@@ -64,20 +64,6 @@ void advance(Simulation& simulation, double time) {
         advanceAutomatically(simulation, time);
     else
         advanceAudited(simulation, time, simulation.setup.step, StepLimit::given);
-}
-
-void giveBirth(Simulation& simulation) {
-    const std::size_t first = simulation.particles.count();
-    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) {
-        const Emitter& emitter = simulation.setup.emitters[e];
-        const BirthContext context{simulation.time, simulation.setup.gravity, simulation.setup.seed, e};
-        emit(emitter, simulation.emitters[e], context, simulation.setup.materials[emitter.material],
-             simulation.particles);
-    }
-    if (simulation.particles.count() == first) return;
-    requireSound(simulation, 0.0);  // a nozzle may stand anywhere
-    simulation.forcesCurrent = false;
-    noteBirths(simulation, first);
 }
 
 std::uint64_t birthCount(const Simulation& simulation) {

@@ -174,9 +174,6 @@ Simulation start(const Setup& setup);
 /// Throws InstabilityError when a particle is no longer finite or has left the world.
 void advance(Simulation& simulation, double time);
 
-/// The births that are due at the simulation's time.
-void giveBirth(Simulation& simulation);
-
 /// Births that have happened and births that had to wait, over all emitters.
 std::uint64_t birthCount(const Simulation& simulation);
 std::uint64_t refusalCount(const Simulation& simulation);

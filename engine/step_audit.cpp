@@ -23,18 +23,12 @@ double contactEnergyOf(const Simulation& simulation, std::size_t p) {
     return contactEnergy(simulation.setup.scenery, {particles.position[p], Vec3::Zero(), particles.radius[p], 1.0});
 }
 
-/// Of a newborn with all that are older, J; cutoff: beyond which no pair acts, m.
-double energyWithEarlier(const Simulation& simulation, std::size_t p, double cutoff) {
-    const Particles& particles = simulation.particles;
-    const std::vector<Material>& materials = simulation.setup.materials;
+/// Of a newborn with all that are older, J.
+double energyWithEarlier(const Simulation& simulation, std::size_t p, const LinkedCells& cells) {
     double energy = 0.0;
-    for (std::size_t i = 0; i < p; ++i) {
-        const double distanceSq = squaredLength(particles.position[p] - particles.position[i]);
-        if (distanceSq >= cutoff * cutoff) continue;
-        const double restLength = particles.radius[p] + particles.radius[i];
-        const Material pair = mixed(materials[particles.material[p]], materials[particles.material[i]]);
-        energy += pairEnergy(std::sqrt(distanceSq), pairConstants<double>(pair, restLength));
-    }
+    cells.forEachNear(simulation.particles.position[p], [&](std::size_t i) {
+        if (i < p) energy += pairEnergyReference(simulation.evaluator.law(), simulation.particles, p, i);
+    });
     return energy;
 }
 
@@ -74,13 +68,12 @@ void noteUnsound(Simulation& simulation) {
     simulation.energy = std::numeric_limits<double>::quiet_NaN();
 }
 
-void noteBirths(Simulation& simulation, std::size_t first) {
+void noteBirths(Simulation& simulation, std::size_t first, const LinkedCells& cells) {
     if (!simulation.energy) return;
-    const double cutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
     for (std::size_t p = first; p < simulation.particles.count(); ++p) {
         const OwnEnergy own = ownEnergy(simulation, p, contactEnergyOf(simulation, p));
         simulation.kinetic += own.kinetic;
-        *simulation.energy += own.kinetic + own.potential + energyWithEarlier(simulation, p, cutoff);
+        *simulation.energy += own.kinetic + own.potential + energyWithEarlier(simulation, p, cells);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "engine/linked_cells.h"
 #include "engine/simulation.h"
 
 namespace engine {
@@ -44,8 +45,9 @@ void noteEnergy(Simulation& simulation, double pairEnergy);
 /// Records that the state is not one to compute forces from; the step will be taken back.
 void noteUnsound(Simulation& simulation);
 
-/// Adds to the recorded energy what the particles from `first` on bring with them, J.
-void noteBirths(Simulation& simulation, std::size_t first);
+/// Adds to the recorded energy what the particles from `first` on bring with them, J. The cells hold all particles and
+/// are at least as wide as the pairs' cutoff.
+void noteBirths(Simulation& simulation, std::size_t first, const LinkedCells& cells);
 
 /// A state that a run can be taken back to, and what the step from it is judged by.
 struct BeforeStep {

@@ -25,7 +25,8 @@ struct Run {
 
     void until(double end, double step, std::uint64_t seed = 1) {
         for (int k = 0; k * step < end; ++k) {
-            emit(emitter, state, {k * step, Vec3::Zero(), seed, 0}, Material{}, particles);
+            LinkedCells cells(2.0, particles.position);
+            emit(emitter, state, {k * step, Vec3::Zero(), seed, 0}, Material{}, particles, cells);
             for (std::size_t p = 0; p < particles.count(); ++p) particles.position[p] += step * particles.velocity[p];
         }
     }
@@ -50,7 +51,8 @@ TEST_CASE("A late newborn has fallen with gravity", "[emitters]") {
     const Emitter emitter = pointEmitter(1.0, Vec3(2, 0, 0));
     EmitterState state = initialState(emitter);
     Particles particles = {};
-    emit(emitter, state, {0.5, Vec3(0, -8, 0), 1, 0}, Material{}, particles);
+    LinkedCells cells;
+    emit(emitter, state, {0.5, Vec3(0, -8, 0), 1, 0}, Material{}, particles, cells);
     REQUIRE(particles.count() == 1);
     CHECK(particles.position[0] == Vec3(1.0, -1.0, 0.0));
     CHECK(particles.velocity[0] == Vec3(2.0, -4.0, 0.0));
