@@ -19,7 +19,7 @@ Doubles sourceOf(const LanePass& pass, const std::int32_t* places, Doubles* /*ki
 }
 
 Singles sourceOf(const LanePass& pass, const std::int32_t* places, Singles* /*kind*/) {
-    return Singles(pass.singles.data(), pass.unit, places);
+    return Singles(pass.singles.data(), places);
 }
 
 /// A bit a lane.
@@ -61,6 +61,10 @@ struct MatrixRows {
     void finish() const { std::copy_n(length.begin(), hn::Lanes(Tag<T>()), &matrix->rows.length[first]); }
 };
 
+/// Whether a row is read while the one before it is worked on. Where registers suffice, the units that shuffle what is
+/// read and those that calculate are then busy together.
+constexpr bool kReadsAhead = HWY_TARGET <= HWY_AVX3;
+
 /// sum += factor * vector
 template <class V>
 void add(Vector3<V>& sum, V factor, const Vector3<V>& vector) {
@@ -79,29 +83,32 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
     const std::uint32_t longest = longestRow<T>(pass.rows, first);
     const auto selves = selvesFrom<T>(first, pass.records.size());
     const Source source = sourceOf(pass, selves.data(), static_cast<Source*>(nullptr));
-    const Law<T, Kind> law(pass.constants, pass.weights);
+    const Law<T, Kind> law(pass.constants, pass.weights, pass.unit);
     Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     Lanes<T> energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     [[maybe_unused]] MatrixRows<T> matrixRows{pass.matrix, first};
     const std::int32_t* entry = pass.rows.places.data() + pass.rows.at(first, 0);
+    constexpr bool kVelocity = Kind::kPair.damping;
+    auto ahead = source.template load<kVelocity>(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
-        const Row<T> row = source.template row<Kind::kPair.damping>(entry);
-        const Lanes<T> distanceSq = dot(row.separation, row.separation);
-        const auto isCoincident = hn::And(row.isPair, hn::Eq(distanceSq, hn::Zero(kTag)));
+        const auto others = kReadsAhead ? ahead : source.template load<kVelocity>(entry);
+        if constexpr (kReadsAhead) ahead = source.template load<kVelocity>(entry + kGroup);
+        const Row<T> row = source.template row<kVelocity>(entry, others);
+        const Lanes<T> separationSq = dot(row.separation, row.separation);
+        const Lanes<T> distanceSq = law.squareMetres(separationSq);
+        const auto isCoincident = hn::And(row.isPair, hn::Eq(separationSq, hn::Zero(kTag)));
         coincident = hn::Or(coincident, isCoincident);
         Lanes<T> approach = hn::Zero(kTag);
         if constexpr (Kind::kPair.damping) approach = dot(row.velocity, row.separation);
         // A place that fills up a row is the particle itself, for which P is zero.
         const auto inverse = law.inverseOf(distanceSq);
         const Lanes<T> conservative = law.conservative(inverse);
-        Lanes<T> coefficient = conservative;
-        if constexpr (Kind::kPair.damping) coefficient = hn::Sub(coefficient, law.damping(inverse, approach));
-        add(force, coefficient, row.separation);
+        add(force, law.coefficient(inverse, approach, conservative), row.separation);
         typename Law<T, Kind>::Slip slip;
         if constexpr (Kind::kPair.friction) {
-            slip = law.slipOf(row, distanceSq, approach, conservative);
-            add(force, hn::Neg(slip.damping), slip.velocity);
+            slip = law.slipOf(row, separationSq, approach, conservative);
+            add(force, law.inUnits(hn::Neg(slip.damping)), slip.velocity);
         }
         if constexpr (Kind::kEnergy)
             energy = hn::Add(energy, hn::IfThenElseZero(row.isPair, hn::Mul(Law<T, Kind>::set(T(0.5)),
@@ -119,15 +126,16 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
         }
     }
     if constexpr (Kind::kMatrix) matrixRows.finish();
+    const double unit = pass.unit;  // here, where nobody can change it meanwhile: the loop becomes one of vectors
     std::array<T, kGroup> x, y, z, e;
     hn::StoreU(force.x, kTag, x.data());
     hn::StoreU(force.y, kTag, y.data());
     hn::StoreU(force.z, kTag, z.data());
     hn::StoreU(energy, kTag, e.data());
     for (std::size_t k = 0; k < hn::Lanes(kTag); ++k) {
-        sums.x[lane + k] = static_cast<double>(x[k]);
-        sums.y[lane + k] = static_cast<double>(y[k]);
-        sums.z[lane + k] = static_cast<double>(z[k]);
+        sums.x[lane + k] = static_cast<double>(x[k]) * unit;
+        sums.y[lane + k] = static_cast<double>(y[k]) * unit;
+        sums.z[lane + k] = static_cast<double>(z[k]) * unit;
         sums.energy[lane + k] = static_cast<double>(e[k]);
     }
     sums.coincident |= bitsOf<T>(coincident) << lane;
@@ -153,6 +161,8 @@ template <class Source>
 void addUpFrom(const LanePass& pass, std::size_t group, LaneSums& sums) {
     if (pass.terms.friction)
         addUpWith<Source, PairTerms{true, true, true}>(pass, group, sums);
+    else if (pass.terms.damping && pass.terms.oneReach)
+        addUpWith<Source, PairTerms{true, true, false, true}>(pass, group, sums);
     else if (pass.terms.attraction)
         pass.terms.damping ? addUpWith<Source, PairTerms{true, true}>(pass, group, sums)
                            : addUpWith<Source, PairTerms{true, false}>(pass, group, sums);

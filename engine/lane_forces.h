@@ -18,7 +18,7 @@ struct LanePass {
     const LaneRows& rows;
     const std::vector<PairRecord>& records;             ///< read in double
     const std::vector<SinglePrecisionRecord>& singles;  ///< read in float; empty: in double
-    double unit = 0.0;                                  ///< of the singles' positions, m
+    double unit = 1.0;                                  ///< of the positions that are read, m
     PairConstants<double> constants;
     PairTerms terms;
     bool energy = false;

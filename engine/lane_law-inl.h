@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "engine/lane_records-inl.h"
 #include "engine/pair_law.h"
@@ -34,31 +35,34 @@ template <class T, class Kind>
 struct Law {
     using V = Lanes<T>;
     static constexpr Tag<T> kTag{};
+    static constexpr bool kHasUnit = std::is_same_v<T, float>;  // otherwise separations are in metres
 
     PairConstants<T> c;
-    V b1, bd, inverseRestSq, inverseReachSq, reachSq, inverseDampingSq, dampingSq, coreSq;
-    V reach, inverseReach, inverseReachCubed, a, b, halfSlope;
+    V b1, bd, bdPerUnit, inverseRestSq, inverseReachSq, reachSq, inverseDampingSq, coreSq;
+    V unitSq, perUnit, reach, inverseReach, inverseReachCubed, a, b, halfSlope;
     V dampingWeight, stiffnessWeight, friction;
 
     static V set(T value) { return hn::Set(kTag, value); }
 
-    Law(const PairConstants<double>& wide, const MatrixWeights& weights) {
+    /// Shape:  unit of the rows' separations, m.
+    Law(const PairConstants<double>& wide, const MatrixWeights& weights, double unitLength) {
         c.b1 = static_cast<T>(wide.b1);
         c.bd = static_cast<T>(wide.bd);
         c.inverseRestSq = static_cast<T>(wide.inverseRestSq);
-        c.inverseReachSq = static_cast<T>(wide.inverseReachSq);
         c.reachSq = static_cast<T>(wide.reachSq);
+        c.inverseReachSq = T(1) / c.reachSq;  // the rounded reach's own: nothing acts beyond it
         c.inverseDampingSq = static_cast<T>(wide.inverseDampingSq);
-        c.dampingSq = static_cast<T>(wide.dampingSq);
         c.coreSq = static_cast<T>(wide.coreSq);
         b1 = set(c.b1);
         bd = set(c.bd);
+        bdPerUnit = set(static_cast<T>(wide.bd * unitLength));
         inverseRestSq = set(c.inverseRestSq);
         inverseReachSq = set(c.inverseReachSq);
         reachSq = set(c.reachSq);
         inverseDampingSq = set(c.inverseDampingSq);
-        dampingSq = set(c.dampingSq);
         coreSq = set(c.coreSq);
+        unitSq = set(static_cast<T>(unitLength * unitLength));
+        perUnit = set(static_cast<T>(1.0 / unitLength));
         if constexpr (Kind::kPair.friction) friction = set(static_cast<T>(wide.friction));
         if constexpr (Kind::kEnergy) {
             const T reachOf = std::sqrt(c.reachSq);
@@ -76,6 +80,12 @@ struct Law {
         }
     }
 
+    /// D^2, m^2. Shape: P.P in units.
+    V squareMetres(V separationSq) const {
+        if constexpr (kHasUnit) return hn::Mul(unitSq, separationSq);
+        return separationSq;
+    }
+
     /// What force and energy of a pair share.
     struct Inverse {
         V guardedSq, square, root;  ///< of the distance; 1 over it; 1 over the distance
@@ -87,38 +97,58 @@ struct Law {
         return {guardedSq, square, hn::Sqrt(square)};
     }
 
+    /// What repulsion and attraction end with.
+    V toReach(const Inverse& inverse) const {
+        const V end = Kind::kPair.attraction ? inverseReachSq : inverseRestSq;
+        return hn::Max(hn::Sub(inverse.square, end), hn::Zero(kTag));
+    }
+
     /// Of the conservative force.
     V conservative(const Inverse& inverse) const {
         const V toRest = hn::Sub(inverse.square, inverseRestSq);
-        V toReach = toRest;
-        if constexpr (Kind::kPair.attraction) toReach = hn::Sub(inverse.square, inverseReachSq);
-        const V repulsion = hn::Mul(hn::Mul(b1, inverse.root), hn::Mul(toRest, toReach));
-        return hn::IfThenElseZero(hn::Lt(inverse.guardedSq, reachSq), repulsion);
+        return hn::Mul(hn::Mul(b1, inverse.root), hn::Mul(toRest, toReach(inverse)));
     }
 
-    V damping(const Inverse& inverse, V approach) const {
-        const V falling = hn::Sub(set(T(1)), hn::Mul(inverse.guardedSq, inverseDampingSq));
-        const V damping = hn::Mul(hn::Mul(hn::Mul(bd, falling), inverse.square), approach);
-        return hn::IfThenElseZero(hn::Lt(inverse.guardedSq, dampingSq), damping);
+    /// Of both forces. Shape: V.P in units of separation; of the conservative force.
+    V coefficient(const Inverse& inverse, V approach, V conservative) const {
+        if constexpr (!Kind::kPair.damping) return conservative;
+        const V damping = hn::Mul(bdPerUnit, approach);
+        if constexpr (Kind::kPair.oneReach) {
+            const V repulsion = hn::Mul(hn::Mul(b1, inverse.root), hn::Sub(inverse.square, inverseRestSq));
+            return hn::Mul(hn::Sub(repulsion, damping), toReach(inverse));
+        }
+        return hn::Sub(conservative, hn::Mul(damping, toDamping(inverse)));
     }
 
-    /// Friction of pairs: -damping times velocity.
+    /// What damping ends with.
+    V toDamping(const Inverse& inverse) const {
+        return hn::Max(hn::Sub(inverse.square, inverseDampingSq), hn::Zero(kTag));
+    }
+
+    /// Friction of pairs: -damping times velocity. Shape: P.P and V.P with P in units.
     struct Slip {
         Vector3<V> velocity;  ///< V_t, m/s
         V damping;            ///< c_t, kg/s
     };
 
-    Slip slipOf(const Row<T>& row, V distanceSq, V approach, V conservative) const {
+    Slip slipOf(const Row<T>& row, V separationSq, V approach, V conservative) const {
         // A particle is no neighbour of its own, but fills rows up: it shall give a zero and no NaN.
-        const V share = hn::Div(approach, hn::Max(distanceSq, set(std::numeric_limits<T>::min())));
+        const V share = hn::Div(approach, hn::Max(separationSq, set(std::numeric_limits<T>::min())));
         const auto across = [&](V velocity, V separation) { return hn::Sub(velocity, hn::Mul(share, separation)); };
         Slip slip;
         slip.velocity = {across(row.velocity.x, row.separation.x), across(row.velocity.y, row.separation.y),
                          across(row.velocity.z, row.separation.z)};
         const V speed = hn::Max(hn::Sqrt(dot(slip.velocity, slip.velocity)), set(static_cast<T>(kStickingSpeed)));
-        const V damping = hn::Div(hn::Mul(friction, hn::Mul(conservative, hn::Sqrt(distanceSq))), speed);
+        const V damping =
+            hn::Div(hn::Mul(friction, hn::Mul(conservative, hn::Sqrt(squareMetres(separationSq)))), speed);
         slip.damping = hn::IfThenElseZero(hn::Gt(conservative, hn::Zero(kTag)), damping);
         return slip;
+    }
+
+    /// What a force is multiplied with to be added to coefficients times P, which is in units.
+    V inUnits(V newtons) const {
+        if constexpr (kHasUnit) return hn::Mul(perUnit, newtons);
+        return newtons;
     }
 
     V energy(const Inverse& inverse, V distanceSq) const {
@@ -138,12 +168,7 @@ struct Law {
         const V k = hn::Mul(hn::Mul(b1, hn::Mul(inverse.root, inverse.square)), slope);
         const auto isStiff = hn::And(hn::Ge(distanceSq, coreSq), hn::Lt(distanceSq, reachSq));
         V sum = hn::IfThenElseZero(isStiff, hn::Mul(stiffnessWeight, hn::Max(k, hn::Zero(kTag))));
-        if constexpr (Kind::kPair.damping) {
-            const V falling = hn::Sub(set(T(1)), hn::Mul(inverse.guardedSq, inverseDampingSq));
-            const V overSq = hn::Mul(hn::Mul(bd, falling), inverse.square);
-            sum =
-                hn::Add(sum, hn::IfThenElseZero(hn::Lt(inverse.guardedSq, dampingSq), hn::Mul(dampingWeight, overSq)));
-        }
+        if constexpr (Kind::kPair.damping) sum = hn::Add(sum, hn::Mul(dampingWeight, hn::Mul(bd, toDamping(inverse))));
         return sum;
     }
 };

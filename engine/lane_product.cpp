@@ -22,7 +22,8 @@ HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std:
     Vector3<Lanes<double>> sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     std::size_t entry = matrix.rows.at(group * kGroup, 0) + lane;
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
-        const Row<double> row = source.row<true>(&matrix.rows.places[entry]);
+        const std::int32_t* places = &matrix.rows.places[entry];
+        const Row<double> row = source.row<true>(places, source.load<true>(places));
         const auto along = hn::LoadU(kTag, &matrix.along[entry]);
         const auto push = hn::Mul(along, dot(row.velocity, row.separation));
         sum.x = hn::Add(sum.x, hn::Mul(push, row.separation.x));

@@ -7,11 +7,10 @@
 #define ENGINE_LANE_RECORDS_INL_H
 #endif
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <array>
 
+#include "engine/lane_blocks-inl.h"
 #include "engine/lane_rows.h"
 #include "engine/pair_record.h"
 
@@ -19,21 +18,24 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-template <class T>
-using Tag = hn::CappedTag<T, kGroup>;
-template <class T>
-using Lanes = hn::Vec<Tag<T>>;
-template <class T>
-using Places = hn::Vec<hn::Rebind<std::int32_t, Tag<T>>>;  ///< as many as Lanes<T>
-
 template <class V>
 struct Vector3 {
     V x, y, z;
 };
 
-/// Of the pairs of a row: P, V, and where there is a pair at all.
+template <class V>
+Vector3<V> difference(const Vector3<V>& a, const Vector3<V>& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+/// What a row of places refers to, as it was read.
+template <class Position, class Velocity>
+struct Others {
+    Vector3<Position> position;
+    Vector3<Velocity> velocity;  ///< zero where it is not needed
+};
+
+/// Of the pairs of a row: P in units of length, V, and where there is a pair at all.
 template <class T>
 struct Row {
     Vector3<Lanes<T>> separation, velocity;
@@ -58,23 +60,6 @@ std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {
     return longest;
 }
 
-#if HWY_TARGET != HWY_SCALAR
-/// Blocks of 128 bits side by side, as many as a vector has: of every so many places one record's, at the base. Loads
-/// of this kind and shuffles within blocks take half of the time of gathers.
-template <class D>
-HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const std::int32_t* places,
-                                 std::size_t every) {
-    constexpr std::size_t kBlocks = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
-    if constexpr (kBlocks <= 1) {
-        return hn::Load(d, base + stride * places[0]);
-    } else {
-        const hn::Half<D> half;
-        return hn::Combine(d, blocksFrom(half, base, stride, places + every * kBlocks / 2, every),
-                           blocksFrom(half, base, stride, places, every));
-    }
-}
-#endif
-
 /// The particles of a block of lanes in double: positions as they are.
 struct Doubles {
     using T = double;
@@ -84,19 +69,32 @@ struct Doubles {
 
     const double* base;  ///< of the first record
     Places<double> self;
-    Vector3<V> position, velocity;
+    Others<V, V> own;
 
     Doubles(const PairRecord* records, const std::int32_t* places)
         : base(&records[0].x), self(hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), places)) {
-        load<true>(places, position, velocity);
+        own = load<true>(places);
     }
 
     template <bool needsVelocity>
-    void load(const std::int32_t* places, Vector3<V>& x, Vector3<V>& v) const {
+    Others<V, V> load(const std::int32_t* places) const {
+        Vector3<V> x;
+        Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
 #if HWY_TARGET == HWY_SCALAR
         const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
         x = {field(0), field(1), field(2)};
         if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
+#elif HWY_TARGET <= HWY_AVX3
+        // x y z and vx of two records two apart, then of these two by two.
+        const auto halves = [&](int first) { return halvesFrom(base, kStride, places[first], places[first + 2]); };
+        const V a = halves(0), b = halves(1), c = halves(4), d = halves(5);
+        const V xz0 = hn::InterleaveLower(kTag, a, b), xz1 = hn::InterleaveLower(kTag, c, d);
+        const V yu0 = hn::InterleaveUpper(kTag, a, b), yu1 = hn::InterleaveUpper(kTag, c, d);
+        x = {evenBlocks(xz0, xz1), evenBlocks(yu0, yu1), oddBlocks(xz0, xz1)};
+        if constexpr (needsVelocity) {
+            const V vw0 = blocksOf(base + 4, kStride, places), vw1 = blocksOf(base + 4, kStride, places + 1);
+            v = {oddBlocks(yu0, yu1), hn::InterleaveLower(kTag, vw0, vw1), hn::InterleaveUpper(kTag, vw0, vw1)};
+        }
 #else
         // Numbers two by two, of every other record from one on.
         const auto pairs = [](const double* field, const std::int32_t* from) {
@@ -112,25 +110,24 @@ struct Doubles {
                  hn::InterleaveUpper(kTag, vw0, vw1)};
         }
 #endif
+        return {x, v};
     }
 
     template <bool needsVelocity>
-    Row<double> row(const std::int32_t* others) const {
+    Row<double> row(const std::int32_t* places, const Others<V, V>& others) const {
         const hn::Rebind<std::int64_t, Tag<double>> wide;
         const hn::Rebind<std::int32_t, Tag<double>> narrow;
-        Vector3<V> x, v;
-        load<needsVelocity>(others, x, v);
         Row<double> row;
         row.isPair =
-            hn::RebindMask(kTag, hn::Ne(hn::PromoteTo(wide, hn::LoadU(narrow, others)), hn::PromoteTo(wide, self)));
-        row.separation = {hn::Sub(position.x, x.x), hn::Sub(position.y, x.y), hn::Sub(position.z, x.z)};
-        if constexpr (needsVelocity)
-            row.velocity = {hn::Sub(velocity.x, v.x), hn::Sub(velocity.y, v.y), hn::Sub(velocity.z, v.z)};
+            hn::RebindMask(kTag, hn::Ne(hn::PromoteTo(wide, hn::LoadU(narrow, places)), hn::PromoteTo(wide, self)));
+        row.separation = difference(own.position, others.position);
+        if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
         return row;
     }
 };
 
-/// In float: positions are whole numbers of a unit, modulo 2^32, whose differences are exact anywhere in the world.
+/// In float: positions are whole numbers of a unit, modulo 2^32, whose differences are exact anywhere in the world, and
+/// separations stay in it.
 struct Singles {
     using T = float;
     using V = Lanes<float>;
@@ -141,61 +138,69 @@ struct Singles {
 
     const float* base;  ///< of the first record; its positions are bits of integers
     I self;
-    Vector3<I> position;
-    Vector3<V> velocity;
-    V unit;
+    Others<I, V> own;
 
-    Singles(const SinglePrecisionRecord* records, double unitLength, const std::int32_t* places)
+    Singles(const SinglePrecisionRecord* records, const std::int32_t* places)
         : base(reinterpret_cast<const float*>(records)), self(hn::LoadU(kWhole, places)) {
-        load<true>(places, position, velocity);
-        unit = hn::Set(kTag, static_cast<float>(unitLength));
+        own = load<true>(places);
     }
 
     template <bool needsVelocity>
-    void load(const std::int32_t* places, Vector3<I>& x, Vector3<V>& v) const {
+    Others<I, V> load(const std::int32_t* places) const {
+        Vector3<I> x;
+        Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
         const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
 #if HWY_TARGET == HWY_SCALAR
         const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
         x = {whole(field(0)), whole(field(1)), whole(field(2))};
-        if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
+        if constexpr (needsVelocity) v = {field(4), field(5), field(6)};
 #else
         static constexpr hn::Repartition<double, Tag<float>> kTwos{};
-        // Numbers four by four, of every fourth record from one on, and what two of these have in their lower or upper
-        // halves.
-        const auto fours = [](const float* field, const std::int32_t* from) {
-            return blocksFrom(kTag, field, kStride, from, 4);
-        };
+        // What two vectors have in the lower or upper halves of their blocks.
         const auto lower = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveLower(kTag, a, b)); };
         const auto upper = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
         const auto firsts = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
         const auto seconds = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
-        const V xyzu0 = fours(base, places), xyzu1 = fours(base, places + 1);
-        const V xyzu2 = fours(base, places + 2), xyzu3 = fours(base, places + 3);
-        const auto xy01 = lower(xyzu0, xyzu1), xy23 = lower(xyzu2, xyzu3);
-        const auto zu01 = upper(xyzu0, xyzu1), zu23 = upper(xyzu2, xyzu3);
-        x = {whole(firsts(xy01, xy23)), whole(seconds(xy01, xy23)), whole(firsts(zu01, zu23))};
-        if constexpr (needsVelocity) {
-            const auto vw01 = lower(fours(base + 4, places), fours(base + 4, places + 1));
-            const auto vw23 = lower(fours(base + 4, places + 2), fours(base + 4, places + 3));
-            v = {seconds(zu01, zu23), firsts(vw01, vw23), seconds(vw01, vw23)};
-        }
+#if HWY_TARGET <= HWY_AVX3
+        // Of eight records x and vx, y and vy, z and vz, in blocks of four each.
+        struct Eight {
+            V xu, yv, zw;
+        };
+        const auto eight = [&](int first) {
+            const auto halves = [&](int at) { return halvesFrom(base, kStride, places[at], places[at + 4]); };
+            const V a = halves(first), b = halves(first + 1), c = halves(first + 2), d = halves(first + 3);
+            const auto xy01 = lower(a, b), xy23 = lower(c, d);
+            return Eight{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
+        };
+        const Eight a = eight(0), b = eight(8);
+        x = {whole(evenBlocks(a.xu, b.xu)), whole(evenBlocks(a.yv, b.yv)), whole(evenBlocks(a.zw, b.zw))};
+        if constexpr (needsVelocity) v = {oddBlocks(a.xu, b.xu), oddBlocks(a.yv, b.yv), oddBlocks(a.zw, b.zw)};
+#else
+        // Numbers four by four, of every fourth record from one on.
+        const auto fours = [](const float* field, const std::int32_t* from) {
+            return blocksFrom(kTag, field, kStride, from, 4);
+        };
+        const auto fields = [&](const float* field) {
+            const V a = fours(field, places), b = fours(field, places + 1);
+            const V c = fours(field, places + 2), d = fours(field, places + 3);
+            const auto xy01 = lower(a, b), xy23 = lower(c, d);
+            return Vector3<V>{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
+        };
+        const Vector3<V> position = fields(base);
+        x = {whole(position.x), whole(position.y), whole(position.z)};
+        if constexpr (needsVelocity) v = fields(base + 4);
 #endif
-    }
-
-    V apart(I mine, I other) const {
-        return hn::Mul(unit, hn::ConvertTo(kTag, hn::Sub(mine, other)));
+#endif
+        return {x, v};
     }
 
     template <bool needsVelocity>
-    Row<float> row(const std::int32_t* others) const {
-        Vector3<I> x;
-        Vector3<V> v;
-        load<needsVelocity>(others, x, v);
+    Row<float> row(const std::int32_t* places, const Others<I, V>& others) const {
         Row<float> row;
-        row.isPair = hn::RebindMask(kTag, hn::Ne(hn::LoadU(kWhole, others), self));
-        row.separation = {apart(position.x, x.x), apart(position.y, x.y), apart(position.z, x.z)};
-        if constexpr (needsVelocity)
-            row.velocity = {hn::Sub(velocity.x, v.x), hn::Sub(velocity.y, v.y), hn::Sub(velocity.z, v.z)};
+        row.isPair = hn::RebindMask(kTag, hn::Ne(hn::LoadU(kWhole, places), self));
+        const Vector3<I> units = difference(own.position, others.position);
+        row.separation = {hn::ConvertTo(kTag, units.x), hn::ConvertTo(kTag, units.y), hn::ConvertTo(kTag, units.z)};
+        if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
         return row;
     }
 };

@@ -92,8 +92,9 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     for (std::size_t group = 0; group < groups; ++group) list.rows.start[group + 1] += list.rows.start[group];
     list.entryCount = 0;
     for (const std::uint32_t length : list.rows.length) list.entryCount += length;
-    // One more than there are: kernels step past the end of a row before they see that it is the last, or empty.
+    // One more than there are: kernels read past the end of a row before they see that it is the last, or empty.
     list.rows.places.resize((list.rows.start[groups] + 1) * kGroup);
+    std::fill(list.rows.places.end() - kGroup, list.rows.places.end(), 0);
     inParallel(chunks, 1, [&](std::size_t c) { layOut(list.rows, chunkOf(list, c), list.scratch.found[c]); });
 }
 

@@ -3,8 +3,9 @@
 //
 // With D0 = r_i + r_p, R = c_r D0 and S = c_d D0, m = 5, n = 3 and b2 = b1/D0^2, equation 2 is P times the coefficient
 //     s_r (b1/D^5 - b2/D^3) - s_d b_d (V.P)/D^2
-//   = (1/D) b1 (1/D^2 - 1/D0^2) (1/D^2 - 1/R^2) [D < R]  -  b_d (1 - D^2/S^2) (V.P)/D^2 [D < S]
-// because s_r b1/D^5 (1 - D^2/D0^2) = b1/D (1/D^2)(1 - D^2/R^2)(1/D^2)(1 - D^2/D0^2).
+//   = (1/D) b1 (1/D^2 - 1/D0^2) max(0, 1/D^2 - 1/R^2)  -  b_d (V.P) max(0, 1/D^2 - 1/S^2)
+// because s_r b1/D^5 (1 - D^2/D0^2) = b1/D (1/D^2)(1 - D^2/R^2)(1/D^2)(1 - D^2/D0^2). A quotient rounds the way the
+// exact one goes: at and beyond the cutoff both terms are exactly zero.
 //
 // The guard near D = 0, the only departure: below the core distance the coefficient keeps the value it has there, so
 // that the force falls linearly to zero instead of growing without bound, and the energy is finite. With the core at
@@ -32,7 +33,6 @@ struct PairConstants {
     Scalar inverseReachSq{};    ///< 1/R^2
     Scalar reachSq{};           ///< R^2, repulsion and attraction end here
     Scalar inverseDampingSq{};  ///< 1/S^2
-    Scalar dampingSq{};         ///< S^2, damping ends here; 0 when b_d is 0
     Scalar coreSq{};            ///< square of the guard's distance
     Scalar friction{};          ///< mu
     Scalar cutoffSq{};          ///< nothing acts at or beyond it
@@ -43,6 +43,7 @@ struct PairTerms {
     bool attraction = true;  ///< c_r above 1
     bool damping = true;     ///< b_d above 0
     bool friction = false;   ///< mu above 0
+    bool oneReach = false;   ///< R = S wherever there is damping: both terms end with one factor
 };
 
 /// Constants of a pair of the given material (see mixed() for unlike ones) and rest length D0 = r_i + r_p, in metres.
@@ -58,10 +59,9 @@ PairConstants<Scalar> pairConstants(const Material& material, double restLength)
     c.inverseReachSq = static_cast<Scalar>(1.0 / (reach * reach));
     c.reachSq = static_cast<Scalar>(reach * reach);
     c.inverseDampingSq = static_cast<Scalar>(1.0 / (damping * damping));
-    c.dampingSq = material.damping > 0.0 ? static_cast<Scalar>(damping * damping) : Scalar(0);
     c.coreSq = static_cast<Scalar>(core * core);
     c.friction = static_cast<Scalar>(material.friction);
-    c.cutoffSq = std::max(c.reachSq, c.dampingSq);
+    c.cutoffSq = material.damping > 0.0 ? static_cast<Scalar>(std::max(reach * reach, damping * damping)) : c.reachSq;
     return c;
 }
 
@@ -69,9 +69,8 @@ PairConstants<Scalar> pairConstants(const Material& material, double restLength)
 /// pair's damping matrix, times V.P the coefficient of P that damps. Zero at and beyond the damping's reach.
 template <class Scalar>
 Scalar pairDampingOverSq(Scalar distanceSq, const PairConstants<Scalar>& c) {
-    const Scalar guardedSq = std::max(distanceSq, c.coreSq);
-    if (guardedSq >= c.dampingSq) return Scalar(0);
-    return c.bd * (Scalar(1) - guardedSq * c.inverseDampingSq) / guardedSq;
+    const Scalar inverseSq = Scalar(1) / std::max(distanceSq, c.coreSq);
+    return c.bd * std::max(Scalar(0), inverseSq - c.inverseDampingSq);
 }
 
 /// Coefficient of P in equation 2, in N/m; exactly zero at and beyond the cutoff.
@@ -82,19 +81,14 @@ Scalar pairDampingOverSq(Scalar distanceSq, const PairConstants<Scalar>& c) {
 template <PairTerms terms, class Scalar>
 [[gnu::always_inline]] inline Scalar pairCoefficient(Scalar distanceSq, Scalar approach,
                                                      const PairConstants<Scalar>& c) {
-    const Scalar guardedSq = std::max(distanceSq, c.coreSq);
-    const Scalar inverseSq = Scalar(1) / guardedSq;
-    Scalar coefficient = 0;
-    if (guardedSq < c.reachSq) {
-        const Scalar toRest = inverseSq - c.inverseRestSq;
-        const Scalar toReach = terms.attraction ? inverseSq - c.inverseReachSq : toRest;
-        coefficient = c.b1 * std::sqrt(inverseSq) * (toRest * toReach);
-    }
-    if constexpr (terms.damping) {
-        if (guardedSq < c.dampingSq)
-            coefficient -= c.bd * (Scalar(1) - guardedSq * c.inverseDampingSq) * inverseSq * approach;
-    }
-    return coefficient;
+    const Scalar inverseSq = Scalar(1) / std::max(distanceSq, c.coreSq);
+    const Scalar pull = c.b1 * std::sqrt(inverseSq);
+    const Scalar toRest = inverseSq - c.inverseRestSq;
+    const Scalar toReach = std::max(Scalar(0), terms.attraction ? inverseSq - c.inverseReachSq : toRest);
+    if constexpr (!terms.damping) return pull * (toRest * toReach);
+    if constexpr (terms.oneReach) return (pull * toRest - c.bd * approach) * toReach;
+    const Scalar toDamping = std::max(Scalar(0), inverseSq - c.inverseDampingSq);
+    return pull * (toRest * toReach) - c.bd * approach * toDamping;
 }
 
 /// Pair energy U(D) of the conservative part, in joules: minus the integral of the force from the cutoff.

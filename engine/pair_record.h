@@ -17,9 +17,8 @@ struct alignas(64) PairRecord {
 /// In float. Positions are whole numbers of a unit, modulo 2^32: what near particles differ by is exact however far
 /// from the origin they are.
 struct alignas(32) SinglePrecisionRecord {
-    std::int32_t x, y, z;
-    float vx, vy, vz;  ///< m/s
-    float unused[2];
+    std::int32_t x, y, z, unusedPosition;
+    float vx, vy, vz, unusedVelocity;  ///< m/s
 };
 
 }  // namespace engine

@@ -142,7 +142,8 @@ bool isCoincident(const PairTraversal& pairs, std::size_t place) {
 template <PairTerms terms>
 double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
-    const LanePass pass{pairs.list.rows, pairs.records, pairs.singles, pairs.unit,  pairs.uniform,
+    const double unit = pairs.singles.empty() ? 1.0 : pairs.unit;
+    const LanePass pass{pairs.list.rows, pairs.records, pairs.singles, unit,        pairs.uniform,
                         terms,           hasEnergy,     sums.matrix,   sums.weights};
     const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
     const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};
@@ -176,6 +177,7 @@ template <bool isUniform>
 Pass passFor(PairTerms terms, const PairSums& sums) {
     // Friction is for few scenes: it shares one kernel that has everything.
     if (terms.friction) return passFor<PairTerms{true, true, true}, isUniform>(sums);
+    if (terms.damping && terms.oneReach) return passFor<PairTerms{true, true, false, true}, isUniform>(sums);
     if (terms.attraction)
         return terms.damping ? passFor<PairTerms{true, true}, isUniform>(sums)
                              : passFor<PairTerms{true, false}, isUniform>(sums);

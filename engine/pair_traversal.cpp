@@ -65,13 +65,8 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
                           particles.id[p]};
         if (!hasSingles) return;
         const Vec3 units = x * perUnit;
-        singles[place] = {wrapped(units.x()),
-                          wrapped(units.y()),
-                          wrapped(units.z()),
-                          static_cast<float>(v.x()),
-                          static_cast<float>(v.y()),
-                          static_cast<float>(v.z()),
-                          {}};
+        singles[place] = {wrapped(units.x()),        wrapped(units.y()),        wrapped(units.z()),        0,
+                          static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
     });
 }
 

@@ -12,6 +12,7 @@ using namespace engine;
 namespace {
 
 constexpr PairTerms kAll{};
+constexpr PairTerms kOneReach{.oneReach = true};
 
 /// Equation 2 literally, without the guard; the coefficient of P.
 double printedCoefficient(double d, double approach, const Material& m, double restLength) {
@@ -38,6 +39,8 @@ TEST_CASE("The factored coefficient is equation 2 as printed", "[pair_law]") {
             const double largest = material.repulsion / std::pow(d, 5) + material.damping;
             INFO(name << " D = " << d);
             CHECK(std::abs(pairCoefficient<kAll>(d * d, approach, c) - printed) <= 12 * kEps * largest);
+            if (material.repulsionReach == material.dampingReach)
+                CHECK(std::abs(pairCoefficient<kOneReach>(d * d, approach, c) - printed) <= 12 * kEps * largest);
         }
     }
 }
@@ -111,6 +114,8 @@ TEST_CASE("A pair at rest length and beyond the cutoff", "[pair_law]") {
         CHECK(std::abs(radialForce(0.3, c)) <= 32 * kEps * c.b1 / std::pow(0.3, 4));  // zero to rounding at D0
         for (const double beyond : {c.cutoffSq, c.cutoffSq * 1.0001, 4.0 * c.cutoffSq})
             CHECK(pairCoefficient<kAll>(beyond, 1.0, c) == 0.0);
+        for (const double reachSq = c.reachSq; const double beyond : {reachSq, std::nextafter(reachSq, 1.0)})
+            CHECK(pairCoefficient<kOneReach>(beyond, 1.0, c) == 0.0);
         CHECK(pairEnergy(cutoff * 1.0001, c) == 0.0);
     }
 }
