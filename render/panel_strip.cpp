@@ -34,7 +34,9 @@ void place(const Image& panel, int left, Image& strip) {
                     strip.rgb.begin() + std::ptrdiff_t{3} * (std::ptrdiff_t{y} * strip.width + left));
 }
 
-void label(const std::string& text, double center, int baseline, double em, Image& strip) {
+/// As large as that, or as fits into the panel.
+void label(const std::string& text, double center, int baseline, double largestEm, int width, Image& strip) {
+    const double em = largestEm * std::min(1.0, width / textWidth(text, largestEm));
     const TextPlace at{std::round(center - 0.5 * textWidth(text, em)), baseline, em};
     Stencil stencil = stencilAround(textBox(text, at));
     coverText(stencil, text, at);
@@ -56,7 +58,7 @@ Image joinPanels(const std::vector<Panel>& panels) {
         const Panel& panel = panels[static_cast<std::size_t>(k)];
         const int left = k * (width + gap);
         place(panel.image, left, strip);
-        label(panel.text, left + 0.5 * width, height + static_cast<int>(std::lround(1.3 * em)), em, strip);
+        label(panel.text, left + 0.5 * width, height + static_cast<int>(std::lround(1.3 * em)), em, width, strip);
     }
     return strip;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/steppers.h"
+#include "studies/csv.h"
 
 namespace studies {
 namespace {
@@ -14,9 +15,10 @@ std::string number(double value) {
 
 std::string errorsOf(const SceneAccuracy& scene, const AccuracyRow& row) {
     if (row.run.ending != Ending::finished) return fmt::format(",,,,{},,no", nameOf(scene.reference.measure));
-    return fmt::format("{},{},{},{},{},{},{}", number(row.rms), number(row.largest), row.compared,
-                       number(row.statistics), nameOf(scene.reference.measure), number(row.errorPerSecond),
-                       row.resolved ? "yes" : "no");
+    const bool isCompared = row.compared > 0;
+    return fmt::format("{},{},{},{},{},{},{}", isCompared ? number(row.rms) : "", isCompared ? number(row.largest) : "",
+                       row.compared, number(row.statistics), nameOf(scene.reference.measure),
+                       number(row.errorPerSecond), row.resolved ? "yes" : "no");
 }
 
 std::string driftsOf(const AccuracyRow& row) {
@@ -28,7 +30,7 @@ std::string lineOf(const SceneAccuracy& scene, const AccuracyRow& row) {
     const WindowRun& run = row.run;
     const bool automatic = run.variant.stepper == engine::StepperKind::automatic;
     const engine::StepStatistics& steps = run.steps;
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, nameOf(run.variant),
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), nameOf(run.variant),
                        automatic ? "" : number(run.variant.asked), automatic ? number(run.variant.asked) : "",
                        nameOf(run.ending), errorsOf(scene, row), number(run.seconds), steps.count,
                        number(steps.shortest), number(steps.longest), steps.forceEvaluations, steps.products,
@@ -57,7 +59,7 @@ std::string ordersCsv(const std::vector<SceneAccuracy>& scenes) {
     std::string csv = "scene,stepper,order,expected,points,longest_step_s,shortest_step_s\n";
     for (const SceneAccuracy& scene : scenes)
         for (const OrderRow& row : scene.orders)
-            csv += fmt::format("{},{},{},{},{},{},{}\n", scene.name, engine::nameOf(row.stepper),
+            csv += fmt::format("{},{},{},{},{},{},{}\n", csvField(scene.name), engine::nameOf(row.stepper),
                                row.order ? number(*row.order) : "", engine::orderOf(row.stepper), row.points,
                                row.points == 0 ? "" : number(row.longest), row.points == 0 ? "" : number(row.shortest));
     return csv;
@@ -71,7 +73,7 @@ std::string autosCsv(const std::vector<SceneAccuracy>& scenes) {
     csv += "\n";
     for (const SceneAccuracy& scene : scenes)
         for (const AutoRow& row : scene.autos)
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, number(row.asked),
+            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), number(row.asked),
                                number(row.obtained), number(row.obtained / row.asked), row.resolved ? "yes" : "no",
                                number(row.seconds), number(row.passes), against(row.secondsAtObtained, row.seconds),
                                against(row.secondsAtAsked, row.seconds), against(row.passesAtObtained, row.passes),
@@ -82,13 +84,14 @@ std::string autosCsv(const std::vector<SceneAccuracy>& scenes) {
 std::string referencesCsv(const std::vector<SceneAccuracy>& scenes) {
     std::string csv =
         "scene,particles,from_s,window_s,measure,stepper,step_s,change_by_halving_radii,twin_separation_radii,"
-        "resolution_radii,settled,seconds\n";
+        "births_differ,resolution_radii,settled,seconds\n";
     for (const SceneAccuracy& scene : scenes) {
         const ReferenceFacts& facts = scene.reference;
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, scene.particleCount, number(scene.from),
-                           number(scene.window), nameOf(facts.measure), engine::nameOf(facts.variant.stepper),
-                           number(facts.variant.asked), number(facts.change), number(facts.twinSeparation),
-                           number(facts.resolution), facts.settled ? "yes" : "no", number(facts.seconds));
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), scene.particleCount,
+                           number(scene.from), number(scene.window), nameOf(facts.measure),
+                           engine::nameOf(facts.variant.stepper), number(facts.variant.asked), number(facts.change),
+                           number(facts.twinSeparation), facts.birthsDiffer ? "yes" : "no", number(facts.resolution),
+                           facts.settled ? "yes" : "no", number(facts.seconds));
     }
     return csv;
 }

@@ -58,6 +58,8 @@ std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const Fl
                 frames.push_back(renderer.draw(shifted(view, settings, frame)));
             FlickerRow row = measured(frames);
             row.style = style;
+            row.particles = settings.particles;
+            row.size = settings.size;
             row.quality = quality;
             rows.push_back(row);
             listener(rows);
@@ -67,9 +69,10 @@ std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const Fl
 }
 
 std::string flickerCsv(const std::vector<FlickerRow>& rows) {
-    std::string csv = "style,quality,change,jerk\n";
+    std::string csv = "style,particles,width,height,quality,change,jerk\n";
     for (const FlickerRow& row : rows)
-        csv += fmt::format("{},{},{:.4g},{:.4g}\n", nameOf(row.style), nameOf(row.quality), row.change, row.jerk);
+        csv += fmt::format("{},{},{},{},{},{:.4g},{:.4g}\n", nameOf(row.style), row.particles, row.size.width,
+                           row.size.height, nameOf(row.quality), row.change, row.jerk);
     return csv;
 }
 

@@ -14,6 +14,8 @@ namespace studies {
 /// In 8-bit steps. With I_k the pictures of successive frames:
 struct FlickerRow {
     render::Style style = render::Style::spheres;
+    std::size_t particles = 0;
+    render::PictureSize size{0, 0};
     render::Quality quality = render::Quality::normal;
     double change = 0.0;  ///< RMSE of I_(k+1) - I_k, mean over the frames: what moves
     double jerk = 0.0;    ///< RMSE of I_(k+1) - 2 I_k + I_(k-1), likewise: what does not move smoothly

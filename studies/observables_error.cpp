@@ -20,13 +20,17 @@ bool isComparable(const Trial& trial) {
            trial.reference->frames.back().count() == trial.run.frames.back().count();
 }
 
-/// The largest difference of a quantity of a frame over all frames, in radii of the first particle.
+/// The largest difference of a quantity of a frame over all frames that have particles, in radii of the first one.
 template <class Quantity>
 double largestDifference(const Trial& trial, const Quantity& quantity) {
     if (!isComparable(trial)) return kDiffers;
     double largest = 0.0;
-    for (std::size_t k = 0; k < trial.run.frames.size(); ++k)
-        largest = std::max(largest, std::abs(quantity(trial.run.frames[k]) - quantity(trial.reference->frames[k])));
+    for (std::size_t k = 0; k < trial.run.frames.size(); ++k) {
+        const Particles& ours = trial.run.frames[k];
+        const Particles& reference = trial.reference->frames[k];
+        if (ours.count() != reference.count()) return kDiffers;
+        if (ours.count() > 0) largest = std::max(largest, std::abs(quantity(ours) - quantity(reference)));
+    }
     return largest / trial.run.frames.back().radius.front();
 }
 
@@ -59,11 +63,12 @@ double positionError(const Trial& trial) {
     return positionError(ours, trial.reference->frames.back(), ours.count()).rms;
 }
 
-/// Of the heaviest particle, over all frames.
+/// Of the heaviest particle of each frame, over all of them.
 double heightError(const Trial& trial) {
-    const std::vector<double>& mass = trial.run.frames.front().mass;
-    const auto heaviest = static_cast<std::size_t>(std::max_element(mass.begin(), mass.end()) - mass.begin());
-    return largestDifference(trial, [&](const Particles& frame) { return frame.position[heaviest].y(); });
+    return largestDifference(trial, [](const Particles& frame) {
+        const auto heaviest = std::ranges::max_element(frame.mass) - frame.mass.begin();
+        return frame.position[static_cast<std::size_t>(heaviest)].y();
+    });
 }
 
 /// Of the particle furthest along x, over all frames.

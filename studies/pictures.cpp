@@ -44,7 +44,7 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
             of(&DrawTimes::look), of(&DrawTimes::shade),     of(&DrawTimes::readBack)};
 }
 
-/// Seconds a frame of drawing frames while the one before is encoded, as the render loop does.
+/// Seconds of drawing frames while the one before is encoded, as the render loop does.
 double overlapped(render::Renderer& renderer, const std::vector<render::View>& frames, int count,
                   const std::function<void(const render::Image&)>& encode) {
     constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
@@ -65,7 +65,7 @@ double overlapped(render::Renderer& renderer, const std::vector<render::View>& f
                                                   tbb::make_filter<render::Image*, void>(
                                                       kInOrder, [&](render::Image* image) { encode(*image); }));
     };
-    return secondsOf(all, 1) / count;
+    return secondsOf(all, 1);
 }
 
 render::VideoOptions videoOptions(const PictureSettings& settings, render::PictureSize size) {
@@ -75,29 +75,36 @@ render::VideoOptions videoOptions(const PictureSettings& settings, render::Pictu
     return options;
 }
 
+/// Seconds of a video of so many frames, which are these in turn.
+double secondsOfVideo(const render::VideoOptions& options, const std::vector<render::Image>& images, int count) {
+    render::VideoWriter video(options);
+    return secondsOf(
+        [&] {
+            for (int k = 0; k < count; ++k) video.add(images[static_cast<std::size_t>(k) % images.size()]);
+            video.finish();
+        },
+        1);
+}
+
+/// What a video takes once is told apart from what each of its frames takes.
 void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
                      render::Renderer& renderer, PictureRow& row) {
     // Slow frames are alike; a second of them is enough.
     const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.draw)));
     const render::Image image = renderer.draw(frames.front());
     row.png = secondsOf([&] { render::encodePng(image); }, 3);
-    row.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); });
+    row.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); }) / count;
     std::vector<render::Image> images;
     for (int k = 0; k < count; ++k)
         images.push_back(renderer.draw(frames[static_cast<std::size_t>(k) % frames.size()]));
-    {
-        render::VideoWriter video(videoOptions(settings, row.size));
-        row.mp4 = secondsOf(
-                      [&] {
-                          for (const render::Image& i : images) video.add(i);
-                          video.finish();
-                      },
-                      1) /
-                  count;
-    }
-    render::VideoWriter video(videoOptions(settings, row.size));
-    row.withMp4 = overlapped(renderer, frames, count, [&](const render::Image& i) { video.add(i); });
-    row.withMp4 += secondsOf([&] { video.finish(); }, 1) / count;
+    const render::VideoOptions options = videoOptions(settings, row.size);
+    const double one = secondsOfVideo(options, images, 1);
+    row.mp4 = std::max(0.0, secondsOfVideo(options, images, 1 + settings.encodedFrames) - one) / settings.encodedFrames;
+    row.mp4Once = std::max(0.0, one - row.mp4);
+    render::VideoWriter video(options);
+    double seconds = overlapped(renderer, frames, count, [&](const render::Image& i) { video.add(i); });
+    seconds += secondsOf([&] { video.finish(); }, 1);
+    row.withMp4 = std::max(0.0, seconds - row.mp4Once) / count;
 }
 
 std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const render::View& view,

@@ -21,9 +21,10 @@ struct PictureRow {
     std::size_t particles = 0;
     render::PictureSize size;
     render::Quality quality = render::Quality::normal;
-    render::DrawTimes stages;  ///< medians over the frames, s
-    double png = 0.0;          ///< of encoding alone, s
-    double mp4 = 0.0;
+    render::DrawTimes stages;     ///< medians over the frames, s
+    double png = 0.0;             ///< of encoding alone, s
+    double mp4 = 0.0;             ///< likewise
+    double mp4Once = 0.0;         ///< of a video besides its frames
     double draw = 0.0;            ///< one frame, drawn and read back, s; median
     double atRest = 0.0;          ///< likewise where the camera rests and the particles move, s
     double atRestBaseline = 0.0;  ///< the quads of those frames, in turn with them, s

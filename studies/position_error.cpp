@@ -7,8 +7,6 @@
 #include "engine/random.h"
 
 namespace studies {
-namespace {
-
 bool sameBirths(const engine::Particles& a, const engine::Particles& b) {
     constexpr double kSameTime = 1e-9;  // rounding of a time, s
     if (a.count() != b.count()) return false;
@@ -16,8 +14,6 @@ bool sameBirths(const engine::Particles& a, const engine::Particles& b) {
         if (a.material[p] != b.material[p] || std::abs(a.birthTime[p] - b.birthTime[p]) > kSameTime) return false;
     return true;
 }
-
-}  // namespace
 
 PositionError positionError(const engine::Particles& particles, const engine::Particles& reference,
                             std::size_t common) {

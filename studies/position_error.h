@@ -13,6 +13,9 @@ struct PositionError {
     std::size_t compared = 0;  ///< particles
 };
 
+/// Whether two runs have the same particles, born at the same times.
+bool sameBirths(const engine::Particles& a, const engine::Particles& b);
+
 /// Distances between particles of the same id, each in its own radius.
 /// Shape:  `common` particles were there when the two runs parted. Births since then are compared only if both runs
 ///         have the same ones at the same times: one birth that differs gives the later ids to other particles.

@@ -39,10 +39,23 @@ std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engi
     return {finished.end()[-2], finished.end()[-1]};
 }
 
+/// Positions of runs with different births cannot be compared.
+Measure measureOf(const engine::Particles& a, const engine::Particles& b) {
+    return sameBirths(a, b) ? Measure::positions : Measure::statistics;
+}
+
+bool doBirthsDiffer(const std::vector<WindowRun>& runs, const engine::Particles& reference) {
+    return std::ranges::any_of(runs, [&](const WindowRun& run) {
+        return run.ending == Ending::finished && !sameBirths(run.particles, reference);
+    });
+}
+
 /// Of two steppers of order 2, the change at equal cost is proportional to the change times the square of the cost.
 double changeAtEqualCost(const Window& window, const std::vector<const WindowRun*>& two) {
     const double cost = two[1]->passes;
-    return difference(window, Measure::positions, two[0]->particles, two[1]->particles) * cost * cost;
+    const engine::Particles& coarse = two[0]->particles;
+    const engine::Particles& fine = two[1]->particles;
+    return difference(window, measureOf(coarse, fine), coarse, fine) * cost * cost;
 }
 
 const WindowRun& finestOfBetterStepper(const Window& window, const std::vector<WindowRun>& runs) {
@@ -73,17 +86,19 @@ double smallestError(const Window& window, Measure measure, const std::vector<Wi
     return smallest;
 }
 
-WindowRun runTwin(const Window& window, const Variant& variant) {
-    Window twin = window;
-    twin.start.particles = displaced(std::move(twin.start.particles), kTwinDistance);
-    return runWindow(twin, variant, kInfinity);
-}
-
-WindowRun runReference(const Window& window, const Variant& variant, const ReferenceBudget& budget) {
+/// To its end, however long it takes.
+WindowRun runWhole(const Window& window, const Variant& variant, const ReferenceBudget& budget,
+                   std::string_view purpose) {
     WindowRun run = runWindow(window, variant, kInfinity);
-    budget.listener(run, "reference");
+    budget.listener(run, purpose);
     if (run.ending != Ending::finished) throw engine::InstabilityError(run.words);
     return run;
+}
+
+WindowRun runTwin(const Window& window, const Variant& variant, const ReferenceBudget& budget) {
+    Window twin = window;
+    twin.start.particles = displaced(std::move(twin.start.particles), kTwinDistance);
+    return runWhole(twin, variant, budget, "twin");
 }
 
 }  // namespace
@@ -106,21 +121,24 @@ double difference(const Window& window, Measure measure, const engine::Particles
 
 Reference findReference(const Window& window, const std::vector<WindowRun>& runs, const ReferenceBudget& budget) {
     const WindowRun& finest = finestOfBetterStepper(window, runs);
-    const WindowRun twin = runTwin(window, finest.variant);
-    budget.listener(twin, "twin");
+    const WindowRun twin = runTwin(window, finest.variant, budget);
 
     Reference reference;
     ReferenceFacts& facts = reference.facts;
     facts.variant = {finest.variant.stepper, finest.variant.asked / 4.0, kReferenceSolverTolerance};
-    reference.run = runReference(window, facts.variant, budget);
+    reference.run = runWhole(window, facts.variant, budget, "reference");
     double spent = reference.run.seconds;
-    facts.twinSeparation = difference(window, Measure::positions, twin.particles, finest.particles);
+    facts.twinSeparation =
+        difference(window, measureOf(twin.particles, finest.particles), twin.particles, finest.particles);
     const double smallest = smallestError(window, Measure::positions, runs, reference.run.particles);
-    if (facts.twinSeparation > kChaoticShare * smallest) facts.measure = Measure::statistics;
+    facts.birthsDiffer = doBirthsDiffer(runs, reference.run.particles);
+    if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.measure = Measure::statistics;
     do {
         facts.variant.asked /= 2.0;
-        WindowRun halved = runReference(window, facts.variant, budget);
+        WindowRun halved = runWhole(window, facts.variant, budget, "reference");
         spent += halved.seconds;
+        facts.birthsDiffer = facts.birthsDiffer || doBirthsDiffer(runs, halved.particles);
+        if (facts.birthsDiffer) facts.measure = Measure::statistics;
         facts.change = difference(window, facts.measure, reference.run.particles, halved.particles);
         reference.run = std::move(halved);
         facts.settled =

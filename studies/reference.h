@@ -30,6 +30,7 @@ struct ReferenceFacts {
     double change = 0.0;          ///< by the last halving of its step, radii
     double twinSeparation = 0.0;  ///< rms, of two runs that began 1e-9 radii apart, radii
     double resolution = 0.0;      ///< errors below it are not told from its own, radii
+    bool birthsDiffer = false;    ///< some run has other births than the reference
     bool settled = false;         ///< halving its step no longer matters to the smallest error measured
     double seconds = 0.0;         ///< of its finest run
 };

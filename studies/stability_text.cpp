@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "studies/csv.h"
+
 namespace studies {
 namespace {
 
@@ -16,13 +18,6 @@ std::string observableText(const scenes::Study& study) {
 std::string valueText(const Outcome& outcome) {
     return outcome.failure ? fmt::format("exploded at {:.3g} s", outcome.failure->time)
                            : fmt::format("{:.3g}", outcome.value);
-}
-
-/// Doubled quotation marks inside quotation marks (RFC 4180).
-std::string inCsvQuotes(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
 }
 
 std::string csvOutcome(const Outcome& outcome) {
@@ -52,12 +47,22 @@ std::string outcomeText(const Outcome& outcome) {
     return fmt::format("{}: {}", valueText(outcome), outcome.passes ? "passes" : "fails");
 }
 
+namespace {
+
+/// Of the paper's stepper at its worst; what was observed is said where it is not what the row is about.
+std::string paperText(const VariantResult& paper, scenes::Observable ofRow) {
+    const bool isNamed = !paper.paper.failure && paper.study.observable != ofRow;
+    return (isNamed ? std::string(scenes::infoOf(paper.study.observable).name) + " " : "") + outcomeText(paper.paper);
+}
+
+}  // namespace
+
 StabilityRow rowOf(const CaseResult& result) {
     const VariantResult& ours = worstOfOurs(result);
     const char* judged = !oursPasses(result) ? "FAIL" : !paperIsAsExpected(result) ? "paper passes" : "pass";
     return {fmt::format("{}", result.study.number),
             result.name,
-            outcomeText(worstOfPaper(result).paper),
+            paperText(worstOfPaper(result), ours.study.observable),
             ours.ours.stepper,
             observableText(ours.study),
             valueText(ours.ours),
@@ -105,8 +110,8 @@ std::string stabilityCsv(const std::vector<CaseResult>& results) {
     for (const CaseResult& result : results)
         for (const VariantResult& variant : result.variants) {
             const scenes::ObservableInfo& info = scenes::infoOf(variant.study.observable);
-            text += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g}\n", result.study.number, result.name,
-                                inCsvQuotes(variant.changes), info.name, info.unit, variant.study.limit,
+            text += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g}\n", result.study.number, csvField(result.name),
+                                csvField(variant.changes), info.name, info.unit, variant.study.limit,
                                 variant.study.atLeast ? fmt::format("{}", *variant.study.atLeast) : "",
                                 csvOutcome(variant.paper), csvOutcome(variant.ours), variant.referenceSeconds);
         }

@@ -34,6 +34,8 @@ engine::Simulation begin(const Window& window, const Variant& variant) {
 void settle(const Window& window, engine::Simulation& simulation) {
     engine::Simulation scout = simulation;
     scenes::advanceToFrame(window.scene, scout, window.firstFrame + 1);
+    const engine::AutoChoice& chosen = scout.automatic.choices[static_cast<std::size_t>(scout.stepper)];
+    if (chosen.step <= 0.0) return;  // nobody was there to choose for
     simulation.automatic = scout.automatic;
     simulation.automatic.nextLook = simulation.automatic.intervals + engine::kLongestPause / 2;
     simulation.automatic.looks = engine::kLongestPause;

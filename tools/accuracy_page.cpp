@@ -45,10 +45,11 @@ Cells cellsOf(const studies::AccuracyRow& row) {
     const engine::StepStatistics& steps = run.steps;
     Cells cells = {nameIn(run), askedOf(run.variant)};
     if (run.ending == Ending::finished)
-        cells.insert(cells.end(), {small(row.rms), small(row.largest), small(row.statistics), small(row.errorPerSecond),
+        cells.insert(cells.end(), {row.compared > 0 ? small(row.rms) : "", row.compared > 0 ? small(row.largest) : "",
+                                   fmt::format("{}", row.compared), small(row.statistics), small(row.errorPerSecond),
                                    row.resolved ? "" : "below resolution"});
     else
-        cells.insert(cells.end(), {"", "", "", "", studies::nameOf(run.ending)});
+        cells.insert(cells.end(), {"", "", "", "", "", studies::nameOf(run.ending)});
     cells.insert(cells.end(), {fmt::format("{:.3g}", run.seconds), fmt::format("{}", steps.count),
                                fmt::format("{}", steps.forceEvaluations), fmt::format("{}", steps.products),
                                fmt::format("{:.0f}", run.lookPasses), fmt::format("{}", steps.rejected)});
@@ -60,9 +61,9 @@ Cells cellsOf(const studies::AccuracyRow& row) {
 std::string runTable(const studies::SceneAccuracy& accuracy) {
     std::vector<Cells> rows;
     for (const studies::AccuracyRow& row : accuracy.rows) rows.push_back(cellsOf(row));
-    return table({"stepper", "asked", "rms error (radii)", "largest (radii)", "statistics (radii)", "error per second",
-                  "", "seconds", "steps", "force evaluations", "products", "looks", "taken back", "energy drift",
-                  "momentum drift", "angular drift"},
+    return table({"stepper", "asked", "rms error (radii)", "largest (radii)", "particles compared",
+                  "statistics (radii)", "error per second", "", "seconds", "steps", "force evaluations", "products",
+                  "looks", "taken back", "energy drift", "momentum drift", "angular drift"},
                  rows);
 }
 
@@ -102,12 +103,13 @@ std::string referenceText(const studies::SceneAccuracy& accuracy) {
     return fmt::format(
         "<p>{} particles, {:g} s of motion from {:.4g} s on; every run starts from the same state. Reference: {} at "
         "{:.4g} &micro;s, {:.3g} s; the last halving of its step changed it by {:.1e} radii{}. Errors below {:.1e} "
-        "radii are not told from its own. Twins that begin 1e-9 radii apart end {:.1e} radii apart: errors are "
+        "radii are not told from its own. Twins that begin 1e-9 radii apart end {:.1e} radii apart{}: errors are "
         "measured in {}.</p>\n",
         accuracy.particleCount, accuracy.window, accuracy.from, engine::nameOf(facts.variant.stepper),
         1e6 * facts.variant.asked, facts.seconds, facts.change,
         facts.settled ? "" : ", more than a twentieth of the smallest error (budget spent)", facts.resolution,
-        facts.twinSeparation, studies::nameOf(facts.measure));
+        facts.twinSeparation, facts.birthsDiffer ? ", and some runs have other births than the reference" : "",
+        studies::nameOf(facts.measure));
 }
 
 std::string section(const AccuracySection& section) {
@@ -122,8 +124,8 @@ std::string section(const AccuracySection& section) {
 
 std::string introduction(const StudyFacts& facts) {
     return fmt::format(
-        "<p><code>{}</code>, {} thread{}. Seconds are wall clock, the least of three rounds for runs below 5 s, of up "
-        "to twelve for short ones. A pass is a force evaluation over all pairs; a product of the implicit steppers' "
+        "<p><code>{}</code>, {} thread{}. Seconds are wall clock, {}. A pass is a force evaluation over all pairs; a "
+        "product of the implicit steppers' "
         "matrix with a vector counts the share of one that the plots say, and the looks that the automatic stepper "
         "takes at its candidates within the window are included. It begins the window with its choice made, as in the "
         "middle of a run; its first looks are not counted. The cost "
@@ -132,7 +134,9 @@ std::string introduction(const StudyFacts& facts) {
         "energy, over the reference's kinetic energy and the sizes of its pair and contact energies; of the momenta, "
         "over its sum of |p| and of |x &times; p|. The same numbers are in accuracy.csv, orders.csv, auto.csv and "
         "references.csv.</p>\n",
-        escaped(facts.command), facts.threads, facts.threads == 1 ? "" : "s");
+        escaped(facts.command), facts.threads, facts.threads == 1 ? "" : "s",
+        facts.isTimedOnce ? "each run timed once"
+                          : "the least of three rounds for runs below 5 s, of up to twelve for short ones");
 }
 
 }  // namespace

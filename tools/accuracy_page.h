@@ -19,6 +19,7 @@ struct AccuracySection {
 struct StudyFacts {
     std::string command;
     int threads = 1;
+    bool isTimedOnce = false;  ///< each run, instead of in rounds
 };
 
 /// The page as HTML, plots embedded.

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "engine/diagnostics.h"
 #include "render/panel_strip.h"
 #include "render/renderer.h"
 #include "scenes/frame_steps.h"
 #include "scenes/frame_view.h"
+#include "scenes/input_error.h"
+#include "scenes/limits.h"
 #include "scenes/overlay_view.h"
 #include "tools/open_context.h"
 #include "tools/threads.h"
@@ -48,9 +52,22 @@ MomentPictures drawAll(const MomentsJob& job, const Moments& moments) {
     return pictures;
 }
 
+/// A strip is drawn panel by panel, and takes few bytes a pixel; but all its panels are held at once.
+void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
+    const double most = 16.0 * scenes::Limits().pixels;
+    const double pixels = static_cast<double>(panels) * scene.size.width * scene.size.height;
+    if (pixels <= most) return;
+    throw scenes::InputError(
+        {{scene.sourceName, 0, 0,
+          fmt::format("a strip of {} panels of {} x {} pixels is larger than the {:.0f} pixels that "
+                      "one may have",
+                      panels, scene.size.width, scene.size.height, most)}});
+}
+
 }  // namespace
 
 MomentPictures drawMoments(const MomentsJob& job, const Moments& moments) {
+    requireStripSize(*job.scene, moments.stripFrames.size());
     MomentPictures pictures;
     onThreads(job.threads, [&] { pictures = drawAll(job, moments); });
     return pictures;

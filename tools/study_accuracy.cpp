@@ -11,6 +11,7 @@
 
 #include "engine/steppers.h"
 #include "scenes/input_error.h"
+#include "scenes/limits.h"
 #include "studies/accuracy.h"
 #include "studies/accuracy_csv.h"
 #include "studies/accuracy_plot.h"
@@ -21,6 +22,7 @@
 #include "tools/number_in.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
+#include "tools/shell_words.h"
 #include "tools/standard_streams.h"
 #include "tools/threads.h"
 
@@ -49,8 +51,24 @@ constexpr double kFromShare = 0.4;
 struct Subject {
     std::string name;  ///< in tables and file names: "liquid", "hard-honey", "powder-2s"
     scenes::Scene scene;
+    double from = 0.0;    ///< s
     double window = 0.0;  ///< s
 };
+
+/// Refuses what is shorter than a frame, and what would never end.
+void requireFrames(const Subject& subject, const std::string& text) {
+    const double fps = subject.scene.fps;
+    const double most = scenes::Limits().frames;
+    if (!(std::lround(std::min(subject.window * fps, most)) >= 1))
+        throw scenes::InputError(
+            {{text, 0, 0,
+              fmt::format("a window of {:g} s is shorter than a frame of {:g} s", subject.window, 1.0 / fps)}});
+    if (!((subject.from + subject.window) * fps <= most))
+        throw scenes::InputError({{text, 0, 0,
+                                   fmt::format("a window that ends at {:g} s is beyond the {:g} frames that a run may "
+                                               "have, {:g} s here",
+                                               subject.from + subject.window, most, most / fps)}});
+}
 
 /// Of "SCENE" or "SCENE:SECONDS".
 Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) {
@@ -69,15 +87,16 @@ Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) 
     subject.name = (scene.ends_with(".toml") ? fs::path(scene).stem().string() : scene) + suffix;
     std::replace(subject.name.begin(), subject.name.end(), '/', '-');
     subject.scene = load({scene, options.overrides, {}});
+    subject.from = options.from >= 0.0 ? options.from : kFromShare * subject.scene.stillTime;
+    requireFrames(subject, text);
     return subject;
 }
 
 studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccuracyOptions& options) {
     const scenes::Scene& scene = subject.scene;
-    const double from = options.from >= 0.0 ? options.from : kFromShare * scene.stillTime;
     studies::AccuracySettings settings;
-    settings.firstFrame = static_cast<int>(std::lround(from * scene.fps));
-    settings.frameCount = std::max(1, static_cast<int>(std::lround(subject.window * scene.fps)));
+    settings.firstFrame = static_cast<int>(std::lround(subject.from * scene.fps));
+    settings.frameCount = static_cast<int>(std::lround(subject.window * scene.fps));
     if (options.quick) {
         settings.stepsPerFrame = {4, 8, 16, 32};
         settings.errors = {1e-1, 1e-2};
@@ -109,7 +128,7 @@ studies::RunListener reporter(const std::string& name, Talk talk) {
     };
 }
 
-std::vector<studies::SceneAccuracy> measure(const StudyAccuracyOptions& options) {
+std::vector<Subject> subjectsOf(const StudyAccuracyOptions& options) {
     std::vector<Subject> subjects;
     std::set<std::string> names;
     for (const std::string& text : options.scenes) {
@@ -117,19 +136,27 @@ std::vector<studies::SceneAccuracy> measure(const StudyAccuracyOptions& options)
         if (!names.insert(subjects.back().name).second)
             throw scenes::InputError({{text, 0, 0, "two scenes would share its files"}});
     }
-    std::vector<studies::SceneAccuracy> results;
-    for (const Subject& subject : subjects)
+    return subjects;
+}
+
+studies::SceneAccuracy measure(const Subject& subject, const StudyAccuracyOptions& options) {
+    studies::SceneAccuracy accuracy;
+    try {
         onThreads(threadCount(options.run), [&] {
-            results.push_back(studies::measureAccuracy(subject.name, subject.scene, settingsFor(subject, options),
-                                                       reporter(subject.name, options.run.talk())));
+            accuracy = studies::measureAccuracy(subject.name, subject.scene, settingsFor(subject, options),
+                                                reporter(subject.name, options.run.talk()));
         });
-    return results;
+    } catch (const engine::InstabilityError& error) {
+        throw engine::InstabilityError(subject.name + ": " + error.what());
+    }
+    return accuracy;
 }
 
 std::string commandOf(const StudyAccuracyOptions& options) {
-    std::string command = "globular study accuracy";
-    for (const std::string& scene : options.scenes) command += " " + scene;
-    for (const std::string& text : options.overrides) command += " --set " + text;
+    std::vector<std::string> words = {"globular", "study", "accuracy"};
+    words.insert(words.end(), options.scenes.begin(), options.scenes.end());
+    for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
+    std::string command = shellLine(words);
     if (options.from >= 0.0) command += fmt::format(" --from {:g}", options.from);
     if (options.window > 0.0) command += fmt::format(" --window {:g}", options.window);
     if (options.quick) command += " --quick";
@@ -171,13 +198,17 @@ void print(const studies::SceneAccuracy& accuracy) {
 
 void study(const StudyAccuracyOptions& options) {
     const fs::path folder = options.folder;
+    const std::vector<Subject> subjects = subjectsOf(options);
     createFolder(folder);
-    const std::vector<studies::SceneAccuracy> results = measure(options);
-    writeTables(folder, results);
+    std::vector<studies::SceneAccuracy> results;
+    for (const Subject& subject : subjects) {
+        results.push_back(measure(subject, options));
+        writeTables(folder, results);  // what a later scene cannot undo
+    }
     std::vector<AccuracySection> sections;
     for (const studies::SceneAccuracy& accuracy : results) sections.push_back(plotted(folder, accuracy));
     const fs::path page = folder / "index.html";
-    writeFile(page, accuracyPage(sections, {commandOf(options), threadCount(options.run)}));
+    writeFile(page, accuracyPage(sections, {commandOf(options), threadCount(options.run), options.quick}));
     if (options.run.json) printJson(Json{{"event", "done"}, {"page", page.string()}});
     if (options.run.talk() != Talk::normal) return;
     for (const studies::SceneAccuracy& accuracy : results) print(accuracy);

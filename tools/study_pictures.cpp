@@ -141,8 +141,9 @@ void study(const PicturesOptions& options) {
     if (options.run.talk() != Talk::normal) return;
     print(rows);
     for (const studies::FlickerRow& row : results.flicker)
-        fmt::print("{} {}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n", studies::nameOf(row.style),
-                   studies::nameOf(row.quality), row.change, row.jerk);
+        fmt::print("{} {}, {} particles, {}x{}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n",
+                   studies::nameOf(row.style), studies::nameOf(row.quality), row.particles, row.size.width,
+                   row.size.height, row.change, row.jerk);
     for (const studies::SkinRow& row : results.skins)
         fmt::print("{} skin, {} particles: {:.4g} ms, volume {:.3f}, bumps {:.2f} degrees\n", studies::nameOf(row.skin),
                    row.particles, 1e3 * row.draw, row.volume, row.bumps);

@@ -159,11 +159,11 @@ void print(const ScalingResults& results) {
 }
 
 void study(const ScalingOptions& options) {
+    const fs::path folder = options.folder;
+    createFolder(folder);
     ScalingResults results;
     onThreads(threadCount(options.run), [&] { results = measure(options); });
     if (!options.peer.empty()) measurePeer(results, options);
-    const fs::path folder = options.folder;
-    createFolder(folder);
     writeFile(folder / "scaling.csv", studies::scalingCsv(results.rows));
     writeFile(folder / "exponents.csv", studies::fitsCsv(results.fits));
     const std::string plot = drawPlot(studies::scalingPlot(results.rows));

@@ -15,6 +15,7 @@
 #include "tools/json.h"
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
+#include "tools/shell_words.h"
 #include "tools/stability_page.h"
 #include "tools/standard_streams.h"
 #include "tools/threads.h"
@@ -80,14 +81,14 @@ void tellCase(const studies::CaseResult& result, Talk talk) {
 }
 
 std::string commandText(const StabilityOptions& options) {
-    std::string text = "globular study stability";
-    for (const std::string& name : options.cases) text += " " + name;
-    return text + (options.quick ? " --quick" : "") + fmt::format(" --threads {}", threadCount(options.run));
+    std::vector<std::string> words = {"globular", "study", "stability"};
+    words.insert(words.end(), options.cases.begin(), options.cases.end());
+    return shellLine(words) + (options.quick ? " --quick" : "") +
+           fmt::format(" --threads {}", threadCount(options.run));
 }
 
 void writeResults(const StabilityOptions& options, const std::vector<studies::CaseResult>& results) {
     const fs::path folder = options.folder;
-    createFolder(folder);
     writeFile(folder / "stability.csv", studies::stabilityCsv(results));
     writeFile(folder / "index.html", stabilityPage(results, commandText(options)));
     if (options.run.talk() != Talk::normal) return;
@@ -98,6 +99,7 @@ void writeResults(const StabilityOptions& options, const std::vector<studies::Ca
 }
 
 void study(const StabilityOptions& options) {
+    createFolder(options.folder);
     std::vector<studies::CaseResult> results;
     for (const studies::CaseOptions& one : chosenCases(options)) {
         onThreads(threadCount(options.run), [&] { results.push_back(studies::runCase(one)); });

@@ -59,3 +59,18 @@ TEST_CASE("A strip of nothing or of unequal panels is refused") {
     CHECK_THROWS_AS(render::joinPanels({}), std::logic_error);
     CHECK_THROWS_AS(render::joinPanels({{plain(10, 10, 0), ""}, {plain(10, 11, 0), ""}}), std::logic_error);
 }
+
+TEST_CASE("A text wider than its panel shrinks to fit") {
+    const Image strip = render::joinPanels({{plain(24, 60, 10), "t = 12.25 s"}, {plain(24, 60, 20), "t = 12.50 s"}});
+    const int gap = strip.width - 48;
+    int ink = 0;
+    int between = 0;
+    for (int y = 60; y < strip.height; ++y)
+        for (int x = 0; x < strip.width; ++x) {
+            const int dark = 255 - byteAt(strip, x, y);
+            ink += dark;
+            if (x >= 24 && x < 24 + gap) between += dark;
+        }
+    CHECK(ink > 255 * 10);
+    CHECK(between < ink / 50);  // soft edges of the outermost letters
+}

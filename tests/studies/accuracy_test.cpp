@@ -269,3 +269,50 @@ TEST_CASE("A plot has a curve for each stepper with resolved runs, and its title
         }
     CHECK(studies::plotScript(accuracy, studies::CostAxis::seconds).find("velocity-verlet") == std::string::npos);
 }
+
+TEST_CASE("A window that begins before anybody is born is measured", "[studies]") {
+    const auto late = scenes::readScene(R"(
+title = "late"
+duration = 1
+fps = 10
+[material]
+preset = "liquid"
+[[emitter]]
+shape = "point"
+position = [0, 1, 0]
+interval = 0.2
+start = 0.35
+)",
+                                        "late.toml", {});
+    studies::AccuracySettings settings = shortSettings();
+    settings.firstFrame = 2;
+    settings.frameCount = 8;
+    const SceneAccuracy accuracy = studied(late, settings);
+    CHECK(accuracy.particleCount == 0);
+    for (const AccuracyRow& row : accuracy.rows) CHECK(row.compared == 3);  // born at 0.55, 0.75 and 0.95 s
+}
+
+TEST_CASE("Runs with other births than the reference are compared by statistics", "[studies]") {
+    const studies::Window window = studies::openWindow(dozen(), 1, 3);
+    std::vector<studies::WindowRun> runs;
+    for (const double step : {0.004, 0.002})
+        runs.push_back(studies::runWindow(window, {StepperKind::velocityVerlet, step, {}}, 60.0));
+    runs.push_back(studies::runWindow(window, {StepperKind::symplecticEuler, 0.002, {}}, 60.0));
+    const studies::ReferenceBudget budget{1.0, [](const studies::WindowRun&, std::string_view) {}};
+    CHECK_FALSE(studies::findReference(window, runs, budget).facts.birthsDiffer);
+    runs.back().particles.birthTime.back() = 0.01;
+    const studies::Reference reference = studies::findReference(window, runs, budget);
+    CHECK(reference.facts.birthsDiffer);
+    CHECK(reference.facts.measure == studies::Measure::statistics);
+    CHECK(studies::rowOf(window, runs.back(), reference).error > 0.0);
+}
+
+TEST_CASE("An error over no particle is not written as one", "[studies]") {
+    SceneAccuracy accuracy;
+    accuracy.name = "a, b";
+    accuracy.rows.resize(1);
+    accuracy.rows[0].run.variant.stepper = StepperKind::leapfrog;
+    const std::vector<std::string> lines = linesOf(studies::accuracyCsv({accuracy}));
+    REQUIRE(lines.size() == 2);
+    CHECK(lines[1].rfind("\"a, b\",leapfrog,0,,finished,,,0,0,positions,", 0) == 0);
+}

@@ -116,3 +116,21 @@ TEST_CASE("a scene without [study] is no case") {
     const SceneFile file(kPair);
     CHECK_THROWS_AS(studies::runCase({"pair", file.path(), false}), scenes::InputError);
 }
+
+TEST_CASE("a row says what was observed of the paper's stepper where it is something else") {
+    studies::CaseResult result;
+    result.name = "two";
+    result.variants.resize(2);
+    studies::VariantResult& front = result.variants[0];
+    front.study.observable = scenes::Observable::frontError;
+    front.ours.value = 0.9;
+    front.paper.value = 1.5;
+    studies::VariantResult& radius = result.variants[1];
+    radius.study.observable = scenes::Observable::radiusError;
+    radius.ours.value = 0.1;
+    radius.paper.value = 7.0;
+    for (studies::VariantResult& variant : result.variants) variant.study.limit = 1.0;
+    CHECK(studies::rowOf(result)[2] == "radius-error 7: fails");
+    radius.study.observable = scenes::Observable::frontError;
+    CHECK(studies::rowOf(result)[2] == "7: fails");
+}

@@ -140,8 +140,27 @@ TEST_CASE("the order is that of the stepper") {
 
 TEST_CASE("refused births are counted") {
     // Three nozzles in one place: the first is in the way of the others, once each; they wait and keep the delay.
-    const scenes::Scene scene = sceneWith(
-        "[[emitter]]\npositions = [[5, 0, 0], [5, 0, 0], [5, 0, 0]]\nvelocity = [8, 0, 0]\ninterval = 0.2\n");
+    const scenes::Scene scene =
+        sceneWith("[[emitter]]\npositions = [[5, 0, 0], [5, 0, 0], [5, 0, 0]]\nvelocity = [8, 0, 0]\ninterval = 0.2\n");
     const Run run = studies::runScene(scene);
     CHECK(studies::refusals({scene, run}) == 2.0);
+}
+
+TEST_CASE("errors leave out the frames before anybody is born") {
+    const Run reference = runOf({frameOf({}), frameOf({{{1, 2, 0}}})});
+    const Run run = runOf({frameOf({}), frameOf({{{1.5, 2.25, 0}}})});
+    CHECK(against(studies::heightError, run, reference) == Approx(0.5));
+    CHECK(against(studies::frontError, run, reference) == Approx(1.0));
+    const Run sooner = runOf({frameOf({{{1, 2, 0}}}), frameOf({{{1, 2, 0}}})});
+    CHECK(against(studies::heightError, sooner, reference) == kInfinity);
+}
+
+TEST_CASE("nobody at the end is nothing to measure") {
+    const Run run = runOf({frameOf({}), frameOf({})});
+    for (const scenes::ObservableInfo& info : scenes::observables()) {
+        if (info.observable == scenes::Observable::pairLaw || info.observable == scenes::Observable::refusals) continue;
+        INFO(info.name);
+        CHECK_THROWS_WITH(studies::measure(info.observable, {sceneWith(""), run, &run}),
+                          Catch::Matchers::Contains("no particle is there at the end"));
+    }
 }

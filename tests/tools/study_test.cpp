@@ -63,6 +63,20 @@ TEST_CASE("A study of two scenes of one name is refused", "[tools]") {
     CHECK(twice.err.find("two scenes would share its files") != std::string::npos);
 }
 
+TEST_CASE("Windows that never end, or hold no frame, are refused", "[tools]") {
+    const program::Folder folder;
+    for (const char* window : {"liquid:inf", "liquid:1e12", "liquid --window 1e300", "liquid --from inf"}) {
+        const auto outcome = run("study accuracy " + std::string(window) + " -o " + (folder / "study").string());
+        INFO(window);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("beyond the 100000 frames") != std::string::npos);
+    }
+    const auto outcome = run("study accuracy liquid:0.001 -o " + (folder / "study").string());
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("shorter than a frame") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "study"));
+}
+
 TEST_CASE("The study of scaling writes tables, a plot and a page, and says when a peer is missing", "[tools]") {
     const program::Folder folder;
     std::filesystem::create_directory(folder / "bin");
