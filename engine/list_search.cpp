@@ -63,6 +63,7 @@ struct Search {
     void look(const Vec3& from) {
         origin = from;
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kWide));
+        const auto counting = hn::Iota(kFew, 0);  // goes through memory, and would wait for itself in the loop
         std::uint32_t used = 0;
         for (int r = 0; r < around.count; ++r) {
             const CellRange range = around.ranges[static_cast<std::size_t>(r)];
@@ -71,7 +72,7 @@ struct Search {
                 see(candidates.x, other, origin.x(), &seen.x[at]);
                 see(candidates.y, other, origin.y(), &seen.y[at]);
                 see(candidates.z, other, origin.z(), &seen.z[at]);
-                hn::StoreU(hn::Iota(kFew, other), kFew, &seen.places[at]);
+                hn::StoreU(hn::Add(hn::Set(kFew, other), counting), kFew, &seen.places[at]);
             }
             used += range.end - range.begin;
         }
