@@ -19,6 +19,20 @@ double stepOf(double span) {
     return 10.0 * unit;
 }
 
+/// A power of ten at or below a positive number.
+int magnitudeOf(double number) {
+    return static_cast<int>(std::floor(std::log10(number) + 1e-9));
+}
+
+/// Digits down to those that tell neighbours apart, as a power of ten where they would be too many.
+std::string tickText(double value, double step) {
+    constexpr int kMostPlaces = 5;
+    const int last = magnitudeOf(step);
+    if (std::abs(last) <= kMostPlaces) return fmt::format("{:.{}f}", value, std::max(0, -last));
+    if (value == 0.0) return "0";
+    return fmt::format("{:.{}e}", value, std::max(0, magnitudeOf(std::abs(value)) - last));
+}
+
 render::ColorBar colorBarOf(const Scene& scene) {
     render::ColorBar bar;
     for (const engine::Vec3& color : scene.look.ramp) bar.colors.push_back(single(color));
@@ -54,14 +68,13 @@ std::string lengthText(double meters) {
 
 std::vector<render::Tick> ticksBetween(double low, double high) {
     const double step = stepOf(high - low);
-    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
     std::vector<render::Tick> ticks;
     // Whole multiples of the step, so that the third tick from 0 by 0.1 is 0.3 and no number near it.
     const double first = std::ceil(low / step - 1e-9);
     constexpr int kMost = 20;  // more than any step leads to, unless the range is below its own rounding
     for (int k = 0; k < kMost && (first + k) * step <= high + 1e-9 * step; ++k) {
         const double value = (first + k) * step + 0.0;  // no "-0"
-        ticks.push_back({single((value - low) / (high - low)), fmt::format("{:.{}f}", value, decimals)});
+        ticks.push_back({single((value - low) / (high - low)), tickText(value, step)});
     }
     return ticks;
 }

@@ -77,6 +77,9 @@ TEST_CASE("ticks are round numbers within the range") {
     CHECK(tickTexts(0.0, 0.03) == Lines{"0.00", "0.01", "0.02", "0.03"});
     CHECK(tickTexts(-3.0, 3.0) == Lines{"-2", "0", "2"});
     CHECK(tickTexts(120.0, 480.0) == Lines{"200", "300", "400"});
+    CHECK(tickTexts(0.0, 1e30) == Lines{"0", "2e+29", "4e+29", "6e+29", "8e+29", "1.0e+30"});
+    CHECK(tickTexts(1e8, 1.0002e8) == Lines{"100000000", "100005000", "100010000", "100015000", "100020000"});
+    CHECK(tickTexts(0.0, 3e-8) == Lines{"0", "1e-08", "2e-08", "3e-08"});
     for (const double high : {0.11, 0.9, 1.7, 2.0, 33.0, 470.0, 6.1e6}) {
         INFO(high);
         const auto ticks = scenes::ticksBetween(0.0, high);
