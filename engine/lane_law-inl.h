@@ -44,14 +44,20 @@ struct Law {
 
     static V set(T value) { return hn::Set(kTag, value); }
 
+    /// 1/x^2 that no rounded 1/D^2 exceeds at or beyond the rounded x.
+    static T inverseOfRounded(double inverseSq) {
+        if constexpr (std::is_same_v<T, double>) return inverseSq;
+        return T(1) / static_cast<T>(1.0 / inverseSq);
+    }
+
     /// Shape:  unit of the rows' separations, m.
     Law(const PairConstants<double>& wide, const MatrixWeights& weights, double unitLength) {
         c.b1 = static_cast<T>(wide.b1);
         c.bd = static_cast<T>(wide.bd);
-        c.inverseRestSq = static_cast<T>(wide.inverseRestSq);
+        c.inverseRestSq = inverseOfRounded(wide.inverseRestSq);
+        c.inverseReachSq = inverseOfRounded(wide.inverseReachSq);
+        c.inverseDampingSq = inverseOfRounded(wide.inverseDampingSq);
         c.reachSq = static_cast<T>(wide.reachSq);
-        c.inverseReachSq = T(1) / c.reachSq;  // the rounded reach's own: nothing acts beyond it
-        c.inverseDampingSq = static_cast<T>(wide.inverseDampingSq);
         c.coreSq = static_cast<T>(wide.coreSq);
         b1 = set(c.b1);
         bd = set(c.bd);
