@@ -1,11 +1,11 @@
-// Rows are found chunk by chunk, then put together in order, whoever found them.
+// Rows are found chunk by chunk, then put together in order, whoever found them. The lanes of a group wait for its
+// longest row: particles with rows of like length are given places side by side.
 #include "engine/neighbour_list.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
+#include "engine/extent.h"
 #include "engine/parallel.h"
 
 namespace engine {
@@ -21,6 +21,38 @@ CellRange chunkOf(const NeighbourList& list, std::size_t number) {
             static_cast<std::uint32_t>(std::min((number + 1) * size, list.count()))};
 }
 
+/// Places among which particles are put in order of the lengths of their rows. Chosen: among more, groups would need
+/// records from further apart than the first-level cache holds.
+constexpr std::size_t kWindow = 64;
+
+/// Where each of a window's rows goes, longest first: a counting sort, in which all that are far shorter are one.
+std::array<std::uint32_t, kWindow> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
+    constexpr std::uint32_t kLengths = 128;
+    const std::uint32_t longest = *std::max_element(lengths, lengths + count);
+    const auto shortness = [&](std::uint32_t at) { return std::min(longest - lengths[at], kLengths - 1); };
+    std::array<std::uint32_t, kLengths + 1> next = {};
+    for (std::uint32_t at = 0; at < count; ++at) ++next[shortness(at) + 1];
+    for (std::uint32_t length = 0; length < kLengths; ++length) next[length + 1] += next[length];
+    std::array<std::uint32_t, kWindow> ranks = {};
+    for (std::uint32_t at = 0; at < count; ++at) ranks[at] = next[shortness(at)]++;
+    return ranks;
+}
+
+/// Moves the particles of a window to the places that their rows' lengths give them.
+void sortWindow(NeighbourList& list, std::uint32_t begin, std::uint32_t end) {
+    std::array<std::uint32_t, kWindow> lengths, particles;
+    std::copy(list.rows.length.begin() + begin, list.rows.length.begin() + end, lengths.begin());
+    std::copy(list.order.begin() + begin, list.order.begin() + end, particles.begin());
+    const auto ranks = ranksOf(lengths.data(), end - begin);
+    for (std::uint32_t at = 0; at < end - begin; ++at) {
+        const std::uint32_t place = begin + ranks[at];
+        list.scratch.placeFor[begin + at] = place;
+        list.rows.length[place] = lengths[at];
+        list.order[place] = particles[at];
+        list.placeOf[particles[at]] = place;
+    }
+}
+
 /// Finds the chunk's rows; the start of a group becomes the length of the longest one before it.
 void search(NeighbourList& list, const CellRange& chunk, FoundRows& found) {
     Surroundings scratch;
@@ -31,41 +63,47 @@ void search(NeighbourList& list, const CellRange& chunk, FoundRows& found) {
                     &list.rows.length[place]);
         place = selves.end;
     }
+    for (std::uint32_t begin = chunk.begin; begin < chunk.end; begin += kWindow)
+        sortWindow(list, begin, std::min<std::uint32_t>(begin + kWindow, chunk.end));
     for (std::size_t group = chunk.begin / kGroup; group * kGroup < chunk.end; ++group) {
         const auto first = list.rows.length.begin() + static_cast<std::ptrdiff_t>(group * kGroup);
         list.rows.start[group + 1] = *std::max_element(first, first + kGroup);
     }
 }
 
-/// Interleaves the chunk's rows.
-void layOut(LaneRows& rows, const CellRange& chunk, const FoundRows& found) {
+/// Interleaves the chunk's rows, which were found in the order of the cells.
+void layOut(NeighbourList& list, const CellRange& chunk, const FoundRows& found) {
+    LaneRows& rows = list.rows;
+    const std::vector<std::uint32_t>& placeFor = list.scratch.placeFor;
+    std::array<const std::uint32_t*, kGroupsPerChunk * kGroup> rowOf;
     const std::uint32_t* next = found.places.data();
+    for (std::uint32_t at = chunk.begin; at < chunk.end; ++at) {
+        const std::uint32_t place = placeFor[at];
+        rowOf[place - chunk.begin] = next;
+        next += rows.length[place] + 1;
+    }
+    // Where nobody is, somebody's own place.
+    std::fill(rowOf.begin() + (chunk.end - chunk.begin), rowOf.end(), next - 1);
     for (std::uint32_t first = chunk.begin; first < chunk.end; first += kGroup) {
-        std::array<const std::uint32_t*, kGroup> row;
-        std::array<std::uint32_t, kGroup> length;
-        for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
-            const bool isThere = first + lane < chunk.end;
-            length[lane] = rows.length[first + lane];
-            row[lane] = isThere ? next : next - 1;  // the last particle's own place
-            if (isThere) next += length[lane] + 1;
-        }
+        const auto* const row = &rowOf[first - chunk.begin];
+        const std::uint32_t* const length = &rows.length[first];
         const std::uint32_t longest = rows.start[first / kGroup + 1] - rows.start[first / kGroup];
         std::int32_t* to = &rows.places[rows.at(first, 0)];
         for (std::uint32_t k = 0; k < longest; ++k)
             for (std::uint32_t lane = 0; lane < kGroup; ++lane)
-                *to++ = static_cast<std::int32_t>(row[lane][std::min(k, length[lane])]);
+                *to++ = static_cast<std::int32_t>(placeFor[row[lane][std::min(k, length[lane])]]);
     }
 }
 
-void sortByPlace(NeighbourList& list, const std::vector<Vec3>& positions) {
+void sortByCell(NeighbourList& list, const std::vector<Vec3>& positions) {
     list.order.swap(list.scratch.grid.order);
     const std::size_t count = list.order.size();
     list.placeOf.resize(count);
+    list.scratch.placeFor.resize(count);
     list.scratch.candidates.x.resize(count + kSearchOverhang);
     list.scratch.candidates.y.resize(count + kSearchOverhang);
     list.scratch.candidates.z.resize(count + kSearchOverhang);
     inParallel(count, kParticleGrain, [&](std::size_t place) {
-        list.placeOf[list.order[place]] = static_cast<std::uint32_t>(place);
         const Vec3& position = positions[list.order[place]];
         list.scratch.candidates.x[place] = position.x();
         list.scratch.candidates.y[place] = position.y();
@@ -79,7 +117,7 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     list.reach = cutoff + skin;
     copy(positions, list.builtAt);
     build(list.scratch.grid, positions, list.reach);
-    sortByPlace(list, positions);
+    sortByCell(list, positions);
     const std::size_t groups = (list.count() + kGroup - 1) / kGroup;
     const std::size_t chunks = (groups + kGroupsPerChunk - 1) / kGroupsPerChunk;
     list.rows.length.assign(groups * kGroup, 0);
@@ -95,18 +133,18 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     // One more than there are: kernels read past the end of a row before they see that it is the last, or empty.
     list.rows.places.resize((list.rows.start[groups] + 1) * kGroup);
     std::fill(list.rows.places.end() - kGroup, list.rows.places.end(), 0);
-    inParallel(chunks, 1, [&](std::size_t c) { layOut(list.rows, chunkOf(list, c), list.scratch.found[c]); });
+    inParallel(chunks, 1, [&](std::size_t c) { layOut(list, chunkOf(list, c), list.scratch.found[c]); });
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
     // A list that is forgotten has its order still.
     if (positions.size() != list.builtAt.size() || positions.size() != list.count() || cutoff > list.reach)
         return false;
+    if (positions.empty()) return true;
     const double slack = 0.5 * (list.reach - cutoff);
-    return largestOver(positions.size(), [&](std::size_t p) {
-               const double moveSq = squaredLength(positions[p] - list.builtAt[p]);
-               return std::isnan(moveSq) ? std::numeric_limits<double>::infinity() : moveSq;
-           }) <= slack * slack;
+    const auto way = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
+    if (farthestFrom(Vec3::Zero(), positions.size(), way) <= slack) return true;  // mostly, and soon known
+    return farthestFrom(extentOver(positions.size(), way).middle(), positions.size(), way) <= slack;
 }
 
 std::size_t bytesOf(const NeighbourList& list) {
@@ -116,7 +154,7 @@ std::size_t bytesOf(const NeighbourList& list) {
     std::size_t bytes =
         held(list.order, list.placeOf, list.rows.start, list.rows.length, list.rows.places, list.builtAt,
              list.scratch.grid.start, list.scratch.grid.order, list.scratch.grid.cellOf, list.scratch.candidates.x,
-             list.scratch.candidates.y, list.scratch.candidates.z, list.scratch.found);
+             list.scratch.candidates.y, list.scratch.candidates.z, list.scratch.placeFor, list.scratch.found);
     for (const FoundRows& found : list.scratch.found) bytes += held(found.places);
     return bytes;
 }

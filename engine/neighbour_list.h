@@ -1,5 +1,6 @@
 // Who is near whom: for every particle the places of all others within the cutoff and a skin around it. The list serves
-// as long as no particle has moved by half the skin, so that most steps need no search. Kept by PairTraversal.
+// as long as no particle has moved by half the skin beside what all have in common, so that most steps need no search
+// and a crowd that falls as one needs none at all. Kept by PairTraversal.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +15,14 @@ namespace engine {
 
 /// Memory of a build.
 struct BuildScratch {
-    CellGrid grid;  ///< its order is an older one
-    Candidates candidates;
-    std::vector<FoundRows> found;  ///< rows of some groups each
+    CellGrid grid;                        ///< its order is an older one
+    Candidates candidates;                ///< in the order of the cells, as are the rows that are found
+    std::vector<std::uint32_t> placeFor;  ///< of each particle in the order of the cells
+    std::vector<FoundRows> found;         ///< rows of some groups each
 };
 
-/// Rows of places in the order of the cell grid that they were built with.
+/// Rows of places, which follow the cells of the grid that they were built with; among neighbouring places particles
+/// with long rows come first.
 struct NeighbourList {
     std::vector<std::uint32_t> order;    ///< particle index at each place
     std::vector<std::uint32_t> placeOf;  ///< of each particle index

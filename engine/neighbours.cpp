@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/extent.h"
 #include "engine/parallel.h"
 
 namespace engine {
@@ -18,12 +19,7 @@ std::int64_t cellLimit(std::size_t particleCount) {
 }
 
 std::array<std::int64_t, 3> chooseDimensions(const std::vector<Vec3>& positions, double width) {
-    Vec3 low = positions.front();
-    Vec3 high = positions.front();
-    for (const Vec3& position : positions) {
-        low = low.cwiseMin(position);
-        high = high.cwiseMax(position);
-    }
+    const auto [low, high] = extentOver(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
     const std::int64_t limit = cellLimit(positions.size());
     std::array<std::int64_t, 3> dimensions{};
     for (int axis = 0; axis < 3; ++axis) {

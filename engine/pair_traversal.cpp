@@ -2,8 +2,8 @@
 #include "engine/pair_traversal.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "engine/extent.h"
 #include "engine/list_skin.h"
 
 namespace engine {
@@ -21,12 +21,10 @@ std::int32_t wrapped(double units) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(whole)));
 }
 
-/// The largest speed, m/s; what is no number does not count.
+/// How fast particles leave the place they have in the crowd, at most, m/s: what all have in common moves no list.
 double fastest(const std::vector<Vec3>& velocities) {
-    return std::sqrt(largestOver(velocities.size(), [&](std::size_t p) {
-        const double speedSq = squaredLength(velocities[p]);
-        return speedSq > 0.0 ? speedSq : 0.0;
-    }));
+    const auto velocity = [&](std::size_t p) -> const Vec3& { return velocities[p]; };
+    return farthestFrom(extentOver(velocities.size(), velocity).middle(), velocities.size(), velocity);
 }
 
 /// Entries of a row that lie within the cutoff (m), if they are spread evenly.
@@ -46,7 +44,7 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     if (terms.uniform && particles.count() > 0)
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * particles.radius.front());
     if (!covers(list, particles.position, terms.cutoff)) {
-        const bool isForeseen = step > 0.0 && list.count() > 0;
+        const bool isForeseen = step > 0.0 && list.count() > 0 && particles.count() > 0;
         const double skin =
             isForeseen ? cheapestSkin(neighboursWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
                        : kListSkin;

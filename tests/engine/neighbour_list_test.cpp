@@ -69,12 +69,15 @@ std::vector<Vec3> hardPositions() {
     return positions;
 }
 
-/// A list over a cloud, one of whose particles is then moved this far (m) in some direction.
+/// A list over a cloud that then moves far as one, and two of it this far (m) against each other, in some direction.
 bool coversAfterMove(double distance, std::size_t p) {
     std::vector<Vec3> positions = clouds::strewn(50, 0.8).position;
     NeighbourList list;
     build(list, positions, kCutoff, kSkin);
-    positions[p] += distance * clouds::randomVector(11, p).normalized();
+    const Vec3 direction = clouds::randomVector(11, p).normalized();
+    positions[p] += 0.5 * distance * direction;
+    positions[(p + 1) % positions.size()] -= 0.5 * distance * direction;
+    for (Vec3& position : positions) position += Vec3(3.0, -5.0, 7.0);
     return covers(list, positions, kCutoff);
 }
 
@@ -105,11 +108,10 @@ TEST_CASE("Positions that are no numbers leave the rows of the others as they ar
     }
 }
 
-TEST_CASE("A list covers until a particle has moved by half the skin", "[neighbour-list]") {
+TEST_CASE("A list covers until two particles have come nearer by the skin", "[neighbour-list]") {
     for (std::size_t p = 0; p < 50; p += 7) {
-        CHECK(
-            coversAfterMove(0.5 * kSkin * (1 - 1e-12), p));  // positions of 1 m round to 1e-16, 4e-15 of half the skin
-        CHECK_FALSE(coversAfterMove(0.5 * kSkin * (1 + 1e-12), p));  // same
+        CHECK(coversAfterMove(kSkin * (1 - 1e-12), p));        // positions of 10 m round to 1e-15, 2e-14 of the skin
+        CHECK_FALSE(coversAfterMove(kSkin * (1 + 1e-12), p));  // same
         CHECK_FALSE(coversAfterMove(std::numeric_limits<double>::quiet_NaN(), p));
     }
 }
@@ -139,6 +141,15 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
             CHECK(row.count(i) == 1);
         }
     }
+}
+
+TEST_CASE("Rows that wait for each other are of like length", "[neighbour-list]") {
+    NeighbourList list;
+    build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
+    constexpr std::size_t kSorted = 64;  // places
+    for (std::size_t place = 1; place < list.count(); ++place)
+        if (place % kSorted != 0) CHECK(list.rows.length[place] <= list.rows.length[place - 1]);
+    for (std::size_t p = 0; p < list.count(); ++p) CHECK(list.order[list.placeOf[p]] == p);
 }
 
 TEST_CASE("The same rows for any number of threads", "[neighbour-list]") {

@@ -1,0 +1,60 @@
+// The box around many vectors: where particles are, how far they have moved, how fast they are, all but for what they
+// have in common.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "engine/parallel.h"
+#include "engine/vec3.h"
+
+namespace engine {
+
+struct Extent {
+    Vec3 low;
+    Vec3 high;
+
+    Vec3 middle() const { return 0.5 * (low + high); }
+
+    void include(const Extent& other) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], other.low[axis]);
+            high[axis] = std::max(high[axis], other.high[axis]);
+        }
+    }
+};
+
+/// The box of vectorOf(index) over 0 ... count - 1, at least one.
+template <class VectorOf>
+Extent extentOver(std::size_t count, const VectorOf& vectorOf) {
+    const std::size_t chunks = (count + kSumChunk - 1) / kSumChunk;
+    std::vector<Extent> partial(chunks);
+    inParallel(chunks, kParticleGrain / kSumChunk, [&](std::size_t chunk) {
+        const std::size_t begin = chunk * kSumChunk;
+        const std::size_t end = std::min(count, begin + kSumChunk);
+        const Vec3 first = vectorOf(begin);
+        Extent extent{first, first};
+        for (std::size_t index = begin + 1; index < end; ++index) {
+            const Vec3 vector = vectorOf(index);
+            extent.include({vector, vector});
+        }
+        partial[chunk] = extent;
+    });
+    Extent extent = partial.front();
+    for (const Extent& part : partial) extent.include(part);
+    return extent;
+}
+
+/// The largest distance of vectorOf(index) from a vector, over 0 ... count - 1; what is no number is infinitely far.
+template <class VectorOf>
+double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
+    return std::sqrt(largestOver(count, [&](std::size_t index) {
+        const double distanceSq = squaredLength(vectorOf(index) - from);
+        return std::isnan(distanceSq) ? std::numeric_limits<double>::infinity() : distanceSq;
+    }));
+}
+
+}  // namespace engine
