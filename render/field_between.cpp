@@ -234,8 +234,6 @@ constexpr std::array<std::uint8_t, kBetween> kBetweenPlaces = betweenPlaces();
 void CoarseHits::clear() {
     depth.fill(-1.0F);
     most.fill(0.0F);
-    for (auto* values : {&normal, &color, &open})
-        for (Values& component : *values) component.fill(0.0F);
 }
 
 void CoarseHits::put(std::size_t column, std::size_t row, const RayBlock& block, std::size_t k) {

@@ -21,13 +21,11 @@ struct CoarseHits {
     static constexpr std::size_t kSide = kCoarseSide + 1;
     using Values = std::array<float, kSide * kSide>;
 
-    Values depth;  ///< in view; negative: nothing
-    Values most;   ///< the greatest sample of the field on the way
-    std::array<Values, 3> normal, color, open;
+    Values depth{};  ///< in view; negative: nothing
+    Values most{};   ///< the greatest sample of the field on the way
+    std::array<Values, 3> normal{}, color{}, open{};
 
-    /// Leaves the numbers as they are.
-    CoarseHits() {}
-    /// No hits, and no field.
+    /// No hits, and no field; what hits alone have stays as it is.
     void clear();
     /// Takes ray k of a block.
     void put(std::size_t column, std::size_t row, const RayBlock& block, std::size_t k);

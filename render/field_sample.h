@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "render/camera_frame.h"
 #include "render/metaball_cast.h"
@@ -18,12 +17,6 @@ struct FieldSample {
     std::uint32_t normal = 0;     ///< octahedral, 16 + 16 bits, in world axes
     std::uint32_t color = 0;      ///< square roots, 11 + 11 + 10 bits
     std::uint32_t open = 0;       ///< openness along the normal, against it and along the mirrored ray, 10 bits each
-};
-
-struct FieldPicture {
-    std::vector<FieldSample> samples;   ///< 256 a slot, row by row, then the extra samples
-    std::vector<std::uint32_t> extras;  ///< 256 a slot: first of four more samples at the sub-pixel places; 0: none
-    std::vector<std::int32_t> slots;    ///< per tile; -1 where nothing of the surface is seen
 };
 
 using PackedBlock = std::array<FieldSample, kBlockRays>;

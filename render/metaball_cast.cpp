@@ -9,15 +9,19 @@
 #include "render/metaball_cast.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <vector>
+
+#include <tbb/cache_aligned_allocator.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/metaball_cast.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/candidates-inl.h"
+#include "render/sieve-inl.h"
 #include "render/lane_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,18 +38,20 @@ constexpr int kPeakSearches = 4;  // steps towards the maximum of a suspected sl
 
 /// The balls that the rays of a group meet, in the order of the tile's list.
 struct NearBalls {
-    std::vector<float> lanes;  ///< per ball: w, t0 s and s, each one vector
-    std::vector<float> farDepth;
+    std::vector<float, tbb::cache_aligned_allocator<float>> lanes;  ///< per ball: w, t0 s and s, each one vector
+    std::vector<float> nearDepth, farDepth;
     std::vector<std::uint32_t> index;
     std::size_t count = 0;
 
     /// Empty, with room for so many.
     void prepare(std::size_t most, std::size_t laneCount) {
         count = 0;
-        if (index.size() >= most) return;
-        lanes.resize(3 * laneCount * most);
-        farDepth.resize(most);
-        index.resize(most);
+        if (index.size() > most) return;
+        // A ball is written before it is known to be met, and whole vectors of depths are read.
+        lanes.resize(3 * laneCount * (most + 1));
+        nearDepth.resize(most + laneCount);
+        farDepth.resize(most + laneCount);
+        index.resize(most + 1);
     }
 };
 
@@ -81,7 +87,7 @@ class Group {
           near_(near),
           start_(balls.index.empty() ? 0.0F : std::max(0.0F, balls.nearDepth(0))),
           begin_(sampleBefore(hn::GetLane(leastOf(from, open)))),
-          candidates_(balls, Bundle(cast.frame, at, open), depthOf(begin_)) {
+          sieve_(balls, Bundle(cast.frame, at, open), depthOf(begin_)) {
         const D d;
         near_.prepare(balls.index.size(), hn::Lanes(d));
         const bool perspective = cast.frame.perspective;
@@ -105,22 +111,14 @@ class Group {
         float t = depthOf(k);
         admit(t);
         Sample here = sampleAt(hn::Set(d, t));
+        M begun = hn::And(open, hn::Le(from, here.depth));
+        most_ = hn::IfThenElseZero(begun, here.value.field);
+        M found = hn::And(begun, hn::Ge(here.value.field, threshold));
         Sample low = here;
         Sample high = here;
-        M found = hn::FirstN(d, 0);
-        most_ = hn::IfThenElseZero(hn::And(open, hn::Le(from, hn::Set(d, t))), here.value.field);
-        while (true) {
-            // Rays that begin within the surface.
-            const M inside = hn::And(hn::And(open, hn::Le(from, hn::Set(d, t))), hn::Ge(here.value.field, threshold));
-            if (!hn::AllFalse(d, inside)) {
-                if (hn::AllFalse(d, found)) firstFound_ = first_;
-                low = chosen(inside, here, low);
-                high = chosen(inside, here, high);
-                found = hn::Or(found, inside);
-                open = hn::AndNot(inside, open);
-            }
-            if (hn::AllFalse(d, open)) break;
-            if (first_ == near_.count) {
+        open = hn::AndNot(found, open);
+        while (!hn::AllFalse(d, open)) {
+            if (first_ == begun_) {
                 if (!leap(k)) break;
                 t = depthOf(k);
                 here = {hn::Set(d, t), {hn::Zero(d), hn::Zero(d)}};
@@ -128,25 +126,25 @@ class Group {
             const float ahead = depthOf(++k);
             admit(ahead);
             const Sample there = sampleAt(hn::Set(d, ahead));
+            begun = hn::And(open, hn::Le(from, here.depth));
+            M met = hn::And(hn::And(open, hn::Le(from, there.depth)), hn::Ge(there.value.field, threshold));
+            const M suspect = hn::AndNot(met, hn::And(begun, mayPeak(here.value, there.value, ahead - t)));
             Sample reached = there;
-            const M begun = hn::And(open, hn::Le(from, hn::Set(d, t)));
-            most_ = hn::Max(most_, hn::IfThenElseZero(begun, there.value.field));
-            M crossed = hn::And(begun, hn::Ge(there.value.field, threshold));
-            const M suspect = hn::AndNot(crossed, hn::And(begun, mayPeak(here.value, there.value, ahead - t)));
             if (!hn::AllFalse(d, suspect)) {
                 const Sample peak = sampleAt(peakBetween(t, ahead));
                 const M sliver = hn::And(suspect, hn::Ge(peak.value.field, threshold));
                 reached = chosen(sliver, peak, reached);
-                crossed = hn::Or(crossed, sliver);
+                met = hn::Or(met, sliver);
             }
-            if (!hn::AllFalse(d, crossed)) {
-                if (hn::AllFalse(d, found)) firstFound_ = first_;
-                low = chosen(crossed, here, low);
-                high = chosen(crossed, reached, high);
-                found = hn::Or(found, crossed);
-            }
+            most_ = hn::Max(most_, hn::IfThenElseZero(begun, there.value.field));
+            // Without a branch, which would be mistaken too often.
+            firstFound_ = hn::AllFalse(d, found) ? first_ : firstFound_;
+            // A ray that begins between the samples begins within the surface.
+            low = chosen(met, chosen(begun, here, there), low);
+            high = chosen(met, reached, high);
+            found = hn::Or(found, met);
+            open = hn::AndNot(met, hn::And(open, hn::Le(there.depth, to)));
             t = ahead;
-            open = hn::AndNot(crossed, hn::And(open, hn::Le(hn::Set(d, t), to)));
             here = there;
             pass(t);
         }
@@ -165,7 +163,7 @@ class Group {
         V c[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
         V open[6] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
         V weight = hn::Zero(d);
-        for (std::size_t b = firstFound_; b < near_.count; ++b) {
+        for (std::size_t b = firstFound_; b < begun_; ++b) {
             const FieldBall& ball = cast_.balls[near_.index[b]];
             const V k = hn::Max(rootOf(b, depth).root, hn::Zero(d));
             // Many of the balls on the way end before the hit or begin behind it.
@@ -239,55 +237,72 @@ class Group {
         return std::max(0L, static_cast<long>(std::floor((depth - start_) / cast_.step)));
     }
 
-    /// Takes in the balls of the tile's list that begin before depth t and that some ray meets.
+    /// Takes in the balls that begin before depth t and that some ray meets.
     void admit(float t) {
+        while (sieved_ < balls_.index.size() && balls_.nearDepth(sieved_) <= t) takeIn();
+        begun_ = firstBeyond(near_.nearDepth, begun_, near_.count, t);
+    }
+
+    /// Takes in the next vector of balls, as far as some ray meets them.
+    void takeIn() {
         const D d;
-        for (; candidates_.nearDepth() <= t; candidates_.next()) {
-            const std::uint32_t index = balls_.index[candidates_.place()];
-            const FieldBall& ball = cast_.balls[index];
-            const V x = hn::Sub(hn::Set(d, ball.center.x), originX_);
-            const V y = hn::Sub(hn::Set(d, ball.center.y), originY_);
-            const V z = hn::Set(d, ball.center.z);
-            const V along = hn::Add(hn::Add(hn::Mul(x, directionX_), hn::Mul(y, directionY_)), z);
-            const V closest = hn::Mul(along, inverseSquare_);
-            const V offX = hn::Sub(x, hn::Mul(closest, directionX_));
-            const V offY = hn::Sub(y, hn::Mul(closest, directionY_));
-            const V offZ = hn::Sub(z, closest);
-            const V square = hn::Add(hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY)), hn::Mul(offZ, offZ));
-            const V w = hn::Sub(hn::Set(d, ball.peak), hn::Mul(square, hn::Set(d, ball.slope * ball.slope)));
-            if (hn::AllTrue(d, hn::Le(w, hn::Zero(d)))) continue;
-            const V s = hn::Mul(length_, hn::Set(d, ball.slope));
-            float* lanes = &near_.lanes[3 * near_.count * hn::Lanes(d)];
-            hn::StoreU(w, d, lanes);
-            hn::StoreU(hn::Mul(closest, s), d, lanes + hn::Lanes(d));
-            hn::StoreU(s, d, lanes + 2 * hn::Lanes(d));
-            near_.farDepth[near_.count] = ball.center.z + ball.reach;
-            near_.index[near_.count] = index;
-            ++near_.count;
+        for (std::uint32_t left = sieve_.met(sieved_); left != 0; left &= left - 1)
+            put(balls_.index[sieved_ + static_cast<std::size_t>(std::countr_zero(left))]);
+        sieved_ += hn::Lanes(d);
+    }
+
+    void put(std::uint32_t index) {
+        const D d;
+        const FieldBall& ball = cast_.balls[index];
+        const V x = hn::Sub(hn::Set(d, ball.center.x), originX_);
+        const V y = hn::Sub(hn::Set(d, ball.center.y), originY_);
+        const V z = hn::Set(d, ball.center.z);
+        const V along = hn::Add(hn::Add(hn::Mul(x, directionX_), hn::Mul(y, directionY_)), z);
+        const V closest = hn::Mul(along, inverseSquare_);
+        const V offX = hn::Sub(x, hn::Mul(closest, directionX_));
+        const V offY = hn::Sub(y, hn::Mul(closest, directionY_));
+        const V offZ = hn::Sub(z, closest);
+        const V square = hn::Add(hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY)), hn::Mul(offZ, offZ));
+        const V w = hn::Sub(hn::Set(d, ball.peak), hn::Mul(square, hn::Set(d, ball.slope * ball.slope)));
+        const V s = hn::Mul(length_, hn::Set(d, ball.slope));
+        float* lanes = &near_.lanes[3 * near_.count * hn::Lanes(d)];
+        hn::Store(w, d, lanes);
+        hn::Store(hn::Mul(closest, s), d, lanes + hn::Lanes(d));
+        hn::Store(s, d, lanes + 2 * hn::Lanes(d));
+        near_.nearDepth[near_.count] = ball.center.z - ball.reach;
+        near_.farDepth[near_.count] = ball.center.z + ball.reach;
+        near_.index[near_.count] = index;
+        // Most are met; the others are written over.
+        near_.count += hn::AllFalse(d, hn::Gt(w, hn::Zero(d))) ? 0 : 1;
+    }
+
+    /// The first of these depths that is not less than t, a vector at a time.
+    static std::size_t firstBeyond(const std::vector<float>& depths, std::size_t first, std::size_t end, float t) {
+        const D d;
+        for (; first < end; first += hn::Lanes(d)) {
+            const std::intptr_t lane = hn::FindFirstTrue(d, hn::Ge(hn::LoadU(d, &depths[first]), hn::Set(d, t)));
+            if (lane >= 0) return std::min(end, first + static_cast<std::size_t>(lane));
         }
+        return end;
     }
 
     /// Leaves balls behind that end before depth t; they stay listed for the refinement.
-    void pass(float t) {
-        while (first_ < near_.count && near_.farDepth[first_] < t) ++first_;
-    }
+    void pass(float t) { first_ = firstBeyond(near_.farDepth, first_, begun_, t); }
 
     /// No ball is near: moves to the last sample before the next ball. False when there is none.
     bool leap(long& k) {
-        while (candidates_.any() && near_.count == first_) {
-            const float begin = candidates_.nearDepth();
-            k = std::max(k, sampleBefore(begin) - 1);
-            admit(std::max(begin, depthOf(k)));
-        }
-        return near_.count != first_;
+        while (begun_ == near_.count && sieved_ < balls_.index.size()) takeIn();
+        if (begun_ == near_.count) return false;
+        k = std::max(k, sampleBefore(near_.nearDepth[begun_]) - 1);
+        return true;
     }
 
     Root rootOf(std::size_t b, V t) const {
         const D d;
         const float* lanes = &near_.lanes[3 * b * hn::Lanes(d)];
-        const V s = hn::LoadU(d, lanes + 2 * hn::Lanes(d));
-        const V u = hn::Sub(hn::Mul(t, s), hn::LoadU(d, lanes + hn::Lanes(d)));
-        return {hn::Sub(hn::LoadU(d, lanes), hn::Mul(u, u)), hn::Mul(u, s)};
+        const V s = hn::Load(d, lanes + 2 * hn::Lanes(d));
+        const V u = hn::Sub(hn::Mul(t, s), hn::Load(d, lanes + hn::Lanes(d)));
+        return {hn::Sub(hn::Load(d, lanes), hn::Mul(u, u)), hn::Mul(u, s)};
     }
 
     Value at(V t) const { return sum(t, first_); }
@@ -297,7 +312,7 @@ class Group {
         const D d;
         V field = hn::Zero(d);
         V slope = hn::Zero(d);
-        for (std::size_t b = begin; b < near_.count; ++b) {
+        for (std::size_t b = begin; b < begun_; ++b) {
             const Root ball = rootOf(b, t);
             const V k = hn::Max(ball.root, hn::Zero(d));
             field = hn::Add(field, hn::Mul(k, k));
@@ -386,8 +401,10 @@ class Group {
     NearBalls& near_;
     float start_;                 // where the tile's samples begin
     long begin_;                  // the first sample of these rays
-    Candidates candidates_;       // balls that are still to come
-    std::size_t first_ = 0;       // balls before it end before the present depth
+    Sieve sieve_;                 // of the tile's balls
+    std::size_t sieved_ = 0;      // those of them that went through it
+    std::size_t begun_ = 0;       // near balls before it begin before the present depth
+    std::size_t first_ = 0;       // those before it end there, too
     std::size_t firstFound_ = 0;  // first_ when the first lane met the surface
     V directionX_, directionY_, originX_, originY_, length_, inverseSquare_;
     V most_;

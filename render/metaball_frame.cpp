@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <tbb/parallel_for.h>
+#include <span>
 
 #include "render/binned_field.h"
 #include "render/field_between.h"
@@ -29,23 +28,22 @@ constexpr auto kCoarsePlaces = coarsePlaces();
 
 /// Packs a block's hits to their pixels of the tile.
 template <typename Places>
-void putSamples(const FieldCast& cast, const RayBlock& block, const Places& places, std::size_t tile,
+void putSamples(const FieldCast& cast, const RayBlock& block, const Places& places, std::size_t slot,
                 FieldPicture& picture) {
-    const std::size_t out = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
+    const std::size_t out = slot * kBlockRays;
     PackedBlock packed;
     packBlock(cast.frame, block, cast.openness, packed);
     for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed[k];
 }
 
 /// A tile's coarse hits with those of its neighbours to the right and below; none where they have no slot.
-CoarseHits coarseHits(const std::vector<CoarseHits>& own, const FieldPicture& picture, const CellLists& tiles,
-                      std::size_t tile) {
-    CoarseHits hits = own[static_cast<std::size_t>(picture.slots[tile])];
+CoarseHits coarseHits(const FieldPicture& picture, const CellLists& tiles, std::size_t tile) {
+    CoarseHits hits = picture.coarse[static_cast<std::size_t>(picture.slots[tile])];
     const auto columns = static_cast<std::size_t>(tiles.columns);
     const auto neighbour = [&](std::size_t right, std::size_t down) -> const CoarseHits* {
         const std::size_t at = tile + right + down * columns;
         if (tile % columns + right >= columns || at >= picture.slots.size() || picture.slots[at] < 0) return nullptr;
-        return &own[static_cast<std::size_t>(picture.slots[at])];
+        return &picture.coarse[static_cast<std::size_t>(picture.slots[at])];
     };
     if (const CoarseHits* right = neighbour(1, 0))
         for (std::size_t row = 0; row < kCoarseSide; ++row) hits.put(kCoarseSide, row, *right, 0, row);
@@ -86,53 +84,42 @@ Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field) {
 void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 offset, FieldPicture& picture) {
     const Smoothness smoothness = smoothnessOf(cast, field);
     const CellLists& tiles = *cast.tiles;
-    std::vector<CoarseHits> coarse(picture.samples.size() / kBlockRays);
-    const auto forTiles = [&](const auto& visit) {
-        tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
-            if (picture.slots[tile] >= 0) visit(tile);
-        });
-    };
-    forTiles([&](std::size_t tile) {
+    picture.coarse.resize(picture.samples.size() / kBlockRays);
+    picture.forSlots([&](std::size_t tile, std::size_t slot) {
         RayBlock block;
         placeRays(block, cornerOf(tiles, tile), kCoarsePlaces, offset);
         castBlock(cast, tile, block);
-        putSamples(cast, block, kCoarsePlaces, tile, picture);
-        CoarseHits& hits = coarse[static_cast<std::size_t>(picture.slots[tile])];
+        putSamples(cast, block, kCoarsePlaces, slot, picture);
+        CoarseHits& hits = picture.coarse[slot];
         hits.clear();
         for (std::size_t k = 0; k < block.count; ++k)
             hits.put(kCoarsePlaces[k] % kTileSize / 2, kCoarsePlaces[k] / kTileSize / 2, block, k);
     });
-    forTiles([&](std::size_t tile) {
-        const CoarseHits hits = coarseHits(coarse, picture, tiles, tile);
+    picture.forSlots([&](std::size_t tile, std::size_t slot) {
+        const CoarseHits hits = coarseHits(picture, tiles, tile);
         const glm::vec2 corner = cornerOf(tiles, tile);
         RayBlock block;
         placeRays(block, corner, kBetweenPlaces, offset);
         const std::array<bool, kBetween> good = fillBetween(cast.frame, hits, smoothness, block);
-        putSamples(cast, block, kBetweenPlaces, tile, picture);
+        putSamples(cast, block, kBetweenPlaces, slot, picture);
         std::array<bool, kBlockRays> isRough{};
         for (std::size_t k = 0; k < kBetween; ++k) isRough[kBetweenPlaces[k]] = !good[k];
-        std::vector<std::uint8_t> rough;
-        for (const std::uint8_t place : kZCurve)
-            if (isRough[place]) rough.push_back(place);
+        const TilePlaces rough = placesWhere(isRough);
         placeRays(block, corner, rough, offset);
         for (std::size_t k = 0; k < rough.size(); ++k)
             block.from[k] = startBetween(cast.frame, hits, rough[k], field.smallestRadius);
         castBlock(cast, tile, block);
-        putSamples(cast, block, rough, tile, picture);
+        putSamples(cast, block, rough, slot, picture);
     });
 }
 
 // Tiles where nothing of the surface is seen lose their slots.
 void forgetEmptyTiles(FieldPicture& picture) {
-    tbb::parallel_for(std::size_t{0}, picture.slots.size(), [&](std::size_t tile) {
-        if (picture.slots[tile] < 0) return;
-        const auto first = static_cast<std::size_t>(picture.slots[tile]) * kBlockRays;
-        const auto samples = std::span(picture.samples).subspan(first, kBlockRays);
-        const auto extras = std::span(picture.extras).subspan(first, kBlockRays);
+    picture.forSlots([&](std::size_t tile, std::size_t slot) {
+        const auto samples = std::span(picture.samples).subspan(slot * kBlockRays, kBlockRays);
         const bool isSeen =
             std::ranges::any_of(samples, [](const FieldSample& sample) { return sample.depthBits != 0; });
-        if (!isSeen && std::ranges::all_of(extras, [](std::uint32_t extra) { return extra == 0; }))
-            picture.slots[tile] = -1;
+        if (!isSeen && picture.outlines[slot].pixels.size() == 0) picture.slots[tile] = -1;
     });
 }
 
@@ -151,16 +138,16 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampl
         if (field.tiles.begin[tile + 1] > field.tiles.begin[tile]) picture.slots[tile] = slotCount++;
     }
     picture.samples.resize(static_cast<std::size_t>(slotCount) * kBlockRays);
-    picture.extras.assign(picture.samples.size(), 0);
+    picture.outlines.resize(static_cast<std::size_t>(slotCount));
+    for (Outlines& outlines : picture.outlines) outlines.pixels.count = 0;
     if (sampling.sparse) {
         castSparsely(cast, field, sampling.offset, picture);
     } else {
-        tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
-            if (picture.slots[tile] < 0) return;
+        picture.forSlots([&](std::size_t tile, std::size_t slot) {
             RayBlock block;
             placeRays(block, cornerOf(field.tiles, tile), kZCurve, sampling.offset);
             castBlock(cast, tile, block);
-            putSamples(cast, block, kZCurve, tile, picture);
+            putSamples(cast, block, kZCurve, slot, picture);
         });
     }
     if (sampling.extraAtOutlines) castOutlines(cast, field.smallestRadius, picture);

@@ -5,7 +5,7 @@
 
 #include "render/binned_field.h"
 #include "render/camera_frame.h"
-#include "render/field_sample.h"
+#include "render/field_picture.h"
 
 namespace render {
 

@@ -1,7 +1,7 @@
 // Extra rays where the outlines of metaballs cross the picture, so that they are smooth. Called by metaball_frame.cpp.
 #pragma once
 
-#include "render/field_sample.h"
+#include "render/field_picture.h"
 #include "render/metaball_cast.h"
 
 namespace render {

@@ -58,7 +58,7 @@ class TileSamples {
         if (fieldFills()) {
             samples_ = samples_.first(1);
             samples_[0].depth.fill(kFarDepth);
-            lookAtField(0);
+            lookAtField();
             return;
         }
         if (isSpheresOnGround()) {
@@ -66,10 +66,8 @@ class TileSamples {
             return;
         }
         const Flats flats{contents_.ground[tile_].kind != GroundKind::none, contents_.boxes[tile_] != 0};
-        for (std::size_t s = 0; s < samples_.size(); ++s) {
-            lookAtFlats(contents_.solids, flats, samples_[s]);
-            if (contents_.field != nullptr && contents_.field->slots[tile_] >= 0) lookAtField(s);
-        }
+        for (TileRays& rays : samples_) lookAtFlats(contents_.solids, flats, rays);
+        if (hasField()) lookAtField();
         if (hasItems(*contents_.solids.tiles, tile_)) lookAtSpheres(contents_.solids, tile_, samples_);
     }
 
@@ -84,9 +82,15 @@ class TileSamples {
             const int agreed = differs[k] == 0 ? -1 : 0;
             bits |= kindOf(first[k]) & agreed;
         }
-        const glm::ivec2 corner(cornerOf(*contents_.solids.tiles, tile_));
+        std::array<std::size_t, kTilePixels> several;
+        std::size_t count = 0;
+        // Written whether it counts or not: a branch would be mistaken too often.
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            if (differs[k] == 0) continue;
+            several[count] = k;
+            count += differs[k] != 0 ? 1 : 0;
+        }
+        const glm::ivec2 corner(cornerOf(*contents_.solids.tiles, tile_));
+        for (const std::size_t k : std::span(several).first(count)) {
             const glm::ivec2 at = corner + glm::ivec2(k % kTileSize, k / kTileSize);
             if (at.x < contents_.solids.frame.width && at.y < contents_.solids.frame.height)
                 addEdge(k, at.x + 65536 * at.y, edges);
@@ -100,21 +104,26 @@ class TileSamples {
     std::span<const TileRays> rays() const { return samples_; }
 
  private:
-    std::size_t fieldSlot() const { return static_cast<std::size_t>(contents_.field->slots[tile_]) * kBlockRays; }
+    bool hasField() const { return contents_.field != nullptr && contents_.field->slots[tile_] >= 0; }
+    std::size_t fieldSlot() const { return static_cast<std::size_t>(contents_.field->slots[tile_]); }
+
+    /// One sample a pixel.
+    std::span<const FieldSample> fieldSamples() const {
+        return std::span(contents_.field->samples).subspan(fieldSlot() * kBlockRays, kTilePixels);
+    }
 
     /// Whether the tile shows nothing but metaballs, without an outline: one sample is as good as four.
     bool fieldFills() const {
-        if (contents_.field == nullptr || contents_.field->slots[tile_] < 0) return false;
+        if (!hasField() || contents_.field->outlines[fieldSlot()].pixels.size() > 0) return false;
         if (hasItems(*contents_.solids.tiles, tile_) || contents_.boxes[tile_] != 0) return false;
-        const auto samples = std::span(contents_.field->samples).subspan(fieldSlot(), kTilePixels);
-        const auto extras = std::span(contents_.field->extras).subspan(fieldSlot(), kTilePixels);
-        if (std::ranges::any_of(extras, [](std::uint32_t extra) { return extra != 0; })) return false;
+        float nearest = kFarDepth;
         float farthest = 0.0F;
-        for (const FieldSample& sample : samples) {
-            if (sample.depthBits == 0) return false;
-            farthest = std::max(farthest, std::bit_cast<float>(sample.depthBits));
+        for (const FieldSample& sample : fieldSamples()) {
+            const float depth = std::bit_cast<float>(sample.depthBits);
+            nearest = std::min(nearest, depth);
+            farthest = std::max(farthest, depth);
         }
-        return farthest < contents_.ground[tile_].nearest;
+        return nearest > 0.0F && farthest < contents_.ground[tile_].nearest;
     }
 
     /// Whether the ground fills the tile behind spheres and nothing else, and no line asks for its depth.
@@ -122,32 +131,47 @@ class TileSamples {
         const GroundKind ground = contents_.ground[tile_].kind;
         if (ground != GroundKind::plain && ground != GroundKind::dimmed) return false;
         if (contents_.boxes[tile_] != 0 || hasItems(contents_.lines.tiles, tile_)) return false;
-        return contents_.field == nullptr || contents_.field->slots[tile_] < 0;
+        return !hasField();
     }
 
-    void lookAtField(std::size_t s) {
+    void lookAtField() {
         const FieldPicture& field = *contents_.field;
-        const std::size_t slot = fieldSlot();
-        TileRays& rays = samples_[s];
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const std::uint32_t extra = field.extras[slot + k];
-            const std::size_t place = samples_.size() == 1 || extra == 0 ? slot + k : extra + s;
-            const float depth = std::bit_cast<float>(field.samples[place].depthBits);
-            if (!(depth > 0.0F && depth < rays.depth[k])) continue;
-            rays.depth[k] = depth;
-            rays.seen[k] = kSeesField + static_cast<std::int32_t>(place);
-        }
+        const Outlines& outlines = field.outlines[fieldSlot()];
+        const auto first = kSeesField + static_cast<std::int32_t>(fieldSlot() * kBlockRays);
+        std::array<float, kTilePixels> depth;
+        const std::span<const FieldSample> own = fieldSamples();
+        for (std::size_t k = 0; k < kTilePixels; ++k) depth[k] = std::bit_cast<float>(own[k].depthBits);
+        if (samples_.size() > 1)
+            for (const std::uint8_t pixel : outlines.pixels) depth[pixel] = 0.0F;
+        for (TileRays& rays : samples_)
+            for (std::size_t k = 0; k < kTilePixels; ++k)
+                seeField(rays, k, depth[k], first + static_cast<std::int32_t>(k));
+        if (samples_.size() == 1) return;
+        std::size_t place = outlines.first;
+        for (const std::uint8_t pixel : outlines.pixels)
+            for (TileRays& rays : samples_) {
+                const float extra = std::bit_cast<float>(field.samples[place].depthBits);
+                seeField(rays, pixel, extra, kSeesField + static_cast<std::int32_t>(place++));
+            }
+    }
+
+    /// Without branches, so that compilers turn loops over it into lanes. depth: 0 where there is no surface.
+    static void seeField(TileRays& rays, std::size_t k, float depth, std::int32_t seen) {
+        const bool isNearest = (depth > 0.0F) & (depth < rays.depth[k]);
+        rays.depth[k] = isNearest ? depth : rays.depth[k];
+        rays.seen[k] = isNearest ? seen : rays.seen[k];
     }
 
     void addEdge(std::size_t k, std::int32_t place, TileEdges& edges) const {
-        std::array<Fragment, kMostFragments> found;
+        std::array<std::int32_t, kMostFragments> found;
+        std::array<std::int32_t, kMostFragments> shows{};  // a bit for each sample
         std::size_t count = 0;
         for (std::size_t s = 0; s < samples_.size(); ++s) {
             const std::int32_t seen = samples_[s].seen[k];
             std::size_t f = 0;
-            while (f < count && found[f].seen != seen) ++f;
-            if (f == count) found[count++] = {seen, kAllReaches};
-            found[f].reach |= 1 << s;
+            while (f < count && found[f] != seen) ++f;
+            if (f == count) found[count++] = seen;
+            shows[f] |= 1 << s;
         }
         EdgePixel pixel;
         pixel.place = place;
@@ -155,8 +179,8 @@ class TileSamples {
         pixel.count = static_cast<std::int32_t>(count);
         edges.pixels.push_back(pixel);
         for (std::size_t f = 0; f < count; ++f) {
-            edges.fragments.push_back(found[f]);
-            edges.classBits |= kindOf(found[f].seen);
+            edges.fragments.push_back({found[f], kAllReaches | shows[f]});
+            edges.classBits |= kindOf(found[f]);
         }
     }
 

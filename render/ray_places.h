@@ -1,10 +1,12 @@
 // Where the rays of a block go through their tile, and in which order. Used by all that casts metaballs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include <glm/glm.hpp>
 
@@ -31,24 +33,50 @@ constexpr std::array<std::uint8_t, kBlockRays> zCurve() {
 /// rays meet few balls.
 inline constexpr std::array<std::uint8_t, kBlockRays> kZCurve = zCurve();
 
+/// Some pixels of a tile.
+struct TilePlaces {
+    std::array<std::uint8_t, kBlockRays> places;
+    std::size_t count = 0;
+
+    /// Leaves the places as they are.
+    TilePlaces() {}
+    std::size_t size() const { return count; }
+    std::uint8_t operator[](std::size_t k) const { return places[k]; }
+    const std::uint8_t* begin() const { return places.data(); }
+    const std::uint8_t* end() const { return places.data() + count; }
+};
+
+/// Those pixels of a tile whose flag is not 0, along the Z curve.
+template <typename Flag>
+TilePlaces placesWhere(const std::array<Flag, kBlockRays>& flags) {
+    TilePlaces found;
+    std::size_t count = 0;
+    // Written whether it counts or not: a branch would be mistaken too often.
+    for (const std::uint8_t place : kZCurve) {
+        found.places[count] = place;
+        count += flags[place] != 0 ? 1 : 0;
+    }
+    found.count = count;
+    return found;
+}
+
 /// How far a ray looks for the surface that nothing limits.
 inline constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 /// The middle of a pixel; corner: of its tile.
-inline glm::vec2 pixelMiddle(glm::vec2 corner, std::size_t place) {
-    return corner + glm::vec2(place % kTileSize, place / kTileSize) + 0.5F;
+inline glm::vec2 pixelMiddle(glm::vec2 corner, std::uint8_t place) {
+    return corner + glm::vec2(int{place} % kTileSize, int{place} / kTileSize) + 0.5F;
 }
 
 /// Rays through these pixels of a tile, in this order, without limits.
-template <typename Places>
-void placeRays(RayBlock& block, glm::vec2 corner, const Places& places, glm::vec2 offset) {
+inline void placeRays(RayBlock& block, glm::vec2 corner, std::span<const std::uint8_t> places, glm::vec2 offset) {
     block.count = places.size();
+    std::fill_n(block.from.begin(), places.size(), 0.0F);
+    std::fill_n(block.to.begin(), places.size(), kEndless);
     for (std::size_t k = 0; k < places.size(); ++k) {
         const glm::vec2 at = pixelMiddle(corner, places[k]) + offset;
         block.x[k] = at.x;
         block.y[k] = at.y;
-        block.from[k] = 0.0F;
-        block.to[k] = kEndless;
     }
 }
 

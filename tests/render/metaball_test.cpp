@@ -253,7 +253,8 @@ TEST_CASE("Every instruction set gives the same bits") {
         std::vector<std::uint32_t> bits;
         for (const render::FieldSample& s : picture.samples)
             bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.open});
-        bits.insert(bits.end(), picture.extras.begin(), picture.extras.end());
+        for (const render::Outlines& outlines : picture.outlines)
+            bits.insert(bits.end(), outlines.pixels.begin(), outlines.pixels.end());
         const std::vector<float> heights = render::castDepthMap(light, {view, skin, {}}, {256, {}}).heights;
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;

@@ -1,16 +1,14 @@
 // The balls of a tile that a group of rays may meet, told a vector of balls at a time. Part of metaball_cast.cpp,
 // compiled once per instruction set.
-#if defined(RENDER_CANDIDATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RENDER_CANDIDATES_INL_H_
-#undef RENDER_CANDIDATES_INL_H_
+#if defined(RENDER_SIEVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_SIEVE_INL_H_
+#undef RENDER_SIEVE_INL_H_
 #else
-#define RENDER_CANDIDATES_INL_H_
+#define RENDER_SIEVE_INL_H_
 #endif
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -74,67 +72,37 @@ struct Bundle {
     }
 };
 
-/// Walks through those balls of a tile that rays may meet beyond a depth. A ball that is left out is out of reach of
-/// each of them: on a ray of the bundle, a place t from its beginning is at most apart + widen t from the bundle's
-/// line.
-class Candidates {
+/// Tells which balls of a tile rays may meet beyond a depth. A ball that is left out is out of reach of each of them:
+/// on a ray of the bundle, a place t from its beginning is at most apart + widen t from the bundle's line.
+class Sieve {
  public:
-    Candidates(const TileBalls& balls, const Bundle& bundle, float begin)
+    Sieve(const TileBalls& balls, const Bundle& bundle, float begin)
         : balls_(balls),
           bundle_(bundle),
           inverseSquare_(1.0F / dot(bundle.direction, bundle.direction)),
-          begin_(begin) {
-        sieve();
-        next();
-    }
+          begin_(begin) {}
 
-    bool any() const { return place_ < balls_.index.size(); }
-    std::size_t place() const { return place_; }
-    float nearDepth() const { return nearDepth_; }
-
-    void next() {
-        while (left_ == 0) {
-            first_ += hn::Lanes(D());
-            if (first_ >= balls_.index.size()) {
-                place_ = balls_.index.size();
-                nearDepth_ = std::numeric_limits<float>::infinity();
-                return;
-            }
-            sieve();
-        }
-        place_ = first_ + static_cast<std::size_t>(std::countr_zero(left_));
-        nearDepth_ = balls_.nearDepth(place_);
-        left_ &= left_ - 1;
-    }
-
- private:
-    /// Sets the bits of those of the vector of balls from first_ on that may be met.
-    void sieve() {
+    /// A bit for each of the vector of balls from this one on.
+    std::uint32_t met(std::size_t first) const {
         const D d;
-        left_ = 0;
-        if (first_ >= balls_.index.size()) return;
         const Vec3 direction = uniform(bundle_.direction);
-        const Vec3 off{hn::Sub(hn::LoadU(d, &balls_.x[first_]), all(bundle_.origin.x)),
-                       hn::Sub(hn::LoadU(d, &balls_.y[first_]), all(bundle_.origin.y)),
-                       hn::LoadU(d, &balls_.z[first_])};
-        const V reach = hn::LoadU(d, &balls_.reach[first_]);
+        const Vec3 off{hn::Sub(hn::LoadU(d, &balls_.x[first]), all(bundle_.origin.x)),
+                       hn::Sub(hn::LoadU(d, &balls_.y[first]), all(bundle_.origin.y)), hn::LoadU(d, &balls_.z[first])};
+        const V reach = hn::LoadU(d, &balls_.reach[first]);
         const V closest = hn::Mul(dotted(off, direction), all(inverseSquare_));
         const Vec3 away = along(off, hn::Neg(closest), direction);
         const V limit = hn::Add(hn::Add(reach, all(bundle_.apart)),
-                                hn::Mul(all(bundle_.widen), hn::Add(reach, hn::LoadU(d, &balls_.distance[first_]))));
+                                hn::Mul(all(bundle_.widen), hn::Add(reach, hn::LoadU(d, &balls_.distance[first]))));
         const M met =
             hn::And(hn::Lt(dotted(away, away), hn::Mul(limit, limit)), hn::Ge(hn::Add(off.z, reach), all(begin_)));
-        left_ = bitsOf(hn::And(met, hn::FirstN(d, balls_.index.size() - first_)));
+        return bitsOf(hn::And(met, hn::FirstN(d, balls_.index.size() - first)));
     }
 
+ private:
     const TileBalls& balls_;
     Bundle bundle_;
     float inverseSquare_;
     float begin_;
-    std::size_t first_ = 0;   // of the vector of balls that was sieved last
-    std::uint32_t left_ = 0;  // those of it that are still to come, a bit each
-    std::size_t place_ = 0;
-    float nearDepth_ = 0.0F;
 };
 
 }  // namespace HWY_NAMESPACE
