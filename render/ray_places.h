@@ -46,15 +46,14 @@ struct TilePlaces {
     const std::uint8_t* end() const { return places.data() + count; }
 };
 
-/// Those pixels of a tile whose flag is not 0, along the Z curve.
-template <typename Flag>
-TilePlaces placesWhere(const std::array<Flag, kBlockRays>& flags) {
+/// Those pixels of a tile whose flag is set, along the Z curve.
+inline TilePlaces placesWhere(const std::array<bool, kBlockRays>& flags) {
     TilePlaces found;
     std::size_t count = 0;
     // Written whether it counts or not: a branch would be mistaken too often.
     for (const std::uint8_t place : kZCurve) {
         found.places[count] = place;
-        count += flags[place] != 0 ? 1 : 0;
+        count += flags[place] ? 1 : 0;
     }
     found.count = count;
     return found;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/steppers.h"
 #include "studies/csv.h"
 
@@ -18,7 +20,8 @@ std::string errorsOf(const SceneAccuracy& scene, const AccuracyRow& row) {
     const bool isCompared = row.compared > 0;
     return fmt::format("{},{},{},{},{},{},{}", isCompared ? number(row.rms) : "", isCompared ? number(row.largest) : "",
                        row.compared, number(row.statistics), nameOf(scene.reference.measure),
-                       number(row.errorPerSecond), row.resolved ? "yes" : "no");
+                       std::isfinite(row.errorPerSecond) ? number(row.errorPerSecond) : "",
+                       row.resolved ? "yes" : "no");
 }
 
 std::string driftsOf(const AccuracyRow& row) {

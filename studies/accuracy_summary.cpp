@@ -104,7 +104,7 @@ AccuracyRow rowOf(const Window& window, const WindowRun& run, const Reference& r
     row.statistics = statisticsDifference(run.particles, reference.run.particles);
     row.error = reference.facts.measure == Measure::positions ? row.rms : row.statistics;
     row.errorPerSecond = row.error / window.seconds();
-    row.resolved = row.error > reference.facts.resolution;
+    row.resolved = std::isfinite(row.error) && row.error > reference.facts.resolution;
     addDrifts(row, run, reference.run);
     return row;
 }
@@ -130,6 +130,7 @@ std::vector<AutoRow> autosOf(const std::vector<AccuracyRow>& rows, double window
     for (const AccuracyRow& row : rows) {
         const WindowRun& run = row.run;
         if (run.variant.stepper != StepperKind::automatic || run.ending != Ending::finished) continue;
+        if (!std::isfinite(row.error)) continue;
         AutoRow automatic;
         automatic.asked = run.variant.asked;
         automatic.obtained = row.errorPerSecond;

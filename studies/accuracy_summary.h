@@ -15,7 +15,7 @@ struct AccuracyRow {
     WindowRun run;                ///< without its particles
     double rms = 0.0;             ///< position error over the particles, radii
     double largest = 0.0;         ///< position error of the worst particle, radii
-    std::size_t compared = 0;     ///< particles in both
+    std::size_t compared = 0;     ///< particles in both; those from before the window where later births differ
     double statistics = 0.0;      ///< error of the statistics, radii
     double error = 0.0;           ///< the one of the scene's measure, radii
     double errorPerSecond = 0.0;  ///< over the length of the window

@@ -55,4 +55,9 @@ std::optional<double> lammpsSeconds(const std::string& output) {
     return seconds > 0.0 ? std::optional(seconds) : std::nullopt;
 }
 
+std::string lammpsError(const std::string& output) {
+    const std::size_t at = output.find("ERROR");
+    return at == std::string::npos ? std::string() : output.substr(at, output.find('\n', at) - at);
+}
+
 }  // namespace studies

@@ -26,6 +26,9 @@ std::string lammpsScript(PeerForce force);
 /// Seconds of the loop of kPeerSteps that the program's output tells of; nothing if it tells of none.
 std::optional<double> lammpsSeconds(const std::string& output);
 
+/// The line of the program's output that tells of its own error; empty if there is none.
+std::string lammpsError(const std::string& output);
+
 /// What one force of the peer reached.
 struct PeerRow {
     std::string name;

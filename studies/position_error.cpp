@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/random.h"
+#include "studies/infinity.h"
 
 namespace studies {
 bool sameBirths(const engine::Particles& a, const engine::Particles& b) {
@@ -18,8 +19,9 @@ bool sameBirths(const engine::Particles& a, const engine::Particles& b) {
 PositionError positionError(const engine::Particles& particles, const engine::Particles& reference,
                             std::size_t common) {
     PositionError error;
-    error.compared = sameBirths(particles, reference) ? particles.count() : common;
-    if (error.compared == 0) return error;
+    const bool isSame = sameBirths(particles, reference);
+    error.compared = isSame ? particles.count() : common;
+    if (error.compared == 0) return isSame ? error : PositionError{kInfinity, kInfinity, 0};
     double sumSq = 0.0;
     double largestSq = 0.0;
     for (std::size_t p = 0; p < error.compared; ++p) {

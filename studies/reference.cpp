@@ -44,12 +44,6 @@ Measure measureOf(const engine::Particles& a, const engine::Particles& b) {
     return sameBirths(a, b) ? Measure::positions : Measure::statistics;
 }
 
-bool doBirthsDiffer(const std::vector<WindowRun>& runs, const engine::Particles& reference) {
-    return std::ranges::any_of(runs, [&](const WindowRun& run) {
-        return run.ending == Ending::finished && !sameBirths(run.particles, reference);
-    });
-}
-
 /// Of two steppers of order 2, the change at equal cost is proportional to the change times the square of the cost.
 double changeAtEqualCost(const Window& window, const std::vector<const WindowRun*>& two) {
     const double cost = two[1]->passes;
@@ -131,13 +125,14 @@ Reference findReference(const Window& window, const std::vector<WindowRun>& runs
     facts.twinSeparation =
         difference(window, measureOf(twin.particles, finest.particles), twin.particles, finest.particles);
     const double smallest = smallestError(window, Measure::positions, runs, reference.run.particles);
-    facts.birthsDiffer = doBirthsDiffer(runs, reference.run.particles);
+    facts.birthsDiffer =
+        !sameBirths(finest.particles, reference.run.particles) || !sameBirths(twin.particles, reference.run.particles);
     if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.measure = Measure::statistics;
     do {
         facts.variant.asked /= 2.0;
         WindowRun halved = runWhole(window, facts.variant, budget, "reference");
         spent += halved.seconds;
-        facts.birthsDiffer = facts.birthsDiffer || doBirthsDiffer(runs, halved.particles);
+        facts.birthsDiffer = facts.birthsDiffer || !sameBirths(reference.run.particles, halved.particles);
         if (facts.birthsDiffer) facts.measure = Measure::statistics;
         facts.change = difference(window, facts.measure, reference.run.particles, halved.particles);
         reference.run = std::move(halved);

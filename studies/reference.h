@@ -11,7 +11,7 @@
 namespace studies {
 
 enum class Measure {
-    positions,  ///< rms distance over the particles, radii
+    positions,  ///< rms distance over the particles that both have, radii
     statistics  ///< largest difference of centre of mass, radius of gyration, R90 and z90, radii
 };
 
@@ -30,7 +30,7 @@ struct ReferenceFacts {
     double change = 0.0;          ///< by the last halving of its step, radii
     double twinSeparation = 0.0;  ///< rms, of two runs that began 1e-9 radii apart, radii
     double resolution = 0.0;      ///< errors below it are not told from its own, radii
-    bool birthsDiffer = false;    ///< some run has other births than the reference
+    bool birthsDiffer = false;    ///< even of the finest runs, so that births depend on the step
     bool settled = false;         ///< halving its step no longer matters to the smallest error measured
     double seconds = 0.0;         ///< of its finest run
 };

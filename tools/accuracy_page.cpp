@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/steppers.h"
 #include "tools/html.h"
 
@@ -40,14 +42,19 @@ std::string askedOf(const studies::Variant& variant) {
                                                              : fmt::format("{:.4g} ms", 1000.0 * variant.asked);
 }
 
+std::string remarkOn(const studies::AccuracyRow& row) {
+    if (row.resolved) return "";
+    return std::isfinite(row.error) ? "below resolution" : "other births";
+}
+
 Cells cellsOf(const studies::AccuracyRow& row) {
     const studies::WindowRun& run = row.run;
     const engine::StepStatistics& steps = run.steps;
     Cells cells = {nameIn(run), askedOf(run.variant)};
     if (run.ending == Ending::finished)
         cells.insert(cells.end(), {row.compared > 0 ? small(row.rms) : "", row.compared > 0 ? small(row.largest) : "",
-                                   fmt::format("{}", row.compared), small(row.statistics), small(row.errorPerSecond),
-                                   row.resolved ? "" : "below resolution"});
+                                   fmt::format("{}", row.compared), small(row.statistics),
+                                   std::isfinite(row.error) ? small(row.errorPerSecond) : "", remarkOn(row)});
     else
         cells.insert(cells.end(), {"", "", "", "", "", studies::nameOf(run.ending)});
     cells.insert(cells.end(), {fmt::format("{:.3g}", run.seconds), fmt::format("{}", steps.count),
@@ -108,7 +115,7 @@ std::string referenceText(const studies::SceneAccuracy& accuracy) {
         accuracy.particleCount, accuracy.window, accuracy.from, engine::nameOf(facts.variant.stepper),
         1e6 * facts.variant.asked, facts.seconds, facts.change,
         facts.settled ? "" : ", more than a twentieth of the smallest error (budget spent)", facts.resolution,
-        facts.twinSeparation, facts.birthsDiffer ? ", and some runs have other births than the reference" : "",
+        facts.twinSeparation, facts.birthsDiffer ? ", and even the finest runs have other births" : "",
         studies::nameOf(facts.measure));
 }
 

@@ -1,6 +1,8 @@
 // globular study scaling: time per step against the number of particles, beside the paper's Table 2 and beside a peer.
 #include <fmt/format.h>
+
 #include <unistd.h>
+#include <string_view>
 
 #include <algorithm>
 #include <array>
@@ -79,8 +81,13 @@ ScalingResults measure(const ScalingOptions& options) {
     return results;
 }
 
-/// Seconds of the timed loop of a script. Throws render::SystemError with what kept the program from it.
-double lammpsSeconds(const std::string& script, int ranks) {
+struct LammpsRun {
+    std::string output;
+    std::string ended;  ///< as ChildProcess::wait() says it
+};
+
+/// Throws render::SystemError where there is no mpirun.
+LammpsRun runLammps(const std::string& script, int ranks) {
     std::vector<std::string> arguments = {"mpirun", "--bind-to", "none", "-np", fmt::format("{}", ranks)};
     if (geteuid() == 0) arguments.emplace_back("--allow-run-as-root");
     for (const char* argument : {"lmp", "-log", "none"}) arguments.emplace_back(argument);
@@ -88,12 +95,25 @@ double lammpsSeconds(const std::string& script, int ranks) {
     lammps.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
     const std::string ended = lammps.wait();
     constexpr std::size_t kMostBytes = 1U << 20;
-    const std::string output = lammps.output(kMostBytes);
-    const std::optional<double> seconds = studies::lammpsSeconds(output);
-    if (ended.empty() && seconds) return *seconds;
-    const std::size_t error = output.find("ERROR");
-    if (error != std::string::npos) throw render::SystemError(output.substr(error, output.find('\n', error) - error));
-    throw render::SystemError(fmt::format("mpirun lmp ended with {}", ended.empty() ? "no time" : ended));
+    return {lammps.output(kMostBytes), ended};
+}
+
+/// Seconds of the timed loop of a script. Throws render::SystemError with what kept the program from it, and what to do
+/// about it where that is no error of LAMMPS' own.
+double lammpsSeconds(const std::string& script, int ranks) {
+    constexpr std::string_view kRemedy = "(install LAMMPS: Debian's package lammps)";
+    LammpsRun run;
+    try {
+        run = runLammps(script, ranks);
+    } catch (const render::SystemError& error) {
+        throw render::SystemError(fmt::format("{} {}", error.what(), kRemedy));
+    }
+    const std::optional<double> seconds = studies::lammpsSeconds(run.output);
+    if (run.ended.empty() && seconds) return *seconds;
+    const std::string error = studies::lammpsError(run.output);
+    if (!error.empty()) throw render::SystemError(error);
+    throw render::SystemError(
+        fmt::format("mpirun lmp ended with {} {}", run.ended.empty() ? "no time" : run.ended, kRemedy));
 }
 
 /// Our times of a step at the peer's number of particles.
@@ -121,8 +141,7 @@ void measurePeer(ScalingResults& results, const ScalingOptions& options) {
                 oursInFloat.push_back(beside.listInFloat);
             }
         } catch (const render::SystemError& error) {
-            results.peerText +=
-                fmt::format(" {}: {} (install LAMMPS: Debian's package lammps).", studies::nameOf(force), error.what());
+            results.peerText += fmt::format(" {}: {}.", studies::nameOf(force), error.what());
             continue;
         }
         studies::PeerRow row;

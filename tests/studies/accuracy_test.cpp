@@ -292,7 +292,8 @@ start = 0.35
     for (const AccuracyRow& row : accuracy.rows) CHECK(row.compared == 3);  // born at 0.55, 0.75 and 0.95 s
 }
 
-TEST_CASE("Runs with other births than the reference are compared by statistics", "[studies]") {
+TEST_CASE("A run with other births is compared over those whom both began with, unless even the finest have others",
+          "[studies]") {
     const studies::Window window = studies::openWindow(dozen(), 1, 3);
     std::vector<studies::WindowRun> runs;
     for (const double step : {0.004, 0.002})
@@ -301,10 +302,26 @@ TEST_CASE("Runs with other births than the reference are compared by statistics"
     const studies::ReferenceBudget budget{1.0, [](const studies::WindowRun&, std::string_view) {}};
     CHECK_FALSE(studies::findReference(window, runs, budget).facts.birthsDiffer);
     runs.back().particles.birthTime.back() = 0.01;
-    const studies::Reference reference = studies::findReference(window, runs, budget);
-    CHECK(reference.facts.birthsDiffer);
-    CHECK(reference.facts.measure == studies::Measure::statistics);
-    CHECK(studies::rowOf(window, runs.back(), reference).error > 0.0);
+    const studies::Reference coarse = studies::findReference(window, runs, budget);
+    CHECK_FALSE(coarse.facts.birthsDiffer);
+    CHECK(coarse.facts.measure == studies::Measure::positions);
+    const AccuracyRow row = studies::rowOf(window, runs.back(), coarse);
+    CHECK(row.compared == window.start.particles.count());
+    CHECK(row.error == row.rms);
+    CHECK(row.resolved);
+
+    studies::Window empty = window;
+    empty.start.particles = {};
+    const AccuracyRow strange = studies::rowOf(empty, runs.back(), coarse);
+    CHECK(strange.compared == 0);
+    CHECK(std::isinf(strange.error));
+    CHECK_FALSE(strange.resolved);
+
+    runs[1].particles.birthTime.back() = 0.01;
+    const studies::Reference fine = studies::findReference(window, runs, budget);
+    CHECK(fine.facts.birthsDiffer);
+    CHECK(fine.facts.measure == studies::Measure::statistics);
+    CHECK(studies::rowOf(window, runs.back(), fine).error > 0.0);
 }
 
 TEST_CASE("An error over no particle is not written as one", "[studies]") {

@@ -109,6 +109,9 @@ TEST_CASE("The peer is given as many neighbours, and its last loop is read", "[s
         "Loop time of 1.73655 on 2 procs for 200 steps with 32000 atoms\n";
     CHECK(lammpsSeconds(output) == 1.73655);
     CHECK_FALSE(lammpsSeconds("ERROR: Unrecognized pair style 'dpd'").has_value());
+    CHECK(lammpsError("LAMMPS (7 Jan 2022)\nERROR: Unrecognized pair style 'dpd'\nLast command: pair_style") ==
+          "ERROR: Unrecognized pair style 'dpd'");
+    CHECK(lammpsError(output).empty());
     CHECK_FALSE(lammpsSeconds("Loop time of nothing for 200 steps").has_value());
     CHECK_FALSE(lammpsSeconds(output.substr(0, output.find('\n'))).has_value());  // it ended while warming up
 }
