@@ -40,8 +40,8 @@ set logscale xy
 set format y "10^{%L}"
 set grid xtics ytics mxtics mytics linewidth 1 linecolor rgb "#d9d9d9", linewidth 0.5 linecolor rgb "#eeeeee"
 set border linecolor rgb "#444444"
-set key at screen 0.5, screen 0.02 center bottom horizontal maxrows 2 samplen 2 width -2 font ",13"
-set bmargin 6
+set key at screen 0.5, screen 0.02 center bottom horizontal reverse Left samplen 2 font ",13"
+set bmargin 8
 set lmargin 11
 )";
 
