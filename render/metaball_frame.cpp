@@ -27,8 +27,7 @@ constexpr auto coarsePlaces() {
 constexpr auto kCoarsePlaces = coarsePlaces();
 
 /// Packs a block's hits to their pixels of the tile.
-template <typename Places>
-void putSamples(const FieldCast& cast, const RayBlock& block, const Places& places, std::size_t slot,
+void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const std::uint8_t> places, std::size_t slot,
                 FieldPicture& picture) {
     const std::size_t out = slot * kBlockRays;
     PackedBlock packed;

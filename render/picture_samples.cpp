@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/line_cover.h"
+#include "render/ray_places.h"
 #include "render/tile_class.h"
 
 namespace render {
@@ -82,15 +83,10 @@ class TileSamples {
             const int agreed = differs[k] == 0 ? -1 : 0;
             bits |= kindOf(first[k]) & agreed;
         }
-        std::array<std::size_t, kTilePixels> several;
-        std::size_t count = 0;
-        // Written whether it counts or not: a branch would be mistaken too often.
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            several[count] = k;
-            count += differs[k] != 0 ? 1 : 0;
-        }
+        std::array<bool, kTilePixels> several;
+        for (std::size_t k = 0; k < kTilePixels; ++k) several[k] = differs[k] != 0;
         const glm::ivec2 corner(cornerOf(*contents_.solids.tiles, tile_));
-        for (const std::size_t k : std::span(several).first(count)) {
+        for (const std::uint8_t k : placesWhere(several)) {
             const glm::ivec2 at = corner + glm::ivec2(k % kTileSize, k / kTileSize);
             if (at.x < contents_.solids.frame.width && at.y < contents_.solids.frame.height)
                 addEdge(k, at.x + 65536 * at.y, edges);

@@ -39,7 +39,7 @@ std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engi
     return {finished.end()[-2], finished.end()[-1]};
 }
 
-/// Positions of runs with different births cannot be compared.
+/// What tells fine runs apart: positions, unless even their births differ.
 Measure measureOf(const engine::Particles& a, const engine::Particles& b) {
     return sameBirths(a, b) ? Measure::positions : Measure::statistics;
 }
