@@ -21,8 +21,8 @@ CellRange chunkOf(const NeighbourList& list, std::size_t number) {
             static_cast<std::uint32_t>(std::min((number + 1) * size, list.count()))};
 }
 
-/// Places among which particles are put in order of the lengths of their rows. Chosen: among more, groups would need
-/// records from further apart than the first-level cache holds.
+/// Places among which particles are put in order of the lengths of their rows. Chosen: a few groups, whose neighbours
+/// are mostly the same.
 constexpr std::size_t kWindow = 64;
 
 /// Where each of a window's rows goes, longest first: a counting sort, in which all that are far shorter are one.

@@ -1,8 +1,6 @@
 // globular study scaling: time per step against the number of particles, beside the paper's Table 2 and beside a peer.
 #include <fmt/format.h>
-
 #include <unistd.h>
-#include <string_view>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "render/child_process.h"
 #include "render/system_error.h"
