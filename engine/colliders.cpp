@@ -4,20 +4,10 @@
 #include "engine/surfaces.h"
 
 namespace engine {
-namespace {
-
-template <class Visit>
-void forEachTouched(const Scenery& scenery, const Probe& probe, const Visit& visit) {
-    forEachSurface(scenery, probe.position, [&](const Surface& surface) {
-        if (surface.height < probe.radius) visit(surface);
-    });
-}
-
-}  // namespace
 
 Vec3 contactForce(const Scenery& scenery, const Probe& probe) {
     Vec3 force = Vec3::Zero();
-    forEachTouched(scenery, probe, [&](const Surface& surface) {
+    forEachTouched(scenery, probe.position, probe.radius, [&](const Surface& surface) {
         addForce(surface, contactWith(surface, scenery.law, probe), probe, force);
     });
     return force;
@@ -25,14 +15,14 @@ Vec3 contactForce(const Scenery& scenery, const Probe& probe) {
 
 double contactEnergy(const Scenery& scenery, const Probe& probe) {
     double energy = 0.0;
-    forEachTouched(scenery, probe,
+    forEachTouched(scenery, probe.position, probe.radius,
                    [&](const Surface& surface) { energy += surfaceEnergy(surface, scenery.law, probe); });
     return energy;
 }
 
 ContactAnswer contactForceAndEnergy(const Scenery& scenery, const Probe& probe) {
     ContactAnswer answer;
-    forEachTouched(scenery, probe, [&](const Surface& surface) {
+    forEachTouched(scenery, probe.position, probe.radius, [&](const Surface& surface) {
         const Contact contact = contactWith(surface, scenery.law, probe);
         addForce(surface, contact, probe, answer.force);
         answer.energy += contactEnergy(contact);

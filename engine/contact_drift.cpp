@@ -120,8 +120,7 @@ void kick(const Scenery& scenery, Flight& flight, double step) {
     Matrix3 damping = Matrix3::Zero();
     const Probe probe = probeOf(flight);
     bool touched = false;
-    forEachSurface(scenery, flight.position, [&](const Surface& surface) {
-        if (surface.height >= flight.radius) return;
+    forEachTouched(scenery, flight.position, flight.radius, [&](const Surface& surface) {
         const Contact contact = contactWith(surface, scenery.law, probe);
         force += normalForce(contact, 0.0) * surface.normal;
         damping += dampingAlong(contact) * surface.normal * surface.normal.transpose();

@@ -103,8 +103,7 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
         const std::size_t p = order[place];
         if (simulation.swept[p] || isClear(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);
-        forEachSurface(scenery, probe.position, [&](const Surface& surface) {
-            if (surface.height >= probe.radius) return;
+        forEachTouched(scenery, probe.position, probe.radius, [&](const Surface& surface) {
             const Contact contact = contactWith(surface, scenery.law, probe);
             const double along = weights.damping * dampingAlong(contact) + weights.stiffness * stiffnessAlong(contact);
             const Matrix3 projection = surface.normal * surface.normal.transpose();

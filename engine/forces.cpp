@@ -12,12 +12,17 @@ ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision preci
 
 void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
                               std::vector<Vec3>& forces, double step) {
+    evaluatePairs(particles, velocities, forces, step);
+    inParallel(particles.count(), outerGrain(),
+               [&](std::size_t p) { addOuter(particles, p, velocities[p], forces[p]); });
+}
+
+void ForceEvaluator::evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities,
+                                   std::vector<Vec3>& forces, double step) {
     if (method_ == ForceMethod::reference)
         pairForcesReference(law_, particles, velocities, forces);
     else
         pairForcesGrid(particles, velocities, forces, step);
-    addGravity(particles, forces);
-    addContacts(particles, velocities, forces);
 }
 
 double ForceEvaluator::evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities,
@@ -72,15 +77,17 @@ void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& f
                [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
 }
 
-void ForceEvaluator::addContacts(const Particles& particles, const std::vector<Vec3>& velocities,
-                                 std::vector<Vec3>& forces) const {
+void ForceEvaluator::addOuter(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const {
+    force += particles.mass[p] * law_.gravity;
     if (law_.scenery.colliders.empty()) return;
-    constexpr std::size_t kGrain = 128;  // chosen: a contact takes some microseconds
-    inParallel(particles.count(), kGrain, [&](std::size_t p) {
-        const Material& material = law_.materials[particles.material[p]];
-        forces[p] += contactForce(law_.scenery, {particles.position[p], velocities[p], particles.radius[p],
-                                                 material.dampingReach, material.friction});
-    });
+    const Material& material = law_.materials[particles.material[p]];
+    force += contactForce(
+        law_.scenery, {particles.position[p], velocity, particles.radius[p], material.dampingReach, material.friction});
+}
+
+std::size_t ForceEvaluator::outerGrain() const {
+    constexpr std::size_t kContactGrain = 128;  // chosen: a contact takes some microseconds
+    return law_.scenery.colliders.empty() ? kParticleGrain : kContactGrain;
 }
 
 void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,

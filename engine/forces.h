@@ -40,7 +40,17 @@ class ForceEvaluator {
     void evaluate(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                   double step = 0.0);
 
-    /// The same without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
+    /// The pair forces of equation 1 alone; what evaluate adds to them is addOuter.
+    void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
+                       double step = 0.0);
+
+    /// Gravity's and the obstacles' force on a particle at its position, in newtons, added to that of its pairs.
+    void addOuter(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const;
+
+    /// For loops over the particles that call addOuter.
+    std::size_t outerGrain() const;
+
+    /// The same as evaluate without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
     double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                         double step = 0.0);
 
@@ -77,7 +87,6 @@ class ForceEvaluator {
 
  private:
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
-    void addContacts(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces) const;
 
     ForceLaw law_;
     ForceMethod method_ = ForceMethod::grid;

@@ -15,13 +15,18 @@ namespace {
 /// published.
 void symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
-    simulation.evaluator.evaluate(particles, particles.velocity, simulation.forces, h);
+    const ForceEvaluator& evaluator = simulation.evaluator;
+    simulation.evaluator.evaluatePairs(particles, particles.velocity, simulation.forces, h);
     ++simulation.steps.forceEvaluations;
     const double decay = decayFactor(simulation.setup.drag, h);
     simulation.clearance.clear();
-    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
-        particles.velocity[p] = decay * (particles.velocity[p] + h / particles.mass[p] * simulation.forces[p]);
-        particles.position[p] += h * particles.velocity[p];
+    // What acts on a particle from outside, and what it does then: one loop for both.
+    inParallel(particles.count(), evaluator.outerGrain(), [&](std::size_t p) {
+        Vec3& velocity = particles.velocity[p];
+        Vec3 force = simulation.forces[p];
+        evaluator.addOuter(particles, p, velocity, force);
+        velocity = decay * (velocity + h / particles.mass[p] * force);
+        particles.position[p] += h * velocity;
     });
 }
 

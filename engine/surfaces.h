@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "engine/colliders.h"
 #include "engine/pair_law.h"
@@ -67,6 +68,36 @@ template <class Visit>
 void forEachSurface(const Scenery& scenery, const Vec3& point, const Visit& visit) {
     for (const Collider& collider : scenery.colliders)
         std::visit([&](const auto& shape) { forEachSurface(shape, point, scenery.law.radius, visit); }, collider);
+}
+
+/// Whether a shape may have a surface nearer than a reach (m). Far obstacles, which most are, need no root and no
+/// normal.
+template <class Shape>
+bool mayReach(const Shape& shape, const Vec3& point, double reach) {
+    constexpr double kSlack = 1.0 + 1e-9;  // far above what roundings add up to
+    if constexpr (std::is_same_v<Shape, Sphere>) {
+        const double within = shape.radius + reach;
+        return squaredLength(point - shape.center) < kSlack * within * within;
+    } else if constexpr (std::is_same_v<Shape, Box>) {
+        const Vec3 closest = point.cwiseMax(shape.minimum).cwiseMin(shape.maximum);
+        return squaredLength(point - closest) < kSlack * reach * reach;
+    } else {
+        return true;
+    }
+}
+
+/// Every surface whose distance from a particle's centre is less than its radius (m).
+template <class Visit>
+void forEachTouched(const Scenery& scenery, const Vec3& point, double radius, const Visit& visit) {
+    for (const Collider& collider : scenery.colliders)
+        std::visit(
+            [&](const auto& shape) {
+                if (!mayReach(shape, point, radius)) return;
+                forEachSurface(shape, point, scenery.law.radius, [&](const Surface& surface) {
+                    if (surface.height < radius) visit(surface);
+                });
+            },
+            collider);
 }
 
 /// A surface and a particle as a pair: the repulsor sits repulsorRadius behind the face.

@@ -5,6 +5,7 @@
 #include "tests/catch.h"
 
 #include "engine/pair_law.h"
+#include "engine/surfaces.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/rounding.h"
 
@@ -124,4 +125,40 @@ TEST_CASE("Contact forces are minus the gradient of the contact energy", "[colli
                 CHECK(std::abs(force[axis] + slope) <= 700 * 4 * kEps / h + 1e6 * h * h + 1e-9 * force.norm());
             }
         }
+}
+
+TEST_CASE("What a particle touches is every surface below its radius, to the last bit", "[colliders]") {
+    const Vec3 center(0.3, -1.7, 2.9);
+    const double radius = 0.15;
+    Scenery scenery = only(Sphere{center, 1.1});
+    scenery.colliders.push_back(Box{Vec3(-1, -2, -3), Vec3(1, 2, 3)});
+    scenery.colliders.push_back(Plane{});
+    scenery.colliders.push_back(Container{Vec3(-2, -3, -4), Vec3(2, 3, 4)});
+    const auto heights = [&](const Vec3& point, const auto& each) {
+        std::vector<double> found;
+        each(point, [&](const Surface& surface) {
+            if (surface.height < radius) found.push_back(surface.height);
+        });
+        return found;
+    };
+    std::size_t touched = 0, untouched = 0;
+    const auto compare = [&](const Vec3& point) {
+        const auto all = heights(point, [&](const Vec3& at, const auto& visit) { forEachSurface(scenery, at, visit); });
+        const auto near =
+            heights(point, [&](const Vec3& at, const auto& visit) { forEachTouched(scenery, at, radius, visit); });
+        CHECK(near == all);
+        touched += all.size();
+        untouched += 9 - all.size();
+    };
+    // About the sphere and about a face, an edge and a corner of the box: as far as it touches, a rounding to either
+    // side of it, well inside and far away.
+    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(-1, 2, 3), Vec3(2, 3, -7)})
+        for (const double away : {0.0, 0.1, 1.25, 5.0, 1e6})
+            for (const double roundings : {-64.0, -3.0, -1.0, 0.0, 1.0, 3.0, 64.0})
+                compare(center + away * (1.0 + roundings * kEps) * way.normalized());
+    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(1, 1, 1)})
+        for (const double roundings : {-64.0, -3.0, -1.0, 0.0, 1.0, 3.0, 64.0})
+            compare(Vec3(1, 2, 3).cwiseProduct(way) + radius * (1.0 + roundings * kEps) * way.normalized());
+    CHECK(touched > 100);
+    CHECK(untouched > 100);
 }
