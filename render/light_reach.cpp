@@ -332,8 +332,13 @@ V openness(const Obstruction& obstruction, const Surfaces& surfaces, VI seen, co
     return open;
 }
 
+VI of16383(V share) {
+    return hn::ConvertTo(DI(), hn::Add(hn::Mul(share, all(16383.0F)), all(0.5F)));
+}
+
 void reach(const Obstruction& obstruction, const Surfaces& surfaces, const SurfacePoints& points, LightReach& found) {
     const D d;
+    const DI di;
     const LightBasis& light = obstruction.light;
     for (std::size_t place = 0; place < points.count; place += hn::Lanes(d)) {
         const auto of = [place](const std::array<std::array<float, kTilePixels>, 3>& v) {
@@ -348,10 +353,10 @@ void reach(const Obstruction& obstruction, const Surfaces& surfaces, const Surfa
             lit = visibility(obstruction,
                              {dotted(position, uniform(light.u)), dotted(position, uniform(light.v)),
                               dotted(position, uniform(light.toLight)), position, normal, pixelWidth, facing});
-        hn::Store(lit, d, &found.light[place]);
-        const VI seen = hn::Load(DI(), &points.seen[place]);
+        const VI seen = hn::Load(di, &points.seen[place]);
         const bool asks = obstruction.open != nullptr;
-        hn::Store(asks ? openness(obstruction, surfaces, seen, position, normal) : all(1.0F), d, &found.sky[place]);
+        const V sky = asks ? openness(obstruction, surfaces, seen, position, normal) : all(1.0F);
+        hn::Store(hn::Or(hn::ShiftLeft<4>(of16383(lit)), hn::ShiftLeft<18>(of16383(sky))), di, &found.shares[place]);
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "render/depth_map.h"
@@ -26,11 +27,10 @@ struct Obstruction {
     const OpennessMap* ground = nullptr;  ///< likewise
 };
 
-/// Between 0 and 1 for each point.
+/// Two shares for each point, of 16383: of light in bits 4 to 17 (none in shadow or turned away from the light), of sky
+/// in bits 18 to 31 (openness of ground and obstacles; all of it on particles, which bring theirs along).
 struct LightReach {
-    alignas(64) std::array<float, kTilePixels> light;  ///< 1 lit, 0 in shadow or turned away from the light
-    alignas(64)
-        std::array<float, kTilePixels> sky;  ///< openness of ground and obstacles; 1 on particles, which bring it along
+    alignas(64) std::array<std::int32_t, kTilePixels> shares;
 };
 
 /// Holds:  a point's values depend on the point alone, bit for bit, not on the number of lanes.

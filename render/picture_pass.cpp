@@ -234,10 +234,12 @@ Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int
     features.output = sampling.output;
     features.perspective = frame_.perspective;
     features.spheres = (classBits & kSphereBit) != 0;
+    features.obstacles = features.spheres && static_cast<std::size_t>(drawn_.firstObstacle) < drawn_.spheres.size();
     features.field = (classBits & kFieldBit) != 0;
     features.lines = (classBits & kLineBit) != 0;
     features.boxes = (classBits & kBoxBit) != 0;
     features.ground = (classBits & kGroundBit) != 0;
+    features.single = showsOneKind(classBits);
     const bool dim = (classBits & kDimBit) != 0;
     features.shadows = dim && castsShadows(view);
     const bool particles = features.field || (features.spheres && view.style == Style::spheres);

@@ -159,25 +159,21 @@ class TileSamples {
     }
 
     void addEdge(std::size_t k, std::int32_t place, TileEdges& edges) const {
-        std::array<std::int32_t, kMostFragments> found;
-        std::array<std::int32_t, kMostFragments> shows{};  // a bit for each sample
-        std::size_t count = 0;
-        for (std::size_t s = 0; s < samples_.size(); ++s) {
-            const std::int32_t seen = samples_[s].seen[k];
-            std::size_t f = 0;
-            while (f < count && found[f] != seen) ++f;
-            if (f == count) found[count++] = seen;
-            shows[f] |= 1 << s;
-        }
+        std::array<std::int32_t, 4> seen;
+        for (std::size_t s = 0; s < seen.size(); ++s) seen[s] = rays_[s].seen[k];
         EdgePixel pixel;
         pixel.place = place;
         pixel.first = static_cast<std::int32_t>(edges.fragments.size());
-        pixel.count = static_cast<std::int32_t>(count);
-        edges.pixels.push_back(pixel);
-        for (std::size_t f = 0; f < count; ++f) {
-            edges.fragments.push_back({found[f], kAllReaches | shows[f]});
-            edges.classBits |= kindOf(found[f]);
+        // Which samples show the same cannot be foretold, and is found without branches.
+        for (unsigned left = 15; left != 0; ++pixel.count) {
+            const std::int32_t what = seen[static_cast<std::size_t>(std::countr_zero(left))];
+            unsigned shows = 0;  // a bit for each sample
+            for (std::size_t s = 0; s < seen.size(); ++s) shows |= unsigned{seen[s] == what} << s;
+            edges.fragments.push_back({what, kAllReaches | static_cast<std::int32_t>(shows)});
+            edges.classBits |= kindOf(what);
+            left &= ~shows;
         }
+        edges.pixels.push_back(pixel);
     }
 
     const TileContents& contents_;
@@ -200,27 +196,56 @@ bool isDimmed(int bits, GroundKind ground) {
     return (bits & kGroundBit) != 0 && (ground == GroundKind::dimmed || ground == GroundKind::horizon);
 }
 
-std::int32_t packedReach(const LightReach& found, std::size_t k) {
-    const auto bits = [](float share) { return static_cast<std::int32_t>(share * 16383.0F + 0.5F); };
-    return bits(found.light[k]) << 4 | bits(found.sky[k]) << 18;
+// Points are looked at in blocks of 4 x 4 pixels: the spheres between a block and the light are fewer than those
+// between a row and the light.
+constexpr std::size_t kRun = 4;
+
+/// Visits each four pixels side by side: the place of the first, row by row and block by block.
+template <typename Visit>
+void forEachRun(const Visit& visit) {
+    for (std::size_t inBlocks = 0; inBlocks < kTilePixels; inBlocks += kRun) {
+        const std::size_t row = inBlocks / 64 * 4 + inBlocks / 4 % 4;
+        visit(row * kTileSize + inBlocks / 16 % 4 * 4, inBlocks);
+    }
 }
+
+/// Places of a tile's pixels, block by block.
+struct PlacesInBlocks {
+    std::array<float, kTilePixels> x{}, y{};
+
+    constexpr PlacesInBlocks() {
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            x[k] = static_cast<float>(k / 16 % 4 * 4 + k % 4);
+            y[k] = static_cast<float>(k / 64 * 4 + k / 4 % 4);
+        }
+    }
+};
+
+constexpr PlacesInBlocks kInBlocks;
 
 /// Writes what a tile's pixels show. where: of the sample within the pixel, from its corner.
 void putPixels(const TileContents& contents, std::size_t tile, std::span<const std::int32_t> seen, glm::vec2 where,
                bool isDimmed, std::span<Fragment> pixels) {
-    const CellLists& tiles = *contents.solids.tiles;
-    SurfacePoints points;
-    LightReach found;
-    const bool asks = isDimmed && contents.obstruction != nullptr;
-    if (asks) {
-        points.count = kTilePixels;
-        std::copy(seen.begin(), seen.end(), points.seen.begin());
-        placeRays(cornerOf(tiles, tile) + where, points.x, points.y);
-        placePoints(contents.surfaces, points);
-        reach(*contents.obstruction, contents.surfaces, points, found);
+    const std::span<Fragment> own = pixels.subspan(tile * kTilePixels, kTilePixels);
+    if (!isDimmed || contents.obstruction == nullptr) {
+        for (std::size_t k = 0; k < kTilePixels; ++k) own[k] = {seen[k], kAllReaches};
+        return;
     }
-    for (std::size_t k = 0; k < kTilePixels; ++k)
-        pixels[tile * kTilePixels + k] = {seen[k], asks ? packedReach(found, k) : kAllReaches};
+    SurfacePoints points;
+    points.count = kTilePixels;
+    const glm::vec2 first = cornerOf(*contents.solids.tiles, tile) + where;
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        points.x[k] = first.x + kInBlocks.x[k];
+        points.y[k] = first.y + kInBlocks.y[k];
+    }
+    forEachRun(
+        [&](std::size_t inRows, std::size_t inBlocks) { std::copy_n(&seen[inRows], kRun, &points.seen[inBlocks]); });
+    placePoints(contents.surfaces, points);
+    LightReach found;
+    reach(*contents.obstruction, contents.surfaces, points, found);
+    forEachRun([&](std::size_t inRows, std::size_t inBlocks) {
+        for (std::size_t k = 0; k < kRun; ++k) own[inRows + k] = {seen[inRows + k], found.shares[inBlocks + k]};
+    });
 }
 
 /// Of the samples whose bits are set.
@@ -246,7 +271,7 @@ void reachEdges(const TileContents& contents, std::span<const EdgePixel> pixels,
         reach(*contents.obstruction, contents.surfaces, points, found);
         for (std::size_t k = 0; k < points.count; ++k) {
             std::int32_t& word = fragments[begun + k].reach;
-            word = packedReach(found, k) | (word & 15);
+            word = found.shares[k] | (word & 15);
         }
         begun += points.count;
         points.count = 0;

@@ -19,9 +19,9 @@ namespace render {
 
 /// One thing that a pixel shows.
 struct Fragment {
-    std::int32_t seen;   ///< as first_hits.h has it
-    std::int32_t reach;  ///< bits 0 to 3: samples that show it; 4 to 17 and 18 to 31: light and sky as light_reach.h
-                         ///< has them, of 16383
+    std::int32_t seen;  ///< as first_hits.h has it
+    std::int32_t
+        reach;  ///< bits 0 to 3: samples that show it; above: shares of light and sky as light_reach.h has them
 };
 
 /// A pixel that shows several things.

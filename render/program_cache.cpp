@@ -35,9 +35,11 @@ std::string definesOf(const Features& features) {
     define("PLAIN", features.drawing == Drawing::plain);
     define("PERSPECTIVE", features.perspective);
     define("SPHERES", features.spheres);
+    define("OBSTACLES", features.obstacles);
     define("FIELD", features.field);
     define("BOXES", features.boxes);
     define("GROUND", features.ground);
+    define("SINGLE", features.single);
     define("LINES", features.lines);
     define("SHADOWS", features.shadows);
     define("SPECULAR", features.specular);

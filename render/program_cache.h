@@ -32,9 +32,11 @@ struct Features {
     Drawing drawing = Drawing::picture;
     bool perspective = true;
     bool spheres = false;
+    bool obstacles = false;  ///< some sphere is none of the particles
     bool field = false;
     bool boxes = false;
     bool ground = false;
+    bool single = false;  ///< all pixels show the same one of spheres, field, boxes and ground
     bool lines = false;
     bool shadows = false;
     bool specular = false;

@@ -2,6 +2,8 @@
 // Used by the picture pass.
 #pragma once
 
+#include <bit>
+
 namespace render {
 
 /// A tile's class is the sum of what its pixels show.
@@ -19,6 +21,12 @@ enum ClassBit {
 /// Whether it shows nothing but background, or ground that nothing dims.
 constexpr bool isPlain(int tileClass) {
     return tileClass == kBackgroundBit || tileClass == kGroundBit;
+}
+
+/// Whether its pixels all show the same kind of thing, which is not background.
+constexpr bool showsOneKind(int tileClass) {
+    const int kinds = tileClass & (kSphereBit | kFieldBit | kBoxBit | kGroundBit | kBackgroundBit);
+    return std::has_single_bit(static_cast<unsigned>(kinds)) && kinds != kBackgroundBit;
 }
 
 }  // namespace render

@@ -10,6 +10,13 @@ const int kGround = -2;
 const int kBoxes = 1 << 28;
 const int kField = 1 << 29;
 
+// Whether all pixels show things of one kind, so that none is asked for its own.
+#ifdef SINGLE
+const bool kSingle = true;
+#else
+const bool kSingle = false;
+#endif
+
 vec3 octahedralNormal(uint bits) {
     vec2 folded = vec2(float(bits & 0xffffu), float(bits >> 16)) * (1.0 / 32767.5) - 1.0;
     vec3 normal = vec3(folded, 1.0 - abs(folded.x) - abs(folded.y));
@@ -49,12 +56,13 @@ Point pointOn(int id, Ray ray) {
     point.particle = 0.0;
     point.open = vec3(1.0);
 #ifdef GROUND
-    depth = id == kGround ? (frame.groundColor.w - ray.origin.y) / ray.direction.y : depth;
-    point.normal = id == kGround ? vec3(0.0, 1.0, 0.0) : point.normal;
+    bool isGround = kSingle || id == kGround;
+    depth = isGround ? (frame.groundColor.w - ray.origin.y) / ray.direction.y : depth;
+    point.normal = isGround ? vec3(0.0, 1.0, 0.0) : point.normal;
 #endif
 #ifdef SPHERES
-    bool isSphere = id >= 0 && id < kBoxes;
-    int place = isSphere ? id : 0;
+    int place = id >= 0 && id < kBoxes ? id : 0;
+    bool isSphere = kSingle || id >= 0 && id < kBoxes;
     vec4 sphere = texelFetch(spheres, place);
     uvec4 look = texelFetch(sphereLooks, place);
     vec3 toCenter = sphere.xyz - ray.origin;
@@ -65,7 +73,12 @@ Point pointOn(int id, Ray ray) {
     depth = isSphere ? sphereDepth : depth;
     point.normal = isSphere ? normalize(off + (sphereDepth - closest) * ray.direction) : point.normal;
     point.albedo = isSphere ? unpackColor(look.x) : point.albedo;
-    point.particle = isSphere ? float(look.w) : point.particle;
+#ifdef OBSTACLES
+    float particle = float(look.w);
+#else
+    const float particle = 1.0;
+#endif
+    point.particle = isSphere ? particle : point.particle;
 #endif
 #ifdef BOXES
     bool isBox = id >= kBoxes && id < kField;
@@ -82,8 +95,8 @@ Point pointOn(int id, Ray ray) {
     point.albedo = isBox ? texelFetch(boxes, 3 * box + 2).xyz : point.albedo;
 #endif
 #ifdef FIELD
-    bool isField = id >= kField;
-    uvec4 texel = texelFetch(fieldSamples, isField ? id - kField : 0);
+    bool isField = kSingle || id >= kField;
+    uvec4 texel = texelFetch(fieldSamples, max(id - kField, 0));
     depth = isField ? uintBitsToFloat(texel.x) : depth;
     point.normal = isField ? octahedralNormal(texel.y) : point.normal;
     point.albedo = isField ? unpackColor(texel.z) : point.albedo;
@@ -94,8 +107,7 @@ Point pointOn(int id, Ray ray) {
 #ifdef OPEN
     vec3 mirrored = reflect(ray.direction * sqrt(ray.inverseSquare), point.normal);
 #ifdef SPHERES
-    bool isParticle = isSphere && look.w > 0u;
-    point.open = isParticle ? openOfSphere(look, point.normal, mirrored) : point.open;
+    point.open = isSphere && particle > 0.0 ? openOfSphere(look, point.normal, mirrored) : point.open;
 #endif
 #ifdef FIELD
     point.open = isField ? unpackOpen(texel.w) : point.open;
@@ -116,9 +128,9 @@ vec3 colorOf(int id, int reach, vec2 at) {
 #endif
     vec3 color = shade(point, -ray.direction * sqrt(ray.inverseSquare));
 #ifdef GROUND
-    color = id == kGround ? mix(color, behind, groundFade(point.position)) : color;
+    color = kSingle || id == kGround ? mix(color, behind, groundFade(point.position)) : color;
 #endif
-    color = id == kBackground ? behind : color;
+    color = !kSingle && id == kBackground ? behind : color;
     return clamp(color, 0.0, 1.0);
 #else
     return clamp(behind, 0.0, 1.0);
