@@ -41,7 +41,7 @@ DepthMap emptyMap(const LightBounds& bounds, glm::vec3 eye, float texelSize, int
     map.rows = static_cast<int>(extent.y / map.texelSize) + 6;
     const glm::vec2 low = glm::vec2(bounds.low) + glm::vec2(eye);
     map.origin = (glm::floor(low / map.texelSize) - 2.0F) * map.texelSize - glm::vec2(eye);
-    map.heights.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), kNoHeight);
+    map.heights.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows) + 1, kNoHeight);
     return map;
 }
 

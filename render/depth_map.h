@@ -16,7 +16,9 @@ struct DepthMap {
     float texelSize = 1.0F;
     int columns = 1;
     int rows = 1;
-    std::vector<float> heights;  ///< towards the light; kNoHeight where there is no surface
+    /// Towards the light, row by row; kNoHeight where there is no surface. One more than there are texels, so that four
+    /// from any within on can be read.
+    std::vector<float> heights;
 };
 
 inline constexpr float kNoHeight = -3e38F;

@@ -13,6 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/lane_fours-inl.h"
 #include "render/lane_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -223,11 +224,10 @@ V coverOfField(const DepthMap& map, const Obstruction& obstruction, const LitPoi
         first, hn::Mul(hn::Sub(hn::ConvertTo(di, hn::IfThenElse(inMap, row, one)), allOf(1)), allOf(map.columns)));
     V sum = all(0.0F);
     for (const V& weight : down.of) {
-        V inRow = all(0.0F);
-        for (int k = 0; k < 3; ++k) {
-            const V texel = hn::GatherIndex(D(), map.heights.data(), hn::Add(start, allOf(k)));
-            inRow = hn::Add(inRow, hn::IfThenElseZero(hn::Gt(texel, height), across.of[k]));
-        }
+        const Fours texels = foursFrom(map.heights.data(), start);
+        const auto part = [&](V texel, V share) { return hn::IfThenElseZero(hn::Gt(texel, height), share); };
+        const V first = hn::Add(part(texels.x, across.of[0]), part(texels.y, across.of[1]));
+        const V inRow = hn::Add(first, part(texels.z, across.of[2]));
         sum = hn::Add(sum, hn::Mul(weight, inRow));
         start = hn::Add(start, allOf(map.columns));
     }

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/lane_fours-inl.h"
 #include "render/lane_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,11 +24,6 @@ struct Placed {
     }
 };
 
-/// One number of each lane's record.
-V fieldOf(const float* records, VI first, int offset) {
-    return hn::GatherIndex(D(), records, hn::Add(first, allOf(offset)));
-}
-
 Vec3 normalized(const Vec3& v) {
     const V scale = hn::Div(all(1.0F), hn::Sqrt(dotted(v, v)));
     return {hn::Mul(v.x, scale), hn::Mul(v.y, scale), hn::Mul(v.z, scale)};
@@ -37,10 +33,10 @@ void placeOnSpheres(const Surfaces& surfaces, const WorldRay& ray, V inverseSqua
     static_assert(sizeof(ViewSphere) == 4 * sizeof(float));
     const auto* records = reinterpret_cast<const float*>(surfaces.spheres.data());
     const VI first = hn::ShiftLeft<2>(hn::IfThenElseZero(hn::RebindMask(DI(), where), seen));
-    const Vec3 toCenter{hn::Sub(fieldOf(records, first, 0), ray.origin.x),
-                        hn::Sub(fieldOf(records, first, 1), ray.origin.y),
-                        hn::Sub(fieldOf(records, first, 2), ray.origin.z)};
-    const V radius = fieldOf(records, first, 3);
+    const Fours sphere = foursFrom(records, first);
+    const Vec3 toCenter{hn::Sub(sphere.x, ray.origin.x), hn::Sub(sphere.y, ray.origin.y),
+                        hn::Sub(sphere.z, ray.origin.z)};
+    const V radius = sphere.w;
     const V closest = hn::Mul(dotted(toCenter, ray.direction), inverseSquare);
     const Vec3 off{hn::Sub(hn::Mul(closest, ray.direction.x), toCenter.x),
                    hn::Sub(hn::Mul(closest, ray.direction.y), toCenter.y),
@@ -87,11 +83,11 @@ V folded(VI bits) {
 void placeOnField(const Surfaces& surfaces, VI seen, M where, Placed& placed) {
     static_assert(sizeof(FieldSample) == 4 * sizeof(std::uint32_t));
     const DI di;
-    const auto* records = reinterpret_cast<const std::int32_t*>(surfaces.field.data());
+    const auto* records = reinterpret_cast<const float*>(surfaces.field.data());
     const VI place = hn::IfThenElseZero(hn::RebindMask(di, where), hn::Sub(seen, allOf(kSeesField)));
-    const VI first = hn::ShiftLeft<2>(place);
-    const V depth = hn::BitCast(D(), hn::GatherIndex(di, records, first));
-    const VI bits = hn::GatherIndex(di, records, hn::Add(first, allOf(1)));
+    const Fours sample = foursFrom(records, hn::ShiftLeft<2>(place));
+    const V depth = sample.x;
+    const VI bits = hn::BitCast(di, sample.y);
     V x = folded(bits);
     V y = folded(hn::ShiftRight<16>(bits));
     const V z = hn::Sub(hn::Sub(all(1.0F), hn::Abs(x)), hn::Abs(y));
