@@ -32,9 +32,7 @@ double ForceEvaluator::evaluateFree(const Particles& particles, const std::vecto
         pairForcesReference(law_, particles, velocities, forces);
         energy = pairEnergyReference(law_, particles);
     } else {
-        forces.resize(particles.count());
-        pairs_.prepare(law_, particles, velocities, step);
-        addUpPairs(pairs_, {.forces = forces, .energy = &energy});
+        addUp(particles, velocities, {.forces = forces, .energy = &energy}, step);
     }
     addGravity(particles, forces);
     return energy;
@@ -45,6 +43,7 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     double energy = 0.0;
     forces.resize(particles.count());
     pairs_.prepare(law_, particles, particles.velocity, step);
+    pairs_.makeRecords(particles, particles.velocity);
     addUpPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
     // The matrix has no slow twin: products of the reference's pairs would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
@@ -92,14 +91,23 @@ std::size_t ForceEvaluator::outerGrain() const {
 
 void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,
                                     std::vector<Vec3>& forces, double step) {
-    forces.resize(particles.count());
+    addUp(particles, velocities, {.forces = forces}, step);
+}
+
+void ForceEvaluator::addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums,
+                           double step) {
+    sums.forces.resize(particles.count());
     pairs_.prepare(law_, particles, velocities, step);
-    addUpPairs(pairs_, {.forces = forces});
+    if (addUpPairs(pairs_, sums)) return;
+    pairs_.meetsCoincident = true;
+    pairs_.makeRecords(particles, velocities);
+    addUpPairs(pairs_, sums);
 }
 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {
     if (particles.count() < 2) return 0.0;
     pairs_.prepare(law_, particles, particles.velocity);
+    pairs_.makeRecords(particles, particles.velocity);
     return pairEnergySum(pairs_);
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/force_law.h"
 #include "engine/pair_matrix.h"
+#include "engine/pair_sums.h"
 #include "engine/pair_traversal.h"
 #include "engine/particles.h"
 
@@ -86,6 +87,8 @@ class ForceEvaluator {
     const ForceLaw& law() const { return law_; }
 
  private:
+    /// The sums of a pass, once more with records where float is not enough.
+    void addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums, double step);
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
 
     ForceLaw law_;

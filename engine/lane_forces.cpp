@@ -81,7 +81,7 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
     constexpr Tag<T> kTag{};
     const std::size_t first = group * kGroup + lane;
     const std::uint32_t longest = longestRow<T>(pass.rows, first);
-    const auto selves = selvesFrom<T>(first, pass.records.size());
+    const auto selves = selvesFrom<T>(first, pass.count);
     const Source source = sourceOf(pass, selves.data(), static_cast<Source*>(nullptr));
     const Law<T, Kind> law(pass.constants, pass.weights, pass.unit);
     Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};

@@ -16,6 +16,7 @@ namespace engine {
 /// One pass over groups of particles.
 struct LanePass {
     const LaneRows& rows;
+    std::size_t count = 0;                              ///< of particles
     const std::vector<PairRecord>& records;             ///< read in double
     const std::vector<SinglePrecisionRecord>& singles;  ///< read in float; empty: in double
     double unit = 1.0;                                  ///< of the positions that are read, m

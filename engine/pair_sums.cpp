@@ -3,7 +3,9 @@
 #include "engine/pair_sums.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <optional>
 
 #include "engine/lane_forces.h"
 
@@ -119,9 +121,9 @@ double sumOf(const Group& group, const Of& of) {
 }
 
 template <Variant variant>
-double run(const PairTraversal& pairs, const PairSums& sums) {
+std::optional<double> run(const PairTraversal& pairs, const PairSums& sums) {
     const Kernel<variant> kernel{pairs, sums};
-    return overGroups(pairs.records.size(), [&](const Group& group) { return sumOf(group, kernel); });
+    return overGroups(pairs.list.count(), [&](const Group& group) { return sumOf(group, kernel); });
 }
 
 /// Whether a particle shares its exact position with a neighbour. In float some that are merely near seem to, but what
@@ -140,16 +142,19 @@ bool isCoincident(const PairTraversal& pairs, std::size_t place) {
 /// knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be
 /// rounded differently.
 template <PairTerms terms>
-double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
+std::optional<double> addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
     const double unit = pairs.singles.empty() ? 1.0 : pairs.unit;
-    const LanePass pass{pairs.list.rows, pairs.records, pairs.singles, unit,        pairs.uniform,
-                        terms,           hasEnergy,     sums.matrix,   sums.weights};
+    const LanePass pass{pairs.list.rows, pairs.list.count(), pairs.records, pairs.singles, unit, pairs.uniform,
+                        terms,           hasEnergy,          sums.matrix,   sums.weights};
     const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
     const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};
-    return overGroups(pairs.records.size(), [&](const Group& group) {
+    std::atomic<bool> isUnclear = false;
+    const double energy = overGroups(pairs.list.count(), [&](const Group& group) {
         LaneSums of;
         addUpGroup(pass, group.first / kGroup, of);
+        if (of.coincident != 0 && !pairs.hasRecords) isUnclear = true;
+        if (isUnclear) return 0.0;
         return sumOf(group, [&](std::size_t place) {
             const std::size_t lane = place - group.first;
             if ((of.coincident >> lane & 1U) != 0 && isCoincident(pairs, place))
@@ -158,9 +163,11 @@ double addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
             return of.energy[lane];
         });
     });
+    return isUnclear ? std::nullopt : std::optional(energy);
 }
 
-using Pass = double (*)(const PairTraversal&, const PairSums&);
+/// Gives the energy, J; nothing where it would have needed records.
+using Pass = std::optional<double> (*)(const PairTraversal&, const PairSums&);
 
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& sums) {
@@ -187,16 +194,17 @@ Pass passFor(PairTerms terms, const PairSums& sums) {
 
 }  // namespace
 
-void addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
+bool addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
     if (sums.matrix != nullptr) {
         makeRoom(*sums.matrix, pairs.list, pairs.terms.pair.friction);
         sums.matrix->records = pairs.records;
     }
     const PairTerms terms = pairs.terms.pair;
     const Pass pass = pairs.terms.uniform ? passFor<true>(terms, sums) : passFor<false>(terms, sums);
-    const double energy = pass(pairs, sums);
+    const std::optional<double> energy = pass(pairs, sums);
     if (sums.matrix != nullptr) close(*sums.matrix);
-    if (sums.energy != nullptr) *sums.energy = energy;
+    if (sums.energy != nullptr) *sums.energy = energy.value_or(0.0);
+    return energy.has_value();
 }
 
 double pairEnergySum(const PairTraversal& pairs) {
@@ -210,7 +218,7 @@ double pairEnergySum(const PairTraversal& pairs) {
                                });
         return energy;
     };
-    return overGroups(pairs.records.size(), [&](const Group& group) { return sumOf(group, energyOfOne); });
+    return overGroups(pairs.list.count(), [&](const Group& group) { return sumOf(group, energyOfOne); });
 }
 
 }  // namespace engine

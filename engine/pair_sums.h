@@ -17,9 +17,11 @@ struct PairSums {
     MatrixWeights weights = {};    ///< of the matrix
 };
 
-void addUpPairs(const PairTraversal& pairs, const PairSums& sums);
+/// False where pairs without a distance were met in float and there are no records to tell what they do to each other:
+/// what was added up is then of no use.  \pre  with a matrix, there are records.
+bool addUpPairs(const PairTraversal& pairs, const PairSums& sums);
 
-/// Pair energy of the conservative part alone, in joules.
+/// Pair energy of the conservative part alone, in joules.  \pre  there are records.
 double pairEnergySum(const PairTraversal& pairs);
 
 }  // namespace engine

@@ -49,22 +49,33 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
             isForeseen ? cheapestSkin(neighboursWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
                        : kListSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
+        meetsCoincident = false;
     }
     const bool hasSingles = terms.uniform && precision == Precision::singles;
-    records.resize(particles.count());
+    hasRecords = false;
+    if (!hasSingles || meetsCoincident) makeRecords(particles, velocities);
     singles.resize(hasSingles ? particles.count() : 0);
     unit = list.reach / kUnits;
     const double perUnit = 1.0 / unit;
+    inParallel(singles.size(), kParticleGrain, [&](std::size_t place) {
+        const std::size_t p = list.order[place];
+        const Vec3 units = particles.position[p] * perUnit;
+        const Vec3& v = velocities[p];
+        singles[place] = {wrapped(units.x()),        wrapped(units.y()),        wrapped(units.z()),        0,
+                          static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
+    });
+}
+
+void PairTraversal::makeRecords(const Particles& particles, const std::vector<Vec3>& velocities) {
+    if (hasRecords) return;
+    hasRecords = true;
+    records.resize(particles.count());
     inParallel(records.size(), kParticleGrain, [&](std::size_t place) {
         const std::size_t p = list.order[place];
         const Vec3& x = particles.position[p];
         const Vec3& v = velocities[p];
         records[place] = {x.x(),          x.y(), x.z(), v.x(), v.y(), v.z(), particles.radius[p], particles.material[p],
                           particles.id[p]};
-        if (!hasSingles) return;
-        const Vec3 units = x * perUnit;
-        singles[place] = {wrapped(units.x()),        wrapped(units.y()),        wrapped(units.z()),        0,
-                          static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
     });
 }
 

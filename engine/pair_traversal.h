@@ -27,9 +27,12 @@ struct PairTraversal {
     PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
     NeighbourList list;
     Precision precision = Precision::doubles;             ///< of forces where the terms are uniform
-    Scratch<std::vector<PairRecord>> records;             ///< in the list's order
+    Scratch<std::vector<PairRecord>> records;             ///< in the list's order, where there are any
     Scratch<std::vector<SinglePrecisionRecord>> singles;  ///< in the list's order; empty in double
     double unit = 0.0;                                    ///< of the singles' positions, m
+    bool hasRecords = false;                              ///< not in float, unless they are asked for
+    /// A pass in float has met pairs without a distance since the list was built: the next ones have records too.
+    bool meetsCoincident = false;
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
@@ -38,6 +41,9 @@ struct PairTraversal {
     /// one is made for passes that are a step (s) apart; 0: nobody knows.
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
+
+    /// After prepare(), for the same: the records, where there are none yet, for whatever float is not enough for.
+    void makeRecords(const Particles& particles, const std::vector<Vec3>& velocities);
 
     /// Brings back the list that was built for these positions (m) with this reach (m).
     void restoreList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& builtAt, double reach);
@@ -74,7 +80,7 @@ struct PairTraversal {
     template <class Body>
     void forEachParticle(const Body& body) const {
         constexpr std::size_t kGrain = 64;  // chosen: particles of a dense scene take half a microsecond each
-        inParallel(records.size(), kGrain, [&](std::size_t self) { body(static_cast<std::uint32_t>(self)); });
+        inParallel(list.count(), kGrain, [&](std::size_t self) { body(static_cast<std::uint32_t>(self)); });
     }
 
  private:

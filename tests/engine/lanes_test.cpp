@@ -1,9 +1,12 @@
 // The kernels on vector units: the same bits whatever vectors the machine has, and what float loses.
+#include <cmath>
+
 #include "tests/catch.h"
 
 #include "engine/diagnostics.h"
 #include "engine/instruction_sets.h"
 #include "engine/lane_forces.h"
+#include "engine/pair_sums.h"
 #include "engine/steppers.h"
 #include "tests/engine/runs.h"
 
@@ -112,4 +115,33 @@ TEST_CASE("Coincident particles are parted in float as in double", "[lanes]") {
     CHECK(doubles[17].norm() > 0.0);
     CHECK((singles[17] - doubles[17]).norm() < 1e-5 * doubles[17].norm());
     CHECK((singles[16] - doubles[16]).norm() < 1e-5 * doubles[16].norm());
+}
+
+TEST_CASE("In float, doubles are read where particles coincide and nowhere else", "[lanes]") {
+    const Material material = *materialPreset("solid");
+    Particles particles = block(material, Vec3::Zero());
+    const ForceLaw law = clouds::lawOf(material);
+    PairTraversal pairs(law, Precision::singles);
+    std::vector<Vec3> forces(particles.count());
+    const auto pass = [&] {
+        pairs.prepare(law, particles, particles.velocity);
+        return addUpPairs(pairs, {.forces = forces});
+    };
+    CHECK(pass());
+    CHECK(!pairs.hasRecords);
+    particles.position[17] = particles.position[16];
+    pairs.list.builtAt.clear();
+    CHECK(!pass());
+    pairs.makeRecords(particles, particles.velocity);
+    CHECK(addUpPairs(pairs, {.forces = forces}));
+    const std::vector<Vec3> parted = forces;
+
+    // An evaluator that has met such a pair knows it from then on.
+    ForceEvaluator evaluator(law, ForceMethod::grid, Precision::singles);
+    for (int times = 0; times < 2; ++times) {
+        const double energy = evaluator.evaluateFree(particles, particles.velocity, forces);
+        CHECK(std::isfinite(energy));
+        for (std::size_t p = 0; p < particles.count(); ++p)
+            CHECK(forces[p] == Vec3(parted[p] + particles.mass[p] * law.gravity));
+    }
 }
