@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <optional>
 
 #include "engine/lane_forces.h"
 
@@ -120,10 +119,16 @@ double sumOf(const Group& group, const Of& of) {
     return sum;
 }
 
+/// Of a pass: the pair energy, J, and whether lanes met coincident pairs.
+struct Outcome {
+    double energy = 0.0;
+    bool metCoincident = false;
+};
+
 template <Variant variant>
-std::optional<double> run(const PairTraversal& pairs, const PairSums& sums) {
+Outcome run(const PairTraversal& pairs, const PairSums& sums) {
     const Kernel<variant> kernel{pairs, sums};
-    return overGroups(pairs.list.count(), [&](const Group& group) { return sumOf(group, kernel); });
+    return {.energy = overGroups(pairs.list.count(), [&](const Group& group) { return sumOf(group, kernel); })};
 }
 
 /// Whether a particle shares its exact position with a neighbour. In float some that are merely near seem to, but what
@@ -142,19 +147,19 @@ bool isCoincident(const PairTraversal& pairs, std::size_t place) {
 /// knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be
 /// rounded differently.
 template <PairTerms terms>
-std::optional<double> addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
+Outcome addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
     const double unit = pairs.singles.empty() ? 1.0 : pairs.unit;
     const LanePass pass{pairs.list.rows, pairs.list.count(), pairs.records, pairs.singles, unit, pairs.uniform,
                         terms,           hasEnergy,          sums.matrix,   sums.weights};
     const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
     const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};
-    std::atomic<bool> isUnclear = false;
+    std::atomic<bool> metCoincident = false;
     const double energy = overGroups(pairs.list.count(), [&](const Group& group) {
         LaneSums of;
         addUpGroup(pass, group.first / kGroup, of);
-        if (of.coincident != 0 && !pairs.hasRecords) isUnclear = true;
-        if (isUnclear) return 0.0;
+        if (of.coincident != 0) metCoincident = true;
+        if (of.coincident != 0 && !pairs.hasRecords) return 0.0;
         return sumOf(group, [&](std::size_t place) {
             const std::size_t lane = place - group.first;
             if ((of.coincident >> lane & 1U) != 0 && isCoincident(pairs, place))
@@ -163,11 +168,10 @@ std::optional<double> addUpGroups(const PairTraversal& pairs, const PairSums& su
             return of.energy[lane];
         });
     });
-    return isUnclear ? std::nullopt : std::optional(energy);
+    return {energy, metCoincident};
 }
 
-/// Gives the energy, J; nothing where it would have needed records.
-using Pass = std::optional<double> (*)(const PairTraversal&, const PairSums&);
+using Pass = Outcome (*)(const PairTraversal&, const PairSums&);
 
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& sums) {
@@ -201,10 +205,10 @@ bool addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
     }
     const PairTerms terms = pairs.terms.pair;
     const Pass pass = pairs.terms.uniform ? passFor<true>(terms, sums) : passFor<false>(terms, sums);
-    const std::optional<double> energy = pass(pairs, sums);
+    const Outcome outcome = pass(pairs, sums);
     if (sums.matrix != nullptr) close(*sums.matrix);
-    if (sums.energy != nullptr) *sums.energy = energy.value_or(0.0);
-    return energy.has_value();
+    if (sums.energy != nullptr) *sums.energy = outcome.energy;
+    return outcome.metCoincident;
 }
 
 double pairEnergySum(const PairTraversal& pairs) {

@@ -17,8 +17,8 @@ struct PairSums {
     MatrixWeights weights = {};    ///< of the matrix
 };
 
-/// False where pairs without a distance were met in float and there are no records to tell what they do to each other:
-/// what was added up is then of no use.  \pre  with a matrix, there are records.
+/// Whether pairs without a distance were met, as lanes read them. Where there were no records to tell what those do to
+/// each other, what was added up is then of no use.  \pre  with a matrix, there are records.
 bool addUpPairs(const PairTraversal& pairs, const PairSums& sums);
 
 /// Pair energy of the conservative part alone, in joules.  \pre  there are records.

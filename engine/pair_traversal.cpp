@@ -2,6 +2,7 @@
 #include "engine/pair_traversal.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/extent.h"
 #include "engine/list_skin.h"
@@ -49,11 +50,11 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
             isForeseen ? cheapestSkin(neighboursWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
                        : kListSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
-        meetsCoincident = false;
+        metCoincident = std::exchange(meetsCoincident, false);
     }
     const bool hasSingles = terms.uniform && precision == Precision::singles;
     hasRecords = false;
-    if (!hasSingles || meetsCoincident) makeRecords(particles, velocities);
+    if (!hasSingles || meetsCoincident || metCoincident) makeRecords(particles, velocities);
     singles.resize(hasSingles ? particles.count() : 0);
     unit = list.reach / kUnits;
     const double perUnit = 1.0 / unit;

@@ -31,8 +31,10 @@ struct PairTraversal {
     Scratch<std::vector<SinglePrecisionRecord>> singles;  ///< in the list's order; empty in double
     double unit = 0.0;                                    ///< of the singles' positions, m
     bool hasRecords = false;                              ///< not in float, unless they are asked for
-    /// A pass in float has met pairs without a distance since the list was built: the next ones have records too.
+    /// Passes in float have met pairs without a distance since the list was built, or while the one before it served:
+    /// the next ones have records at once.
     bool meetsCoincident = false;
+    bool metCoincident = false;
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
