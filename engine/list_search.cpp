@@ -32,8 +32,8 @@ std::uint32_t countOf(const Neighbourhood& around) {
     return sum;
 }
 
-/// As CompressStore, whose table gcc copies to the stack whenever it looks something up, and which on some processors
-/// (Zen 4) takes ten times as long as packing within a register.
+/// As CompressStore, whose table gcc copies to the stack whenever it looks something up, and with which lists take four
+/// times as long on processors (Zen 4) that are slow to store what they pack.
 std::size_t pack(hn::Vec<decltype(kPlaces)> places, hn::Mask<decltype(kPlaces)> chosen, std::uint32_t* to) {
 #if HWY_TARGET <= HWY_AVX3
     hn::StoreU(hn::Compress(places, chosen), kPlaces, to);

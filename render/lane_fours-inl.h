@@ -1,4 +1,4 @@
-// Four numbers from a place of each lane: loads of 128 bits and shuffles take a third of the time of four gathers.
+// Four numbers from a place of each lane: loads of 128 bits and shuffles take less time than as many gathers.
 // Included once per instruction set, by Highway's rules; the guard below is theirs.
 #if defined(RENDER_LANE_FOURS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RENDER_LANE_FOURS_INL_H_
