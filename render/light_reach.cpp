@@ -226,8 +226,8 @@ V coverOfField(const DepthMap& map, const Obstruction& obstruction, const LitPoi
     for (const V& weight : down.of) {
         const Fours texels = foursFrom(map.heights.data(), start);
         const auto part = [&](V texel, V share) { return hn::IfThenElseZero(hn::Gt(texel, height), share); };
-        const V first = hn::Add(part(texels.x, across.of[0]), part(texels.y, across.of[1]));
-        const V inRow = hn::Add(first, part(texels.z, across.of[2]));
+        const V both = hn::Add(part(texels.x, across.of[0]), part(texels.y, across.of[1]));
+        const V inRow = hn::Add(both, part(texels.z, across.of[2]));
         sum = hn::Add(sum, hn::Mul(weight, inRow));
         start = hn::Add(start, allOf(map.columns));
     }
