@@ -15,8 +15,8 @@ namespace {
 /// published.
 void symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
-    const ForceEvaluator& evaluator = simulation.evaluator;
-    simulation.evaluator.evaluatePairs(particles, particles.velocity, simulation.forces, h);
+    ForceEvaluator& evaluator = simulation.evaluator;
+    evaluator.evaluatePairs(particles, particles.velocity, simulation.forces, h);
     ++simulation.steps.forceEvaluations;
     const double decay = decayFactor(simulation.setup.drag, h);
     simulation.clearance.clear();

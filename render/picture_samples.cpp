@@ -159,13 +159,13 @@ class TileSamples {
     }
 
     void addEdge(std::size_t k, std::int32_t place, TileEdges& edges) const {
-        std::array<std::int32_t, 4> seen;
+        std::array<std::int32_t, kMostFragments> seen;
         for (std::size_t s = 0; s < seen.size(); ++s) seen[s] = rays_[s].seen[k];
         EdgePixel pixel;
         pixel.place = place;
         pixel.first = static_cast<std::int32_t>(edges.fragments.size());
         // Which samples show the same cannot be foretold, and is found without branches.
-        for (unsigned left = 15; left != 0; ++pixel.count) {
+        for (unsigned left = (1U << kMostFragments) - 1U; left != 0; ++pixel.count) {
             const std::int32_t what = seen[static_cast<std::size_t>(std::countr_zero(left))];
             unsigned shows = 0;  // a bit for each sample
             for (std::size_t s = 0; s < seen.size(); ++s) shows |= unsigned{seen[s] == what} << s;
@@ -196,33 +196,6 @@ bool isDimmed(int bits, GroundKind ground) {
     return (bits & kGroundBit) != 0 && (ground == GroundKind::dimmed || ground == GroundKind::horizon);
 }
 
-// Points are looked at in blocks of 4 x 4 pixels: the spheres between a block and the light are fewer than those
-// between a row and the light.
-constexpr std::size_t kRun = 4;
-
-/// Visits each four pixels side by side: the place of the first, row by row and block by block.
-template <typename Visit>
-void forEachRun(const Visit& visit) {
-    for (std::size_t inBlocks = 0; inBlocks < kTilePixels; inBlocks += kRun) {
-        const std::size_t row = inBlocks / 64 * 4 + inBlocks / 4 % 4;
-        visit(row * kTileSize + inBlocks / 16 % 4 * 4, inBlocks);
-    }
-}
-
-/// Places of a tile's pixels, block by block.
-struct PlacesInBlocks {
-    std::array<float, kTilePixels> x{}, y{};
-
-    constexpr PlacesInBlocks() {
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            x[k] = static_cast<float>(k / 16 % 4 * 4 + k % 4);
-            y[k] = static_cast<float>(k / 64 * 4 + k / 4 % 4);
-        }
-    }
-};
-
-constexpr PlacesInBlocks kInBlocks;
-
 /// Writes what a tile's pixels show. where: of the sample within the pixel, from its corner.
 void putPixels(const TileContents& contents, std::size_t tile, std::span<const std::int32_t> seen, glm::vec2 where,
                bool isDimmed, std::span<Fragment> pixels) {
@@ -233,19 +206,19 @@ void putPixels(const TileContents& contents, std::size_t tile, std::span<const s
     }
     SurfacePoints points;
     points.count = kTilePixels;
+    // Along the Z curve: between the light and a compact group of pixels there are fewer spheres than between it and a
+    // row.
     const glm::vec2 first = cornerOf(*contents.solids.tiles, tile) + where;
     for (std::size_t k = 0; k < kTilePixels; ++k) {
-        points.x[k] = first.x + kInBlocks.x[k];
-        points.y[k] = first.y + kInBlocks.y[k];
+        const std::uint8_t place = kZCurve[k];
+        points.seen[k] = seen[place];
+        points.x[k] = first.x + static_cast<float>(place % kTileSize);
+        points.y[k] = first.y + static_cast<float>(place / kTileSize);
     }
-    forEachRun(
-        [&](std::size_t inRows, std::size_t inBlocks) { std::copy_n(&seen[inRows], kRun, &points.seen[inBlocks]); });
     placePoints(contents.surfaces, points);
     LightReach found;
     reach(*contents.obstruction, contents.surfaces, points, found);
-    forEachRun([&](std::size_t inRows, std::size_t inBlocks) {
-        for (std::size_t k = 0; k < kRun; ++k) own[inRows + k] = {seen[inRows + k], found.shares[inBlocks + k]};
-    });
+    for (std::size_t k = 0; k < kTilePixels; ++k) own[kZCurve[k]] = {points.seen[k], found.shares[k]};
 }
 
 /// Of the samples whose bits are set.

@@ -19,9 +19,8 @@ namespace render {
 
 /// One thing that a pixel shows.
 struct Fragment {
-    std::int32_t seen;  ///< as first_hits.h has it
-    std::int32_t
-        reach;  ///< bits 0 to 3: samples that show it; above: shares of light and sky as light_reach.h has them
+    std::int32_t seen;   ///< as first_hits.h has it
+    std::int32_t reach;  ///< bits 0 to 3: samples that show it; above: shares as light_reach.h has them
 };
 
 /// A pixel that shows several things.

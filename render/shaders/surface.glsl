@@ -61,8 +61,9 @@ Point pointOn(int id, Ray ray) {
     point.normal = isGround ? vec3(0.0, 1.0, 0.0) : point.normal;
 #endif
 #ifdef SPHERES
-    int place = id >= 0 && id < kBoxes ? id : 0;
-    bool isSphere = kSingle || id >= 0 && id < kBoxes;
+    bool isSphereId = id >= 0 && id < kBoxes;
+    bool isSphere = kSingle || isSphereId;
+    int place = isSphereId ? id : 0;
     vec4 sphere = texelFetch(spheres, place);
     uvec4 look = texelFetch(sphereLooks, place);
     vec3 toCenter = sphere.xyz - ray.origin;

@@ -2,6 +2,7 @@
 #include "engine/colliders.h"
 
 #include <cmath>
+#include <vector>
 #include "tests/catch.h"
 
 #include "engine/pair_law.h"
@@ -134,21 +135,16 @@ TEST_CASE("What a particle touches is every surface below its radius, to the las
     scenery.colliders.push_back(Box{Vec3(-1, -2, -3), Vec3(1, 2, 3)});
     scenery.colliders.push_back(Plane{});
     scenery.colliders.push_back(Container{Vec3(-2, -3, -4), Vec3(2, 3, 4)});
-    const auto heights = [&](const Vec3& point, const auto& each) {
-        std::vector<double> found;
-        each(point, [&](const Surface& surface) {
-            if (surface.height < radius) found.push_back(surface.height);
-        });
-        return found;
-    };
     std::size_t touched = 0, untouched = 0;
     const auto compare = [&](const Vec3& point) {
-        const auto all = heights(point, [&](const Vec3& at, const auto& visit) { forEachSurface(scenery, at, visit); });
-        const auto near =
-            heights(point, [&](const Vec3& at, const auto& visit) { forEachTouched(scenery, at, radius, visit); });
-        CHECK(near == all);
-        touched += all.size();
-        untouched += 9 - all.size();
+        std::vector<double> near, visited;
+        forEachSurface(scenery, point, [&](const Surface& surface) {
+            if (surface.height < radius) near.push_back(surface.height);
+        });
+        forEachTouched(scenery, point, radius, [&](const Surface& surface) { visited.push_back(surface.height); });
+        CHECK(visited == near);
+        touched += near.size();
+        untouched += 9 - near.size();
     };
     // About the sphere and about a face, an edge and a corner of the box: as far as it touches, a rounding to either
     // side of it, well inside and far away.
