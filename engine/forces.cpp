@@ -56,16 +56,16 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
 
 void ForceEvaluator::forgetList() {
     pairs_.list.builtAt.clear();
-    pairs_.list.placeOf.clear();
+    pairs_.list.seatOf.clear();
 }
 
 bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p) const {
     const NeighbourList& list = pairs_.list;
-    if (p >= list.placeOf.size()) return false;
+    if (p >= list.seatOf.size()) return false;
     const double cutoffSq = cutoff * cutoff;
-    const std::uint32_t place = list.placeOf[p];
-    for (std::uint32_t k = 0; k < list.rows.length[place]; ++k) {
-        const std::uint32_t other = list.order[static_cast<std::size_t>(list.rows.places[list.rows.at(place, k)])];
+    const std::uint32_t seat = list.seatOf[p];
+    for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k) {
+        const std::uint32_t other = list.order[static_cast<std::size_t>(*list.rows.entry(seat, k))];
         if (other < positions.size() && squaredLength(positions[p] - positions[other]) < cutoffSq) return false;
     }
     return true;

@@ -35,7 +35,7 @@ std::uint32_t bitsOf(hn::Mask<Tag<T>> mask) {
 template <class T>
 struct MatrixRows {
     PairMatrix* matrix;
-    std::size_t first;  ///< place of the first lane
+    std::size_t first;  ///< seat of the first lane
     std::array<std::uint32_t, kGroup> length = {};
 
     template <bool hasFriction>
@@ -49,11 +49,12 @@ struct MatrixRows {
             isEntry = hn::Or(isEntry, hn::Ne(across, hn::Zero(kTag)));
         }
         const std::uint32_t bits = bitsOf<T>(hn::And(isPair, isEntry));
+        const std::size_t part = LaneRows::partOf(first);
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane) {
             const std::size_t at = matrix->rows.at(first + lane, length[lane]);
-            matrix->rows.places[at] = others[lane];
-            matrix->along[at] = static_cast<double>(alongOf[lane]);
-            if constexpr (hasFriction) matrix->across[at] = static_cast<double>(acrossOf[lane]);
+            matrix->rows.parts[part].places[at] = others[lane];
+            matrix->along[part][at] = static_cast<double>(alongOf[lane]);
+            if constexpr (hasFriction) matrix->across[part][at] = static_cast<double>(acrossOf[lane]);
             length[lane] += (bits >> lane) & 1U;
         }
     }
@@ -81,14 +82,13 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
     constexpr Tag<T> kTag{};
     const std::size_t first = group * kGroup + lane;
     const std::uint32_t longest = longestRow<T>(pass.rows, first);
-    const auto selves = selvesFrom<T>(first, pass.count);
-    const Source source = sourceOf(pass, selves.data(), static_cast<Source*>(nullptr));
+    const Source source = sourceOf(pass, &pass.rows.selves[first], static_cast<Source*>(nullptr));
     const Law<T, Kind> law(pass.constants, pass.weights, pass.unit);
     Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     Lanes<T> energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     [[maybe_unused]] MatrixRows<T> matrixRows{pass.matrix, first};
-    const std::int32_t* entry = pass.rows.places.data() + pass.rows.at(first, 0);
+    const std::int32_t* entry = pass.rows.entry(first, 0);
     constexpr bool kVelocity = Kind::kPair.damping;
     auto ahead = source.template load<kVelocity>(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {

@@ -16,7 +16,6 @@ namespace engine {
 /// One pass over groups of particles.
 struct LanePass {
     const LaneRows& rows;
-    std::size_t count = 0;                              ///< of particles
     const std::vector<PairRecord>& records;             ///< read in double
     const std::vector<SinglePrecisionRecord>& singles;  ///< read in float; empty: in double
     double unit = 1.0;                                  ///< of the positions that are read, m
@@ -27,7 +26,7 @@ struct LanePass {
     MatrixWeights weights = {};    ///< of the matrix
 };
 
-/// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by place.
+/// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by seat.
 struct LaneSums {
     std::array<double, kGroup> x, y, z, energy;
     std::uint32_t coincident = 0;  ///< a bit each: shares its position, as the pass reads it, with another

@@ -17,20 +17,21 @@ template <bool hasFriction>
 HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std::size_t lane, LaneProduct& product) {
     constexpr Tag<double> kTag{};
     const std::size_t first = group * kGroup + lane;
-    const Doubles source(matrix.records.data(), selvesFrom<double>(first, matrix.records.size()).data());
+    const Doubles source(matrix.records.data(), &matrix.rows.selves[first]);
     const std::uint32_t longest = longestRow<double>(matrix.rows, first);
     Vector3<Lanes<double>> sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
-    std::size_t entry = matrix.rows.at(group * kGroup, 0) + lane;
+    const std::size_t part = LaneRows::partOf(first);
+    std::size_t entry = matrix.rows.at(first, 0);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
-        const std::int32_t* places = &matrix.rows.places[entry];
+        const std::int32_t* places = &matrix.rows.parts[part].places[entry];
         const Row<double> row = source.row<true>(places, source.load<true>(places));
-        const auto along = hn::LoadU(kTag, &matrix.along[entry]);
+        const auto along = hn::LoadU(kTag, &matrix.along[part][entry]);
         const auto push = hn::Mul(along, dot(row.velocity, row.separation));
         sum.x = hn::Add(sum.x, hn::Mul(push, row.separation.x));
         sum.y = hn::Add(sum.y, hn::Mul(push, row.separation.y));
         sum.z = hn::Add(sum.z, hn::Mul(push, row.separation.z));
         if constexpr (hasFriction) {
-            const auto across = hn::LoadU(kTag, &matrix.across[entry]);
+            const auto across = hn::LoadU(kTag, &matrix.across[part][entry]);
             sum.x = hn::Add(sum.x, hn::Mul(across, row.velocity.x));
             sum.y = hn::Add(sum.y, hn::Mul(across, row.velocity.y));
             sum.z = hn::Add(sum.z, hn::Mul(across, row.velocity.z));

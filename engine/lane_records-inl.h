@@ -42,15 +42,6 @@ struct Row {
     hn::Mask<Tag<T>> isPair;
 };
 
-/// The places of a block of lanes; beyond the last particle, its place again.
-template <class T>
-std::array<std::int32_t, kGroup> selvesFrom(std::size_t first, std::size_t count) {
-    std::array<std::int32_t, kGroup> selves;
-    for (std::size_t lane = 0; lane < hn::Lanes(Tag<T>()); ++lane)
-        selves[lane] = static_cast<std::int32_t>(std::min(first + lane, count - 1));
-    return selves;
-}
-
 /// Entries of the longest row of a block of lanes.
 template <class T>
 std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {

@@ -2,6 +2,7 @@
 // without a branch.
 #include "engine/list_search.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
@@ -116,7 +117,7 @@ struct Search {
 void findInReachHere(const Candidates& candidates, const Neighbourhood& around, CellRange selves, double reach,
                      Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths) {
     const std::uint32_t count = countOf(around);
-    const std::size_t room = count + 2 * kSearchOverhang;
+    const std::size_t room = count + 2 * kSearchOverhang + kRowPadding;
     if (scratch.places.size() < room) {
         for (std::vector<float>* of : {&scratch.x, &scratch.y, &scratch.z}) of->resize(2 * room);
         scratch.places.resize(2 * room);
@@ -131,7 +132,8 @@ void findInReachHere(const Candidates& candidates, const Neighbourhood& around, 
         const std::size_t length = search.sift(self, &rows.places[rows.used]);
         lengths[self - selves.begin] = static_cast<std::uint32_t>(length);
         rows.used += length;
-        rows.places[rows.used++] = self;
+        std::fill_n(&rows.places[rows.used], kRowPadding, self);
+        rows.used += kRowPadding;
     }
 }
 

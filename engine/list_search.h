@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/lane_layout.h"
 #include "engine/neighbours.h"
 
 namespace engine {
@@ -25,7 +26,7 @@ struct Surroundings {
     std::vector<std::uint32_t> places;
 };
 
-/// Rows one after the other, each followed by its own particle's place.
+/// Rows one after the other, each followed by its padding.
 struct FoundRows {
     std::vector<std::uint32_t> places;  ///< more than are used
     std::size_t used = 0;

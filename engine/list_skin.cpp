@@ -11,8 +11,8 @@ namespace {
 
 /// Measured: rows "list" and "forces" of `globular bench` at 5 to 90 neighbours, between double and float. Building
 /// costs as much as a pass over so many pairs for each particle, and so many more for each entry of its row.
-constexpr double kPerParticle = 25.0;
-constexpr double kPerEntry = 1.2;
+constexpr double kPerParticle = 50.0;
+constexpr double kPerEntry = 2.0;
 
 /// Chosen: finer steps save nothing, wider skins take memory.
 constexpr std::array kWidths = {0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6};

@@ -1,29 +1,28 @@
-// Rows are found chunk by chunk, then put together in order, whoever found them. The lanes of a group wait for its
-// longest row: particles with rows of like length are given places side by side.
+// Rows are found part by part, and laid out while they are in the cache of whoever found them. The lanes of a group
+// wait for its longest row: particles with rows of like length are seated side by side.
 #include "engine/neighbour_list.h"
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "engine/extent.h"
+#include "engine/lane_layout.h"
 #include "engine/parallel.h"
 
 namespace engine {
 namespace {
 
-/// Groups whose rows are found together. Chosen: some tens of microseconds in a dense scene.
-constexpr std::size_t kGroupsPerChunk = 8;
-
-/// Places of a chunk.
-CellRange chunkOf(const NeighbourList& list, std::size_t number) {
-    const std::size_t size = kGroupsPerChunk * kGroup;
-    return {static_cast<std::uint32_t>(number * size),
-            static_cast<std::uint32_t>(std::min((number + 1) * size, list.count()))};
+/// The places and the seats of a part.
+CellRange rangeOf(const NeighbourList& list, std::size_t part) {
+    return {static_cast<std::uint32_t>(part * kSeatsPerPart),
+            static_cast<std::uint32_t>(std::min((part + 1) * kSeatsPerPart, list.count()))};
 }
 
-/// Places among which particles are put in order of the lengths of their rows. Chosen: a few groups, whose neighbours
+/// Seats among which particles are put in order of the lengths of their rows. Chosen: a few groups, whose neighbours
 /// are mostly the same.
 constexpr std::size_t kWindow = 64;
+static_assert(kSeatsPerPart % kWindow == 0);
 
 /// Where each of a window's rows goes, longest first: a counting sort, in which all that are far shorter are one.
 std::array<std::uint32_t, kWindow> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
@@ -38,68 +37,86 @@ std::array<std::uint32_t, kWindow> ranksOf(const std::uint32_t* lengths, std::ui
     return ranks;
 }
 
-/// Moves the particles of a window to the places that their rows' lengths give them.
-void sortWindow(NeighbourList& list, std::uint32_t begin, std::uint32_t end) {
-    std::array<std::uint32_t, kWindow> lengths, particles;
-    std::copy(list.rows.length.begin() + begin, list.rows.length.begin() + end, lengths.begin());
-    std::copy(list.order.begin() + begin, list.order.begin() + end, particles.begin());
-    const auto ranks = ranksOf(lengths.data(), end - begin);
-    for (std::uint32_t at = 0; at < end - begin; ++at) {
-        const std::uint32_t place = begin + ranks[at];
-        list.scratch.placeFor[begin + at] = place;
-        list.rows.length[place] = lengths[at];
-        list.order[place] = particles[at];
-        list.placeOf[particles[at]] = place;
-    }
-}
+/// Rows of a part as they are found, in the order of places. Kept by each thread.
+struct FoundPart {
+    Surroundings surroundings;
+    FoundRows rows;
+    std::array<std::uint32_t, kSeatsPerPart> lengths;
+};
 
-/// Finds the chunk's rows; the start of a group becomes the length of the longest one before it.
-void search(NeighbourList& list, const CellRange& chunk, FoundRows& found) {
-    Surroundings scratch;
-    for (std::uint32_t place = chunk.begin; place < chunk.end;) {
-        const std::uint32_t cell = list.scratch.grid.cellOf[list.order[place]];
-        const CellRange selves{place, std::min(list.scratch.grid.start[cell + 1], chunk.end)};
-        findInReach(list.scratch.candidates, neighbourhood(list.scratch.grid, cell), selves, list.reach, scratch, found,
-                    &list.rows.length[place]);
+void search(const NeighbourList& list, const CellRange& range, FoundPart& found) {
+    found.rows.used = 0;
+    for (std::uint32_t place = range.begin; place < range.end;) {
+        const CellGrid& grid = list.scratch.grid;
+        const std::uint32_t cell = grid.cellOf[list.order[place]];
+        const CellRange selves{place, std::min(grid.start[cell + 1], range.end)};
+        findInReach(list.scratch.candidates, neighbourhood(grid, cell), selves, list.reach, found.surroundings,
+                    found.rows, &found.lengths[place - range.begin]);
         place = selves.end;
     }
-    for (std::uint32_t begin = chunk.begin; begin < chunk.end; begin += kWindow)
-        sortWindow(list, begin, std::min<std::uint32_t>(begin + kWindow, chunk.end));
-    for (std::size_t group = chunk.begin / kGroup; group * kGroup < chunk.end; ++group) {
-        const auto first = list.rows.length.begin() + static_cast<std::ptrdiff_t>(group * kGroup);
-        list.rows.start[group + 1] = *std::max_element(first, first + kGroup);
-    }
 }
 
-/// Interleaves the chunk's rows, which were found in the order of the cells.
-void layOut(NeighbourList& list, const CellRange& chunk, const FoundRows& found) {
-    LaneRows& rows = list.rows;
-    const std::vector<std::uint32_t>& placeFor = list.scratch.placeFor;
-    std::array<const std::uint32_t*, kGroupsPerChunk * kGroup> rowOf;
-    const std::uint32_t* next = found.places.data();
-    for (std::uint32_t at = chunk.begin; at < chunk.end; ++at) {
-        const std::uint32_t place = placeFor[at];
-        rowOf[place - chunk.begin] = next;
-        next += rows.length[place] + 1;
+/// Rows of a part by seat.
+using Seated = std::array<const std::uint32_t*, kSeatsPerPart>;
+
+/// Seats the particles of a part.
+Seated seat(NeighbourList& list, const CellRange& range, const FoundPart& found) {
+    Seated rows;
+    const std::uint32_t* next = found.rows.places.data();
+    for (std::uint32_t begin = range.begin; begin < range.end; begin += kWindow) {
+        const std::uint32_t count = std::min<std::uint32_t>(kWindow, range.end - begin);
+        const std::uint32_t* const lengths = &found.lengths[begin - range.begin];
+        const auto ranks = ranksOf(lengths, count);
+        for (std::uint32_t of = 0; of < count; ++of) {
+            const std::uint32_t at = begin + ranks[of];
+            rows[at - range.begin] = next;
+            next += lengths[of] + kRowPadding;
+            list.rows.length[at] = lengths[of];
+            list.rows.selves[at] = static_cast<std::int32_t>(begin + of);
+            list.seatOf[list.order[begin + of]] = at;
+        }
     }
-    // Where nobody is, somebody's own place.
-    std::fill(rowOf.begin() + (chunk.end - chunk.begin), rowOf.end(), next - 1);
-    for (std::uint32_t first = chunk.begin; first < chunk.end; first += kGroup) {
-        const auto* const row = &rowOf[first - chunk.begin];
-        const std::uint32_t* const length = &rows.length[first];
-        const std::uint32_t longest = rows.start[first / kGroup + 1] - rows.start[first / kGroup];
-        std::int32_t* to = &rows.places[rows.at(first, 0)];
-        for (std::uint32_t k = 0; k < longest; ++k)
-            for (std::uint32_t lane = 0; lane < kGroup; ++lane)
-                *to++ = static_cast<std::int32_t>(placeFor[row[lane][std::min(k, length[lane])]]);
+    // Where nobody is, the last one's padding.
+    std::fill(rows.begin() + (range.end - range.begin), rows.end(), next - kRowPadding);
+    return rows;
+}
+
+/// Room for so many entries, and not much more: rows of a part change little from list to list.
+void makeRoom(std::vector<std::int32_t>& places, std::size_t entries) {
+    if (places.capacity() < entries) {
+        places = {};
+        places.reserve(entries + entries / 8);
     }
+    places.resize(entries);
+}
+
+/// Finds the rows of a part and lays them out; returns the number of their entries.
+std::size_t fill(NeighbourList& list, std::size_t number) {
+    thread_local FoundPart found;
+    const CellRange range = rangeOf(list, number);
+    search(list, range, found);
+    const Seated seated = seat(list, range, found);
+    RowPart& part = list.rows.parts[number];
+    const std::uint32_t* const length = &list.rows.length[range.begin];
+    const std::size_t groups = (range.end - range.begin + kGroup - 1) / kGroup;
+    part.start.fill(0);
+    for (std::size_t group = 0; group < groups; ++group)
+        part.start[group + 1] =
+            part.start[group] + *std::max_element(length + group * kGroup, length + (group + 1) * kGroup);
+    makeRoom(part.places, (part.start[groups] + 1) * kGroup);
+    std::fill(part.places.end() - kGroup, part.places.end(), 0);
+    for (std::size_t group = 0; group < groups; ++group) {
+        GroupRows rows;
+        std::copy_n(&seated[group * kGroup], kGroup, rows.row.begin());
+        std::copy_n(length + group * kGroup, kGroup, rows.length.begin());
+        interleave(rows, part.start[group + 1] - part.start[group], &part.places[part.start[group] * kGroup]);
+    }
+    return std::accumulate(found.lengths.begin(), found.lengths.begin() + (range.end - range.begin), std::size_t{0});
 }
 
 void sortByCell(NeighbourList& list, const std::vector<Vec3>& positions) {
     list.order.swap(list.scratch.grid.order);
     const std::size_t count = list.order.size();
-    list.placeOf.resize(count);
-    list.scratch.placeFor.resize(count);
     list.scratch.candidates.x.resize(count + kSearchOverhang);
     list.scratch.candidates.y.resize(count + kSearchOverhang);
     list.scratch.candidates.z.resize(count + kSearchOverhang);
@@ -119,21 +136,14 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     build(list.scratch.grid, positions, list.reach);
     sortByCell(list, positions);
     const std::size_t groups = (list.count() + kGroup - 1) / kGroup;
-    const std::size_t chunks = (groups + kGroupsPerChunk - 1) / kGroupsPerChunk;
+    const std::size_t parts = (groups + kGroupsPerPart - 1) / kGroupsPerPart;
+    list.seatOf.resize(list.count());
+    list.rows.selves.assign(groups * kGroup, static_cast<std::int32_t>(list.count()) - 1);
     list.rows.length.assign(groups * kGroup, 0);
-    list.rows.start.assign(groups + 1, 0);
-    list.scratch.found.resize(chunks);
-    inParallel(chunks, 1, [&](std::size_t c) {
-        list.scratch.found[c].used = 0;
-        search(list, chunkOf(list, c), list.scratch.found[c]);
-    });
-    for (std::size_t group = 0; group < groups; ++group) list.rows.start[group + 1] += list.rows.start[group];
-    list.entryCount = 0;
-    for (const std::uint32_t length : list.rows.length) list.entryCount += length;
-    // One more than there are: kernels read past the end of a row before they see that it is the last, or empty.
-    list.rows.places.resize((list.rows.start[groups] + 1) * kGroup);
-    std::fill(list.rows.places.end() - kGroup, list.rows.places.end(), 0);
-    inParallel(chunks, 1, [&](std::size_t c) { layOut(list, chunkOf(list, c), list.scratch.found[c]); });
+    list.rows.parts.resize(parts);
+    std::vector<std::size_t> entries(parts);
+    inParallel(parts, 1, [&](std::size_t part) { entries[part] = fill(list, part); });
+    list.entryCount = std::accumulate(entries.begin(), entries.end(), std::size_t{0});
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
@@ -147,16 +157,20 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
     return farthestFrom(extentOver(positions.size(), way).middle(), positions.size(), way) <= slack;
 }
 
+std::size_t roomOf(const LaneRows& rows) {
+    std::size_t sum = 0;
+    for (const RowPart& part : rows.parts) sum += part.places.capacity();
+    return sum;
+}
+
 std::size_t bytesOf(const NeighbourList& list) {
     const auto held = [](const auto&... vectors) {
         return (std::size_t{0} + ... + (vectors.capacity() * sizeof(vectors[0])));
     };
-    std::size_t bytes =
-        held(list.order, list.placeOf, list.rows.start, list.rows.length, list.rows.places, list.builtAt,
-             list.scratch.grid.start, list.scratch.grid.order, list.scratch.grid.cellOf, list.scratch.candidates.x,
-             list.scratch.candidates.y, list.scratch.candidates.z, list.scratch.placeFor, list.scratch.found);
-    for (const FoundRows& found : list.scratch.found) bytes += held(found.places);
-    return bytes;
+    return held(list.order, list.seatOf, list.rows.selves, list.rows.length, list.rows.parts, list.builtAt,
+                list.scratch.grid.start, list.scratch.grid.order, list.scratch.grid.cellOf, list.scratch.candidates.x,
+                list.scratch.candidates.y, list.scratch.candidates.z) +
+           roomOf(list.rows) * sizeof(std::int32_t);
 }
 
 }  // namespace engine

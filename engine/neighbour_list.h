@@ -15,21 +15,19 @@ namespace engine {
 
 /// Memory of a build.
 struct BuildScratch {
-    CellGrid grid;                        ///< its order is an older one
-    Candidates candidates;                ///< in the order of the cells, as are the rows that are found
-    std::vector<std::uint32_t> placeFor;  ///< of each particle in the order of the cells
-    std::vector<FoundRows> found;         ///< rows of some groups each
+    CellGrid grid;  ///< its order is an older one
+    Candidates candidates;
 };
 
-/// Rows of places, which follow the cells of the grid that they were built with; among neighbouring places particles
-/// with long rows come first.
+/// Particles have places, which follow the cells of the grid that the list was built with, and seats, near their
+/// places, in which the longest rows come first.
 struct NeighbourList {
-    std::vector<std::uint32_t> order;    ///< particle index at each place
-    std::vector<std::uint32_t> placeOf;  ///< of each particle index
-    LaneRows rows;                       ///< neighbours of each place
-    std::size_t entryCount = 0;          ///< of all rows
-    std::vector<Vec3> builtAt;           ///< positions by particle index when the list was built, m
-    double reach = 0.0;                  ///< cutoff and skin together, m
+    std::vector<std::uint32_t> order;   ///< particle index at each place
+    std::vector<std::uint32_t> seatOf;  ///< of each particle index
+    LaneRows rows;                      ///< neighbours of each seat
+    std::size_t entryCount = 0;         ///< of all rows
+    std::vector<Vec3> builtAt;          ///< positions by particle index when the list was built, m
+    double reach = 0.0;                 ///< cutoff and skin together, m
     Scratch<BuildScratch> scratch;
 
     std::size_t count() const { return order.size(); }
@@ -41,6 +39,9 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
 
 /// Whether every pair closer than the cutoff (m) is certainly in the list.
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff);
+
+/// Entries for which the rows have room, with those that fill them up.
+std::size_t roomOf(const LaneRows& rows);
 
 /// Bytes that the list holds, with the scratch of its build.
 std::size_t bytesOf(const NeighbourList& list);

@@ -8,34 +8,43 @@
 
 namespace engine {
 
-void PairMatrix::add(std::size_t place, std::int32_t other, double alongOf, double acrossOf) {
-    const std::size_t at = rows.at(place, rows.length[place]++);
-    rows.places[at] = other;
-    along[at] = alongOf;
-    if (!across.empty()) across[at] = acrossOf;
+void PairMatrix::add(std::size_t seat, std::int32_t other, double alongOf, double acrossOf) {
+    const std::size_t part = LaneRows::partOf(seat);
+    const std::size_t at = rows.at(seat, rows.length[seat]++);
+    rows.parts[part].places[at] = other;
+    along[part][at] = alongOf;
+    if (!across.empty()) across[part][at] = acrossOf;
 }
 
 void makeRoom(PairMatrix& matrix, const NeighbourList& list, bool hasFriction) {
-    matrix.rows.start = list.rows.start;
+    const std::size_t parts = list.rows.parts.size();
+    matrix.rows.selves = list.rows.selves;
     matrix.rows.length.assign(list.rows.length.size(), 0);
-    matrix.rows.places.resize(list.rows.places.size());
-    matrix.along.resize(matrix.rows.places.size());
-    matrix.across.resize(hasFriction ? matrix.rows.places.size() : 0);
+    matrix.rows.parts.resize(parts);
+    matrix.along.resize(parts);
+    matrix.across.resize(hasFriction ? parts : 0);
+    inParallel(parts, 1, [&](std::size_t part) {
+        const std::size_t room = list.rows.parts[part].places.size();
+        matrix.rows.parts[part].start = list.rows.parts[part].start;
+        matrix.rows.parts[part].places.resize(room);
+        matrix.along[part].resize(room);
+        if (hasFriction) matrix.across[part].resize(room);
+    });
 }
 
 void close(PairMatrix& matrix) {
     inParallel(matrix.rows.groupCount(), 16, [&](std::size_t group) {
         const std::size_t end = (group + 1) * kGroup;
+        const std::size_t part = LaneRows::partOf(group * kGroup);
         std::uint32_t longest = 0;
-        for (std::size_t place = group * kGroup; place < end; ++place)
-            longest = std::max(longest, matrix.rows.length[place]);
-        for (std::size_t place = group * kGroup; place < end; ++place) {
-            const auto self = static_cast<std::int32_t>(std::min(place, matrix.records.size() - 1));
-            for (std::uint32_t k = matrix.rows.length[place]; k < longest; ++k) {
-                const std::size_t at = matrix.rows.at(place, k);
-                matrix.rows.places[at] = self;
-                matrix.along[at] = 0.0;
-                if (!matrix.across.empty()) matrix.across[at] = 0.0;
+        for (std::size_t seat = group * kGroup; seat < end; ++seat)
+            longest = std::max(longest, matrix.rows.length[seat]);
+        for (std::size_t seat = group * kGroup; seat < end; ++seat) {
+            for (std::uint32_t k = matrix.rows.length[seat]; k < longest; ++k) {
+                const std::size_t at = matrix.rows.at(seat, k);
+                matrix.rows.parts[part].places[at] = matrix.rows.selves[seat];
+                matrix.along[part][at] = 0.0;
+                if (!matrix.across.empty()) matrix.across[part][at] = 0.0;
             }
         }
     });
@@ -55,8 +64,9 @@ void multiply(PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>&
         multiplyGroup(matrix, group, of);
         const std::size_t first = group * kGroup;
         const std::size_t end = std::min(first + kGroup, matrix.count());
-        for (std::size_t place = first; place < end; ++place) {
-            const std::size_t lane = place - first;
+        for (std::size_t seat = first; seat < end; ++seat) {
+            const std::size_t lane = seat - first;
+            const auto place = static_cast<std::size_t>(matrix.rows.selves[seat]);
             product[place] = matrix.mass[place] * x[place] + Vec3(of.x[lane], of.y[lane], of.z[lane]);
             if (!matrix.own.empty()) product[place] += matrix.own[place] * x[place];
         }

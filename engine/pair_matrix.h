@@ -18,7 +18,7 @@ struct MatrixWeights {
     double stiffness = 0.0;  ///< s^2; 0 leaves the stiffness out
 };
 
-/// All vectors are in the order of the neighbour list that it was assembled over. The block of a pair is
+/// All vectors are by place in the neighbour list that it was assembled over. The block of a pair is
 /// -(along P P^T + across 1), its two entries are equal bit for bit. Coincident pairs, which have no direction, add
 /// nothing.
 struct PairMatrix {
@@ -26,13 +26,17 @@ struct PairMatrix {
     std::vector<Matrix3> own;         ///< what obstacles add to each particle's own block, kg; empty without any
     std::vector<PairRecord> records;  ///< positions; a product puts what it multiplies in the place of the velocities
     LaneRows rows;                    ///< of the pairs that have an entry
-    std::vector<double> along;        ///< of each entry of the rows, kg/m^2
-    std::vector<double> across;       ///< of each entry of the rows, kg; empty without friction
+
+    /// Of each entry of a part of the rows.
+    using Entries = std::vector<std::vector<double>>;
+
+    Entries along;   ///< kg/m^2
+    Entries across;  ///< kg; empty without friction
 
     std::size_t count() const { return mass.size(); }
 
-    /// Appends an entry to the row of a place; the place's own thread alone may.
-    void add(std::size_t place, std::int32_t other, double alongOf, double acrossOf);
+    /// Appends an entry to the row of a seat; the seat's own thread alone may.
+    void add(std::size_t seat, std::int32_t other, double alongOf, double acrossOf);
 };
 
 /// Empties the matrix and gives it room for the pairs of a list.

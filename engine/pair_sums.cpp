@@ -52,12 +52,12 @@ struct Kernel {
     const PairTraversal& pairs;
     const PairSums& sums;
 
-    double operator()(std::size_t place) const {
-        const auto self = static_cast<std::uint32_t>(place);
+    double operator()(std::size_t seat) const {
+        const std::uint32_t self = pairs.placeAt(seat);
         const PairRecord& p = pairs.records[self];
         Vec3 force = Vec3::Zero();
         double energy = 0.0;
-        pairs.forEachNeighbour(self, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+        pairs.forEachNeighbour(seat, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
             const PairRecord& i = pairs.records[other];
             const auto constants = pairs.constants<variant.uniform>(p, i);
             double approach = 0.0;
@@ -71,14 +71,14 @@ struct Kernel {
             }
             if constexpr (variant.energy)
                 if (distanceSq < constants.reachSq) energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), constants);
-            if constexpr (variant.matrix) addEntry(self, other, distanceSq, slip.damping, constants);
+            if constexpr (variant.matrix) addEntry(seat, other, distanceSq, slip.damping, constants);
         });
         sums.forces[pairs.list.order[self]] = force;
         return energy;
     }
 
     /// Across the pair acts friction, along it the damping b_d s_d and the stiffness max(k, 0), each times its weight.
-    void addEntry(std::uint32_t self, std::uint32_t other, double distanceSq, double slipDamping,
+    void addEntry(std::size_t seat, std::uint32_t other, double distanceSq, double slipDamping,
                   const PairConstants<double>& constants) const {
         double along = 0.0;
         if constexpr (variant.terms.damping) along = sums.weights.damping * pairDampingOverSq(distanceSq, constants);
@@ -87,21 +87,21 @@ struct Kernel {
             along += sums.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
         }
         const double across = sums.weights.damping * slipDamping;
-        const PairRecord& p = pairs.records[self];
+        const PairRecord& p = pairs.records[pairs.placeAt(seat)];
         const PairRecord& i = pairs.records[other];
         const bool isCoincident = p.x == i.x && p.y == i.y && p.z == i.z;
         if ((along == 0.0 && across == 0.0) || isCoincident) return;
         // across (1 - n n^T) = across 1 - (across / D^2) P P^T
-        sums.matrix->add(self, static_cast<std::int32_t>(other), along - across / distanceSq, across);
+        sums.matrix->add(seat, static_cast<std::int32_t>(other), along - across / distanceSq, across);
     }
 };
 
-/// The places of a group.
+/// The seats of a group.
 struct Group {
     std::size_t first, end;
 };
 
-/// Calls body for every group of places, shared out over the threads, and returns the sum of what it gives, J.
+/// Calls body for every group of seats, shared out over the threads, and returns the sum of what it gives, J.
 template <class Body>
 double overGroups(std::size_t count, const Body& body) {
     std::vector<double> energies((count + kGroup - 1) / kGroup);
@@ -115,7 +115,7 @@ double overGroups(std::size_t count, const Body& body) {
 template <class Of>
 double sumOf(const Group& group, const Of& of) {
     double sum = 0.0;
-    for (std::size_t place = group.first; place < group.end; ++place) sum += of(place);
+    for (std::size_t seat = group.first; seat < group.end; ++seat) sum += of(seat);
     return sum;
 }
 
@@ -133,11 +133,11 @@ Outcome run(const PairTraversal& pairs, const PairSums& sums) {
 
 /// Whether a particle shares its exact position with a neighbour. In float some that are merely near seem to, but what
 /// those do to each other is less than a rounding of what they do in contact.
-bool isCoincident(const PairTraversal& pairs, std::size_t place) {
-    const PairRecord& p = pairs.records[place];
+bool isCoincident(const PairTraversal& pairs, std::size_t seat) {
+    const PairRecord& p = pairs.records[pairs.placeAt(seat)];
     const LaneRows& rows = pairs.list.rows;
-    for (std::uint32_t k = 0; k < rows.length[place]; ++k) {
-        const PairRecord& i = pairs.records[static_cast<std::size_t>(rows.places[rows.at(place, k)])];
+    for (std::uint32_t k = 0; k < rows.length[seat]; ++k) {
+        const PairRecord& i = pairs.records[static_cast<std::size_t>(*rows.entry(seat, k))];
         if (p.x == i.x && p.y == i.y && p.z == i.z) return true;
     }
     return false;
@@ -150,8 +150,8 @@ template <PairTerms terms>
 Outcome addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
     const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
     const double unit = pairs.singles.empty() ? 1.0 : pairs.unit;
-    const LanePass pass{pairs.list.rows, pairs.list.count(), pairs.records, pairs.singles, unit, pairs.uniform,
-                        terms,           hasEnergy,          sums.matrix,   sums.weights};
+    const LanePass pass{pairs.list.rows, pairs.records, pairs.singles, unit,        pairs.uniform,
+                        terms,           hasEnergy,     sums.matrix,   sums.weights};
     const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
     const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};
     std::atomic<bool> metCoincident = false;
@@ -160,11 +160,11 @@ Outcome addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
         addUpGroup(pass, group.first / kGroup, of);
         if (of.coincident != 0) metCoincident = true;
         if (of.coincident != 0 && !pairs.hasRecords) return 0.0;
-        return sumOf(group, [&](std::size_t place) {
-            const std::size_t lane = place - group.first;
-            if ((of.coincident >> lane & 1U) != 0 && isCoincident(pairs, place))
-                return hasEnergy ? forcesAndEnergy(place) : forces(place);
-            sums.forces[pairs.list.order[place]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
+        return sumOf(group, [&](std::size_t seat) {
+            const std::size_t lane = seat - group.first;
+            if ((of.coincident >> lane & 1U) != 0 && isCoincident(pairs, seat))
+                return hasEnergy ? forcesAndEnergy(seat) : forces(seat);
+            sums.forces[pairs.list.order[pairs.placeAt(seat)]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
             return of.energy[lane];
         });
     });
@@ -212,14 +212,13 @@ bool addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
 }
 
 double pairEnergySum(const PairTraversal& pairs) {
-    const auto energyOfOne = [&](std::size_t self) {
+    const auto energyOfOne = [&](std::size_t seat) {
         double energy = 0.0;
-        pairs.forEachNeighbour(static_cast<std::uint32_t>(self),
-                               [&](std::uint32_t other, const Vec3&, double distanceSq) {
-                                   const PairRecord& p = pairs.records[self];
-                                   const PairRecord& i = pairs.records[other];
-                                   energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), pairs.constants<false>(p, i));
-                               });
+        const PairRecord& p = pairs.records[pairs.placeAt(seat)];
+        pairs.forEachNeighbour(seat, [&](std::uint32_t other, const Vec3&, double distanceSq) {
+            const PairRecord& i = pairs.records[other];
+            energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), pairs.constants<false>(p, i));
+        });
         return energy;
     };
     return overGroups(pairs.list.count(), [&](const Group& group) { return sumOf(group, energyOfOne); });

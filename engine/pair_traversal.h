@@ -56,16 +56,19 @@ struct PairTraversal {
         return pairConstants<double>(pairMaterials[p.material * materialCount + i.material], p.radius + i.radius);
     }
 
-    /// Calls visit(other place, P, P.P) for every other particle within the cutoff of the one at a place of the list.
+    /// Place of the particle in a seat of the list.
+    std::uint32_t placeAt(std::size_t seat) const { return static_cast<std::uint32_t>(list.rows.selves[seat]); }
+
+    /// Calls visit(other place, P, P.P) for every other particle within the cutoff of the one in a seat of the list.
     /// A list's row holds some beyond the cutoff, unpredictably so: they are sifted without branches first.
     template <class Visit>
-    void forEachNeighbour(std::uint32_t self, const Visit& visit) const {
-        const PairRecord& p = records[self];
+    void forEachNeighbour(std::size_t seat, const Visit& visit) const {
+        const PairRecord& p = records[placeAt(seat)];
         const double cutoffSq = terms.cutoff * terms.cutoff;
         constexpr std::uint32_t kSieve = 128;  // chosen: longer than most rows
         std::array<std::uint32_t, kSieve> within;
-        const std::int32_t* row = &list.rows.places[list.rows.at(self, 0)];
-        const std::uint32_t length = list.rows.length[self];
+        const std::int32_t* row = list.rows.entry(seat, 0);
+        const std::uint32_t length = list.rows.length[seat];
         for (std::uint32_t begin = 0; begin < length; begin += kSieve) {
             const std::uint32_t end = std::min(begin + kSieve, length);
             std::size_t found = 0;
@@ -78,11 +81,11 @@ struct PairTraversal {
         }
     }
 
-    /// Calls body(place in the list) for every particle, shared out over the threads.
+    /// Calls body(seat in the list) for every particle, shared out over the threads.
     template <class Body>
     void forEachParticle(const Body& body) const {
         constexpr std::size_t kGrain = 64;  // chosen: particles of a dense scene take half a microsecond each
-        inParallel(list.count(), kGrain, [&](std::size_t self) { body(static_cast<std::uint32_t>(self)); });
+        inParallel(list.count(), kGrain, body);
     }
 
  private:

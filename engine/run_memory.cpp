@@ -28,7 +28,7 @@ std::size_t bytesOfMatrix(const Simulation& simulation) {
     const std::size_t entry = sizeof(std::int32_t) + (hasFriction ? 2 : 1) * sizeof(double);
     const std::size_t own = hasObstacles ? sizeof(Matrix3) : 0;
     constexpr std::size_t kVectors = 5 * sizeof(Vec3);
-    return entry * simulation.evaluator.list().rows.places.size() +
+    return entry * roomOf(simulation.evaluator.list().rows) +
            simulation.particles.count() * (sizeof(double) + own + sizeof(PairRecord) + kVectors);
 }
 

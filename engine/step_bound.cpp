@@ -19,10 +19,10 @@ struct OwnSums {
     Matrix3 damping = Matrix3::Zero();    ///< kg/s
 };
 
-OwnSums sumsOf(const PairTraversal& pairs, std::uint32_t self) {
+OwnSums sumsOf(const PairTraversal& pairs, std::size_t seat) {
     OwnSums sums;
-    const PairRecord& p = pairs.records[self];
-    pairs.forEachNeighbour(self, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+    const PairRecord& p = pairs.records[pairs.placeAt(seat)];
+    pairs.forEachNeighbour(seat, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
         const auto c = pairs.constants<false>(p, pairs.records[other]);
         const double distance = std::sqrt(distanceSq);
         const Vec3 normal = separation / distance;
@@ -103,9 +103,9 @@ std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particl
     PairTraversal pairs(law, Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<StepBound> bounds(particles.count());
-    pairs.forEachParticle([&](std::uint32_t self) {
-        const std::size_t p = pairs.list.order[self];
-        const OwnSums sums = sumsOf(pairs, self);
+    pairs.forEachParticle([&](std::size_t seat) {
+        const std::size_t p = pairs.list.order[pairs.placeAt(seat)];
+        const OwnSums sums = sumsOf(pairs, seat);
         const double frequencySq = 2.0 * largestEigenvalue(sums.stiffness) / particles.mass[p];
         const double decay = 2.0 * largestEigenvalue(sums.damping) / particles.mass[p];
         const double seconds = longestStep(stepper, frequencySq, decay);

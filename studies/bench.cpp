@@ -139,7 +139,8 @@ class Bench {
         work();
         row.seconds = measured(work, settings_);
         std::uint64_t hash = engine::fnv1a("");
-        for (const std::int32_t place : list.rows.places) hash = engine::fnv1a(static_cast<std::uint64_t>(place), hash);
+        for (const engine::RowPart& part : list.rows.parts)
+            for (const std::int32_t place : part.places) hash = engine::fnv1a(static_cast<std::uint64_t>(place), hash);
         row.stateHash = engine::hexadecimal(hash);
         add(row);
     }

@@ -39,8 +39,8 @@ double meanNeighbours(const engine::Setup& setup, const engine::Particles& parti
     engine::PairTraversal pairs(law, engine::Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<std::uint32_t> neighbours(particles.count());
-    pairs.forEachParticle([&](std::uint32_t self) {
-        pairs.forEachNeighbour(self, [&](std::uint32_t, const Vec3&, double) { ++neighbours[self]; });
+    pairs.forEachParticle([&](std::size_t seat) {
+        pairs.forEachNeighbour(seat, [&](std::uint32_t, const Vec3&, double) { ++neighbours[seat]; });
     });
     double sum = 0.0;
     for (const std::uint32_t number : neighbours) sum += number;

@@ -46,7 +46,7 @@ TEST_CASE("The skin is wider for fast particles, and where few are near", "[list
         before = skin;
     }
     CHECK(before > 0.1);
-    CHECK(cheapestSkin(5.0, 0.02) > cheapestSkin(45.0, 0.02));
+    CHECK(cheapestSkin(5.0, 0.03) > cheapestSkin(45.0, 0.03));
 }
 
 TEST_CASE("A run's lists fit the way of its steps, and its forces are those of every pair", "[list-skin]") {

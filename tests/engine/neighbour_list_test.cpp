@@ -17,12 +17,29 @@ namespace {
 constexpr double kCutoff = 0.6;  // m
 constexpr double kSkin = 0.06;   // m
 
-/// Particle indices in the row of a place; fails on one that occurs twice.
-std::set<std::uint32_t> rowOf(const NeighbourList& list, std::size_t place) {
+std::uint32_t particleIn(const NeighbourList& list, std::size_t seat) {
+    return list.order[static_cast<std::size_t>(list.rows.selves[seat])];
+}
+
+/// Particle indices in the row of a seat; fails on one that occurs twice.
+std::set<std::uint32_t> rowOf(const NeighbourList& list, std::size_t seat) {
     std::set<std::uint32_t> row;
-    for (std::uint32_t k = 0; k < list.rows.length[place]; ++k)
-        CHECK(row.insert(list.order[static_cast<std::size_t>(list.rows.places[list.rows.at(place, k)])]).second);
+    for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k)
+        CHECK(row.insert(list.order[static_cast<std::size_t>(*list.rows.entry(seat, k))]).second);
     return row;
+}
+
+/// Entry by entry, with what fills the rows up.
+void checkSame(const NeighbourList& list, const NeighbourList& expected) {
+    CHECK(list.order == expected.order);
+    CHECK(list.seatOf == expected.seatOf);
+    CHECK(list.rows.selves == expected.rows.selves);
+    CHECK(list.rows.length == expected.rows.length);
+    REQUIRE(list.rows.parts.size() == expected.rows.parts.size());
+    for (std::size_t part = 0; part < list.rows.parts.size(); ++part) {
+        CHECK(list.rows.parts[part].start == expected.rows.parts[part].start);
+        CHECK(list.rows.parts[part].places == expected.rows.parts[part].places);
+    }
 }
 
 /// By every pair.
@@ -47,11 +64,12 @@ void checkRows(const std::vector<Vec3>& positions) {
     REQUIRE(list.count() == positions.size());
     std::size_t entries = 0;
     CHECK(std::set<std::uint32_t>(list.order.begin(), list.order.end()).size() == positions.size());
-    for (std::size_t place = 0; place < list.count(); ++place) {
-        INFO("particle " << list.order[place]);
-        const auto row = rowOf(list, place);
-        CHECK(isWithin(neighboursOf(positions, list.order[place], kCutoff + kSkin), row));
-        CHECK(isWithin(row, neighboursOf(positions, list.order[place], (kCutoff + kSkin) * std::sqrt(kFarthest))));
+    for (std::size_t seat = 0; seat < list.count(); ++seat) {
+        const std::uint32_t p = particleIn(list, seat);
+        INFO("particle " << p);
+        const auto row = rowOf(list, seat);
+        CHECK(isWithin(neighboursOf(positions, p, kCutoff + kSkin), row));
+        CHECK(isWithin(row, neighboursOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
         entries += row.size();
     }
     CHECK(list.entryCount == entries);
@@ -103,8 +121,8 @@ TEST_CASE("Positions that are no numbers leave the rows of the others as they ar
         NeighbourList list;
         build(list, positions, kCutoff, kSkin);
         for (std::size_t p = 1; p < positions.size(); ++p)
-            CHECK(isWithin(neighboursOf(positions, p, kCutoff + kSkin), rowOf(list, list.placeOf[p])));
-        CHECK(rowOf(list, list.placeOf[0]).empty());
+            CHECK(isWithin(neighboursOf(positions, p, kCutoff + kSkin), rowOf(list, list.seatOf[p])));
+        CHECK(rowOf(list, list.seatOf[0]).empty());
     }
 }
 
@@ -134,10 +152,11 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
     for (std::size_t p = 0; p < positions.size(); ++p)
         positions[p] += 0.499 * kSkin * clouds::randomVector(12, p).normalized();
     REQUIRE(covers(list, positions, kCutoff));
-    for (std::size_t place = 0; place < list.count(); ++place) {
-        const auto row = rowOf(list, place);
-        for (const std::uint32_t i : neighboursOf(positions, list.order[place], kCutoff)) {
-            INFO("particles " << list.order[place] << " and " << i);
+    for (std::size_t seat = 0; seat < list.count(); ++seat) {
+        const auto row = rowOf(list, seat);
+        const std::uint32_t p = particleIn(list, seat);
+        for (const std::uint32_t i : neighboursOf(positions, p, kCutoff)) {
+            INFO("particles " << p << " and " << i);
             CHECK(row.count(i) == 1);
         }
     }
@@ -146,10 +165,36 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
 TEST_CASE("Rows that wait for each other are of like length", "[neighbour-list]") {
     NeighbourList list;
     build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
-    constexpr std::size_t kSorted = 64;  // places
-    for (std::size_t place = 1; place < list.count(); ++place)
-        if (place % kSorted != 0) CHECK(list.rows.length[place] <= list.rows.length[place - 1]);
-    for (std::size_t p = 0; p < list.count(); ++p) CHECK(list.order[list.placeOf[p]] == p);
+    constexpr std::size_t kSorted = 64;  // seats
+    for (std::size_t seat = 1; seat < list.count(); ++seat)
+        if (seat % kSorted != 0) CHECK(list.rows.length[seat] <= list.rows.length[seat - 1]);
+    for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.seatOf[p]) == p);
+}
+
+TEST_CASE("Rows are filled up to the longest of their group with their own particle", "[neighbour-list]") {
+    for (const std::size_t count : {1U, 37U, 3001U}) {
+        NeighbourList list;
+        build(list, clouds::strewn(count, 2.5).position, kCutoff, kSkin);
+        for (std::size_t seat = 0; seat < list.rows.selves.size(); ++seat) {
+            const std::size_t first = seat / kGroup * kGroup;
+            const std::uint32_t longest =
+                *std::max_element(&list.rows.length[first], &list.rows.length[first] + kGroup);
+            if (seat >= count) CHECK(list.rows.length[seat] == 0);
+            for (std::uint32_t k = list.rows.length[seat]; k < longest; ++k)
+                CHECK(*list.rows.entry(seat, k) == list.rows.selves[seat]);
+        }
+    }
+}
+
+TEST_CASE("A list built again is that of the new positions", "[neighbour-list]") {
+    NeighbourList list;
+    for (const std::size_t count : {3001U, 50U, 2000U}) {  // fewer, with longer rows, and more again
+        const std::vector<Vec3> positions = clouds::strewn(count, 1.5).position;
+        NeighbourList expected;
+        build(expected, positions, kCutoff, kSkin);
+        build(list, positions, kCutoff, kSkin);
+        checkSame(list, expected);
+    }
 }
 
 TEST_CASE("The same rows for any number of threads", "[neighbour-list]") {
@@ -159,9 +204,7 @@ TEST_CASE("The same rows for any number of threads", "[neighbour-list]") {
     for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
         NeighbourList list;
         clouds::onThreads(threads, [&] { build(list, positions, kCutoff, kSkin); });
-        CHECK(list.order == expected.order);
-        CHECK(list.rows.length == expected.rows.length);
-        CHECK(list.rows.places == expected.rows.places);
+        checkSame(list, expected);
     }
 }
 
@@ -176,8 +219,7 @@ TEST_CASE("The same rows with every kind of vectors", "[neighbour-list]") {
             NeighbourList list;
             build(list, positions, kCutoff, kSkin);
             INFO(positions.size() << " with " << name);
-            CHECK(list.rows.length == expected.rows.length);
-            CHECK(list.rows.places == expected.rows.places);
+            checkSame(list, expected);
         }
     }
 }
@@ -190,7 +232,7 @@ TEST_CASE("Rows are as complete in worlds of any size", "[neighbour-list]") {
         for (Vec3& position : positions) position *= unit;
         NeighbourList list;
         build(list, positions, kCutoff * unit, kSkin * unit);
-        for (std::size_t place = 0; place < list.count(); ++place)
-            CHECK(rowOf(list, place) == rowOf(expected, expected.placeOf[list.order[place]]));
+        for (std::size_t seat = 0; seat < list.count(); ++seat)
+            CHECK(rowOf(list, seat) == rowOf(expected, expected.seatOf[particleIn(list, seat)]));
     }
 }

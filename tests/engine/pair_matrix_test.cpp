@@ -163,16 +163,20 @@ TEST_CASE("The matrix is symmetric and at least the mass", "[pair-matrix]") {
 TEST_CASE("The two entries of a pair are equal bit for bit", "[pair-matrix]") {
     for (const Case& c : smallCloudsAndSand()) {
         const LaneRows& rows = c.matrix.rows;
+        std::vector<std::size_t> seatOf(c.count());
+        for (std::size_t seat = 0; seat < c.count(); ++seat) seatOf[static_cast<std::size_t>(rows.selves[seat])] = seat;
+        const auto entry = [&](const PairMatrix::Entries& entries, std::size_t seat, std::size_t k) {
+            return entries[LaneRows::partOf(seat)][rows.at(seat, k)];
+        };
         std::size_t pairs = 0;
-        for (std::uint32_t p = 0; p < c.count(); ++p)
+        for (std::size_t p = 0; p < c.count(); ++p)
             for (std::uint32_t k = 0; k < rows.length[p]; ++k) {
-                const auto i = static_cast<std::size_t>(rows.places[rows.at(p, k)]);
+                const std::size_t i = seatOf[static_cast<std::size_t>(*rows.entry(p, k))];
                 std::uint32_t twin = 0;
                 REQUIRE(rows.length[i] > 0);
-                while (rows.places[rows.at(i, twin)] != static_cast<std::int32_t>(p)) REQUIRE(++twin < rows.length[i]);
-                CHECK(c.matrix.along[rows.at(i, twin)] == c.matrix.along[rows.at(p, k)]);
-                if (!c.matrix.across.empty())
-                    CHECK(c.matrix.across[rows.at(i, twin)] == c.matrix.across[rows.at(p, k)]);
+                while (*rows.entry(i, twin) != rows.selves[p]) REQUIRE(++twin < rows.length[i]);
+                CHECK(entry(c.matrix.along, i, twin) == entry(c.matrix.along, p, k));
+                if (!c.matrix.across.empty()) CHECK(entry(c.matrix.across, i, twin) == entry(c.matrix.across, p, k));
                 ++pairs;
             }
         CHECK(pairs > c.count());

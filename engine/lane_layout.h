@@ -1,0 +1,25 @@
+// Laying the rows of a group side by side. Used by the neighbour list, whose rows are found one after the other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/lane_rows.h"
+
+namespace engine {
+
+/// What follows a row that was found: its own particle's place, so often.
+inline constexpr std::size_t kRowPadding = 16;
+
+/// The rows of a group by lane, each with its padding.
+struct GroupRows {
+    std::array<const std::uint32_t*, kGroup> row = {};
+    std::array<std::uint32_t, kGroup> length = {};
+};
+
+/// Writes the first entries of all lanes, then the second ones, and so on.
+/// Shape:  longest: entries of the longest row; to: room for as many times kGroup.
+void interleave(const GroupRows& rows, std::uint32_t longest, std::int32_t* to);
+
+}  // namespace engine
