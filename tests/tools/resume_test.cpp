@@ -60,11 +60,18 @@ void damage(const fs::path& path) {
     stream.put('!').put('?');
 }
 
-/// Starts a run in the background, and sends it a signal after so many milliseconds; its exit code.
-int interrupted(const std::string& arguments, const std::string& signal, int milliseconds, const fs::path& log) {
-    const std::string command = "sh -c '" GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() +
-                                " & child=$!; sleep " + std::to_string(milliseconds / 1000.0) + "; kill -" + signal +
-                                " $child 2>/dev/null; wait $child'";
+/// What a shell does until then.
+std::string after(int milliseconds) {
+    return "sleep " + std::to_string(milliseconds / 1000.0);
+}
+std::string onceThat(const std::string& condition) {
+    return "while ! " + condition + " && kill -0 $child; do sleep 0.01; done";
+}
+
+/// Starts a run in the background, and sends it a signal when it is time; its exit code.
+int interrupted(const std::string& arguments, const std::string& signal, const std::string& when, const fs::path& log) {
+    const std::string command = "sh -c '" GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() + " & child=$!; " +
+                                when + "; kill -" + signal + " $child 2>/dev/null; wait $child'";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -74,17 +81,18 @@ int interrupted(const std::string& arguments, const std::string& signal, int mil
 TEST_CASE("A signal ends a run after the frame in hand, with a video that plays and a way to go on", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "whole")).code == 0);
-    const std::string arguments = "render fountain --size 96x54 --frames 0-99 --quiet --checkpoint 100 -o " +
+    const std::string arguments = "render fountain --size 96x54 --quiet --checkpoint 100 -o " +
                                   (folder / "a").string() + " --video " + (folder / "a.mp4").string();
     const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143});
-    CHECK(interrupted(arguments, signal, 700, folder / "log") == code);
+    CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00030.png").string()),
+                      folder / "log") == code);
     CHECK(textOf(folder / "log").find("--resume") != std::string::npos);
     CHECK(program::lineCount(textOf(folder / "log")) == 1);
     const auto json = runOf(folder / "a");
     CHECK(json["interrupted"] == true);
     const int frames = json["frames"];
     INFO("after " << frames << " frames");
-    REQUIRE(frames < 100);
+    REQUIRE(frames < 240);
     REQUIRE(checkpointsIn(folder / "a").size() == 1);
     // The film has the frames that are there.
     REQUIRE(run("video " + (folder / "a").string() + " --quiet --fps 30 -o " + (folder / "again.mp4").string()).code ==
@@ -104,7 +112,7 @@ TEST_CASE("A resumed run completes a killed one to the same bytes", "[resume]") 
     for (const int milliseconds : {150, 300, 450, 600}) {
         fs::remove_all(folder / "a");
         fs::remove(folder / "a.mp4");
-        interrupted(fountain(folder / "a"), "KILL", milliseconds, folder / "log");
+        interrupted(fountain(folder / "a"), "KILL", after(milliseconds), folder / "log");
         INFO("killed after " << milliseconds << " ms");
         REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
         CHECK(filesOf(folder / "a") == whole);
@@ -118,7 +126,7 @@ TEST_CASE("States are gone on with like frames", "[resume]") {
         return "simulate powder --frames 2-30 --quiet --checkpoint 0 -o " + to.string() + " " + more;
     };
     REQUIRE(run(states(folder / "whole", "")).code == 0);
-    interrupted(states(folder / "a", ""), "KILL", 100, folder / "log");
+    interrupted(states(folder / "a", ""), "KILL", after(100), folder / "log");
     REQUIRE(run(states(folder / "a", "--resume")).code == 0);
     CHECK(filesOf(folder / "a") == filesOf(folder / "whole"));
     CHECK(resultOf(folder / "a") == resultOf(folder / "whole"));
@@ -228,7 +236,8 @@ TEST_CASE("Frames are kept without any checkpoint", "[resume]") {
     const Folder folder;
     const std::string arguments =
         "render fountain --size 96x54 --quiet --checkpoint 3600 -o " + (folder / "a").string();
-    REQUIRE(interrupted(arguments, "KILL", 2500, folder / "log") == 137);
+    REQUIRE(interrupted(arguments, "KILL", onceThat("grep -qs 00000 " + (folder / "a/manifest.json").string()),
+                        folder / "log") == 137);
     REQUIRE(checkpointsIn(folder / "a").empty());
     const auto manifest = nlohmann::json::parse(textOf(folder / "a/manifest.json"));
     REQUIRE(manifest["frames"].contains("00000"));
