@@ -76,9 +76,7 @@ void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& f
                [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
 }
 
-void ForceEvaluator::addOuter(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const {
-    force += particles.mass[p] * law_.gravity;
-    if (law_.scenery.colliders.empty()) return;
+void ForceEvaluator::addContact(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const {
     const Material& material = law_.materials[particles.material[p]];
     force += contactForce(
         law_.scenery, {particles.position[p], velocity, particles.radius[p], material.dampingReach, material.friction});

@@ -46,7 +46,10 @@ class ForceEvaluator {
                        double step = 0.0);
 
     /// Gravity's and the obstacles' force on a particle at its position, in newtons, added to that of its pairs.
-    void addOuter(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const;
+    void addOuter(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const {
+        force += particles.mass[p] * law_.gravity;
+        if (!law_.scenery.colliders.empty()) addContact(particles, p, velocity, force);
+    }
 
     /// For loops over the particles that call addOuter.
     std::size_t outerGrain() const;
@@ -90,6 +93,7 @@ class ForceEvaluator {
     /// The sums of a pass, once more with records where float is not enough.
     void addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums, double step);
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
+    void addContact(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const;
 
     ForceLaw law_;
     ForceMethod method_ = ForceMethod::grid;
