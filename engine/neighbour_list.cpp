@@ -27,11 +27,12 @@ static_assert(kSeatsPerPart % kWindow == 0);
 /// Where each of a window's rows goes, longest first: a counting sort, in which all that are far shorter are one.
 std::array<std::uint32_t, kWindow> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
     constexpr std::uint32_t kLengths = 128;
-    const std::uint32_t longest = *std::max_element(lengths, lengths + count);
-    const auto shortness = [&](std::uint32_t at) { return std::min(longest - lengths[at], kLengths - 1); };
+    const auto [shortest, longest] = std::minmax_element(lengths, lengths + count);
+    const std::uint32_t last = std::min(*longest - *shortest, kLengths - 1);
+    const auto shortness = [&](std::uint32_t at) { return std::min(*longest - lengths[at], last); };
     std::array<std::uint32_t, kLengths + 1> next = {};
     for (std::uint32_t at = 0; at < count; ++at) ++next[shortness(at) + 1];
-    for (std::uint32_t length = 0; length < kLengths; ++length) next[length + 1] += next[length];
+    for (std::uint32_t length = 0; length < last; ++length) next[length + 1] += next[length];
     std::array<std::uint32_t, kWindow> ranks = {};
     for (std::uint32_t at = 0; at < count; ++at) ranks[at] = next[shortness(at)]++;
     return ranks;

@@ -55,8 +55,9 @@ std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
 /// after the step says what happened.
 std::int64_t cellAlong(double coordinate, double width, std::int64_t size) {
     constexpr double kFarthest = 1e15;  // a whole number in double
-    const double cell = std::max(-kFarthest, std::min(kFarthest, std::floor(coordinate / width)));
-    return wrapped(static_cast<std::int64_t>(cell), size);
+    const double cells = std::max(-kFarthest, std::min(kFarthest, coordinate / width));
+    const auto towardsZero = static_cast<std::int64_t>(cells);  // one instruction, where floor is a call
+    return wrapped(static_cast<double>(towardsZero) > cells ? towardsZero - 1 : towardsZero, size);
 }
 
 }  // namespace
@@ -71,20 +72,19 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     const double width = cellWidth * kRoundingMargin;
     grid.dimensions = chooseDimensions(positions, width);
     const std::array<std::int64_t, 3>& size = grid.dimensions;
-    grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 1, 0);
+    // One more than there are, and counts two places further on: filling leaves each start where it belongs.
+    grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 2, 0);
     inParallel(positions.size(), kParticleGrain, [&](std::size_t p) {
         const std::int64_t x = cellAlong(positions[p].x(), width, size[0]);
         const std::int64_t y = cellAlong(positions[p].y(), width, size[1]);
         const std::int64_t z = cellAlong(positions[p].z(), width, size[2]);
         grid.cellOf[p] = static_cast<std::uint32_t>((z * size[1] + y) * size[0] + x);
     });
-    for (const std::uint32_t cell : grid.cellOf) ++grid.start[cell + 1];
-    for (std::size_t cell = 1; cell < grid.start.size(); ++cell) grid.start[cell] += grid.start[cell - 1];
-    // Filling moves each start to its cell's end, which is the next cell's start: shift back afterwards.
+    for (const std::uint32_t cell : grid.cellOf) ++grid.start[cell + 2];
+    for (std::size_t at = 2; at < grid.start.size(); ++at) grid.start[at] += grid.start[at - 1];
     for (std::size_t p = 0; p < positions.size(); ++p)
-        grid.order[grid.start[grid.cellOf[p]]++] = static_cast<std::uint32_t>(p);
-    std::copy_backward(grid.start.begin(), grid.start.end() - 1, grid.start.end());
-    grid.start.front() = 0;
+        grid.order[grid.start[grid.cellOf[p] + 1]++] = static_cast<std::uint32_t>(p);
+    grid.start.pop_back();
 }
 
 Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {

@@ -90,8 +90,9 @@ double largestOver(std::size_t count, const Term& term) {
     std::vector<double> partial(chunks, 0.0);
     inParallel(chunks, kParticleGrain / kSumChunk, [&](std::size_t chunk) {
         const std::size_t end = std::min(count, (chunk + 1) * kSumChunk);
-        for (std::size_t index = chunk * kSumChunk; index < end; ++index)
-            partial[chunk] = std::max(partial[chunk], term(index));
+        double largest = 0.0;
+        for (std::size_t index = chunk * kSumChunk; index < end; ++index) largest = std::max(largest, term(index));
+        partial[chunk] = largest;
     });
     return chunks == 0 ? 0.0 : *std::max_element(partial.begin(), partial.end());
 }
