@@ -2,6 +2,7 @@
 #include "engine/pair_traversal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/extent.h"
@@ -18,7 +19,7 @@ constexpr double kUnits = 8388608.0;
 std::int32_t wrapped(double units) {
     constexpr double kFarthest = 9e18;  // below 2^63
     const double within = std::max(-kFarthest, std::min(kFarthest, units));
-    const auto whole = static_cast<std::int64_t>(within < 0.0 ? within - 0.5 : within + 0.5);
+    const auto whole = static_cast<std::int64_t>(within + std::copysign(0.5, within));
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(whole)));
 }
 
