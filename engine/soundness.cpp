@@ -24,19 +24,12 @@ bool isBelow(const Vec3& vector, double limit) {
     return isBelow(vector.x(), limit) && isBelow(vector.y(), limit) && isBelow(vector.z(), limit);
 }
 
-/// Number by number, without a branch: several at once.
-bool areBelow(const std::vector<Vec3>& vectors, double limit) {
-    std::atomic<bool> areAll = true;
-    const std::size_t chunks = (vectors.size() + kParticleGrain - 1) / kParticleGrain;
-    inParallel(chunks, 1, [&](std::size_t chunk) {
-        const std::size_t begin = chunk * kParticleGrain;
-        const std::size_t count = 3 * (std::min(begin + kParticleGrain, vectors.size()) - begin);
-        const double* const numbers = vectors[begin].data();
-        std::uint64_t others = 0;
-        for (std::size_t k = 0; k < count; ++k) others |= isBelow(numbers[k], limit) ? 0U : 1U;
-        if (others != 0) areAll = false;
-    });
-    return areAll;
+/// Of some vectors in a row: number by number, without a branch, several at once.
+bool areBelow(const Vec3* vectors, std::size_t count, double limit) {
+    const double* const numbers = vectors->data();
+    std::uint64_t others = 0;
+    for (std::size_t k = 0; k < 3 * count; ++k) others |= isBelow(numbers[k], limit) ? 0U : 1U;
+    return others == 0;
 }
 
 [[noreturn]] void report(const Simulation& simulation, std::size_t p, double h) {
@@ -52,7 +45,16 @@ bool areBelow(const std::vector<Vec3>& vectors, double limit) {
 }  // namespace
 
 bool isSound(const Particles& particles) {
-    return areBelow(particles.position, kWorldLimit) && areBelow(particles.velocity, kFastest);
+    std::atomic<bool> areAll = true;
+    const std::size_t chunks = (particles.count() + kParticleGrain - 1) / kParticleGrain;
+    inParallel(chunks, 1, [&](std::size_t chunk) {
+        const std::size_t begin = chunk * kParticleGrain;
+        const std::size_t count = std::min(kParticleGrain, particles.count() - begin);
+        if (!areBelow(&particles.position[begin], count, kWorldLimit) ||
+            !areBelow(&particles.velocity[begin], count, kFastest))
+            areAll = false;
+    });
+    return areAll;
 }
 
 void reportInstability(const Simulation& simulation, double h) {
