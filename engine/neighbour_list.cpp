@@ -19,13 +19,9 @@ CellRange rangeOf(const NeighbourList& list, std::size_t part) {
             static_cast<std::uint32_t>(std::min((part + 1) * kSeatsPerPart, list.count()))};
 }
 
-/// Seats among which particles are put in order of the lengths of their rows. Chosen: a few groups, whose neighbours
-/// are mostly the same.
-constexpr std::size_t kWindow = 64;
-static_assert(kSeatsPerPart % kWindow == 0);
-
-/// Where each of a window's rows goes, longest first: a counting sort, in which all that are far shorter are one.
-std::array<std::uint32_t, kWindow> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
+/// Which seat of a part each of its rows gets, the longest first: a counting sort, in which all that are far shorter
+/// are one.
+std::array<std::uint32_t, kSeatsPerPart> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
     constexpr std::uint32_t kLengths = 128;
     const auto [shortest, longest] = std::minmax_element(lengths, lengths + count);
     const std::uint32_t last = std::min(*longest - *shortest, kLengths - 1);
@@ -33,7 +29,7 @@ std::array<std::uint32_t, kWindow> ranksOf(const std::uint32_t* lengths, std::ui
     std::array<std::uint32_t, kLengths + 1> next = {};
     for (std::uint32_t at = 0; at < count; ++at) ++next[shortness(at) + 1];
     for (std::uint32_t length = 0; length < last; ++length) next[length + 1] += next[length];
-    std::array<std::uint32_t, kWindow> ranks = {};
+    std::array<std::uint32_t, kSeatsPerPart> ranks = {};
     for (std::uint32_t at = 0; at < count; ++at) ranks[at] = next[shortness(at)]++;
     return ranks;
 }
@@ -61,24 +57,22 @@ void search(const NeighbourList& list, const CellRange& range, FoundPart& found)
 using Seated = std::array<const std::uint32_t*, kSeatsPerPart>;
 
 /// Seats the particles of a part.
-Seated seat(NeighbourList& list, const CellRange& range, const FoundPart& found) {
+Seated seatParticles(NeighbourList& list, const CellRange& range, const FoundPart& found) {
     Seated rows;
     const std::uint32_t* next = found.rows.places.data();
-    for (std::uint32_t begin = range.begin; begin < range.end; begin += kWindow) {
-        const std::uint32_t count = std::min<std::uint32_t>(kWindow, range.end - begin);
-        const std::uint32_t* const lengths = &found.lengths[begin - range.begin];
-        const auto ranks = ranksOf(lengths, count);
-        for (std::uint32_t of = 0; of < count; ++of) {
-            const std::uint32_t at = begin + ranks[of];
-            rows[at - range.begin] = next;
-            next += lengths[of] + kRowPadding;
-            list.rows.length[at] = lengths[of];
-            list.rows.selves[at] = static_cast<std::int32_t>(begin + of);
-            list.seatOf[list.order[begin + of]] = at;
-        }
+    const std::uint32_t count = range.end - range.begin;
+    const auto ranks = ranksOf(found.lengths.data(), count);
+    for (std::uint32_t of = 0; of < count; ++of) {
+        const std::uint32_t place = range.begin + of;
+        const std::uint32_t seat = range.begin + ranks[of];
+        rows[ranks[of]] = next;
+        next += found.lengths[of] + kRowPadding;
+        list.rows.length[seat] = found.lengths[of];
+        list.rows.selves[seat] = static_cast<std::int32_t>(place);
+        list.seatOf[list.order[place]] = seat;
     }
     // Where nobody is, the last one's padding.
-    std::fill(rows.begin() + (range.end - range.begin), rows.end(), next - kRowPadding);
+    std::fill(rows.begin() + count, rows.end(), next - kRowPadding);
     return rows;
 }
 
@@ -96,7 +90,7 @@ std::size_t fill(NeighbourList& list, std::size_t number) {
     thread_local FoundPart found;
     const CellRange range = rangeOf(list, number);
     search(list, range, found);
-    const Seated seated = seat(list, range, found);
+    const Seated seated = seatParticles(list, range, found);
     RowPart& part = list.rows.parts[number];
     const std::uint32_t* const length = &list.rows.length[range.begin];
     const std::size_t groups = (range.end - range.begin + kGroup - 1) / kGroup;

@@ -19,8 +19,8 @@ struct BuildScratch {
     Candidates candidates;
 };
 
-/// Particles have places, which follow the cells of the grid that the list was built with, and seats, near their
-/// places, in which the longest rows come first.
+/// Particles have places, which follow the cells of the grid that the list was built with, and seats, in the same part,
+/// of which the longest rows come first.
 struct NeighbourList {
     std::vector<std::uint32_t> order;   ///< particle index at each place
     std::vector<std::uint32_t> seatOf;  ///< of each particle index

@@ -165,9 +165,8 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
 TEST_CASE("Rows that wait for each other are of like length", "[neighbour-list]") {
     NeighbourList list;
     build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
-    constexpr std::size_t kSorted = 64;  // seats
     for (std::size_t seat = 1; seat < list.count(); ++seat)
-        if (seat % kSorted != 0) CHECK(list.rows.length[seat] <= list.rows.length[seat - 1]);
+        if (seat % kSeatsPerPart != 0) CHECK(list.rows.length[seat] <= list.rows.length[seat - 1]);
     for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.seatOf[p]) == p);
 }
 
