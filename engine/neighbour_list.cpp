@@ -23,9 +23,9 @@ CellRange rangeOf(const NeighbourList& list, std::size_t part) {
 /// are one.
 std::array<std::uint32_t, kSeatsPerPart> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
     constexpr std::uint32_t kLengths = 128;
-    const auto [shortest, longest] = std::minmax_element(lengths, lengths + count);
-    const std::uint32_t last = std::min(*longest - *shortest, kLengths - 1);
-    const auto shortness = [&](std::uint32_t at) { return std::min(*longest - lengths[at], last); };
+    const std::uint32_t longest = *std::max_element(lengths, lengths + count);
+    const std::uint32_t last = std::min(longest - *std::min_element(lengths, lengths + count), kLengths - 1);
+    const auto shortness = [&](std::uint32_t at) { return std::min(longest - lengths[at], last); };
     std::array<std::uint32_t, kLengths + 1> next = {};
     for (std::uint32_t at = 0; at < count; ++at) ++next[shortness(at) + 1];
     for (std::uint32_t length = 0; length < last; ++length) next[length + 1] += next[length];
