@@ -2,22 +2,11 @@
 #include "engine/linked_cells.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "engine/cell_number.h"
 #include "engine/random.h"
 
 namespace engine {
-namespace {
-
-/// Widening that covers the rounding of x / width for any |x| below a thousand million cells.
-constexpr double kRoundingMargin = 1.0 + 1e-6;
-
-std::int64_t cellAlong(double coordinate, double width) {
-    constexpr double kFarthest = 1e15;  // a whole number in double
-    return static_cast<std::int64_t>(std::max(-kFarthest, std::min(kFarthest, std::floor(coordinate / width))));
-}
-
-}  // namespace
 
 LinkedCells::LinkedCells(double width, const std::vector<Vec3>& positions) : width_(width * kRoundingMargin) {
     links_.reserve(positions.size());
@@ -37,7 +26,7 @@ void LinkedCells::add(const Vec3& position) {
 }
 
 LinkedCells::Cell LinkedCells::cellOf(const Vec3& position) const {
-    return {cellAlong(position.x(), width_), cellAlong(position.y(), width_), cellAlong(position.z(), width_)};
+    return {cellNumber(position.x(), width_), cellNumber(position.y(), width_), cellNumber(position.z(), width_)};
 }
 
 std::uint64_t LinkedCells::keyOf(const Cell& cell) {

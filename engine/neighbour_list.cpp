@@ -85,8 +85,8 @@ void makeRoom(std::vector<std::int32_t>& places, std::size_t entries) {
     places.resize(entries);
 }
 
-/// Finds the rows of a part and lays them out; returns the number of their entries.
-std::size_t fill(NeighbourList& list, std::size_t number) {
+/// Finds the rows of a part and lays them out.
+void fill(NeighbourList& list, std::size_t number) {
     thread_local FoundPart found;
     const CellRange range = rangeOf(list, number);
     search(list, range, found);
@@ -106,7 +106,6 @@ std::size_t fill(NeighbourList& list, std::size_t number) {
         std::copy_n(length + group * kGroup, kGroup, rows.length.begin());
         interleave(rows, part.start[group + 1] - part.start[group], &part.places[part.start[group] * kGroup]);
     }
-    return std::accumulate(found.lengths.begin(), found.lengths.begin() + (range.end - range.begin), std::size_t{0});
 }
 
 void sortByCell(NeighbourList& list, const std::vector<Vec3>& positions) {
@@ -136,9 +135,8 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     list.rows.selves.assign(groups * kGroup, static_cast<std::int32_t>(list.count()) - 1);
     list.rows.length.assign(groups * kGroup, 0);
     list.rows.parts.resize(parts);
-    std::vector<std::size_t> entries(parts);
-    inParallel(parts, 1, [&](std::size_t part) { entries[part] = fill(list, part); });
-    list.entryCount = std::accumulate(entries.begin(), entries.end(), std::size_t{0});
+    inParallel(parts, 1, [&](std::size_t part) { fill(list, part); });
+    list.entryCount = std::accumulate(list.rows.length.begin(), list.rows.length.end(), std::size_t{0});
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/cell_number.h"
 #include "engine/extent.h"
 #include "engine/parallel.h"
 
 namespace engine {
 namespace {
-
-/// Widening that covers the rounding of x / width for any |x| below a thousand million cells.
-constexpr double kRoundingMargin = 1.0 + 1e-6;
 
 /// About two cells a particle keep the grid linear in n when the particles are spread thin.
 std::int64_t cellLimit(std::size_t particleCount) {
@@ -54,10 +52,7 @@ std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
 /// The cell of a coordinate along one axis. What has left every world, or is no number, shares the last cell: the audit
 /// after the step says what happened.
 std::int64_t cellAlong(double coordinate, double width, std::int64_t size) {
-    constexpr double kFarthest = 1e15;  // a whole number in double
-    const double cells = std::max(-kFarthest, std::min(kFarthest, coordinate / width));
-    const auto towardsZero = static_cast<std::int64_t>(cells);  // one instruction, where floor is a call
-    return wrapped(static_cast<double>(towardsZero) > cells ? towardsZero - 1 : towardsZero, size);
+    return wrapped(cellNumber(coordinate, width), size);
 }
 
 }  // namespace

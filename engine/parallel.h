@@ -39,16 +39,21 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
 }
 #endif
 
+/// Calls body(begin, end) for ranges of 0 ... count - 1, which are worth a thread from `grain` on.
+template <class Body>
+void inRanges(std::size_t count, std::size_t grain, const Body& body) {
+    if (count <= grain)
+        body(0, count);
+    else
+        splitUp(count, grain, body);
+}
+
 /// Calls body(index) for 0 ... count - 1, at least `grain` of them in a row on one thread.
 template <class Body>
 void inParallel(std::size_t count, std::size_t grain, const Body& body) {
-    const auto ofRange = [&](std::size_t begin, std::size_t end) {
+    inRanges(count, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t index = begin; index < end; ++index) body(index);
-    };
-    if (count <= grain)
-        ofRange(0, count);
-    else
-        splitUp(count, grain, ofRange);
+    });
 }
 
 /// Of a particle's cheap work. Measured: a thread takes as long to wake up as another takes for some thousands.
@@ -58,9 +63,8 @@ inline constexpr std::size_t kParticleGrain = 8192;
 template <class T>
 void copy(const std::vector<T>& from, std::vector<T>& to) {
     to.resize(from.size());
-    inParallel((from.size() + kParticleGrain - 1) / kParticleGrain, 1, [&](std::size_t part) {
-        const std::size_t begin = part * kParticleGrain;
-        std::copy_n(from.data() + begin, std::min(kParticleGrain, from.size() - begin), to.data() + begin);
+    inRanges(from.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        std::copy_n(from.data() + begin, end - begin, to.data() + begin);
     });
 }
 

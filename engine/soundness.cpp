@@ -1,7 +1,6 @@
 // Positions within the world, speeds that are numbers.
 #include "engine/soundness.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -24,11 +23,12 @@ bool isBelow(const Vec3& vector, double limit) {
     return isBelow(vector.x(), limit) && isBelow(vector.y(), limit) && isBelow(vector.z(), limit);
 }
 
-/// Of some vectors in a row: number by number, without a branch, several at once.
-bool areBelow(const Vec3* vectors, std::size_t count, double limit) {
-    const double* const numbers = vectors->data();
+/// Number by number, without a branch: several at once.
+bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t end, double limit) {
+    if (begin == end) return true;
+    const double* const numbers = vectors.front().data();
     std::uint64_t others = 0;
-    for (std::size_t k = 0; k < 3 * count; ++k) others |= isBelow(numbers[k], limit) ? 0U : 1U;
+    for (std::size_t k = 3 * begin; k < 3 * end; ++k) others |= isBelow(numbers[k], limit) ? 0U : 1U;
     return others == 0;
 }
 
@@ -46,12 +46,9 @@ bool areBelow(const Vec3* vectors, std::size_t count, double limit) {
 
 bool isSound(const Particles& particles) {
     std::atomic<bool> areAll = true;
-    const std::size_t chunks = (particles.count() + kParticleGrain - 1) / kParticleGrain;
-    inParallel(chunks, 1, [&](std::size_t chunk) {
-        const std::size_t begin = chunk * kParticleGrain;
-        const std::size_t count = std::min(kParticleGrain, particles.count() - begin);
-        if (!areBelow(&particles.position[begin], count, kWorldLimit) ||
-            !areBelow(&particles.velocity[begin], count, kFastest))
+    inRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        if (!areBelow(particles.position, begin, end, kWorldLimit) ||
+            !areBelow(particles.velocity, begin, end, kFastest))
             areAll = false;
     });
     return areAll;

@@ -6,7 +6,7 @@
 
 namespace engine {
 
-/// Whether all positions are within the world and all speeds finite.
+/// Whether all positions are within the world and the squares of all speeds are numbers.
 bool isSound(const Particles& particles);
 
 /// Throws InstabilityError, naming the first particle that is not sound, or else the fastest one.
