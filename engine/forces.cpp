@@ -96,10 +96,6 @@ void ForceEvaluator::addUp(const Particles& particles, const std::vector<Vec3>& 
                            double step) {
     sums.forces.resize(particles.count());
     pairs_.prepare(law_, particles, velocities, step);
-    if (!addUpPairs(pairs_, sums)) return;
-    pairs_.meetsCoincident = true;
-    if (pairs_.hasRecords) return;
-    pairs_.makeRecords(particles, velocities);
     addUpPairs(pairs_, sums);
 }
 

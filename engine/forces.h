@@ -90,7 +90,6 @@ class ForceEvaluator {
     const ForceLaw& law() const { return law_; }
 
  private:
-    /// The sums of a pass, once more with records where float is not enough.
     void addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums, double step);
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
     void addContact(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const;

@@ -3,7 +3,6 @@
 #include "engine/pair_sums.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "engine/lane_forces.h"
@@ -42,173 +41,217 @@ struct Slip {
 [[gnu::always_inline]] inline double energyOf(const PairRecord& p, const PairRecord& i, double distance,
                                               const PairConstants<double>& constants) {
     const double energy = pairEnergy(distance, constants);
-    if (p.x != i.x || p.y != i.y || p.z != i.z) return energy;
+    if (!coincide(p, i)) return energy;
     return 2.0 * pairEnergy(0.0, constants) - energy;
 }
 
-/// The pass over one particle's neighbours; gives half of the energy of its pairs, J.
+/// Of a particle.
+struct Sums {
+    Vec3 force = Vec3::Zero();  ///< N
+    double energy = 0.0;        ///< half of its pairs', J
+
+    Sums& operator+=(const Sums& others) {
+        force += others.force;
+        energy += others.energy;
+        return *this;
+    }
+};
+
+/// Two particles that act on each other. Shape: as visitPair() has it.
+struct Pair {
+    const PairRecord& p;
+    const PairRecord& i;
+    const Vec3& separation;
+    double distanceSq;
+};
+
+/// Adds what a pair does to p; returns its slip damping, kg/s.
+template <Variant variant>
+[[gnu::always_inline]] inline double addPair(const Pair& pair, const PairConstants<double>& constants, Sums& sums) {
+    const auto& [p, i, separation, distanceSq] = pair;
+    double approach = 0.0;
+    if constexpr (variant.terms.damping) approach = dot(Vec3(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz), separation);
+    sums.force += pairCoefficient<variant.terms>(distanceSq, approach, constants) * separation;
+    Slip slip;
+    if constexpr (variant.terms.friction) {
+        slip = slipOf(p, i, separation, distanceSq, constants);
+        sums.force -= slip.damping * slip.velocity;
+    }
+    if constexpr (variant.energy)
+        if (distanceSq < constants.reachSq) sums.energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), constants);
+    return slip.damping;
+}
+
+/// The pass over one particle's neighbours.
 template <Variant variant>
 struct Kernel {
     const PairTraversal& pairs;
-    const PairSums& sums;
+    const PairSums& wanted;
 
-    double operator()(std::size_t seat) const {
-        const std::uint32_t self = pairs.placeAt(seat);
-        const PairRecord& p = pairs.records[self];
-        Vec3 force = Vec3::Zero();
-        double energy = 0.0;
+    Sums operator()(std::size_t seat) const {
+        const PairRecord& p = pairs.records[pairs.placeAt(seat)];
+        Sums sums;
         pairs.forEachNeighbour(seat, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
             const PairRecord& i = pairs.records[other];
             const auto constants = pairs.constants<variant.uniform>(p, i);
-            double approach = 0.0;
-            if constexpr (variant.terms.damping)
-                approach = dot(Vec3(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz), separation);
-            force += pairCoefficient<variant.terms>(distanceSq, approach, constants) * separation;
-            Slip slip;
-            if constexpr (variant.terms.friction) {
-                slip = slipOf(p, i, separation, distanceSq, constants);
-                force -= slip.damping * slip.velocity;
-            }
-            if constexpr (variant.energy)
-                if (distanceSq < constants.reachSq) energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), constants);
-            if constexpr (variant.matrix) addEntry(seat, other, distanceSq, slip.damping, constants);
+            const double slipDamping = addPair<variant>({p, i, separation, distanceSq}, constants, sums);
+            if constexpr (variant.matrix) addEntry(seat, other, distanceSq, slipDamping, constants);
         });
-        sums.forces[pairs.list.order[self]] = force;
-        return energy;
+        return sums;
     }
 
     /// Across the pair acts friction, along it the damping b_d s_d and the stiffness max(k, 0), each times its weight.
     void addEntry(std::size_t seat, std::uint32_t other, double distanceSq, double slipDamping,
                   const PairConstants<double>& constants) const {
         double along = 0.0;
-        if constexpr (variant.terms.damping) along = sums.weights.damping * pairDampingOverSq(distanceSq, constants);
-        if (sums.weights.stiffness > 0.0 && distanceSq < constants.reachSq) {
+        if constexpr (variant.terms.damping) along = wanted.weights.damping * pairDampingOverSq(distanceSq, constants);
+        if (wanted.weights.stiffness > 0.0 && distanceSq < constants.reachSq) {
             const double stiffness = pairStiffness(std::sqrt(distanceSq), constants);
-            along += sums.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
+            along += wanted.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
         }
-        const double across = sums.weights.damping * slipDamping;
+        const double across = wanted.weights.damping * slipDamping;
         const PairRecord& p = pairs.records[pairs.placeAt(seat)];
         const PairRecord& i = pairs.records[other];
-        const bool isCoincident = p.x == i.x && p.y == i.y && p.z == i.z;
-        if ((along == 0.0 && across == 0.0) || isCoincident) return;
+        if ((along == 0.0 && across == 0.0) || coincide(p, i)) return;
         // across (1 - n n^T) = across 1 - (across / D^2) P P^T
-        sums.matrix->add(seat, static_cast<std::int32_t>(other), along - across / distanceSq, across);
+        wanted.matrix->add(seat, static_cast<std::int32_t>(other), along - across / distanceSq, across);
     }
 };
 
-/// The seats of a group.
+/// Seats of a group.
 struct Group {
     std::size_t first, end;
 };
 
-/// Calls body for every group of seats, shared out over the threads, and returns the sum of what it gives, J.
-template <class Body>
-double overGroups(std::size_t count, const Body& body) {
+/// Calls sumsOf(group, sums), which fills in those of its seats, for every group, shared out over the threads; keeps
+/// the forces and returns the sum of the energies, J.
+template <class SumsOf>
+double overGroups(const PairTraversal& pairs, std::vector<Vec3>& forces, const SumsOf& sumsOf) {
+    const std::size_t count = pairs.list.count();
     std::vector<double> energies((count + kGroup - 1) / kGroup);
     constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
-    inParallel(energies.size(), kGrain, [&](std::size_t group) {
-        energies[group] = body(Group{group * kGroup, std::min((group + 1) * kGroup, count)});
+    inParallel(energies.size(), kGrain, [&](std::size_t number) {
+        const Group group{number * kGroup, std::min((number + 1) * kGroup, count)};
+        std::array<Sums, kGroup> sums;
+        sumsOf(group, sums);
+        for (std::size_t seat = group.first; seat < group.end; ++seat) {
+            const Sums& of = sums[seat - group.first];
+            forces[pairs.list.order[pairs.placeAt(seat)]] = of.force;
+            energies[number] += of.energy;
+        }
     });
     return sumOver(energies.size(), [&](std::size_t group) { return energies[group]; });
 }
 
-template <class Of>
-double sumOf(const Group& group, const Of& of) {
-    double sum = 0.0;
-    for (std::size_t seat = group.first; seat < group.end; ++seat) sum += of(seat);
-    return sum;
-}
-
-/// Of a pass: the pair energy, J, and whether lanes met coincident pairs.
-struct Outcome {
-    double energy = 0.0;
-    bool metCoincident = false;
-};
-
 template <Variant variant>
-Outcome run(const PairTraversal& pairs, const PairSums& sums) {
-    const Kernel<variant> kernel{pairs, sums};
-    return {.energy = overGroups(pairs.list.count(), [&](const Group& group) { return sumOf(group, kernel); })};
+double run(const PairTraversal& pairs, const PairSums& wanted) {
+    const Kernel<variant> kernel{pairs, wanted};
+    return overGroups(pairs, wanted.forces, [&](const Group& group, auto& sums) {
+        for (std::size_t seat = group.first; seat < group.end; ++seat) sums[seat - group.first] = kernel(seat);
+    });
 }
 
-/// Whether a particle shares its exact position with a neighbour. In float some that are merely near seem to, but what
-/// those do to each other is less than a rounding of what they do in contact.
+/// Whether a particle shares its position with a neighbour.
 bool isCoincident(const PairTraversal& pairs, std::size_t seat) {
     const PairRecord& p = pairs.records[pairs.placeAt(seat)];
     const LaneRows& rows = pairs.list.rows;
-    for (std::uint32_t k = 0; k < rows.length[seat]; ++k) {
-        const PairRecord& i = pairs.records[static_cast<std::size_t>(*rows.entry(seat, k))];
-        if (p.x == i.x && p.y == i.y && p.z == i.z) return true;
-    }
+    for (std::uint32_t k = 0; k < rows.length[seat]; ++k)
+        if (coincide(p, pairs.records[static_cast<std::size_t>(*rows.entry(seat, k))])) return true;
     return false;
 }
 
-/// What is wanted of uniform particles, a particle a lane. Coincident ones are done again by the scalar kernel, which
-/// knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be
-/// rounded differently.
+/// In float: what those who share its position do to a particle. Of them lanes know only the energy at D = 0.
 template <PairTerms terms>
-Outcome addUpGroups(const PairTraversal& pairs, const PairSums& sums) {
-    const bool hasEnergy = sums.energy != nullptr || sums.matrix != nullptr;
-    const double unit = pairs.singles.empty() ? 1.0 : pairs.unit;
-    const LanePass pass{pairs.list.rows, pairs.records, pairs.singles, unit,        pairs.uniform,
-                        terms,           hasEnergy,     sums.matrix,   sums.weights};
-    const Kernel<Variant{terms, true, false, false}> forces{pairs, sums};
-    const Kernel<Variant{terms, true, true, false}> forcesAndEnergy{pairs, sums};
-    std::atomic<bool> metCoincident = false;
-    const double energy = overGroups(pairs.list.count(), [&](const Group& group) {
-        LaneSums of;
-        addUpGroup(pass, group.first / kGroup, of);
-        if (of.coincident != 0) metCoincident = true;
-        if (of.coincident != 0 && !pairs.hasRecords) return 0.0;
-        return sumOf(group, [&](std::size_t seat) {
-            const std::size_t lane = seat - group.first;
-            if ((of.coincident >> lane & 1U) != 0 && isCoincident(pairs, seat))
-                return hasEnergy ? forcesAndEnergy(seat) : forces(seat);
-            sums.forces[pairs.list.order[pairs.placeAt(seat)]] = Vec3(of.x[lane], of.y[lane], of.z[lane]);
-            return of.energy[lane];
+Sums partingSums(const PairTraversal& pairs, std::size_t seat) {
+    // What is left of a record where P is zero.
+    const auto record = [&](const SinglePrecisionRecord& of) {
+        return PairRecord{0.0, 0.0, 0.0, of.vx, of.vy, of.vz, pairs.uniformRadius, 0, of.id};
+    };
+    const SinglePrecisionRecord& own = pairs.singles[pairs.placeAt(seat)];
+    const LaneRows& rows = pairs.list.rows;
+    Sums sums;
+    for (std::uint32_t k = 0; k < rows.length[seat]; ++k) {
+        const SinglePrecisionRecord& other = pairs.singles[static_cast<std::size_t>(*rows.entry(seat, k))];
+        if (!coincide(own, other)) continue;
+        const PairRecord p = record(own);
+        const PairRecord i = record(other);
+        PairTraversal::visitPair(p, i, [&](const Vec3& separation, double distanceSq) {
+            addPair<Variant{terms, true, true, false}>({p, i, separation, distanceSq}, pairs.uniform, sums);
         });
-    });
-    return {energy, metCoincident};
+        sums.energy -= 0.5 * pairEnergy(0.0, pairs.uniform);
+    }
+    return sums;
 }
 
-using Pass = Outcome (*)(const PairTraversal&, const PairSums&);
+/// What is wanted of uniform particles, a particle a lane. In double coincident ones are done again by the scalar
+/// kernel, which knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair
+/// would be rounded differently.
+template <PairTerms terms>
+double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
+    const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
+    const bool isSingle = !pairs.singles.empty();
+    const LanePass pass{.rows = pairs.list.rows,
+                        .records = pairs.records,
+                        .singles = pairs.singles,
+                        .unit = isSingle ? pairs.unit : 1.0,
+                        .constants = pairs.uniform,
+                        .terms = terms,
+                        .energy = hasEnergy,
+                        .matrix = wanted.matrix,
+                        .weights = wanted.weights};
+    const Kernel<Variant{terms, true, true, false}> scalar{pairs, wanted};
+    return overGroups(pairs, wanted.forces, [&](const Group& group, auto& sums) {
+        LaneSums of;
+        addUpGroup(pass, group.first / kGroup, of);
+        for (std::size_t seat = group.first; seat < group.end; ++seat) {
+            const std::size_t lane = seat - group.first;
+            sums[lane] = {Vec3(of.x[lane], of.y[lane], of.z[lane]), of.energy[lane]};
+            if ((of.coincident >> lane & 1U) == 0) continue;
+            if (isSingle)
+                sums[lane] += partingSums<terms>(pairs, seat);
+            else if (isCoincident(pairs, seat))
+                sums[lane] = scalar(seat);
+        }
+    });
+}
+
+using Pass = double (*)(const PairTraversal&, const PairSums&);
 
 template <PairTerms terms, bool isUniform>
-Pass passFor(const PairSums& sums) {
+Pass passFor(const PairSums& wanted) {
     if constexpr (isUniform) {
         return addUpGroups<terms>;
     } else {
-        if (sums.matrix != nullptr) return run<Variant{terms, false, true, true}>;
-        return sums.energy != nullptr ? run<Variant{terms, false, true, false}>
-                                      : run<Variant{terms, false, false, false}>;
+        if (wanted.matrix != nullptr) return run<Variant{terms, false, true, true}>;
+        return wanted.energy != nullptr ? run<Variant{terms, false, true, false}>
+                                        : run<Variant{terms, false, false, false}>;
     }
 }
 
 template <bool isUniform>
-Pass passFor(PairTerms terms, const PairSums& sums) {
+Pass passFor(PairTerms terms, const PairSums& wanted) {
     // Friction is for few scenes: it shares one kernel that has everything.
-    if (terms.friction) return passFor<PairTerms{true, true, true}, isUniform>(sums);
-    if (terms.damping && terms.oneReach) return passFor<PairTerms{true, true, false, true}, isUniform>(sums);
+    if (terms.friction) return passFor<PairTerms{true, true, true}, isUniform>(wanted);
+    if (terms.damping && terms.oneReach) return passFor<PairTerms{true, true, false, true}, isUniform>(wanted);
     if (terms.attraction)
-        return terms.damping ? passFor<PairTerms{true, true}, isUniform>(sums)
-                             : passFor<PairTerms{true, false}, isUniform>(sums);
-    return terms.damping ? passFor<PairTerms{false, true}, isUniform>(sums)
-                         : passFor<PairTerms{false, false}, isUniform>(sums);
+        return terms.damping ? passFor<PairTerms{true, true}, isUniform>(wanted)
+                             : passFor<PairTerms{true, false}, isUniform>(wanted);
+    return terms.damping ? passFor<PairTerms{false, true}, isUniform>(wanted)
+                         : passFor<PairTerms{false, false}, isUniform>(wanted);
 }
 
 }  // namespace
 
-bool addUpPairs(const PairTraversal& pairs, const PairSums& sums) {
-    if (sums.matrix != nullptr) {
-        makeRoom(*sums.matrix, pairs.list, pairs.terms.pair.friction);
-        sums.matrix->records = pairs.records;
+void addUpPairs(const PairTraversal& pairs, const PairSums& wanted) {
+    if (wanted.matrix != nullptr) {
+        makeRoom(*wanted.matrix, pairs.list, pairs.terms.pair.friction);
+        wanted.matrix->records = pairs.records;
     }
     const PairTerms terms = pairs.terms.pair;
-    const Pass pass = pairs.terms.uniform ? passFor<true>(terms, sums) : passFor<false>(terms, sums);
-    const Outcome outcome = pass(pairs, sums);
-    if (sums.matrix != nullptr) close(*sums.matrix);
-    if (sums.energy != nullptr) *sums.energy = outcome.energy;
-    return outcome.metCoincident;
+    const Pass pass = pairs.terms.uniform ? passFor<true>(terms, wanted) : passFor<false>(terms, wanted);
+    const double energy = pass(pairs, wanted);
+    if (wanted.matrix != nullptr) close(*wanted.matrix);
+    if (wanted.energy != nullptr) *wanted.energy = energy;
 }
 
 double pairEnergySum(const PairTraversal& pairs) {
@@ -221,7 +264,7 @@ double pairEnergySum(const PairTraversal& pairs) {
         });
         return energy;
     };
-    return overGroups(pairs.list.count(), [&](const Group& group) { return sumOf(group, energyOfOne); });
+    return sumOver(pairs.list.count(), energyOfOne, kSumChunk);
 }
 
 }  // namespace engine

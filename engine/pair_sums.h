@@ -17,9 +17,8 @@ struct PairSums {
     MatrixWeights weights = {};    ///< of the matrix
 };
 
-/// Whether pairs without a distance were met, as lanes read them. Where there were no records to tell what those do to
-/// each other, what was added up is then of no use.  \pre  with a matrix, there are records.
-bool addUpPairs(const PairTraversal& pairs, const PairSums& sums);
+/// Adds up what is wanted.  \pre  with a matrix, there are records.
+void addUpPairs(const PairTraversal& pairs, const PairSums& wanted);
 
 /// Pair energy of the conservative part alone, in joules.  \pre  there are records.
 double pairEnergySum(const PairTraversal& pairs);

@@ -43,28 +43,31 @@ PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
 void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                             double step) {
     terms = termsFor(law, particles);
-    if (terms.uniform && particles.count() > 0)
-        uniform = pairConstants<double>(pairMaterials.front(), 2.0 * particles.radius.front());
+    if (terms.uniform && particles.count() > 0) {
+        uniformRadius = particles.radius.front();
+        uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);
+    }
     if (!covers(list, particles.position, terms.cutoff)) {
         const bool isForeseen = step > 0.0 && list.count() > 0 && particles.count() > 0;
         const double skin =
             isForeseen ? cheapestSkin(neighboursWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
                        : kListSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
-        metCoincident = std::exchange(meetsCoincident, false);
     }
     const bool hasSingles = terms.uniform && precision == Precision::singles;
     hasRecords = false;
-    if (!hasSingles || meetsCoincident || metCoincident) makeRecords(particles, velocities);
+    if (!hasSingles) makeRecords(particles, velocities);
     singles.resize(hasSingles ? particles.count() : 0);
     unit = list.reach / kUnits;
     const double perUnit = 1.0 / unit;
     inParallel(singles.size(), kParticleGrain, [&](std::size_t place) {
         const std::size_t p = list.order[place];
-        const Vec3 units = particles.position[p] * perUnit;
+        const Vec3& x = particles.position[p];
+        const Vec3 units = x * perUnit;
         const Vec3& v = velocities[p];
-        singles[place] = {wrapped(units.x()),        wrapped(units.y()),        wrapped(units.z()),        0,
-                          static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
+        singles[place] = {wrapped(units.x()),         wrapped(units.y()),        wrapped(units.z()),
+                          particles.id[p],            static_cast<float>(v.x()), static_cast<float>(v.y()),
+                          static_cast<float>(v.z()), restOf(x.x(), x.y(), x.z())};
     });
 }
 

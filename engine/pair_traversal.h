@@ -25,16 +25,13 @@ struct PairTraversal {
     std::size_t materialCount = 0;
     ForceTerms terms;
     PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
+    double uniformRadius = 0.0;     ///< of every particle there, m
     NeighbourList list;
     Precision precision = Precision::doubles;             ///< of forces where the terms are uniform
     Scratch<std::vector<PairRecord>> records;             ///< in the list's order, where there are any
     Scratch<std::vector<SinglePrecisionRecord>> singles;  ///< in the list's order; empty in double
     double unit = 0.0;                                    ///< of the singles' positions, m
     bool hasRecords = false;                              ///< not in float, unless they are asked for
-    /// Passes in float have met pairs without a distance since the list was built, or while the one before it served:
-    /// the next ones have records at once.
-    bool meetsCoincident = false;
-    bool metCoincident = false;
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
@@ -77,8 +74,26 @@ struct PairTraversal {
                 within[found] = other;
                 found += squaredLength(separationOf(p, records[other])) < cutoffSq ? 1U : 0U;
             }
-            for (std::size_t k = 0; k < found; ++k) visitOne(p, within[k], visit);
+            for (std::size_t k = 0; k < found; ++k) {
+                const auto visitIt = [&](const Vec3& separation, double distanceSq) {
+                    visit(within[k], separation, distanceSq);
+                };
+                visitPair(p, records[within[k]], visitIt);
+            }
         }
+    }
+
+    /// Calls visit(P, P.P) for a pair; one that coincides has a stand-in for P.
+    template <class Visit>
+    static void visitPair(const PairRecord& p, const PairRecord& i, const Visit& visit) {
+        Vec3 separation = separationOf(p, i);
+        double distanceSq = squaredLength(separation);
+        if (distanceSq == 0.0) {
+            const auto [x, y, z] = coincidentSeparation(p.id, i.id, p.radius + i.radius);
+            separation = Vec3(x, y, z);
+            distanceSq = squaredLength(separation);
+        }
+        visit(separation, distanceSq);
     }
 
     /// Calls body(seat in the list) for every particle, shared out over the threads.
@@ -90,19 +105,6 @@ struct PairTraversal {
 
  private:
     static Vec3 separationOf(const PairRecord& p, const PairRecord& i) { return {p.x - i.x, p.y - i.y, p.z - i.z}; }
-
-    template <class Visit>
-    void visitOne(const PairRecord& p, std::uint32_t other, const Visit& visit) const {
-        const PairRecord& i = records[other];
-        Vec3 separation = separationOf(p, i);
-        double distanceSq = squaredLength(separation);
-        if (distanceSq == 0.0) {
-            const auto [x, y, z] = coincidentSeparation(p.id, i.id, p.radius + i.radius);
-            separation = Vec3(x, y, z);
-            distanceSq = squaredLength(separation);
-        }
-        visit(other, separation, distanceSq);
-    }
 };
 
 }  // namespace engine
