@@ -11,24 +11,12 @@
 namespace engine {
 namespace {
 
-/// A speed whose square is a number still, m/s.
-constexpr double kFastest = 1e150;
-
-/// Written so that a NaN fails.
-bool isBelow(double number, double limit) {
-    return std::abs(number) < limit;
-}
-
-bool isBelow(const Vec3& vector, double limit) {
-    return isBelow(vector.x(), limit) && isBelow(vector.y(), limit) && isBelow(vector.z(), limit);
-}
-
 /// Number by number, without a branch: several at once.
 bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t end, double limit) {
     if (begin == end) return true;
     const double* const numbers = vectors.front().data();
     std::uint64_t others = 0;
-    for (std::size_t k = 3 * begin; k < 3 * end; ++k) others |= isBelow(numbers[k], limit) ? 0U : 1U;
+    for (std::size_t k = 3 * begin; k < 3 * end; ++k) others |= std::abs(numbers[k]) < limit ? 0U : 1U;  // so a NaN is one
     return others == 0;
 }
 
@@ -67,7 +55,7 @@ void requireSound(const Simulation& simulation, double h) {
     const Particles& particles = simulation.particles;
     if (isSound(particles)) return;
     for (std::size_t p = 0; p < particles.count(); ++p)
-        if (!isBelow(particles.position[p], kWorldLimit) || !isBelow(particles.velocity[p], kFastest))
+        if (!isSound(particles.position[p], particles.velocity[p]))
             report(simulation, p, h);
 }
 

@@ -2,11 +2,26 @@
 // before anything is computed from it.
 #pragma once
 
+#include <cmath>
+
 #include "engine/simulation.h"
 
 namespace engine {
 
-/// Whether all positions are within the world and the squares of all speeds are numbers.
+/// A speed whose square is a number still, m/s.
+inline constexpr double kFastest = 1e150;
+
+/// Written so that a NaN fails.
+inline bool areBelow(const Vec3& vector, double limit) {
+    return std::abs(vector.x()) < limit && std::abs(vector.y()) < limit && std::abs(vector.z()) < limit;
+}
+
+/// Whether a particle is within the world and the square of its speed is a number.
+inline bool isSound(const Vec3& position, const Vec3& velocity) {
+    return areBelow(position, kWorldLimit) && areBelow(velocity, kFastest);
+}
+
+/// The same of all.
 bool isSound(const Particles& particles);
 
 /// Throws InstabilityError, naming the first particle that is not sound, or else the fastest one.

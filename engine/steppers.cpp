@@ -1,41 +1,46 @@
 // The steppers by name, and the paper's own.
 #include "engine/steppers.h"
 
+#include <atomic>
 #include <cmath>
 
 #include "engine/decay.h"
 #include "engine/implicit_step.h"
 #include "engine/parallel.h"
+#include "engine/soundness.h"
 #include "engine/velocity_verlet.h"
 
 namespace engine {
-namespace {
-
-/// Equations 7 and 8: v += F/M dt, then x += v dt with the new velocity. The drag multiplies v in between, as
-/// published.
-void symplecticEulerStep(Simulation& simulation, double h) {
+bool symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
     ForceEvaluator& evaluator = simulation.evaluator;
     evaluator.evaluatePairs(particles, particles.velocity, simulation.forces, h);
     ++simulation.steps.forceEvaluations;
     const double decay = decayFactor(simulation.setup.drag, h);
     simulation.clearance.clear();
-    // What acts on a particle from outside, and what it does then: one loop for both.
-    inParallel(particles.count(), evaluator.outerGrain(), [&](std::size_t p) {
-        Vec3& velocity = particles.velocity[p];
-        Vec3 force = simulation.forces[p];
-        evaluator.addOuter(particles, p, velocity, force);
-        velocity = decay * (velocity + h / particles.mass[p] * force);
-        particles.position[p] += h * velocity;
+    // What acts on a particle from outside, what it does then, and whether that is sound: one loop for all.
+    std::atomic<bool> areAllSound = true;
+    inRanges(particles.count(), evaluator.outerGrain(), [&](std::size_t begin, std::size_t end) {
+        bool areSound = true;
+        for (std::size_t p = begin; p < end; ++p) {
+            Vec3& position = particles.position[p];
+            Vec3& velocity = particles.velocity[p];
+            Vec3 force = simulation.forces[p];
+            evaluator.addOuter(particles, p, velocity, force);
+            velocity = decay * (velocity + h / particles.mass[p] * force);
+            position += h * velocity;
+            areSound &= isSound(position, velocity);
+        }
+        if (!areSound) areAllSound = false;
     });
+    return areAllSound;
 }
-
-}  // namespace
 
 void takeStep(Simulation& simulation, double h) {
     switch (simulation.stepper) {
         case StepperKind::symplecticEuler:
-            return symplecticEulerStep(simulation, h);
+            symplecticEulerStep(simulation, h);
+            return;
         case StepperKind::velocityVerlet:
             return velocityVerletStep(simulation, h, kWholeStep);
         case StepperKind::leapfrog:

@@ -12,6 +12,10 @@ namespace engine {
 /// Moves particles, velocities and time by one step of the set-up's stepper, h in seconds.
 void takeStep(Simulation& simulation, double h);
 
+/// The paper's own. Equations 7 and 8: v += F/M dt, then x += v dt with the new velocity. The drag multiplies v in
+/// between, as published. Returns whether all particles are sound after it.
+bool symplecticEulerStep(Simulation& simulation, double h);
+
 /// All of them, the automatic one last.
 inline constexpr std::array kSteppers = {StepperKind::symplecticEuler,  StepperKind::velocityVerlet,
                                          StepperKind::leapfrog,         StepperKind::implicitDamping,
