@@ -7,6 +7,7 @@
 #define ENGINE_LANE_BLOCKS_INL_H
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <cstddef>
@@ -26,6 +27,15 @@ template <class T>
 using Lanes = hn::Vec<Tag<T>>;
 template <class T>
 using Places = hn::Vec<hn::Rebind<std::int32_t, Tag<T>>>;  ///< as many as Lanes<T>
+
+/// Fetches what stands some rows of a group ahead into the cache. A part's rows are read once a pass, and those of many
+/// particles come from memory: processors that fetch ahead by themselves do so too late. Measured with `globular bench
+/// --filter forces` on Zen 5: a sixth less time at 256,000 particles, the same at 32,000 and for twice or half as many.
+template <class Entry>
+HWY_INLINE void fetchAhead(const Entry* row) {
+    constexpr std::size_t kRows = 96;
+    hwy::Prefetch(row + kRows * kGroup);
+}
 
 #if HWY_TARGET != HWY_SCALAR
 /// Blocks of 128 bits side by side, as many as a vector has: of every so many places one record's, at the base.

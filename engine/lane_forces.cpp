@@ -92,6 +92,7 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
     constexpr bool kVelocity = Kind::kPair.damping;
     auto ahead = source.template load<kVelocity>(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
+        fetchAhead(entry);
         const auto others = kReadsAhead ? ahead : source.template load<kVelocity>(entry);
         if constexpr (kReadsAhead) ahead = source.template load<kVelocity>(entry + kGroup);
         const Row<T> row = source.template row<kVelocity>(entry, others);

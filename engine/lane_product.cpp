@@ -24,6 +24,8 @@ HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std:
     std::size_t entry = matrix.rows.at(first, 0);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
         const std::int32_t* places = &matrix.rows.parts[part].places[entry];
+        fetchAhead(places);
+        fetchAhead(&matrix.along[part][entry]);
         const Row<double> row = source.row<true>(places, source.load<true>(places));
         const auto along = hn::LoadU(kTag, &matrix.along[part][entry]);
         const auto push = hn::Mul(along, dot(row.velocity, row.separation));
