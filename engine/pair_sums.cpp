@@ -49,13 +49,11 @@ struct Slip {
 struct Sums {
     Vec3 force = Vec3::Zero();  ///< N
     double energy = 0.0;        ///< half of its pairs', J
-
-    Sums& operator+=(const Sums& others) {
-        force += others.force;
-        energy += others.energy;
-        return *this;
-    }
 };
+
+Sums operator+(const Sums& a, const Sums& b) {
+    return {a.force + b.force, a.energy + b.energy};
+}
 
 /// Two particles that act on each other. Shape: as visitPair() has it.
 struct Pair {
@@ -123,22 +121,20 @@ struct Group {
     std::size_t first, end;
 };
 
-/// Calls sumsOf(group, sums), which fills in those of its seats, for every group, shared out over the threads; keeps
-/// the forces and returns the sum of the energies, J.
-template <class SumsOf>
-double overGroups(const PairTraversal& pairs, std::vector<Vec3>& forces, const SumsOf& sumsOf) {
+/// Calls addUp(group, keep) for every group, shared out over the threads, which calls keep(seat, sums) for each of its
+/// seats; returns the sum of the energies, J.
+template <class AddUp>
+double overGroups(const PairTraversal& pairs, std::vector<Vec3>& forces, const AddUp& addUp) {
     const std::size_t count = pairs.list.count();
     std::vector<double> energies((count + kGroup - 1) / kGroup);
     constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
     inParallel(energies.size(), kGrain, [&](std::size_t number) {
-        const Group group{number * kGroup, std::min((number + 1) * kGroup, count)};
-        std::array<Sums, kGroup> sums;
-        sumsOf(group, sums);
-        for (std::size_t seat = group.first; seat < group.end; ++seat) {
-            const Sums& of = sums[seat - group.first];
-            forces[pairs.list.order[pairs.placeAt(seat)]] = of.force;
-            energies[number] += of.energy;
-        }
+        double energy = 0.0;
+        addUp(Group{number * kGroup, std::min((number + 1) * kGroup, count)}, [&](std::size_t seat, const Sums& sums) {
+            forces[pairs.list.order[pairs.placeAt(seat)]] = sums.force;
+            energy += sums.energy;
+        });
+        energies[number] = energy;
     });
     return sumOver(energies.size(), [&](std::size_t group) { return energies[group]; });
 }
@@ -146,8 +142,8 @@ double overGroups(const PairTraversal& pairs, std::vector<Vec3>& forces, const S
 template <Variant variant>
 double run(const PairTraversal& pairs, const PairSums& wanted) {
     const Kernel<variant> kernel{pairs, wanted};
-    return overGroups(pairs, wanted.forces, [&](const Group& group, auto& sums) {
-        for (std::size_t seat = group.first; seat < group.end; ++seat) sums[seat - group.first] = kernel(seat);
+    return overGroups(pairs, wanted.forces, [&](const Group& group, const auto& keep) {
+        for (std::size_t seat = group.first; seat < group.end; ++seat) keep(seat, kernel(seat));
     });
 }
 
@@ -200,17 +196,18 @@ double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
                         .matrix = wanted.matrix,
                         .weights = wanted.weights};
     const Kernel<Variant{terms, true, true, false}> scalar{pairs, wanted};
-    return overGroups(pairs, wanted.forces, [&](const Group& group, auto& sums) {
+    return overGroups(pairs, wanted.forces, [&](const Group& group, const auto& keep) {
         LaneSums of;
         addUpGroup(pass, group.first / kGroup, of);
         for (std::size_t seat = group.first; seat < group.end; ++seat) {
             const std::size_t lane = seat - group.first;
-            sums[lane] = {Vec3(of.x[lane], of.y[lane], of.z[lane]), of.energy[lane]};
-            if ((of.coincident >> lane & 1U) == 0) continue;
-            if (isSingle)
-                sums[lane] += partingSums<terms>(pairs, seat);
-            else if (isCoincident(pairs, seat))
-                sums[lane] = scalar(seat);
+            const Sums sums{Vec3(of.x[lane], of.y[lane], of.z[lane]), of.energy[lane]};
+            if ((of.coincident >> lane & 1U) == 0)
+                keep(seat, sums);
+            else if (isSingle)
+                keep(seat, sums + partingSums<terms>(pairs, seat));
+            else
+                keep(seat, isCoincident(pairs, seat) ? scalar(seat) : sums);
         }
     });
 }
