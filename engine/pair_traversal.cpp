@@ -23,6 +23,17 @@ std::int32_t wrapped(double units) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(whole)));
 }
 
+/// Fetches a particle some places ahead into the cache: the list's order is not that of the particles, so that no
+/// processor does it by itself. Measured with `globular bench --filter forces` on Zen 5: a tenth less time at 256,000
+/// particles in float, 1 % in double, nothing at 32,000.
+void fetchAhead(const NeighbourList& list, std::size_t place, const Particles& particles,
+                const std::vector<Vec3>& velocities) {
+    constexpr std::size_t kPlaces = 32;
+    const std::size_t p = list.order[std::min(place + kPlaces, list.count() - 1)];
+    __builtin_prefetch(&particles.position[p]);
+    __builtin_prefetch(&velocities[p]);
+}
+
 /// How fast particles leave the place they have in the crowd, at most, m/s: what all have in common moves no list.
 double fastest(const std::vector<Vec3>& velocities) {
     const auto velocity = [&](std::size_t p) -> const Vec3& { return velocities[p]; };
@@ -62,6 +73,7 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     const double perUnit = 1.0 / unit;
     inParallel(singles.size(), kParticleGrain, [&](std::size_t place) {
         const std::size_t p = list.order[place];
+        fetchAhead(list, place, particles, velocities);
         const Vec3& x = particles.position[p];
         const Vec3 units = x * perUnit;
         const Vec3& v = velocities[p];
@@ -77,6 +89,7 @@ void PairTraversal::makeRecords(const Particles& particles, const std::vector<Ve
     records.resize(particles.count());
     inParallel(records.size(), kParticleGrain, [&](std::size_t place) {
         const std::size_t p = list.order[place];
+        fetchAhead(list, place, particles, velocities);
         const Vec3& x = particles.position[p];
         const Vec3& v = velocities[p];
         records[place] = {x.x(),          x.y(), x.z(), v.x(), v.y(), v.z(), particles.radius[p], particles.material[p],
