@@ -26,7 +26,9 @@ struct alignas(32) SinglePrecisionRecord {
 
 /// Tells positions apart that are the same in units: a mixture of their last bits.
 inline std::uint32_t restOf(double x, double y, double z) {
-    const auto lastBits = [](double number) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number)); };
+    const auto lastBits = [](double number) {
+        return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number));
+    };
     return lastBits(x) ^ std::rotl(lastBits(y), 11) ^ std::rotl(lastBits(z), 22);
 }
 

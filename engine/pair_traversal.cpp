@@ -77,8 +77,8 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
         const Vec3& x = particles.position[p];
         const Vec3 units = x * perUnit;
         const Vec3& v = velocities[p];
-        singles[place] = {wrapped(units.x()),         wrapped(units.y()),        wrapped(units.z()),
-                          particles.id[p],            static_cast<float>(v.x()), static_cast<float>(v.y()),
+        singles[place] = {wrapped(units.x()),        wrapped(units.y()),         wrapped(units.z()),
+                          particles.id[p],           static_cast<float>(v.x()),  static_cast<float>(v.y()),
                           static_cast<float>(v.z()), restOf(x.x(), x.y(), x.z())};
     });
 }

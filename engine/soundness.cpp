@@ -16,7 +16,8 @@ bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t e
     if (begin == end) return true;
     const double* const numbers = vectors.front().data();
     std::uint64_t others = 0;
-    for (std::size_t k = 3 * begin; k < 3 * end; ++k) others |= std::abs(numbers[k]) < limit ? 0U : 1U;  // so a NaN is one
+    for (std::size_t k = 3 * begin; k < 3 * end; ++k)
+        others |= std::abs(numbers[k]) < limit ? 0U : 1U;  // so a NaN is one
     return others == 0;
 }
 
@@ -55,8 +56,7 @@ void requireSound(const Simulation& simulation, double h) {
     const Particles& particles = simulation.particles;
     if (isSound(particles)) return;
     for (std::size_t p = 0; p < particles.count(); ++p)
-        if (!isSound(particles.position[p], particles.velocity[p]))
-            report(simulation, p, h);
+        if (!isSound(particles.position[p], particles.velocity[p])) report(simulation, p, h);
 }
 
 }  // namespace engine

@@ -138,7 +138,8 @@ TEST_CASE("In float, forces and energies need no records in double", "[lanes]") 
     pairs.prepare(law, particles, particles.velocity);
     addUpPairs(pairs, {.forces = forces, .energy = &energy});
     CHECK(!pairs.hasRecords);
-    CHECK_THAT(energy, Catch::Matchers::WithinRel(pairEnergyReference(law, particles), 1e-5));  // some roundings of float
+    CHECK_THAT(energy,
+               Catch::Matchers::WithinRel(pairEnergyReference(law, particles), 1e-5));  // some roundings of float
     std::vector<Vec3> alone(particles.count());
     addUpPairs(pairs, {.forces = alone});
     CHECK(alone == forces);
