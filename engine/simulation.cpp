@@ -33,9 +33,9 @@ void advanceAsPrinted(Simulation& simulation, double time) {
     for (double step = 0.0; step < count; step += 1.0) {
         simulation.time = from + step * h;
         giveBirth(simulation);
-        const bool isSound = symplecticEulerStep(simulation, h);
+        const bool areAllSound = symplecticEulerStep(simulation, h);
         record(simulation, h);
-        if (!isSound) requireSound(simulation, h);
+        if (!areAllSound) requireSound(simulation, h);
     }
     simulation.time = time;
     giveBirth(simulation);

@@ -11,6 +11,7 @@
 #include "engine/velocity_verlet.h"
 
 namespace engine {
+
 bool symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
     ForceEvaluator& evaluator = simulation.evaluator;
