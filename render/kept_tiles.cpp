@@ -6,11 +6,11 @@ namespace render {
 void KeptTiles::begin(const Backdrop& backdrop, std::size_t tileCount) {
     if (backdrop == backdrop_ && looks_.size() == tileCount) return;
     backdrop_ = backdrop;
-    looks_.assign(tileCount, 0);
+    looks_.assign(tileCount, TileClass::kept);
 }
 
-bool KeptTiles::keeps(std::size_t tile, std::uint8_t look) {
-    const bool kept = look != 0 && looks_[tile] == look;
+bool KeptTiles::keeps(std::size_t tile, TileClass look) {
+    const bool kept = look != TileClass::picture && looks_[tile] == look;
     looks_[tile] = look;
     return kept;
 }

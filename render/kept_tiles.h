@@ -4,27 +4,28 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "render/tile_class.h"
+
 namespace render {
 
 /// Everything that such a tile's pixels are computed from.
-using Backdrop = std::array<glm::vec4, 13>;
+using Backdrop = std::array<glm::vec4, 8>;
 
 class KeptTiles {
  public:
     /// Begins a picture of so many tiles. Nothing is kept from one with another backdrop.
     void begin(const Backdrop& backdrop, std::size_t tileCount);
 
-    /// Whether the tile still shows this, and notes that it will. look: 0 for what is always drawn again.
-    bool keeps(std::size_t tile, std::uint8_t look);
+    /// Whether the tile still shows this, and notes that it will. A picture's tile is always drawn again.
+    bool keeps(std::size_t tile, TileClass look);
 
  private:
     Backdrop backdrop_{};
-    std::vector<std::uint8_t> looks_;
+    std::vector<TileClass> looks_;  // kept: nothing that is known
 };
 
 }  // namespace render

@@ -332,10 +332,6 @@ V openness(const Obstruction& obstruction, const Surfaces& surfaces, VI seen, co
     return open;
 }
 
-VI of16383(V share) {
-    return hn::ConvertTo(DI(), hn::Add(hn::Mul(share, all(16383.0F)), all(0.5F)));
-}
-
 void reach(const Obstruction& obstruction, const Surfaces& surfaces, const SurfacePoints& points, LightReach& found) {
     const D d;
     const DI di;
@@ -346,7 +342,8 @@ void reach(const Obstruction& obstruction, const Surfaces& surfaces, const Surfa
         };
         const Vec3 position = of(points.position);
         const Vec3 normal = of(points.normal);
-        const V pixelWidth = hn::Load(d, &points.pixelWidth[place]);
+        const V width = all(surfaces.frame.pixelWidth());
+        const V pixelWidth = surfaces.frame.perspective ? hn::Mul(width, hn::Load(d, &points.depth[place])) : width;
         const M facing = hn::Gt(dotted(normal, uniform(light.toLight)), all(0.0F));
         V lit = all(0.0F);
         if (!hn::AllFalse(d, facing))
@@ -356,7 +353,8 @@ void reach(const Obstruction& obstruction, const Surfaces& surfaces, const Surfa
         const VI seen = hn::Load(di, &points.seen[place]);
         const bool asks = obstruction.open != nullptr;
         const V sky = asks ? openness(obstruction, surfaces, seen, position, normal) : all(1.0F);
-        hn::Store(hn::Or(hn::ShiftLeft<4>(of16383(lit)), hn::ShiftLeft<18>(of16383(sky))), di, &found.shares[place]);
+        hn::Store(lit, d, &found.light[place]);
+        hn::Store(sky, d, &found.sky[place]);
     }
 }
 

@@ -1,5 +1,5 @@
 // How much of the light and of the sky reaches the points that a picture shows; view.h defines both. Called by
-// picture_samples.cpp for tiles where anything may dim them.
+// picture_colors.cpp for tiles where anything may dim them.
 #pragma once
 
 #include <array>
@@ -27,10 +27,10 @@ struct Obstruction {
     const OpennessMap* ground = nullptr;  ///< likewise
 };
 
-/// Two shares for each point, of 16383: of light in bits 4 to 17 (none in shadow or turned away from the light), of sky
-/// in bits 18 to 31 (openness of ground and obstacles; all of it on particles, which bring theirs along).
+/// Shares for each point.
 struct LightReach {
-    alignas(64) std::array<std::int32_t, kTilePixels> shares;
+    alignas(64) std::array<float, kTilePixels> light;  ///< none in shadow or turned away from the light
+    alignas(64) std::array<float, kTilePixels> sky;    ///< 1 on particles, which bring their openness along
 };
 
 /// Holds:  a point's values depend on the point alone, bit for bit, not on the number of lanes.

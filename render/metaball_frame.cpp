@@ -150,7 +150,8 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampl
         });
     }
     if (sampling.extraAtOutlines) castOutlines(cast, field.smallestRadius, picture);
-    forgetEmptyTiles(picture);
+    // Not of samplings whose mean is taken, so that all have the same tiles.
+    if (sampling.sparse) forgetEmptyTiles(picture);
 }
 
 }  // namespace render

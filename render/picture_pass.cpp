@@ -1,4 +1,4 @@
-// The tables behind shaders/picture.frag and the draws over them. Positions are handed to OpenGL relative to the eye.
+// What the stages of a picture find, and what is handed from each to the next. Positions are relative to the eye.
 #include "render/picture_pass.h"
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include "render/dimming.h"
-#include "render/tile_class.h"
 #include "render/tile_table.h"
 
 namespace render {
@@ -19,10 +18,8 @@ namespace {
 
 // What the shader of plain tiles reads.
 Backdrop backdropOf(const FrameBlock& block) {
-    return {block.right,       block.up,           block.forward,       block.picture,
-            block.toLight,     block.lightColor,   block.ambientSky,    block.ambientGround,
-            block.groundColor, block.groundCenter, block.backgroundTop, block.backgroundBottom,
-            block.tone};
+    return {block.right,  block.up,           block.forward,       block.picture,
+            block.ground, block.groundCenter, block.backgroundTop, block.backgroundBottom};
 }
 
 template <typename T>
@@ -48,15 +45,8 @@ float meanRadiusOf(const View& view) {
 PicturePass::PicturePass(const Gl& gl)
     : gl_(&gl),
       programs_(gl),
-      boxes_(gl, "boxes", GL_RGBA32F, 16),
       tileTable_(gl, "tiles", GL_RGBA32I, 16),
-      pixels_(gl, "pixels", GL_RG32I, 8),
-      edgePixels_(gl, "pixels on outlines", GL_RGBA32I, 16),
-      fragments_(gl, "things in pixels on outlines", GL_RG32I, 8),
-      spheres_(gl, "spheres", GL_RGBA32F, 16),
-      sphereLooks_(gl, "looks of spheres", GL_RGBA32UI, 16),
-      fieldSamples_(gl, "metaball samples", GL_RGBA32UI, 16),
-      lines_(gl, "pixels in tiles with lines", GL_RGBA32F, 16) {
+      pixels_(gl, "pixels", GL_RG32I, 8) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     frameBlock_ = BufferName(gl, name);
@@ -65,6 +55,7 @@ PicturePass::PicturePass(const Gl& gl)
 void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times) {
     frame_ = frame;
     light_ = lightBasis(view.light.toLight);
+    shading_ = shadingOf(view);
     castsField_ = view.style == Style::metaballs && !view.particles.empty();
     meanRadius_ = meanRadiusOf(view);
     timed(times.bin, [&] { drawn_ = drawnSpheres(view); });
@@ -72,7 +63,10 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); },
                          [&] { timed(times.bin, [&] { bin(view); }); },
                          [&] { timed(times.shadow, [&] { binShadows(view); }); });
-    timed(times.bin, [&] { upload(view); });
+    timed(times.bin, [&] {
+        looks_ = looksOf(view, drawn_, particleOpen_);
+        findBoxes(view);
+    });
     depthMapTexels_ = depthMapTexels;
     timed(times.shadow, [&] { castDepths(view, glm::vec2(0.0F)); });
     timed(times.bin, [&] { findGround(view); });
@@ -124,20 +118,7 @@ void PicturePass::castShadow(const View& view, const Sampling& sampling) {
     if (castsField_ && view.light.shadows && sampling.offset != depthMapShift_) castDepths(view, sampling.offset);
 }
 
-void PicturePass::upload(const View& view) {
-    spheres_.upload(bytesOf(drawn_.spheres));
-    sphereLooks_.upload(bytesOf(looksOf(view, drawn_, particleOpen_)));
-    uploadBoxes(view);
-}
-
-void PicturePass::uploadBoxes(const View& view) {
-    std::vector<glm::vec4> texels;
-    for (const BoxObstacle& box : view.boxObstacles) {
-        texels.emplace_back(box.minimum - frame_.eye, 0.0F);
-        texels.emplace_back(box.maximum - frame_.eye, 0.0F);
-        texels.emplace_back(box.color, 0.0F);
-    }
-    boxes_.upload(bytesOf(texels));
+void PicturePass::findBoxes(const View& view) {
     boxTiles_.assign(sphereTiles_.begin.size() - 1, 0);
     for (const BoxObstacle& box : view.boxObstacles) {
         const auto pixels = pixelsTouchedByBox(frame_, box.minimum, box.maximum);
@@ -153,7 +134,6 @@ void PicturePass::uploadBoxes(const View& view) {
 void PicturePass::castField(const View& view, const Sampling& sampling) {
     if (!castsField_) return;
     castPicture(frame_, {view, skin_, particleOpen_}, {sampling.offset, sampling.samples > 1, sampling.sparse}, field_);
-    fieldSamples_.upload(bytesOf(field_.samples));
 }
 
 // Whether anything stands in the light's way.
@@ -177,143 +157,97 @@ Obstruction PicturePass::obstructionOf(const View& view) const {
     return obstruction;
 }
 
-void PicturePass::look(const View& view, const Sampling& sampling) {
+/// Calls visit(job) with all that the pixels of these rays are coloured from.
+template <typename Visit>
+auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visit& visit) const {
     Solids solids{frame_, viewSpheres_, spherePixels_, &sphereTiles_, view.boxObstacles, std::nullopt};
     if (view.ground) solids.ground = view.ground->height - frame_.eye.y;
-    const Surfaces surfaces{frame_,        drawn_.spheres, drawn_.firstObstacle, view.boxObstacles,
-                            solids.ground, field_.samples, light_.toLight};
+    const Surfaces surfaces{frame_,
+                            drawn_.spheres,
+                            looks_,
+                            drawn_.firstObstacle,
+                            view.boxObstacles,
+                            solids.ground,
+                            view.ground.value_or(Ground{}).color,
+                            field_.samples,
+                            light_.toLight,
+                            opens_};
     const Obstruction obstruction = obstructionOf(view);
     const bool dims = castsShadows(view) || obstruction.open != nullptr;
-    const TileContents contents{solids,
-                                castsField_ ? &field_ : nullptr,
-                                lineList_,
-                                boxTiles_,
-                                groundTiles_,
-                                surfaces,
-                                dims ? &obstruction : nullptr,
-                                sampling.output == Output::surface};
-    {
-        Mapped pixels = pixels_.map(groundTiles_.size() * kTilePixels * sizeof(Fragment));
-        takeSamples(contents, sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
-                    pixels.as<Fragment>(), samples_);
-        pixels.finish();
-    }
-    edgePixels_.upload(bytesOf(samples_.edges));
-    fragments_.upload(bytesOf(samples_.fragments));
-    lines_.upload(bytesOf(samples_.lines));
+    const TileContents contents{solids, castsField_ ? &field_ : nullptr, lineList_, boxTiles_, groundTiles_};
+    return visit(PictureJob{contents,
+                            sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
+                            surfaces, dims ? &obstruction : nullptr, shading_});
 }
 
-FrameBlock PicturePass::uploadFrame(const View& view, const Sampling& sampling) {
+void PicturePass::color(const View& view, const Sampling& sampling) {
+    classes_.resize(groundTiles_.size());
+    Mapped pixels = pixels_.map(classes_.size() * kTilePixels * sizeof(PixelColor));
+    withJob(view, sampling, [&](const PictureJob& job) { colorPixels(job, pixels.as<PixelColor>(), classes_); });
+    pixels.finish();
+}
+
+void PicturePass::clearSum() {
+    classes_.resize(groundTiles_.size());
+    sums_.assign(classes_.size(), {});
+}
+
+void PicturePass::addColors(const View& view, const Sampling& sampling) {
+    withJob(view, sampling, [&](const PictureJob& job) { render::addColors(job, sums_, classes_); });
+}
+
+void PicturePass::takeMean(int samplings) {
+    Mapped pixels = pixels_.map(classes_.size() * kTilePixels * sizeof(PixelColor));
+    meanColors(samplings, sums_, classes_, pixels.as<PixelColor>());
+    pixels.finish();
+}
+
+std::vector<SurfacePoint> PicturePass::surfaces(const View& view, const Sampling& sampling) {
+    return withJob(view, sampling, [](const PictureJob& job) { return surfacePoints(job); });
+}
+
+FrameBlock PicturePass::uploadFrame(const View& view) {
     const Ground ground = view.ground.value_or(Ground{});
     FrameBlock block;
-    block.right = glm::vec4(frame_.right * frame_.halfWidth, frame_.perspective ? 1.0F : 0.0F);
+    block.right = glm::vec4(frame_.right * frame_.halfWidth, 0.0F);
     block.up = glm::vec4(frame_.up * frame_.halfHeight, 0.0F);
-    block.forward = glm::vec4(frame_.forward, frame_.pixelWidth());
-    block.picture = glm::vec4(1.0F / glm::vec2(frame_.width, frame_.height), sampling.offset);
-    block.toLight = glm::vec4(light_.toLight, view.surface.specular);
-    block.lightColor = glm::vec4(view.light.color, 0.0F);
-    block.ambientSky = glm::vec4(view.ambient.sky, 0.0F);
-    block.ambientGround = glm::vec4(view.ambient.ground, 0.0F);
-    block.groundColor = glm::vec4(ground.color, ground.height - frame_.eye.y);
-    block.groundCenter = glm::vec4(ground.center - frame_.eye, 1.0F / ground.fadeDistance);
+    block.forward = glm::vec4(frame_.forward, frame_.perspective ? 1.0F : 0.0F);
+    block.picture = glm::vec4(1.0F / glm::vec2(frame_.width, frame_.height), 0.0F, 0.0F);
+    block.ground = glm::vec4(undimmedGround(shading_, ground.color), ground.height - frame_.eye.y);
+    block.groundCenter = glm::vec4(shading_.groundCenter, 1.0F / shading_.fadeDistance);
     block.backgroundTop = glm::vec4(view.background.top, 0.0F);
     block.backgroundBottom = glm::vec4(view.background.bottom, 0.0F);
-    const Surface& surface = view.surface;
-    block.material = glm::vec4(surface.reflection, surface.metal, surface.roughness, surface.translucency);
-    block.tone = glm::vec4(surface.absorption, surface.glow, view.ambient.occlusion, view.exposure);
-    block.mirrorTop = glm::vec4(view.surroundings.top, 0.0F);
-    block.mirrorHorizon = glm::vec4(view.surroundings.horizon, 0.0F);
-    block.mirrorBottom = glm::vec4(view.surroundings.bottom, 0.0F);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.get());
     gl_->BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
     return block;
 }
 
-Features PicturePass::featuresOf(const View& view, const Sampling& sampling, int classBits) const {
-    Features features;
-    features.output = sampling.output;
-    features.perspective = frame_.perspective;
-    features.spheres = (classBits & kSphereBit) != 0;
-    features.obstacles = features.spheres && static_cast<std::size_t>(drawn_.firstObstacle) < drawn_.spheres.size();
-    features.field = (classBits & kFieldBit) != 0;
-    features.lines = (classBits & kLineBit) != 0;
-    features.boxes = (classBits & kBoxBit) != 0;
-    features.ground = (classBits & kGroundBit) != 0;
-    features.single = showsOneKind(classBits);
-    const bool dim = (classBits & kDimBit) != 0;
-    features.shadows = dim && castsShadows(view);
-    const bool particles = features.field || (features.spheres && view.style == Style::spheres);
-    const Surface& surface = view.surface;
-    features.specular = particles && (surface.specular > 0.0F || surface.metal > 0.0F);
-    features.gloss = features.specular ? surface.glossExponent : 0;
-    features.metal = particles && surface.metal > 0.0F;
-    features.mirror = particles && surface.reflection > 0.0F;
-    features.rough = particles && surface.roughness > 0.0F;
-    features.translucent = particles && surface.translucency > 0.0F;
-    features.absorbing = particles && surface.absorption > 0.0F;
-    features.glow = particles && surface.glow > 0.0F;
-    features.occlusion = dim && opens_ && view.ambient.occlusion > 0.0F;
-    features.open = opens_ && (features.occlusion || particles);
-    features.tone = view.exposure > 0.0F;
-    return features;
-}
-
-// The class of each tile; 0 for one that the target still holds.
-std::vector<std::uint8_t> PicturePass::classesToDraw(const FrameBlock& block, const Sampling& sampling) {
-    std::vector<std::uint8_t> classes = samples_.classes;
-    if (!sampling.keeps) return classes;
+// Those that the target still holds are not drawn.
+std::vector<TileClass> PicturePass::classesToDraw(const FrameBlock& block) {
+    std::vector<TileClass> classes = classes_;
     kept_.begin(backdropOf(block), classes.size());
-    for (std::size_t tile = 0; tile < classes.size(); ++tile) {
-        const std::uint8_t look = isPlain(classes[tile]) ? classes[tile] : std::uint8_t{0};
-        if (kept_.keeps(tile, look)) classes[tile] = 0;
-    }
+    for (std::size_t tile = 0; tile < classes.size(); ++tile)
+        if (kept_.keeps(tile, classes[tile])) classes[tile] = TileClass::kept;
     return classes;
 }
 
-void PicturePass::bindAll() const {
-    boxes_.bind(kBoxesUnit);
+void PicturePass::draw(const View& view, PictureSize target) {
+    const FrameBlock block = uploadFrame(view);
+    const TileTable table = tileTable(classesToDraw(block), sphereTiles_.columns);
+    tileTable_.upload(bytesOf(table.rows));
     tileTable_.bind(kTileTableUnit);
     pixels_.bind(kPixelsUnit);
-    edgePixels_.bind(kEdgePixelsUnit);
-    fragments_.bind(kFragmentsUnit);
-    spheres_.bind(kSpheresUnit);
-    sphereLooks_.bind(kSphereLooksUnit);
-    fieldSamples_.bind(kFieldSamplesUnit);
-    lines_.bind(kLinesUnit);
-}
-
-GLuint PicturePass::useProgram(const Features& features, PictureSize target) {
-    const GLuint program = programs_.picture(features);
-    gl_->UseProgram(program);
-    programs_.setInteger(program, "targetWidth", target.width);
-    programs_.setInteger(program, "targetHeight", target.height);
-    return program;
-}
-
-void PicturePass::draw(const View& view, const Sampling& sampling, PictureSize target) {
-    const FrameBlock block = uploadFrame(view, sampling);
-    const TileTable table = tileTable(classesToDraw(block, sampling), sphereTiles_.columns, samples_.lineSlots);
-    tileTable_.upload(bytesOf(table.rows));
-    bindAll();
-    for (int tileClass = 1; tileClass < kClassCount; ++tileClass) {
-        const int begin = table.first[static_cast<std::size_t>(tileClass)];
-        const int end = table.first[static_cast<std::size_t>(tileClass) + 1];
+    for (const TileClass tiles : {TileClass::background, TileClass::ground, TileClass::picture}) {
+        const int begin = table.first[static_cast<std::size_t>(tiles)];
+        const int end = table.first[static_cast<std::size_t>(tiles) + 1];
         if (begin == end) continue;
-        Features features = featuresOf(view, sampling, tileClass);
-        if (isPlain(tileClass) && sampling.output != Output::surface) features.drawing = Drawing::plain;
-        programs_.setInteger(useProgram(features, target), "firstTile", begin);
+        const GLuint program = programs_.tiles({tiles, frame_.perspective});
+        gl_->UseProgram(program);
+        programs_.setInteger(program, "targetWidth", target.width);
+        programs_.setInteger(program, "targetHeight", target.height);
+        programs_.setInteger(program, "firstTile", begin);
         gl_->DrawArrays(GL_POINTS, 0, end - begin);
     }
-}
-
-void PicturePass::drawEdges(const View& view, const Sampling& sampling, PictureSize target) {
-    if (samples_.edges.empty()) return;
-    Features features = featuresOf(view, sampling, samples_.edgeClass);
-    features.drawing = Drawing::edges;
-    programs_.setInteger(useProgram(features, target), "edgeCount", static_cast<int>(samples_.edges.size()));
-    const int rows = (static_cast<int>(samples_.edges.size()) + target.width - 1) / target.width;
-    gl_->Viewport(0, 0, target.width, rows);
-    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace render

@@ -1,4 +1,4 @@
-// Draws a view tile by tile: finds what its pixels show, chooses a program for each class of tiles, draws.
+// Draws a view tile by tile: finds the colours of what its pixels show, chooses a program for each class of tiles, draws.
 // Used by the Renderer alone, with the context current.
 #pragma once
 
@@ -18,7 +18,7 @@
 #include "render/line_list.h"
 #include "render/metaball_frame.h"
 #include "render/openness.h"
-#include "render/picture_samples.h"
+#include "render/picture_colors.h"
 #include "render/program_cache.h"
 #include "render/view.h"
 
@@ -26,18 +26,14 @@ namespace render {
 
 /// Mirrors Frame of shaders/frame.glsl, where the fields are explained.
 struct FrameBlock {
-    glm::vec4 right, up, forward, picture, toLight, lightColor, ambientSky, ambientGround, groundColor, groundCenter;
-    glm::vec4 backgroundTop, backgroundBottom;
-    glm::vec4 material, tone, mirrorTop, mirrorHorizon, mirrorBottom;
+    glm::vec4 right, up, forward, picture, ground, groundCenter, backgroundTop, backgroundBottom;
 };
 
-/// Which rays one drawing takes through a pixel, and what becomes of their colours.
+/// Which rays are taken through each pixel.
 struct Sampling {
     int samples = 1;         ///< 1 or 4
     glm::vec2 offset{0.0F};  ///< from the pixel's middle, pixels; with one sample only
-    Output output = Output::bytes;
-    bool sparse = false;  ///< metaballs are cast sparsely
-    bool keeps = false;   ///< the target still holds the last picture that was drawn with `keeps`
+    bool sparse = false;     ///< metaballs are cast sparsely
 };
 
 class PicturePass {
@@ -53,17 +49,19 @@ class PicturePass {
     /// Casts the metaballs for these rays. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
 
-    /// Finds what these rays see; draws nothing yet.
-    void look(const View& view, const Sampling& sampling);
+    /// Finds the colours of what these rays see; draws nothing yet.
+    void color(const View& view, const Sampling& sampling);
 
-    /// Draws all pixels that show one thing to the bound target, whose size is a whole number of tiles.
-    void draw(const View& view, const Sampling& sampling, PictureSize target);
+    /// The same from several samplings without `sparse`: their mean.
+    void clearSum();
+    void addColors(const View& view, const Sampling& sampling);
+    void takeMean(int samplings);
 
-    /// Draws the pixels that show several, side by side in the order of edges(), to the bound target of the same size,
-    /// after draw().
-    void drawEdges(const View& view, const Sampling& sampling, PictureSize target);
+    /// What the first of these rays through each pixel meets, row by row.
+    std::vector<SurfacePoint> surfaces(const View& view, const Sampling& sampling);
 
-    std::span<const EdgePixel> edges() const { return samples_.edges; }
+    /// Draws the picture to the bound target, whose size is a whole number of tiles, and which holds the last one.
+    void draw(const View& view, PictureSize target);
 
     ProgramCache& programs() { return programs_; }
 
@@ -72,24 +70,23 @@ class PicturePass {
     void findOpenness(const View& view);
     void binShadows(const View& view);
     void castDepths(const View& view, glm::vec2 shift);
-    void upload(const View& view);
-    void uploadBoxes(const View& view);
+    void findBoxes(const View& view);
     void findGround(const View& view);
     bool castsShadows(const View& view) const;
     Obstruction obstructionOf(const View& view) const;
-    FrameBlock uploadFrame(const View& view, const Sampling& sampling);
-    void bindAll() const;
-    GLuint useProgram(const Features& features, PictureSize target);
-    Features featuresOf(const View& view, const Sampling& sampling, int classBits) const;
-    std::vector<std::uint8_t> classesToDraw(const FrameBlock& block, const Sampling& sampling);
+    template <typename Visit>
+    auto withJob(const View& view, const Sampling& sampling, const Visit& visit) const;
+    FrameBlock uploadFrame(const View& view);
+    std::vector<TileClass> classesToDraw(const FrameBlock& block);
 
     const Gl* gl_;
     ProgramCache programs_;
-    TextureBuffer boxes_, tileTable_, pixels_, edgePixels_, fragments_, spheres_, sphereLooks_, fieldSamples_, lines_;
+    TextureBuffer tileTable_, pixels_;
     BufferName frameBlock_;
 
     CameraFrame frame_;
     DrawnSpheres drawn_;
+    std::vector<SphereLook> looks_;
     std::vector<ViewSphere> viewSpheres_;
     std::vector<Rect> spherePixels_;
     CellLists sphereTiles_;
@@ -109,7 +106,9 @@ class PicturePass {
     OpennessMap openMap_;
     float meanRadius_ = 0.0F;
     FieldPicture field_;
-    PictureSamples samples_;
+    Shading shading_;
+    std::vector<TileClass> classes_;
+    std::vector<PointColors> sums_;  // per tile, of several samplings
     bool castsField_ = false;
 };
 

@@ -11,50 +11,14 @@ namespace render {
 
 namespace {
 
-struct Unit {
-    const char* name;
-    TextureUnit unit;
-};
-
-constexpr std::array<Unit, 10> kUnits = {{{"boxes", kBoxesUnit},
-                                          {"tileTable", kTileTableUnit},
-                                          {"pixels", kPixelsUnit},
-                                          {"edgePixels", kEdgePixelsUnit},
-                                          {"fragments", kFragmentsUnit},
-                                          {"spheres", kSpheresUnit},
-                                          {"sphereLooks", kSphereLooksUnit},
-                                          {"fieldSamples", kFieldSamplesUnit},
-                                          {"lines", kLinesUnit},
-                                          {"accumulated", kAccumulatedUnit}}};
-
 std::string definesOf(const Features& features) {
     std::string text = "#version 330 core\n";
     const auto define = [&text](const char* name, bool wanted) {
         if (wanted) text += fmt::format("#define {}\n", name);
     };
-    define("PLAIN", features.drawing == Drawing::plain);
+    define("PLAIN", features.tiles != TileClass::picture);
+    define("GROUND", features.tiles == TileClass::ground);
     define("PERSPECTIVE", features.perspective);
-    define("SPHERES", features.spheres);
-    define("OBSTACLES", features.obstacles);
-    define("FIELD", features.field);
-    define("BOXES", features.boxes);
-    define("GROUND", features.ground);
-    define("SINGLE", features.single);
-    define("LINES", features.lines);
-    define("SHADOWS", features.shadows);
-    define("SPECULAR", features.specular);
-    if (features.specular) text += fmt::format("#define GLOSS {}\n", features.gloss);
-    define("METAL", features.metal);
-    define("MIRROR", features.mirror);
-    define("ROUGH", features.rough);
-    define("TRANSLUCENT", features.translucent);
-    define("ABSORBING", features.absorbing);
-    define("GLOW", features.glow);
-    define("OPEN", features.open);
-    define("OCCLUSION", features.occlusion);
-    define("TONE", features.tone);
-    define("ENCODE", features.output == Output::bytes);
-    define("SURFACE", features.output == Output::surface);
     return text;
 }
 
@@ -98,34 +62,29 @@ ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::str
     return program;
 }
 
-GLuint ProgramCache::keep(ProgramName& place, ProgramName program) const {
-    gl_->UseProgram(program.get());
-    for (const Unit& unit : kUnits) setInteger(program.get(), unit.name, unit.unit);
-    const GLuint block = gl_->GetUniformBlockIndex(program.get(), "FrameBlock");
-    if (block != GL_INVALID_INDEX) gl_->UniformBlockBinding(program.get(), block, 0);
-    place = std::move(program);
-    return place.get();
+ProgramName ProgramCache::build(const Features& features) const {
+    const bool isPicture = features.tiles == TileClass::picture;
+    std::string vertex = definesOf(features) + "#define VERTEX\n";
+    std::string fragment = joined(definesOf(features), {"encode.glsl"});
+    if (!isPicture) {
+        vertex = joined(vertex, {"frame.glsl"});
+        fragment = joined(fragment, {"frame.glsl"});
+    }
+    return buildProgram(*gl_, joined(vertex, {"tile.vert"}),
+                        joined(fragment, {isPicture ? "picture.frag" : "plain.frag"}));
 }
 
-GLuint ProgramCache::picture(const Features& features) {
-    ProgramName& place = pictures_[features];
-    if (place.get() != 0) return place.get();
-    const std::string forVertices = joined(definesOf(features) + "#define VERTEX\n", {"frame.glsl"});
-    const std::string forPixels = joined(definesOf(features), {"frame.glsl", "encode.glsl", "shade.glsl"});
-    if (features.drawing == Drawing::plain)
-        return keep(place, buildProgram(*gl_, joined(forVertices, {"shade.glsl", "tile.vert"}),
-                                        joined(forPixels, {"plain.frag"})));
-    const std::string forSurfaces = joined(forPixels, {"surface.glsl"});
-    if (features.drawing == Drawing::edges)
-        return keep(place,
-                    buildProgram(*gl_, joined(forVertices, {"full_screen.vert"}), joined(forSurfaces, {"edges.frag"})));
-    return keep(place, buildProgram(*gl_, joined(forVertices, {"tile.vert"}), joined(forSurfaces, {"picture.frag"})));
-}
-
-GLuint ProgramCache::resolve() {
-    if (resolve_.get() != 0) return resolve_.get();
-    return keep(resolve_, buildProgram(*gl_, joined("#version 330 core\n", {"full_screen.vert"}),
-                                       joined("#version 330 core\n", {"encode.glsl", "resolve.frag"})));
+GLuint ProgramCache::tiles(const Features& features) {
+    ProgramName& program = programs_[features];
+    if (program.get() != 0) return program.get();
+    program = build(features);
+    const GLuint name = program.get();
+    gl_->UseProgram(name);
+    setInteger(name, "tileTable", kTileTableUnit);
+    setInteger(name, "pixels", kPixelsUnit);
+    const GLuint block = gl_->GetUniformBlockIndex(name, "FrameBlock");
+    if (block != GL_INVALID_INDEX) gl_->UniformBlockBinding(name, block, 0);
+    return name;
 }
 
 void ProgramCache::setInteger(GLuint program, const char* name, int value) const {

@@ -1,16 +1,13 @@
-// From view to image: prepare, cast, draw, read back; at final quality nine times with the rays moved within the pixel.
+// From view to image: prepare, cast, colour, draw, read back; at final quality nine times with the rays moved within the pixel.
 #include "render/renderer.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_group.h>
 
 #include "render/draw_overlay.h"
@@ -90,74 +87,51 @@ struct Renderer::Parts {
           pass(context_.gl()),
           bytes(context_.gl(), GL_RGBA8, padded.width, padded.height),
           vertices(vertexArray(context_.gl())) {
-        if (quality == Quality::final)
-            linear = std::make_unique<Target>(context_.gl(), GL_RGBA32F, padded.width, padded.height);
-        if (quality == Quality::normal)
-            edges = std::make_unique<Target>(context_.gl(), GL_RGBA8, padded.width, padded.height);
         requireLimits(context_.gl());
         context.gl().Enable(GL_PROGRAM_POINT_SIZE);
         context.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
-        context.gl().BlendFunc(GL_ONE, GL_ONE);
     }
 
-    void drawOnce(const View& view, const Sampling& sampling) {
+    void cast(const View& view, const Sampling& sampling) {
         StageClock clock;
         pass.castShadow(view, sampling);
         clock.add(times.shadow);
         pass.castField(view, sampling);
         clock.add(times.cast);
-        pass.look(view, sampling);
-        clock.add(times.look);
-        pass.draw(view, sampling, padded);
-        if (!pass.edges().empty()) {
-            edges->bindForDrawing();
-            pass.drawEdges(view, sampling, padded);
-        }
-        // OpenGL draws when it is asked for a result.
-        context.gl().Finish();
-        clock.add(times.shade);
+    }
+
+    void color(const View& view) {
+        const Sampling sampling{.samples = quality == Quality::draft ? 1 : 4, .sparse = true};
+        cast(view, sampling);
+        timed(times.color, [&] { pass.color(view, sampling); });
     }
 
     // Regular 3 x 3 grid, each sample clamped, averaged in linear light.
-    void drawFinal(const View& view) {
-        const Gl& gl = context.gl();
-        linear->bindForDrawing();
-        gl.ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-        gl.Clear(GL_COLOR_BUFFER_BIT);
-        gl.Enable(GL_BLEND);
+    void colorFinal(const View& view) {
+        pass.clearSum();
         for (int row = -1; row <= 1; ++row) {
             for (int column = -1; column <= 1; ++column) {
-                drawOnce(view, {.offset = glm::vec2(column, row) / 3.0F, .output = Output::linear});
+                const Sampling sampling{.offset = glm::vec2(column, row) / 3.0F};
+                cast(view, sampling);
+                timed(times.color, [&] { pass.addColors(view, sampling); });
             }
         }
-        gl.Disable(GL_BLEND);
+        timed(times.color, [&] { pass.takeMean(9); });
+    }
+
+    void draw(const View& view) {
         StageClock clock;
         bytes.bindForDrawing();
-        linear->bindAsTexture(kAccumulatedUnit);
-        const GLuint program = pass.programs().resolve();
-        gl.UseProgram(program);
-        pass.programs().setInteger(program, "sampleCount", 9);
-        gl.DrawArrays(GL_TRIANGLES, 0, 3);
-        gl.Finish();
-        clock.add(times.shade);
+        pass.draw(view, padded);
+        // OpenGL draws when it is asked for a result.
+        context.gl().Finish();
+        clock.add(times.openGl);
     }
 
     std::vector<SurfacePoint> surfaces(const View& view) {
-        const Target target(context.gl(), GL_RGBA32F, padded.width, padded.height);
-        target.bindForDrawing();
-        drawOnce(view, {.output = Output::surface, .sparse = quality != Quality::final});
-        std::vector<glm::vec4> texels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-        context.gl().ReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_FLOAT, texels.data());
-        checkGl(context.gl(), "drawing surfaces");
-        std::vector<SurfacePoint> points;
-        points.reserve(texels.size());
-        for (const glm::vec4& texel : texels) points.push_back({glm::vec3(texel), texel.w});
-        return points;
-    }
-
-    void drawDirectly(const View& view) {
-        bytes.bindForDrawing();
-        drawOnce(view, {.samples = quality == Quality::draft ? 1 : 4, .sparse = true, .keeps = true});
+        const Sampling sampling{.sparse = quality != Quality::final};
+        cast(view, sampling);
+        return pass.surfaces(view, sampling);
     }
 
     void prepare(const View& view) {
@@ -181,25 +155,9 @@ struct Renderer::Parts {
             packing.run([this, &image, row, rows] { packRows(row, rows, image); });
         }
         packing.wait();
-        if (quality == Quality::normal) putEdges(image);
         checkGl(context.gl(), "drawing a frame");
         clock.add(times.readBack);
         return image;
-    }
-
-    void putEdges(Image& image) {
-        const std::span<const EdgePixel> places = pass.edges();
-        if (places.empty()) return;
-        edges->bindForDrawing();
-        readRows(0, (static_cast<int>(places.size()) + padded.width - 1) / padded.width);
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size()), [&](const auto& range) {
-            for (std::size_t k = range.begin(); k < range.end(); ++k) {
-                const auto row = static_cast<std::size_t>(places[k].place / 65536);
-                const auto column = static_cast<std::size_t>(places[k].place % 65536);
-                const std::size_t at = row * static_cast<std::size_t>(size.width) + column;
-                std::copy_n(pixels[k].begin(), 3, &image.rgb[3 * at]);
-            }
-        });
     }
 
     // Four bytes a pixel are read several times faster than three.
@@ -226,8 +184,6 @@ struct Renderer::Parts {
     Quality quality;
     PicturePass pass;
     Target bytes;
-    std::unique_ptr<Target> edges;  // pixels that show several things, side by side; of normal quality
-    std::unique_ptr<Target> linear;
     VertexArrayName vertices;
     std::vector<Rgba> pixels;  // as they are read back
     DrawTimes times;
@@ -254,7 +210,8 @@ Image Renderer::draw(const View& view) {
     const CurrentContext current(parts_->context);
     parts_->times = {};
     parts_->prepare(view);
-    parts_->quality == Quality::final ? parts_->drawFinal(view) : parts_->drawDirectly(view);
+    parts_->quality == Quality::final ? parts_->colorFinal(view) : parts_->color(view);
+    parts_->draw(view);
     Image image = parts_->readBack();
     drawOverlay(image, view.overlay, view.camera);
     return image;

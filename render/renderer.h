@@ -7,16 +7,10 @@
 #include "render/context.h"
 #include "render/draw_times.h"
 #include "render/image.h"
+#include "render/surface_point.h"
 #include "render/view.h"
 
 namespace render {
-
-/// What the ray through a pixel's middle meets first; of metaballs, in draft and normal quality, what its neighbours
-/// tell.
-struct SurfacePoint {
-    glm::vec3 normal{0.0F};  ///< unit length, world axes
-    float depth = -1.0F;     ///< view depth, m; -1: nothing is met
-};
 
 /// Draws views of one size and quality. Frames may come from different threads, one at a time.
 /// Holds:  the same view gives the same bytes: from run to run, for any number of threads, and with either backend.

@@ -1,5 +1,5 @@
-// The points of surfaces that a picture's pixels show, up to a tile's worth at a time. Called by picture_samples.cpp,
-// for light_reach.h.
+// The points of surfaces that a picture's pixels show, up to a tile's worth at a time. Called by picture_colors.cpp, for
+// light_reach.h and shade.h.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "render/camera_frame.h"
+#include "render/drawn_spheres.h"
 #include "render/field_sample.h"
 #include "render/first_hits.h"
 #include "render/tiles.h"
@@ -22,11 +23,14 @@ namespace render {
 struct Surfaces {
     CameraFrame frame;
     std::span<const ViewSphere> spheres;  ///< particles first
+    std::span<const SphereLook> looks;    ///< of each
     std::int32_t firstObstacle = 0;       ///< index of the first that is none
     std::span<const BoxObstacle> boxes;   ///< in the world
     std::optional<float> ground;          ///< height
+    glm::vec3 groundColor{0.0F};
     std::span<const FieldSample> field;
     glm::vec3 toLight{0.0F, 1.0F, 0.0F};
+    bool opens = false;  ///< some term of the look asks how open particles are
 };
 
 /// Rays and what they see in, points out; a structure of arrays for the lanes.
@@ -37,11 +41,14 @@ struct SurfacePoints {
     alignas(64) std::array<float, kTilePixels> y;
     alignas(64) std::array<std::array<float, kTilePixels>, 3> position;  ///< relative to the eye, world axes
     alignas(64) std::array<std::array<float, kTilePixels>, 3> normal;
-    alignas(64) std::array<float, kTilePixels> pixelWidth;  ///< m, at this depth
+    alignas(64) std::array<float, kTilePixels> depth;  ///< in view; 0 of the background
+    alignas(64) std::array<std::array<float, kTilePixels>, 3> albedo;
+    /// Of particles: along the normal, against it, along the mirrored ray; where Surfaces::opens.
+    alignas(64) std::array<std::array<float, kTilePixels>, 3> open;
 };
 
-/// Fills in position, normal and pixel's width. The background's normal points away from the light. A ray that misses
-/// what it is said to see, by the rounding at an outline, is given the outline.
+/// Fills in all but what goes in. The background's normal points away from the light. A ray that misses what it is said
+/// to see, by the rounding at an outline, is given the outline.
 void placePoints(const Surfaces& surfaces, SurfacePoints& points);
 
 }  // namespace render

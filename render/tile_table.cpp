@@ -4,21 +4,18 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "render/tile_class.h"
-
 namespace render {
 
 namespace {
 
 struct Square {
     TileRow row;
-    std::uint8_t tileClass = 0;
+    TileClass tileClass = TileClass::kept;
 };
 
 class Squares {
  public:
-    Squares(std::span<const std::uint8_t> classes, int columns, std::span<const std::int32_t> lineSlots)
-        : classes_(classes), lineSlots_(lineSlots), columns_(columns) {
+    Squares(std::span<const TileClass> classes, int columns) : classes_(classes), columns_(columns) {
         const int rows = static_cast<int>(classes.size()) / columns;
         for (int row = 0; row < rows; row += kSquareSide)
             for (int column = 0; column < columns; column += kSquareSide)
@@ -32,8 +29,7 @@ class Squares {
 
     bool isWhole(int left, int top, int right, int bottom) const {
         if (right - left != kSquareSide || bottom - top != kSquareSide) return false;
-        const std::uint8_t first = classes_[at(left, top)];
-        if ((first & kLineBit) != 0) return false;
+        const TileClass first = classes_[at(left, top)];
         for (int row = top; row < bottom; ++row)
             for (int column = left; column < right; ++column)
                 if (classes_[at(column, row)] != first) return false;
@@ -50,28 +46,28 @@ class Squares {
     }
 
     void add(int column, int row, int side) {
-        const std::size_t tile = at(column, row);
-        if (classes_[tile] != 0) all_.push_back({{column, row, side, lineSlots_[tile]}, classes_[tile]});
+        const TileClass its = classes_[at(column, row)];
+        if (its != TileClass::kept) all_.push_back({{column, row, side}, its});
     }
 
-    std::span<const std::uint8_t> classes_;
-    std::span<const std::int32_t> lineSlots_;
+    std::span<const TileClass> classes_;
     int columns_;
     std::vector<Square> all_;
 };
 
 }  // namespace
 
-TileTable tileTable(std::span<const std::uint8_t> classes, int columns, std::span<const std::int32_t> lineSlots) {
-    const Squares squares(classes, columns, lineSlots);
+TileTable tileTable(std::span<const TileClass> classes, int columns) {
+    const Squares squares(classes, columns);
     TileTable table;
-    table.first.assign(kClassCount + 1, 0);
-    for (const Square& square : squares.all()) ++table.first[square.tileClass + std::size_t{1}];
-    for (std::size_t c = 0; c < kClassCount; ++c) table.first[c + 1] += table.first[c];
+    table.first.assign(kTileClasses + 1, 0);
+    const auto indexOf = [](const Square& square) { return static_cast<std::size_t>(square.tileClass); };
+    for (const Square& square : squares.all()) ++table.first[indexOf(square) + 1];
+    for (std::size_t c = 0; c < kTileClasses; ++c) table.first[c + 1] += table.first[c];
     table.rows.resize(squares.all().size());
     std::vector<int> next = table.first;
     for (const Square& square : squares.all())
-        table.rows[static_cast<std::size_t>(next[square.tileClass]++)] = square.row;
+        table.rows[static_cast<std::size_t>(next[indexOf(square)]++)] = square.row;
     return table;
 }
 

@@ -5,14 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "render/tile_class.h"
+
 namespace render {
 
 /// What shaders/tile.vert reads of a square.
 struct TileRow {
     std::int32_t column = 0;  ///< of its first tile
     std::int32_t row = 0;
-    std::int32_t side = 1;       ///< tiles
-    std::int32_t lineSlot = -1;  ///< place in PictureSamples::lines over 256, or -1
+    std::int32_t side = 1;  ///< tiles
+    std::int32_t unused = 0;
 };
 
 struct TileTable {
@@ -24,7 +26,7 @@ struct TileTable {
 /// single.
 inline constexpr int kSquareSide = 4;
 
-/// classes: per tile, row by row, as tile_class.h has it; 0 for what is not drawn. lineSlots: per tile.
-TileTable tileTable(std::span<const std::uint8_t> classes, int columns, std::span<const std::int32_t> lineSlots);
+/// classes: per tile, row by row.
+TileTable tileTable(std::span<const TileClass> classes, int columns);
 
 }  // namespace render

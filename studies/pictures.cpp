@@ -41,7 +41,7 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
         return median(values);
     };
     return {of(&DrawTimes::bin),  of(&DrawTimes::occlusion), of(&DrawTimes::shadow),  of(&DrawTimes::cast),
-            of(&DrawTimes::look), of(&DrawTimes::shade),     of(&DrawTimes::readBack)};
+            of(&DrawTimes::color), of(&DrawTimes::openGl),     of(&DrawTimes::readBack)};
 }
 
 /// Seconds of drawing frames while the one before is encoded, as the render loop does.

@@ -29,7 +29,7 @@ std::string timeTable(const std::vector<studies::PictureRow>& rows) {
         Cells cells = subjectOf(row);
         const render::DrawTimes& t = row.stages;
         for (const double seconds :
-             {t.bin, t.occlusion, t.shadow, t.cast, t.look, t.shade, t.readBack, row.png, row.mp4, row.mp4Once,
+             {t.bin, t.occlusion, t.shadow, t.cast, t.color, t.openGl, t.readBack, row.png, row.mp4, row.mp4Once,
               row.draw, row.atRest, row.withPng, row.withMp4, row.baseline, row.atRestBaseline})
             cells.push_back(milliseconds(seconds));
         cells.push_back(fmt::format("{:.2f}", row.ratio()));
@@ -44,8 +44,8 @@ std::string timeTable(const std::vector<studies::PictureRow>& rows) {
                   "occlusion",
                   "shadow",
                   "cast",
-                  "look",
-                  "shade",
+                  "color",
+                  "OpenGL",
                   "read back",
                   "PNG",
                   "MP4",

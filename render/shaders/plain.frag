@@ -1,21 +1,31 @@
-// Tiles of background, or of ground that nothing dims: one ray a pixel, because nothing in them has an outline, and the
-// ground is lit once for the tile.
+// Tiles of background, or of ground that nothing dims: one ray a pixel, because nothing in them has an outline.
 out vec4 pixel;
+
 #ifdef GROUND
-flat in vec3 groundLit;
+// How much of the background shows through the ground: (d / fadeDistance)^4 / (1 + (d / fadeDistance)^4).
+float groundFade(vec2 at) {
+    vec2 plane = vec2(2.0, -2.0) * (at * frame.picture.xy) + vec2(-1.0, 1.0);
+    vec3 across = plane.x * frame.right.xyz + plane.y * frame.up.xyz;
+#ifdef PERSPECTIVE
+    vec3 origin = vec3(0.0);
+    vec3 direction = frame.forward.xyz + across;
+#else
+    vec3 origin = across;
+    vec3 direction = frame.forward.xyz;
+#endif
+    float depth = (frame.ground.w - origin.y) / direction.y;
+    vec3 off = (origin + depth * direction - frame.groundCenter.xyz) * frame.groundCenter.w;
+    float square = dot(off, off);
+    float fade = min(square * square, 1.0e30);
+    return fade / (1.0 + fade);
+}
 #endif
 
 void main() {
-    vec2 at = floor(gl_FragCoord.xy) + 0.5 + frame.picture.zw;
-    vec3 color = background(at.y);
+    vec2 at = floor(gl_FragCoord.xy) + 0.5;
+    vec3 color = mix(frame.backgroundTop.xyz, frame.backgroundBottom.xyz, at.y * frame.picture.y);
 #ifdef GROUND
-    Ray ray = rayThrough(at);
-    float depth = (frame.groundColor.w - ray.origin.y) / ray.direction.y;
-    color = mix(groundLit, color, groundFade(ray.origin + depth * ray.direction));
+    color = mix(frame.ground.xyz, color, groundFade(at));
 #endif
-    color = clamp(color, 0.0, 1.0);
-#ifdef ENCODE
-    color = encodeBytes(color);
-#endif
-    pixel = vec4(color, 1.0);
+    pixel = vec4(encodeRoots(sqrt(clamp(color, 0.0, 1.0))), 1.0);
 }

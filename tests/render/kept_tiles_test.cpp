@@ -97,22 +97,23 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
 }
 
 TEST_CASE("A tile is kept while it shows the same before the same backdrop") {
+    using render::TileClass;
     render::Backdrop backdrop{};
     render::KeptTiles kept;
     kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(0, 1));
-    CHECK(!kept.keeps(1, 2));
+    CHECK(!kept.keeps(0, TileClass::background));
+    CHECK(!kept.keeps(1, TileClass::ground));
     kept.begin(backdrop, 2);
-    CHECK(kept.keeps(0, 1));
-    CHECK(!kept.keeps(1, 1));
+    CHECK(kept.keeps(0, TileClass::background));
+    CHECK(!kept.keeps(1, TileClass::background));
     kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(0, 0));
-    CHECK(kept.keeps(1, 1));
+    CHECK(!kept.keeps(0, TileClass::picture));
+    CHECK(kept.keeps(1, TileClass::background));
     kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(0, 0));
-    backdrop[12].w = 1.0F;
+    CHECK(!kept.keeps(0, TileClass::picture));
+    backdrop.back().w = 1.0F;
     kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(1, 1));
+    CHECK(!kept.keeps(1, TileClass::background));
     kept.begin(backdrop, 3);
-    CHECK(!kept.keeps(1, 1));
+    CHECK(!kept.keeps(1, TileClass::background));
 }

@@ -94,20 +94,17 @@ TEST_CASE("A camera inside a box sees its nearest face") {
 TEST_CASE("Squares cover every tile that is to be drawn once, and hold one class") {
     constexpr int kColumns = 11;
     constexpr int kRows = 9;
-    std::vector<std::uint8_t> classes(kColumns * kRows, render::kGroundBit);
-    std::vector<std::int32_t> slots(classes.size(), -1);
-    classes[3] = 0;                                  // kept from the picture before
-    classes[5 * kColumns + 6] = render::kSphereBit;  // spoils a square
-    for (std::size_t k = 0; k < 4; ++k) {            // lines belong to single tiles
-        classes[4 * kColumns + k] = render::kGroundBit | render::kLineBit;
-        slots[4 * kColumns + k] = static_cast<std::int32_t>(k);
-    }
-    const render::TileTable table = render::tileTable(classes, kColumns, slots);
-    REQUIRE(table.first.size() == render::kClassCount + 1);
+    using render::TileClass;
+    std::vector<TileClass> classes(kColumns * kRows, TileClass::ground);
+    classes[3] = TileClass::kept;                        // from the picture before
+    classes[5 * kColumns + 6] = TileClass::picture;      // spoils a square
+    classes[4 * kColumns + 1] = TileClass::background;
+    const render::TileTable table = render::tileTable(classes, kColumns);
+    REQUIRE(table.first.size() == render::kTileClasses + 1);
     CHECK(table.first.back() == static_cast<int>(table.rows.size()));
     std::vector<int> covered(classes.size(), 0);
     int squares = 0;
-    for (std::size_t c = 0; c < render::kClassCount; ++c) {
+    for (std::size_t c = 0; c < render::kTileClasses; ++c) {
         for (int k = table.first[c]; k < table.first[c + 1]; ++k) {
             const render::TileRow& row = table.rows[static_cast<std::size_t>(k)];
             squares += row.side == render::kSquareSide ? 1 : 0;
@@ -115,13 +112,13 @@ TEST_CASE("Squares cover every tile that is to be drawn once, and hold one class
                 for (int x = row.column; x < row.column + row.side; ++x) {
                     const auto tile = static_cast<std::size_t>(y * kColumns + x);
                     ++covered[tile];
-                    CHECK(classes[tile] == c);
-                    CHECK(slots[tile] == row.lineSlot);
+                    CHECK(classes[tile] == static_cast<TileClass>(c));
                 }
             }
         }
     }
-    // Of the four whole squares one lost a tile, one has lines and one a sphere.
+    // Of the four whole squares one lost a tile, one has background in it and one a picture.
     CHECK(squares == 1);
-    for (std::size_t tile = 0; tile < classes.size(); ++tile) CHECK(covered[tile] == (classes[tile] == 0 ? 0 : 1));
+    for (std::size_t tile = 0; tile < classes.size(); ++tile)
+        CHECK(covered[tile] == (classes[tile] == TileClass::kept ? 0 : 1));
 }

@@ -170,10 +170,10 @@ TEST_CASE("A small study has a row for each style, number, size and quality", "[
     for (const PictureRow& row : rows) {
         CHECK(row.draw > 0.0);
         CHECK(row.baseline > 0.0);
-        CHECK(row.stages.look > 1e-5);
-        CHECK(row.stages.shade > 0.0);
+        CHECK(row.stages.color > 1e-5);
+        CHECK(row.stages.openGl > 0.0);
         const render::DrawTimes& stages = row.stages;
-        CHECK(stages.cast + stages.look + stages.shade + stages.readBack < 2.0 * row.draw);
+        CHECK(stages.cast + stages.color + stages.openGl + stages.readBack < 2.0 * row.draw);
         for (const double stage : {stages.bin, stages.occlusion, stages.shadow}) CHECK(stage < 2.0 * row.draw);
         CHECK(row.ratio() > 0.0);
         CHECK(row.ratioAtRest() > 0.0);

@@ -1,0 +1,39 @@
+// The colours of a picture's pixels, and the points of surfaces that they show, tile by tile. Called by the picture pass.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/light_reach.h"
+#include "render/picture_samples.h"
+#include "render/shade.h"
+#include "render/surface_point.h"
+#include "render/surface_points.h"
+#include "render/tile_class.h"
+
+namespace render {
+
+/// One picture that is to be coloured.
+struct PictureJob {
+    const TileContents& contents;
+    SampleOffsets offsets;  ///< one, or kFourSamples
+    const Surfaces& surfaces;
+    const Obstruction* obstruction;  ///< null where nothing dims anything
+    const Shading& shading;
+};
+
+/// pixels: 256 a tile, row by row; written, never read, and only those of tiles of pictures. classes: one a tile.
+void colorPixels(const PictureJob& job, std::span<PixelColor> pixels, std::span<TileClass> classes);
+
+/// The same of one of several jobs, whose tiles are of the same classes; sums: along kZCurve, a tile each.
+void addColors(const PictureJob& job, std::span<PointColors> sums, std::span<TileClass> classes);
+
+/// The mean of so many.
+void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass> classes,
+                std::span<PixelColor> pixels);
+
+/// What the job's first sample of each pixel of the picture meets, row by row.
+std::vector<SurfacePoint> surfacePoints(const PictureJob& job);
+
+}  // namespace render

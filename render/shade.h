@@ -1,0 +1,53 @@
+// Colours of the points that a picture shows: the shading model of view.h. Called by picture_colors.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "render/light_reach.h"
+#include "render/light_space.h"
+#include "render/surface_points.h"
+#include "render/view.h"
+
+namespace render {
+
+/// What all points of one picture share.
+struct Shading {
+    Light light;  ///< toLight of unit length
+    Ambient ambient;
+    Surface surface;  ///< of particles
+    Surroundings surroundings;
+    float exposure = 0.0F;
+    Background background;
+    glm::vec3 groundCenter{0.0F};  ///< relative to the eye
+    float fadeDistance = 1.0F;
+};
+
+Shading shadingOf(const View& view);
+
+/// Linear, from 0 to 1.
+struct PointColors {
+    alignas(64) std::array<std::array<float, kTilePixels>, 3> rgb;
+};
+
+/// reach: null where nothing dims these points.
+/// Holds:  a point's colour depends on the point alone, bit for bit, not on the number of lanes.
+void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints& points, const LightReach* reach,
+           PointColors& colors);
+
+/// A colour as shaders/picture.frag reads it: square roots in 21 bits each, as fine as single precision, the lowest bits
+/// red.
+struct PixelColor {
+    std::uint32_t low = 0;
+    std::uint32_t high = 0;
+};
+
+/// Shape:  pixels: kTilePixels of them; colors: all of them.
+void packColors(const PointColors& colors, PixelColor* pixels);
+
+/// The ground's colour where nothing dims it, before it fades. A matt surface looks the same from everywhere.
+glm::vec3 undimmedGround(const Shading& shading, glm::vec3 albedo);
+
+}  // namespace render
