@@ -12,7 +12,7 @@
 namespace render {
 
 /// Four samples a pixel on a rotated grid: four different rows and columns, so edges near the horizontal and the
-/// vertical get four steps, not two. Also in shaders/edges.frag.
+/// vertical get four steps, not two.
 inline constexpr std::array<glm::vec2, 4> kFourSamples = {
     {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
 

@@ -24,7 +24,7 @@ std::uint32_t packedOpen(float x, float y, float z) {
 }
 
 SphereLook particleLook(glm::vec3 color, const Openness& open) {
-    return {packedColor(color), packedOpen(open[0], open[2], open[4]), packedOpen(open[1], open[3], open[5]), 1};
+    return {packedColor(color), packedOpen(open[0], open[2], open[4]), packedOpen(open[1], open[3], open[5])};
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::vector<SphereLook> looksOf(const View& view, const DrawnSpheres& drawn, std
             const std::uint32_t source = drawn.sources[k];
             looks[k] = k < firstObstacle
                            ? particleLook(view.particles[source].color, open.empty() ? kOpen : open[source])
-                           : SphereLook{packedColor(view.sphereObstacles[source].color), 0, 0, 0};
+                           : SphereLook{packedColor(view.sphereObstacles[source].color)};
         }
     });
     return looks;

@@ -1,4 +1,4 @@
-// Spheres that are drawn as such, as the passes and shaders/surface.glsl read them. Made by the picture pass.
+// Spheres that are drawn as such, and what they look like. Made by the picture pass.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct SphereLook {
     std::uint32_t color = 0;     ///< square roots, 11 + 11 + 10 bits
     std::uint32_t openPlus = 0;  ///< openness along +x, +y, +z, 10 bits each
     std::uint32_t openMinus = 0;
-    std::uint32_t particle = 0;  ///< 1 for particles, 0 for obstacles
+    std::uint32_t unused = 0;  ///< lanes load four numbers at once
 };
 
 struct DrawnSpheres {

@@ -1,6 +1,8 @@
 // A row of the coarse grid at a time, with Highway; this file is compiled once per instruction set.
 #include "render/field_between.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/field_between.cpp"
 #include <hwy/foreach_target.h>
@@ -103,7 +105,8 @@ Between depthBetween(const CameraFrame& frame, const ViewRays& rays, const Side&
 
 /// The mean of the hits at these places, normals of unit length.
 template <std::size_t kCount>
-void putMean(const CoarseHits& coarse, const std::array<std::size_t, kCount>& places, RayBlock& block, std::size_t k) {
+void putMean(const CoarseHits& coarse, const std::array<std::size_t, kCount>& places, bool openness, RayBlock& block,
+             std::size_t k) {
     const DB d;
     const VB share = constant(1.0F / static_cast<float>(kCount));
     const auto sumOf = [&](const CoarseHits::Values& values) {
@@ -119,7 +122,7 @@ void putMean(const CoarseHits& coarse, const std::array<std::size_t, kCount>& pl
     hn::StoreU(hn::Mul(normal.z, scale), d, &block.normal[2][k]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         hn::StoreU(hn::Mul(sumOf(coarse.color[axis]), share), d, &block.color[axis][k]);
-        hn::StoreU(hn::Mul(sumOf(coarse.open[axis]), share), d, &block.open[axis][k]);
+        if (openness) hn::StoreU(hn::Mul(sumOf(coarse.open[axis]), share), d, &block.open[axis][k]);
     }
 }
 
@@ -132,15 +135,15 @@ MB misses(const CoarseHits& coarse, std::size_t at, float most) {
 /// One tile on its way.
 class Filling {
  public:
-    Filling(const CameraFrame& frame, const CoarseHits& coarse, Smoothness smoothness, RayBlock& block)
-        : frame_(frame), coarse_(coarse), smoothness_(smoothness), block_(block) {}
+    Filling(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness, RayBlock& block)
+        : cast_(cast), coarse_(coarse), smoothness_(smoothness), block_(block) {}
 
     /// Pixels from place k of the block on; the hits on both sides of each begin at these places of the coarse grid, so
     /// many pixels away from it.
     void pair(std::size_t k, std::size_t a, std::size_t b, glm::vec2 off) {
         const ViewRays rays = raysAt(k, glm::vec2(0.0F));
         const Between found = between(rays, k, a, b, off);
-        putMean<2>(coarse_, {a, b}, block_, k);
+        putMean<2>(coarse_, {a, b}, cast_.openness, block_, k);
         finish(k, found, hn::And(missed(a), missed(b)));
     }
 
@@ -150,7 +153,7 @@ class Filling {
         const std::size_t below = first + CoarseHits::kSide;
         const Between falling = between(rays, k, first, below + 1, {-1.0F, -1.0F});
         const Between rising = between(rays, k, first + 1, below, {1.0F, -1.0F});
-        putMean<4>(coarse_, {first, first + 1, below, below + 1}, block_, k);
+        putMean<4>(coarse_, {first, first + 1, below, below + 1}, cast_.openness, block_, k);
         const MB allMissed =
             hn::And(hn::And(missed(first), missed(first + 1)), hn::And(missed(below), missed(below + 1)));
         finish(k, {hn::Mul(constant(0.5F), hn::Add(falling.depth, rising.depth)), hn::And(falling.good, rising.good)},
@@ -162,7 +165,7 @@ class Filling {
  private:
     ViewRays raysAt(std::size_t k, glm::vec2 off) const {
         const DB d;
-        return viewRays(frame_, hn::Add(hn::LoadU(d, &block_.x[k]), constant(off.x)),
+        return viewRays(cast_.frame, hn::Add(hn::LoadU(d, &block_.x[k]), constant(off.x)),
                         hn::Add(hn::LoadU(d, &block_.y[k]), constant(off.y)));
     }
 
@@ -171,7 +174,7 @@ class Filling {
     }
 
     Between between(const ViewRays& rays, std::size_t k, std::size_t a, std::size_t b, glm::vec2 off) const {
-        return depthBetween(frame_, rays, side(k, a, off), side(k, b, -off), smoothness_.depth);
+        return depthBetween(cast_.frame, rays, side(k, a, off), side(k, b, -off), smoothness_.depth);
     }
 
     MB missed(std::size_t at) const { return misses(coarse_, at, smoothness_.most); }
@@ -184,17 +187,17 @@ class Filling {
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) good_[k + lane] = isGood[lane] != 0.0F;
     }
 
-    const CameraFrame& frame_;
+    const FieldCast& cast_;
     const CoarseHits& coarse_;
     Smoothness smoothness_;
     RayBlock& block_;
     std::array<bool, kBetween> good_{};
 };
 
-std::array<bool, kBetween> fillBetween(const CameraFrame& frame, const CoarseHits& coarse, Smoothness smoothness,
+std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness,
                                        RayBlock& block) {
     constexpr std::size_t kKind = kBetween / 3;
-    Filling filling(frame, coarse, smoothness, block);
+    Filling filling(cast, coarse, smoothness, block);
     for (std::size_t row = 0; row < kCoarseSide; ++row) {
         for (std::size_t column = 0; column < kCoarseSide; column += hn::Lanes(DB())) {
             const std::size_t at = row * CoarseHits::kSide + column;
@@ -227,30 +230,50 @@ constexpr std::array<std::uint8_t, kBetween> betweenPlaces() {
     return places;
 }
 
-}  // namespace
-
-constexpr std::array<std::uint8_t, kBetween> kBetweenPlaces = betweenPlaces();
-
-void CoarseHits::clear() {
-    depth.fill(-1.0F);
-    most.fill(0.0F);
+constexpr std::array<std::uint8_t, kCoarseSide * kCoarseSide> coarsePlaces() {
+    std::array<std::uint8_t, kCoarseSide * kCoarseSide> places{};
+    std::size_t k = 0;
+    for (const int top : {0, kTileSize / 2})
+        for (const int left : {0, kTileSize / 2})
+            for (int row = top; row < top + kTileSize / 2; row += 2)
+                for (int column = left; column < left + kTileSize / 2; column += 2)
+                    places[k++] = static_cast<std::uint8_t>(row * kTileSize + column);
+    return places;
 }
 
-void CoarseHits::put(std::size_t column, std::size_t row, const RayBlock& block, std::size_t k) {
-    const std::size_t at = row * kSide + column;
-    depth[at] = block.depth[k];
-    most[at] = block.most[k];
-    // A ray without a hit has written nothing else.
-    if (block.depth[k] < 0.0F) return;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        normal[axis][at] = block.normal[axis][k];
-        color[axis][at] = block.color[axis][k];
-        open[axis][at] = block.open[axis][k];
+}  // namespace
+
+constexpr std::array<std::uint8_t, kCoarseSide* kCoarseSide> kCoarsePlaces = coarsePlaces();
+constexpr std::array<std::uint8_t, kBetween> kBetweenPlaces = betweenPlaces();
+
+void CoarseHits::put(const RayBlock& block, bool openness) {
+    constexpr std::size_t kHalf = kCoarseSide / 2;
+    for (std::size_t k = 0; k < kCoarsePlaces.size(); k += kHalf) {
+        const std::size_t place = kCoarsePlaces[k];
+        const std::size_t at = place / kTileSize / 2 * kSide + place % kTileSize / 2;
+        const auto take = [&](const std::array<float, kBlockRays>& from, Values& to) {
+            std::copy_n(&from[k], kHalf, &to[at]);
+        };
+        take(block.depth, depth);
+        take(block.most, most);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            take(block.normal[axis], normal[axis]);
+            take(block.color[axis], color[axis]);
+            if (openness) take(block.open[axis], open[axis]);
+        }
     }
 }
 
-void CoarseHits::put(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
-                     std::size_t otherRow) {
+void CoarseHits::clearBorder() {
+    for (std::size_t k = 0; k < kSide; ++k)
+        for (const std::size_t at : {kCoarseSide * kSide + k, k * kSide + kCoarseSide}) {
+            depth[at] = -1.0F;
+            most[at] = 0.0F;
+        }
+}
+
+void CoarseHits::putBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
+                           std::size_t otherRow) {
     const std::size_t at = row * kSide + column;
     const std::size_t from = otherRow * kSide + otherColumn;
     depth[at] = other.depth[from];
@@ -264,9 +287,9 @@ void CoarseHits::put(std::size_t column, std::size_t row, const CoarseHits& othe
 
 HWY_EXPORT(fillBetween);
 
-std::array<bool, kBetween> fillBetween(const CameraFrame& frame, const CoarseHits& coarse, Smoothness smoothness,
+std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness,
                                        RayBlock& block) {
-    return HWY_DYNAMIC_DISPATCH(fillBetween)(frame, coarse, smoothness, block);
+    return HWY_DYNAMIC_DISPATCH(fillBetween)(cast, coarse, smoothness, block);
 }
 
 }  // namespace render

@@ -21,16 +21,16 @@ struct CoarseHits {
     static constexpr std::size_t kSide = kCoarseSide + 1;
     using Values = std::array<float, kSide * kSide>;
 
-    Values depth{};  ///< in view; negative: nothing
-    Values most{};   ///< the greatest sample of the field on the way
-    std::array<Values, 3> normal{}, color{}, open{};
+    Values depth{};                                   ///< in view; negative: nothing
+    Values most{};                                    ///< the greatest sample of the field on the way
+    std::array<Values, 3> normal{}, color{}, open{};  ///< of hits; open: where it is asked for
 
-    /// No hits, and no field; what hits alone have stays as it is.
-    void clear();
-    /// Takes ray k of a block.
-    void put(std::size_t column, std::size_t row, const RayBlock& block, std::size_t k);
-    void put(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
-             std::size_t otherRow);
+    /// Takes a block of rays that go through kCoarsePlaces.
+    void put(const RayBlock& block, bool openness);
+    /// No hits, and no field, in the column and the row after the tile.
+    void clearBorder();
+    void putBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
+                   std::size_t otherRow);
 };
 
 /// What counts as smooth.
@@ -38,6 +38,10 @@ struct Smoothness {
     float depth = 0.0F;  ///< m, between what their tangent planes say of the middle, and between these and their chord
     float most = 0.0F;   ///< of the field on rays beside which there is no surface
 };
+
+/// Every second pixel of every second row (columns plus 16 rows), a quarter of the tile after the other: each group of
+/// rays is compact, and so are the rows of a quarter.
+extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePlaces;
 
 /// The pixels of a tile in between.
 inline constexpr std::size_t kBetween = kBlockRays / 4 * 3;
@@ -49,7 +53,7 @@ extern const std::array<std::uint8_t, kBetween> kBetweenPlaces;
 /// on a cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals, colours and
 /// openness; and no hit where the rays around missed the surface by more than the field may rise within a pixel. Holds:
 /// a ray's result depends on the hits around it alone, bit for bit, not on the number of lanes.
-std::array<bool, kBetween> fillBetween(const CameraFrame& frame, const CoarseHits& coarse, Smoothness smoothness,
+std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness,
                                        RayBlock& block);
 
 }  // namespace render

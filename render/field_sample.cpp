@@ -1,4 +1,4 @@
-// Packing of normals and colours with Highway; the unpacking is in shaders/surface.glsl. This file is compiled once per
+// Packing of normals and colours with Highway; the unpacking is in surface_points.cpp. This file is compiled once per
 // instruction set.
 #include "render/field_sample.h"
 

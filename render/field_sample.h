@@ -1,5 +1,5 @@
-// Hits of the metaball cast, packed to 16 bytes for the shaders. Written by metaball_frame.cpp and outline_rays.cpp,
-// read by shaders/surface.glsl.
+// Hits of the metaball cast, packed to 16 bytes. Written by metaball_frame.cpp and outline_rays.cpp, read by
+// surface_points.cpp.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace render {
 
-/// A point of the surface as shaders/surface.glsl unpacks it.
+/// A point of the surface.
 struct FieldSample {
     std::uint32_t depthBits = 0;  ///< view depth, a float's bits; 0: no surface
     std::uint32_t normal = 0;     ///< octahedral, 16 + 16 bits, in world axes

@@ -16,7 +16,7 @@
 
 namespace render {
 
-/// What a ray sees, as one number; mirrored in shaders/surface.glsl. From 0 on: a sphere's index.
+/// What a ray sees, as one number. From 0 on: a sphere's index.
 inline constexpr std::int32_t kSeesBackground = -1;
 inline constexpr std::int32_t kSeesGround = -2;
 /// From here on: 16 a box, plus its face (0 +x, 1 -x, 2 +y, ... 5 -z), plus 8 where the eye is inside.

@@ -17,7 +17,6 @@ namespace render {
     X(BindFramebuffer, PFNGLBINDFRAMEBUFFERPROC)               \
     X(BindTexture, PFNGLBINDTEXTUREPROC)                       \
     X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)               \
-    X(BlendFunc, PFNGLBLENDFUNCPROC)                           \
     X(BufferData, PFNGLBUFFERDATAPROC)                         \
     X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC) \
     X(Clear, PFNGLCLEARPROC)                                   \

@@ -95,7 +95,7 @@ void TextureBuffer::bind(int unit) const {
     gl_->BindTexture(GL_TEXTURE_BUFFER, texture_.get());
 }
 
-Target::Target(const Gl& gl, GLenum format, int width, int height)
+Target::Target(const Gl& gl, int width, int height)
     : gl_(&gl),
       width_(width),
       height_(height),
@@ -108,8 +108,7 @@ Target::Target(const Gl& gl, GLenum format, int width, int height)
     }
     gl.ActiveTexture(GL_TEXTURE0);
     gl.BindTexture(GL_TEXTURE_2D, texture_.get());
-    const GLenum type = format == GL_RGBA8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
-    gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA, type, nullptr);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -125,11 +124,6 @@ Target::Target(const Gl& gl, GLenum format, int width, int height)
 void Target::bindForDrawing() const {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     gl_->Viewport(0, 0, width_, height_);
-}
-
-void Target::bindAsTexture(int unit) const {
-    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    gl_->BindTexture(GL_TEXTURE_2D, texture_.get());
 }
 
 void checkGl(const Gl& gl, std::string_view doing) {

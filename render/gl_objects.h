@@ -103,15 +103,12 @@ class TextureBuffer {
     TextureName texture_;
 };
 
-/// A colour target of a fixed size. Throws SystemError where OpenGL cannot make it.
+/// A target of a fixed size, four bytes a pixel. Throws SystemError where OpenGL cannot make it.
 class Target {
  public:
-    Target(const Gl& gl, GLenum format, int width, int height);
+    Target(const Gl& gl, int width, int height);
 
     void bindForDrawing() const;
-    void bindAsTexture(int unit) const;
-    int width() const { return width_; }
-    int height() const { return height_; }
 
  private:
     const Gl* gl_;

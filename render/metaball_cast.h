@@ -52,8 +52,8 @@ struct RayBlock {
     alignas(64) std::array<float, kBlockRays> most;                   ///< the greatest sample of the field on the way
     alignas(64) std::array<std::array<float, kBlockRays>, 3> normal;  ///< in view coordinates, unit length
     alignas(64) std::array<std::array<float, kBlockRays>, 3> color;
-    /// Along the normal, against it, and along the mirrored ray.
-    alignas(64) std::array<std::array<float, kBlockRays>, 3> open{};
+    /// Along the normal, against it, and along the mirrored ray; where FieldCast::openness.
+    alignas(64) std::array<std::array<float, kBlockRays>, 3> open;
 };
 
 /// Casts the rays of a block, all within one tile.

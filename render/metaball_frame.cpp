@@ -15,17 +15,6 @@ namespace render {
 
 namespace {
 
-// Every second pixel of every second row, in the same order.
-constexpr auto coarsePlaces() {
-    std::array<std::uint8_t, kCoarseSide * kCoarseSide> places{};
-    std::size_t count = 0;
-    for (const std::uint8_t place : kZCurve)
-        if (place % 2 == 0 && place / kTileSize % 2 == 0) places[count++] = place;
-    return places;
-}
-
-constexpr auto kCoarsePlaces = coarsePlaces();
-
 /// Packs a block's hits to their pixels of the tile.
 void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const std::uint8_t> places, std::size_t slot,
                 FieldPicture& picture) {
@@ -36,19 +25,21 @@ void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const st
 }
 
 /// A tile's coarse hits with those of its neighbours to the right and below; none where they have no slot.
-CoarseHits coarseHits(const FieldPicture& picture, const CellLists& tiles, std::size_t tile) {
-    CoarseHits hits = picture.coarse[static_cast<std::size_t>(picture.slots[tile])];
+const CoarseHits& withBorder(FieldPicture& picture, const CellLists& tiles, std::size_t tile) {
+    CoarseHits& hits = picture.coarse[static_cast<std::size_t>(picture.slots[tile])];
     const auto columns = static_cast<std::size_t>(tiles.columns);
     const auto neighbour = [&](std::size_t right, std::size_t down) -> const CoarseHits* {
         const std::size_t at = tile + right + down * columns;
         if (tile % columns + right >= columns || at >= picture.slots.size() || picture.slots[at] < 0) return nullptr;
         return &picture.coarse[static_cast<std::size_t>(picture.slots[at])];
     };
+    hits.clearBorder();
     if (const CoarseHits* right = neighbour(1, 0))
-        for (std::size_t row = 0; row < kCoarseSide; ++row) hits.put(kCoarseSide, row, *right, 0, row);
+        for (std::size_t row = 0; row < kCoarseSide; ++row) hits.putBorder(kCoarseSide, row, *right, 0, row);
     if (const CoarseHits* below = neighbour(0, 1))
-        for (std::size_t column = 0; column < kCoarseSide; ++column) hits.put(column, kCoarseSide, *below, column, 0);
-    if (const CoarseHits* diagonal = neighbour(1, 1)) hits.put(kCoarseSide, kCoarseSide, *diagonal, 0, 0);
+        for (std::size_t column = 0; column < kCoarseSide; ++column)
+            hits.putBorder(column, kCoarseSide, *below, column, 0);
+    if (const CoarseHits* diagonal = neighbour(1, 1)) hits.putBorder(kCoarseSide, kCoarseSide, *diagonal, 0, 0);
     return hits;
 }
 
@@ -83,23 +74,20 @@ Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field) {
 void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 offset, FieldPicture& picture) {
     const Smoothness smoothness = smoothnessOf(cast, field);
     const CellLists& tiles = *cast.tiles;
-    picture.coarse.resize(picture.samples.size() / kBlockRays);
+    picture.coarse.resize(picture.outlines.size());
     picture.forSlots([&](std::size_t tile, std::size_t slot) {
         RayBlock block;
         placeRays(block, cornerOf(tiles, tile), kCoarsePlaces, offset);
         castBlock(cast, tile, block);
         putSamples(cast, block, kCoarsePlaces, slot, picture);
-        CoarseHits& hits = picture.coarse[slot];
-        hits.clear();
-        for (std::size_t k = 0; k < block.count; ++k)
-            hits.put(kCoarsePlaces[k] % kTileSize / 2, kCoarsePlaces[k] / kTileSize / 2, block, k);
+        picture.coarse[slot].put(block, cast.openness);
     });
     picture.forSlots([&](std::size_t tile, std::size_t slot) {
-        const CoarseHits hits = coarseHits(picture, tiles, tile);
+        const CoarseHits& hits = withBorder(picture, tiles, tile);
         const glm::vec2 corner = cornerOf(tiles, tile);
         RayBlock block;
         placeRays(block, corner, kBetweenPlaces, offset);
-        const std::array<bool, kBetween> good = fillBetween(cast.frame, hits, smoothness, block);
+        const std::array<bool, kBetween> good = fillBetween(cast, hits, smoothness, block);
         putSamples(cast, block, kBetweenPlaces, slot, picture);
         std::array<bool, kBlockRays> isRough{};
         for (std::size_t k = 0; k < kBetween; ++k) isRough[kBetweenPlaces[k]] = !good[k];
@@ -124,8 +112,8 @@ void forgetEmptyTiles(FieldPicture& picture) {
 
 }  // namespace
 
-void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling, FieldPicture& picture) {
-    const BinnedField field = binField(frame, skin);
+void castPicture(const CameraFrame& frame, const Skinned& skin, const BinnedField& field, const FieldSampling& sampling,
+                 FieldPicture& picture) {
     FieldCast cast = fieldCast(frame, skin.view, field);
     const std::vector<BallLook> looks = ballLooks(skin, field);
     cast.looks = looks;

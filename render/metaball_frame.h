@@ -16,7 +16,8 @@ struct FieldSampling {
     bool sparse = false;  ///< every second pixel of every second row is cast, others where the surface is not smooth
 };
 
-/// Overwrites `picture`, whose memory is used again.
-void castPicture(const CameraFrame& frame, const Skinned& skin, const FieldSampling& sampling, FieldPicture& picture);
+/// The field is binned from this frame and skin. Overwrites `picture`, whose memory is used again.
+void castPicture(const CameraFrame& frame, const Skinned& skin, const BinnedField& field, const FieldSampling& sampling,
+                 FieldPicture& picture);
 
 }  // namespace render

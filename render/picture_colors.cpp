@@ -1,5 +1,5 @@
-// Most pixels show one thing, and are shaded once; each thing on an outline's pixel is shaded at the middle of the samples
-// that show it.
+// Most pixels show one thing, and are shaded once; each thing on an outline's pixel is shaded at the middle of the
+// samples that show it.
 #include "render/picture_colors.h"
 
 #include <algorithm>

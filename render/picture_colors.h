@@ -1,4 +1,5 @@
-// The colours of a picture's pixels, and the points of surfaces that they show, tile by tile. Called by the picture pass.
+// The colours of a picture's pixels, and the points of surfaces that they show, tile by tile. Called by the picture
+// pass.
 #pragma once
 
 #include <cstdint>

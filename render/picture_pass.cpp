@@ -43,10 +43,7 @@ float meanRadiusOf(const View& view) {
 }  // namespace
 
 PicturePass::PicturePass(const Gl& gl)
-    : gl_(&gl),
-      programs_(gl),
-      tileTable_(gl, "tiles", GL_RGBA32I, 16),
-      pixels_(gl, "pixels", GL_RG32I, 8) {
+    : gl_(&gl), programs_(gl), tileTable_(gl, "tiles", GL_RGBA32I, 16), pixels_(gl, "pixels", GL_RG32I, 8) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     frameBlock_ = BufferName(gl, name);
@@ -99,7 +96,10 @@ void PicturePass::bin(const View& view) {
     spherePixels_ = touchedPixels(frame_, viewSpheres_);
     sphereTiles_ = binToTiles(frame_, viewSpheres_, spherePixels_);
     lineList_ = projectEdges(frame_, view.edges);
-    skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
+    skin_.clear();
+    if (!castsField_) return;
+    skin_ = skinOf(view);
+    binnedField_ = binField(frame_, {view, skin_, {}});
 }
 
 void PicturePass::binShadows(const View& view) {
@@ -133,7 +133,8 @@ void PicturePass::findBoxes(const View& view) {
 
 void PicturePass::castField(const View& view, const Sampling& sampling) {
     if (!castsField_) return;
-    castPicture(frame_, {view, skin_, particleOpen_}, {sampling.offset, sampling.samples > 1, sampling.sparse}, field_);
+    castPicture(frame_, {view, skin_, particleOpen_}, binnedField_,
+                {sampling.offset, sampling.samples > 1, sampling.sparse}, field_);
 }
 
 // Whether anything stands in the light's way.
@@ -175,8 +176,7 @@ auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visi
     const Obstruction obstruction = obstructionOf(view);
     const bool dims = castsShadows(view) || obstruction.open != nullptr;
     const TileContents contents{solids, castsField_ ? &field_ : nullptr, lineList_, boxTiles_, groundTiles_};
-    return visit(PictureJob{contents,
-                            sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
+    return visit(PictureJob{contents, sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
                             surfaces, dims ? &obstruction : nullptr, shading_});
 }
 

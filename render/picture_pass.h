@@ -1,5 +1,5 @@
-// Draws a view tile by tile: finds the colours of what its pixels show, chooses a program for each class of tiles, draws.
-// Used by the Renderer alone, with the context current.
+// Draws a view tile by tile: finds the colours of what its pixels show, chooses a program for each class of tiles,
+// draws. Used by the Renderer alone, with the context current.
 #pragma once
 
 #include <span>
@@ -102,6 +102,7 @@ class PicturePass {
     bool opens_ = false;  // the look asks for openness
     std::vector<Openness> particleOpen_;
     std::vector<SkinBall> skin_;  // of metaballs
+    BinnedField binnedField_;     // for the camera
     OpennessGrid openGrid_;
     OpennessMap openMap_;
     float meanRadius_ = 0.0F;

@@ -56,7 +56,8 @@ bool TileContents::isGround(std::size_t tile) const {
 TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile)
     : contents_(contents), tile_(tile), samples_(rays_.data(), offsets.size()) {
     const glm::vec2 corner = cornerOf(*contents.solids.tiles, tile);
-    for (std::size_t s = 0; s < offsets.size(); ++s) placeRays(corner + 0.5F + offsets[s], samples_[s].x, samples_[s].y);
+    for (std::size_t s = 0; s < offsets.size(); ++s)
+        placeRays(corner + 0.5F + offsets[s], samples_[s].x, samples_[s].y);
     look();
 }
 

@@ -1,5 +1,5 @@
-// What the samples of a tile's pixels show: one thing in most pixels, several in those that an outline crosses. Called by
-// picture_colors.cpp.
+// What the samples of a tile's pixels show: one thing in most pixels, several in those that an outline crosses. Called
+// by picture_colors.cpp.
 #pragma once
 
 #include <array>
@@ -48,8 +48,8 @@ struct EdgePixel {
 
 /// One of them.
 struct EdgeThing {
-    std::int32_t seen;       ///< as first_hits.h has it
-    std::uint32_t samples;   ///< that show it, a bit each
+    std::int32_t seen;      ///< as first_hits.h has it
+    std::uint32_t samples;  ///< that show it, a bit each
 };
 
 /// The edge pixels of a tile; their things in the same order.

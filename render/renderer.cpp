@@ -1,4 +1,5 @@
-// From view to image: prepare, cast, colour, draw, read back; at final quality nine times with the rays moved within the pixel.
+// From view to image: prepare, cast, colour, draw, read back; at final quality nine times with the rays moved within
+// the pixel.
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/task_group.h>
@@ -55,7 +57,7 @@ PictureSize checkedSize(PictureSize size) {
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
 }
 
-// Squares of tiles are drawn as points, and vertex shaders hand the frame over (shaders/frame.glsl).
+// Squares of tiles are drawn as points, and the vertex shader hands the frame over (shaders/frame.glsl).
 void requireLimits(const Gl& gl) {
     std::array<GLint, 2> sizes{};
     gl.GetIntegerv(GL_POINT_SIZE_RANGE, sizes.data());
@@ -85,7 +87,7 @@ struct Renderer::Parts {
           padded{wholeTiles(size_.width), wholeTiles(size_.height)},
           quality(quality_),
           pass(context_.gl()),
-          bytes(context_.gl(), GL_RGBA8, padded.width, padded.height),
+          bytes(context_.gl(), padded.width, padded.height),
           vertices(vertexArray(context_.gl())) {
         requireLimits(context_.gl());
         context.gl().Enable(GL_PROGRAM_POINT_SIZE);
@@ -140,9 +142,10 @@ struct Renderer::Parts {
         pass.prepare(cameraFrame(view.camera, size), view, depthMapTexels(quality), times);
     }
 
-    Image readBack() {
+    Image readBack(Image image) {
         StageClock clock;
-        Image image{size.width, size.height, {}};
+        image.width = size.width;
+        image.height = size.height;
         image.rgb.resize(image.byteCount());
         bytes.bindForDrawing();
         pixels.resize(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height));
@@ -205,14 +208,14 @@ Renderer::~Renderer() {
     }
 }
 
-Image Renderer::draw(const View& view) {
+Image Renderer::draw(const View& view, Image old) {
     requireFinite(view);
     const CurrentContext current(parts_->context);
     parts_->times = {};
     parts_->prepare(view);
     parts_->quality == Quality::final ? parts_->colorFinal(view) : parts_->color(view);
     parts_->draw(view);
-    Image image = parts_->readBack();
+    Image image = parts_->readBack(std::move(old));
     drawOverlay(image, view.overlay, view.camera);
     return image;
 }

@@ -24,7 +24,8 @@ class Renderer {
 
     /// Throws SystemError where OpenGL fails or a list outgrows its limits, std::logic_error for a view with numbers
     /// that are not finite.
-    Image draw(const View& view);
+    /// old: a picture that is no longer needed, whose memory is used again.
+    Image draw(const View& view, Image old = {});
 
     /// The surfaces that a picture of the view shows, row by row from the top left; found as for the picture.
     std::vector<SurfacePoint> surfaces(const View& view);

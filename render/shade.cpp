@@ -15,11 +15,11 @@ namespace HWY_NAMESPACE {
 /// A group of points as they are shaded.
 struct ShadedPoints {
     Vec3 normal, albedo;
-    Vec3 toEye;     // unit length
-    V isParticle;   // 1 on particles, 0 on all else
-    V lit;          // share of the light that arrives
-    V open;         // along the normal
-    V openBehind;   // against it
+    Vec3 toEye;    // unit length
+    V isParticle;  // 1 on particles, 0 on all else
+    V lit;         // share of the light that arrives
+    V open;        // along the normal
+    V openBehind;  // against it
     V openMirrored;
 };
 
@@ -108,8 +108,8 @@ Vec3 bodyColor(const Shading& shading, const ShadedPoints& at) {
     }
     Vec3 ambient = skyTowards(shading.ambient, at.normal.y);
     if (shading.ambient.occlusion > 0.0F)
-        ambient = times(ambient, hn::Sub(all(1.0F), hn::Mul(all(shading.ambient.occlusion),
-                                                            hn::Sub(all(1.0F), at.open))));
+        ambient =
+            times(ambient, hn::Sub(all(1.0F), hn::Mul(all(shading.ambient.occlusion), hn::Sub(all(1.0F), at.open))));
     Vec3 light = plus(ambient, times(lightColor, hn::Mul(cosine, at.lit)));
     if (surface.translucency > 0.0F) {
         const V behind = hn::Add(all(0.25F), positive(hn::Neg(facing)));
@@ -180,24 +180,18 @@ ShadedPoints shadedPoints(const Surfaces& surfaces, const SurfacePoints& points,
     const M isParticle = hn::Or(isField, isOwn);
     const Vec3 direction =
         worldRay(frame, planeAt(frame, hn::Load(d, &points.x[place]), hn::Load(d, &points.y[place]))).direction;
-    ShadedPoints at{loaded(points.normal, place),
-                    loaded(points.albedo, place),
-                    times(direction, hn::Div(all(-1.0F), hn::Sqrt(dotted(direction, direction)))),
-                    hn::IfThenElseZero(isParticle, one),
-                    one,
-                    one,
-                    one,
-                    one};
-    if (surfaces.opens) {
-        const Vec3 open = loaded(points.open, place);
-        at.open = open.x;
-        at.openBehind = open.y;
-        at.openMirrored = open.z;
-    }
-    if (reach == nullptr) return at;
-    at.lit = hn::Load(d, &reach->light[place]);
-    at.open = hn::IfThenElse(isParticle, at.open, hn::Load(d, &reach->sky[place]));
-    return at;
+    const Vec3 toEye = times(direction, hn::Div(all(-1.0F), hn::Sqrt(dotted(direction, direction))));
+    const V lit = reach != nullptr ? hn::Load(d, &reach->light[place]) : one;
+    const V sky = reach != nullptr ? hn::Load(d, &reach->sky[place]) : one;
+    const Vec3 open = surfaces.opens ? loaded(points.open, place) : Vec3{one, one, one};
+    return {loaded(points.normal, place),
+            loaded(points.albedo, place),
+            toEye,
+            hn::IfThenElseZero(isParticle, one),
+            lit,
+            hn::IfThenElse(isParticle, open.x, sky),
+            open.y,
+            open.z};
 }
 
 void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints& points, const LightReach* reach,
@@ -258,8 +252,7 @@ HWY_EXPORT(undimmedGround);
 HWY_EXPORT(packColors);
 
 Shading shadingOf(const View& view) {
-    Shading shading{view.light,        view.ambient,  view.surface,
-                    view.surroundings, view.exposure, view.background};
+    Shading shading{view.light, view.ambient, view.surface, view.surroundings, view.exposure, view.background};
     shading.light.toLight = lightBasis(view.light.toLight).toLight;
     const Ground ground = view.ground.value_or(Ground{});
     shading.groundCenter = ground.center - view.camera.eye;

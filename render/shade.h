@@ -37,8 +37,8 @@ struct PointColors {
 void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints& points, const LightReach* reach,
            PointColors& colors);
 
-/// A colour as shaders/picture.frag reads it: square roots in 21 bits each, as fine as single precision, the lowest bits
-/// red.
+/// A colour as shaders/picture.frag reads it: square roots in 21 bits each, as fine as single precision, the lowest
+/// bits red.
 struct PixelColor {
     std::uint32_t low = 0;
     std::uint32_t high = 0;

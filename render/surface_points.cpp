@@ -1,4 +1,5 @@
-// Where rays meet what they see, and what it looks like there, on lanes; this file is compiled once per instruction set.
+// Where rays meet what they see, and what it looks like there, on lanes; this file is compiled once per instruction
+// set.
 #include "render/surface_points.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -40,9 +41,9 @@ struct PixelGroup {
     Vec3 mirrored(const Vec3& normal) const {
         const V scale = hn::Sqrt(inverseSquare);
         const V twice = hn::Mul(all(-2.0F), hn::Mul(scale, dotted(ray.direction, normal)));
-        return along({hn::Mul(scale, ray.direction.x), hn::Mul(scale, ray.direction.y),
-                      hn::Mul(scale, ray.direction.z)},
-                     twice, normal);
+        return along(
+            {hn::Mul(scale, ray.direction.x), hn::Mul(scale, ray.direction.y), hn::Mul(scale, ray.direction.z)}, twice,
+            normal);
     }
 };
 

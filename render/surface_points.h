@@ -1,5 +1,5 @@
-// The points of surfaces that a picture's pixels show, up to a tile's worth at a time. Called by picture_colors.cpp, for
-// light_reach.h and shade.h.
+// The points of surfaces that a picture's pixels show, up to a tile's worth at a time. Called by picture_colors.cpp,
+// for light_reach.h and shade.h.
 #pragma once
 
 #include <array>

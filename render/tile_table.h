@@ -13,8 +13,8 @@ namespace render {
 struct TileRow {
     std::int32_t column = 0;  ///< of its first tile
     std::int32_t row = 0;
-    std::int32_t side = 1;  ///< tiles
-    std::int32_t unused = 0;
+    std::int32_t side = 1;    ///< tiles
+    std::int32_t unused = 0;  ///< a texel has four numbers
 };
 
 struct TileTable {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
@@ -40,8 +41,8 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
         for (const DrawTimes& time : times) values.push_back(time.*stage);
         return median(values);
     };
-    return {of(&DrawTimes::bin),  of(&DrawTimes::occlusion), of(&DrawTimes::shadow),  of(&DrawTimes::cast),
-            of(&DrawTimes::color), of(&DrawTimes::openGl),     of(&DrawTimes::readBack)};
+    return {of(&DrawTimes::bin),   of(&DrawTimes::occlusion), of(&DrawTimes::shadow),  of(&DrawTimes::cast),
+            of(&DrawTimes::color), of(&DrawTimes::openGl),    of(&DrawTimes::readBack)};
 }
 
 /// Seconds of drawing frames while the one before is encoded, as the render loop does.
@@ -57,7 +58,7 @@ double overlapped(render::Renderer& renderer, const std::vector<render::View>& f
         }
         const auto frame = static_cast<std::size_t>(next++);
         render::Image& image = places[frame % places.size()];
-        tbb::this_task_arena::isolate([&] { image = renderer.draw(frames[frame % frames.size()]); });
+        tbb::this_task_arena::isolate([&] { image = renderer.draw(frames[frame % frames.size()], std::move(image)); });
         return &image;
     };
     const auto all = [&] {
@@ -143,11 +144,11 @@ Drawing measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const st
     std::vector<double> baseline;
     std::vector<double> draw;
     // The first frame compiles shaders.
-    quads.draw(frames.front());
-    renderer.draw(frames.front());
+    render::Image ofQuads = quads.draw(frames.front());
+    render::Image ours = renderer.draw(frames.front());
     for (const render::View& view : frames) {
-        baseline.push_back(secondsOf([&] { quads.draw(view); }, 1));
-        draw.push_back(secondsOf([&] { renderer.draw(view); }, 1));
+        baseline.push_back(secondsOf([&] { ofQuads = quads.draw(view, std::move(ofQuads)); }, 1));
+        draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }, 1));
         times.push_back(renderer.times());
     }
     return {median(baseline), median(draw), medianStages(times)};

@@ -38,7 +38,8 @@ std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& po
 
 std::string picturesCsv(const std::vector<PictureRow>& rows) {
     std::string csv =
-        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,color_ms,opengl_ms,read_back_ms,png_"
+        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,color_ms,opengl_ms,read_back_ms,"
+        "png_"
         "ms,mp4_ms,mp4_once_ms,"
         "draw_ms,draw_at_rest_ms,with_png_ms,with_mp4_ms,baseline_ms,baseline_at_rest_ms,ratio,ratio_at_rest,rmse,ssim,"
         "wrong_hits,depth_"

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/camera_frame.h"
@@ -93,7 +94,7 @@ struct QuadBaseline::Parts {
     Parts(render::Context& context_, render::PictureSize size_)
         : context(context_),
           size(size_),
-          target(context_.gl(), GL_RGBA8, size_.width, size_.height),
+          target(context_.gl(), size_.width, size_.height),
           depth(depthTexture(context_.gl(), size_)),
           vertices(vertexArray(context_.gl())),
           spheres(context_.gl(), "spheres of the baseline", GL_RGBA32F, 16),
@@ -122,7 +123,7 @@ struct QuadBaseline::Parts {
         gl.BufferData(GL_UNIFORM_BUFFER, sizeof(values), &values, GL_STREAM_DRAW);
     }
 
-    render::Image draw(const render::View& view) {
+    render::Image draw(const render::View& view, render::Image image) {
         const render::Gl& gl = context.gl();
         gl.BindVertexArray(vertices.get());
         upload(view);
@@ -135,7 +136,8 @@ struct QuadBaseline::Parts {
         spheres.bind(0);
         gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(view.particles.size()));
         gl.Disable(GL_DEPTH_TEST);
-        render::Image image{size.width, size.height, {}};
+        image.width = size.width;
+        image.height = size.height;
         image.rgb.resize(image.byteCount());
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
         gl.ReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
@@ -164,9 +166,9 @@ QuadBaseline::~QuadBaseline() {
     parts_.reset();
 }
 
-render::Image QuadBaseline::draw(const render::View& view) {
+render::Image QuadBaseline::draw(const render::View& view, render::Image old) {
     const render::CurrentContext current(parts_->context);
-    return parts_->draw(view);
+    return parts_->draw(view, std::move(old));
 }
 
 }  // namespace studies

@@ -20,7 +20,8 @@ class QuadBaseline {
     QuadBaseline& operator=(const QuadBaseline&) = delete;
 
     /// The particles of a view in perspective over a plain background, read back. Throws render::SystemError.
-    render::Image draw(const render::View& view);
+    /// old: as Renderer::draw() has it.
+    render::Image draw(const render::View& view, render::Image old = {});
 
  private:
     struct Parts;

@@ -33,6 +33,7 @@ struct FrameInFlight {
     SequencedFrame frame;
     std::optional<render::View> view;    ///< of a frame that is to be drawn, until it is
     std::optional<render::Image> image;  ///< of one that was drawn
+    render::Image old;                   ///< of a frame that is done
 };
 
 /// What decides the bytes of the frames of a run.
@@ -108,7 +109,9 @@ class Run {
         }
         // Stages are in order, so the frame that was here before has left them.
         FrameInFlight& flight = flights_[started_++ % kTokens];
-        flight = {std::move(*frame), std::nullopt, std::nullopt};
+        if (flight.image) flight.old = std::move(*flight.image);
+        flight.frame = std::move(*frame);
+        flight.image.reset();
         if (flight.frame.isWanted && !flight.frame.isKept)
             flight.view = scenes::frameView(*job_.scene, frames_.simulation());
         return &flight;
@@ -119,7 +122,7 @@ class Run {
         const Stopwatch watch(report().seconds.drawing);
         // Isolated: a thread that waits for others here must not take up a frame's simulation and hold the context
         // meanwhile.
-        tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view); });
+        tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view, std::move(flight.old)); });
         flight.view.reset();
     }
 

@@ -30,7 +30,9 @@ render::View blobs(int count) {
 std::vector<double> castDepths(const render::View& view, render::PictureSize size, bool sparse = false) {
     const std::vector<render::SkinBall> skin = render::skinOf(view);
     render::FieldPicture picture;
-    render::castPicture(render::cameraFrame(view.camera, size), {view, skin, {}}, {{}, false, sparse}, picture);
+    const render::CameraFrame frame = render::cameraFrame(view.camera, size);
+    const render::Skinned skinned{view, skin, {}};
+    render::castPicture(frame, skinned, render::binField(frame, skinned), {{}, false, sparse}, picture);
     const int columns = (size.width + render::kTileSize - 1) / render::kTileSize;
     std::vector<double> depths;
     for (int y = 0; y < size.height; ++y) {
@@ -249,7 +251,8 @@ TEST_CASE("Every instruction set gives the same bits") {
         for (const render::SkinBall& ball : skin)
             places.insert(places.end(), {ball.center.x, ball.center.y, ball.center.z, ball.weight});
         render::FieldPicture picture;
-        render::castPicture(frame, {view, skin, open}, {glm::vec2(0.0F), true, true}, picture);
+        const render::Skinned skinned{view, skin, open};
+        render::castPicture(frame, skinned, render::binField(frame, skinned), {glm::vec2(0.0F), true, true}, picture);
         std::vector<std::uint32_t> bits;
         for (const render::FieldSample& s : picture.samples)
             bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.open});

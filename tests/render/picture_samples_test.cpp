@@ -96,8 +96,8 @@ TEST_CASE("Squares cover every tile that is to be drawn once, and hold one class
     constexpr int kRows = 9;
     using render::TileClass;
     std::vector<TileClass> classes(kColumns * kRows, TileClass::ground);
-    classes[3] = TileClass::kept;                        // from the picture before
-    classes[5 * kColumns + 6] = TileClass::picture;      // spoils a square
+    classes[3] = TileClass::kept;                    // from the picture before
+    classes[5 * kColumns + 6] = TileClass::picture;  // spoils a square
     classes[4 * kColumns + 1] = TileClass::background;
     const render::TileTable table = render::tileTable(classes, kColumns);
     REQUIRE(table.first.size() == render::kTileClasses + 1);
