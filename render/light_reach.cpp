@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "render/lane_fours-inl.h"
+#include "render/lane_openness-inl.h"
 #include "render/lane_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -243,10 +244,6 @@ V visibility(const Obstruction& obstruction, const LitPoints& at) {
     return hn::IfThenElseZero(at.facing, hn::Max(hn::Sub(all(1.0F), cover), all(0.0F)));
 }
 
-V mixed(V a, V b, V part) {
-    return hn::Add(hn::Mul(a, hn::Sub(all(1.0F), part)), hn::Mul(b, part));
-}
-
 V openOfGround(const OpennessMap& map, glm::vec3 eye, const Vec3& position) {
     const D d;
     const DI di;
@@ -268,41 +265,10 @@ V openOfGround(const OpennessMap& map, glm::vec3 eye, const Vec3& position) {
     return hn::IfThenElse(inMap, open, all(1.0F));
 }
 
-V openInGrid(const OpennessGrid& grid, std::size_t direction, const Vec3& place) {
-    const D d;
-    const DI di;
-    const V zero = all(0.0F);
-    const auto within = [&](V corner, int count) {
-        return hn::And(hn::Ge(corner, zero), hn::Lt(corner, all(static_cast<float>(count - 1))));
-    };
-    const V x = hn::Floor(place.x);
-    const V y = hn::Floor(place.y);
-    const V z = hn::Floor(place.z);
-    const M inGrid = hn::And(within(x, grid.cells.x), hn::And(within(y, grid.cells.y), within(z, grid.cells.z)));
-    const auto whole = [&](V corner) { return hn::ConvertTo(di, hn::IfThenElseZero(inGrid, corner)); };
-    const VI columns = allOf(grid.cells.x);
-    const VI first = hn::Add(whole(x), hn::Mul(columns, hn::Add(whole(y), hn::Mul(allOf(grid.cells.y), whole(z)))));
-    const V partX = hn::Sub(place.x, x);
-    const auto pairAt = [&](int off) {
-        const float* values = grid.values[direction].data();
-        return mixed(hn::GatherIndex(d, values, hn::Add(first, allOf(off))),
-                     hn::GatherIndex(d, values, hn::Add(first, allOf(off + 1))), partX);
-    };
-    const int row = grid.cells.x;
-    const int slice = row * grid.cells.y;
-    const V partY = hn::Sub(place.y, y);
-    const V open = mixed(mixed(pairAt(0), pairAt(row), partY), mixed(pairAt(slice), pairAt(slice + row), partY),
-                         hn::Sub(place.z, z));
-    return hn::IfThenElse(inGrid, open, all(1.0F));
-}
-
 /// Sum over the axes of the squared component of the normal times the openness on its side.
 V openOfObstacle(const OpennessGrid& grid, glm::vec3 eye, const Vec3& position, const Vec3& normal) {
     const D d;
-    const V inverse = all(1.0F / grid.side);
-    const Vec3 from = uniform(grid.origin - eye);
-    const Vec3 at{hn::Mul(hn::Sub(position.x, from.x), inverse), hn::Mul(hn::Sub(position.y, from.y), inverse),
-                  hn::Mul(hn::Sub(position.z, from.z), inverse)};
+    const Vec3 at = placeInGrid(grid, eye, position);
     const std::array<V, 3> components = {normal.x, normal.y, normal.z};
     V open = all(0.0F);
     for (std::size_t side = 0; side < 6; ++side) {
@@ -310,9 +276,7 @@ V openOfObstacle(const OpennessGrid& grid, glm::vec3 eye, const Vec3& position, 
         const bool isPlus = side % 2 == 0;
         const M towards = isPlus ? hn::Gt(component, all(0.0F)) : hn::Lt(component, all(0.0F));
         if (hn::AllFalse(d, towards)) continue;
-        glm::vec3 ahead(0.0F);
-        ahead[static_cast<int>(side / 2)] = isPlus ? kOpennessAhead : -kOpennessAhead;
-        const V value = openInGrid(grid, side, along(at, all(1.0F), uniform(ahead)));
+        const V value = openInGrid(grid, side, at);
         open = hn::Add(open, hn::IfThenElseZero(towards, hn::Mul(hn::Mul(component, component), value)));
     }
     return open;

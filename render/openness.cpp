@@ -17,13 +17,6 @@ constexpr int kMargin = kReach + 4;
 // 24 MB of values; wider cubes beyond, for the sake of a drop that flies far.
 constexpr double kMostCells = 1e6;
 
-constexpr std::array<glm::vec3, 6> kDirections = {{{1.0F, 0.0F, 0.0F},
-                                                   {-1.0F, 0.0F, 0.0F},
-                                                   {0.0F, 1.0F, 0.0F},
-                                                   {0.0F, -1.0F, 0.0F},
-                                                   {0.0F, 0.0F, 1.0F},
-                                                   {0.0F, 0.0F, -1.0F}}};
-
 float sideOf(std::span<const Sphere> particles) {
     double sum = 0.0;
     for (const Sphere& particle : particles) sum += double(particle.radius);
@@ -49,11 +42,6 @@ glm::vec3 placeIn(const OpennessGrid& grid, glm::vec3 place) {
 Trilinear cubesAround(glm::vec3 at) {
     const glm::ivec3 corner(at);
     return {corner.x, corner.y, corner.z, at - glm::vec3(corner)};
-}
-
-bool inside(const OpennessGrid& grid, glm::vec3 at) {
-    const glm::vec3 last(grid.cells - 1);
-    return at.x >= 0.0F && at.y >= 0.0F && at.z >= 0.0F && at.x < last.x && at.y < last.y && at.z < last.z;
 }
 
 // Calls visit(cell, weight) for the eight cubes around a place.
@@ -141,16 +129,6 @@ void lookAlong(const std::vector<float>& full, std::size_t row, std::ptrdiff_t s
     for (std::ptrdiff_t k = 0; k < count; ++k) out[k] = 1.0F / ((1.0F + out[k]) * (1.0F + out[k]));
 }
 
-// at: as placeIn() has it.
-float valueAt(const OpennessGrid& grid, std::size_t direction, glm::vec3 at) {
-    const glm::vec3 ahead = at + kOpennessAhead * kDirections[direction];
-    if (!inside(grid, ahead)) return 1.0F;
-    float sum = 0.0F;
-    forCorners(grid, cubesAround(ahead),
-               [&](std::size_t cell, float weight) { sum += weight * grid.values[direction][cell]; });
-    return sum;
-}
-
 }  // namespace
 
 OpennessGrid opennessGrid(std::span<const Sphere> particles) {
@@ -174,14 +152,6 @@ OpennessGrid opennessGrid(std::span<const Sphere> particles) {
         }
     });
     return grid;
-}
-
-Openness opennessAt(const OpennessGrid& grid, glm::vec3 place) {
-    Openness open = kOpen;
-    if (grid.cells.x == 0) return open;
-    const glm::vec3 at = placeIn(grid, place);
-    for (std::size_t direction = 0; direction < 6; ++direction) open[direction] = valueAt(grid, direction, at);
-    return open;
 }
 
 OpennessMap opennessAtHeight(const OpennessGrid& grid, float height) {

@@ -47,8 +47,9 @@ OpennessGrid opennessGrid(std::span<const Sphere> particles);
 /// Sides of a cube that a place is moved along the direction it looks in.
 inline constexpr float kOpennessAhead = 0.75F;
 
-/// At a place; kOpen outside of the grid.
-Openness opennessAt(const OpennessGrid& grid, glm::vec3 place);
+/// At each particle's centre; kOpen outside of the grid.
+/// Holds:  a particle's values depend on its centre and the grid alone, bit for bit, not on the number of lanes.
+std::vector<Openness> opennessOf(std::span<const Sphere> particles, const OpennessGrid& grid);
 
 OpennessMap opennessAtHeight(const OpennessGrid& grid, float height);
 

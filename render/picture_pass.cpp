@@ -79,13 +79,10 @@ void PicturePass::findGround(const View& view) {
 
 void PicturePass::findOpenness(const View& view) {
     opens_ = asksForOpenness(view);
-    particleOpen_.clear();
     openGrid_ = opens_ ? opennessGrid(view.particles) : OpennessGrid{};
     openMap_ = OpennessMap{};
+    particleOpen_ = opens_ ? opennessOf(view.particles, openGrid_) : std::vector<Openness>{};
     if (!opens_) return;
-    particleOpen_.resize(view.particles.size());
-    tbb::parallel_for(std::size_t{0}, view.particles.size(),
-                      [&](std::size_t k) { particleOpen_[k] = opennessAt(openGrid_, view.particles[k].center); });
     if (view.ground) openMap_ = opennessAtHeight(openGrid_, view.ground->height);
 }
 

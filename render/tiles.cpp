@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "render/system_error.h"
 
@@ -50,13 +51,13 @@ void forCells(std::span<const BinItem> items, const CellLists& lists, Rect band,
     }
 }
 
-// Bands of rows are independent of each other, so threads share neither counters nor lists.
-constexpr int kBands = 8;
-
+// Bands of rows are independent of each other, so threads share neither counters nor lists. Each looks at all items, so
+// that there are only as many as threads need to share the work evenly.
 template <typename Visit>
 void forCellsInBands(std::span<const BinItem> items, const CellLists& lists, const Visit& visit) {
-    tbb::parallel_for(0, kBands, [&](int band) {
-        const Rect rows{0, lists.rows * band / kBands, lists.columns - 1, lists.rows * (band + 1) / kBands - 1};
+    const int bands = 2 * tbb::this_task_arena::max_concurrency();
+    tbb::parallel_for(0, bands, [&](int band) {
+        const Rect rows{0, lists.rows * band / bands, lists.columns - 1, lists.rows * (band + 1) / bands - 1};
         forCells(items, lists, rows, visit);
     });
 }

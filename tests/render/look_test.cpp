@@ -164,7 +164,8 @@ TEST_CASE("A strength of zero leaves the picture as it was") {
 
 TEST_CASE("Openness: a lone particle sees the sky, one in a block does not, one on top sees it upwards") {
     const auto openOf = [](const std::vector<render::Sphere>& particles, glm::vec3 place) {
-        return render::opennessAt(render::opennessGrid(particles), place);
+        const std::vector<render::Sphere> there{{place, 0.1F, {}}};
+        return render::opennessOf(there, render::opennessGrid(particles)).front();
     };
     // Its own volume, 0.52 of a cube, reaches a cube's width beyond its own cube at most.
     for (const float value : openOf({{{0.3F, 1.0F, 0.2F}, 0.1F, {}}}, {0.3F, 1.0F, 0.2F})) CHECK(value > 0.8F);
@@ -187,7 +188,7 @@ TEST_CASE("Openness does not depend on where the cubes lie by more than a little
         std::vector<render::Sphere> moved = block;
         const glm::vec3 off(0.011F * static_cast<float>(shift), 0.007F * static_cast<float>(shift), 0.0F);
         for (render::Sphere& particle : moved) particle.center += off;
-        const render::Openness open = render::opennessAt(render::opennessGrid(moved), moved[905].center);
+        const render::Openness open = render::opennessOf(moved, render::opennessGrid(moved))[905];
         least = std::min(least, open[0]);
         most = std::max(most, open[0]);
     }
