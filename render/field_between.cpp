@@ -1,4 +1,4 @@
-// A row of the coarse grid at a time, with Highway; this file is compiled once per instruction set.
+// As many pixels at a time as the machine has lanes, with Highway; this file is compiled once per instruction set.
 #include "render/field_between.h"
 
 #include <algorithm>
@@ -19,86 +19,80 @@ constexpr float kLeastCosine = 0.98F;
 // Surfaces seen at a slant of less than this cosine run away from a pixel to the next.
 constexpr float kLeastFacing = 0.15F;
 
-using DB = hn::CappedTag<float, kCoarseSide>;
-using VB = hn::Vec<DB>;
-using MB = hn::Mask<DB>;
-
-struct Three {
-    VB x, y, z;
-};
-
-VB constant(float value) {
-    return hn::Set(DB(), value);
+/// Of the hits from this place of the coarse grid on: a part of a row of the tile, or two rows of it.
+V hitsFrom(const CoarseHits::Values& values, std::size_t at) {
+    const D d;
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (hn::MaxLanes(D()) > kCoarseSide) {
+        const hn::Half<D> half;
+        return hn::Combine(d, hn::LoadU(half, &values[at + CoarseHits::kSide]), hn::LoadU(half, &values[at]));
+    }
+#endif
+    return hn::LoadU(d, &values[at]);
 }
 
-VB scalarProduct(const Three& a, const Three& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-Three loaded(const std::array<CoarseHits::Values, 3>& values, std::size_t at) {
-    const DB d;
-    return {hn::LoadU(d, &values[0][at]), hn::LoadU(d, &values[1][at]), hn::LoadU(d, &values[2][at])};
+Vec3 hitsFrom(const std::array<CoarseHits::Values, 3>& values, std::size_t at) {
+    return {hitsFrom(values[0], at), hitsFrom(values[1], at), hitsFrom(values[2], at)};
 }
 
 /// View coordinates; the direction's z is 1.
 struct ViewRays {
-    Three origin, direction;
+    Vec3 origin, direction;
 };
 
-ViewRays viewRays(const CameraFrame& frame, VB x, VB y) {
-    const VB one = constant(1.0F);
-    const VB zero = constant(0.0F);
-    const VB atX =
-        hn::Mul(hn::Sub(hn::Mul(x, constant(2.0F / static_cast<float>(frame.width))), one), constant(frame.halfWidth));
-    const VB atY = hn::Mul(hn::Sub(one, hn::Mul(y, constant(2.0F / static_cast<float>(frame.height)))),
-                           constant(frame.halfHeight));
+ViewRays viewRays(const CameraFrame& frame, V x, V y) {
+    const V one = all(1.0F);
+    const V zero = all(0.0F);
+    const V atX = hn::Mul(hn::Sub(hn::Mul(x, all(2.0F / static_cast<float>(frame.width))), one), all(frame.halfWidth));
+    const V atY =
+        hn::Mul(hn::Sub(one, hn::Mul(y, all(2.0F / static_cast<float>(frame.height)))), all(frame.halfHeight));
     if (frame.perspective) return {{zero, zero, zero}, {atX, atY, one}};
     return {{atX, atY, zero}, {zero, zero, one}};
 }
 
 /// The hits on one side of pixels between.
 struct Side {
-    VB depth;
-    Three normal;
+    V depth;
+    Vec3 normal;
     ViewRays rays;
 };
 
 /// Depth at which rays meet the planes through hits across their normals.
-VB tangentDepth(const ViewRays& rays, const Side& side) {
-    const Three& o = side.rays.origin;
-    const Three& v = side.rays.direction;
-    const Three off{hn::Sub(hn::Add(o.x, hn::Mul(side.depth, v.x)), rays.origin.x),
-                    hn::Sub(hn::Add(o.y, hn::Mul(side.depth, v.y)), rays.origin.y),
-                    hn::Sub(hn::Add(o.z, hn::Mul(side.depth, v.z)), rays.origin.z)};
-    return hn::Div(scalarProduct(side.normal, off), scalarProduct(side.normal, rays.direction));
+V tangentDepth(const ViewRays& rays, const Side& side) {
+    const Vec3& o = side.rays.origin;
+    const Vec3& v = side.rays.direction;
+    const Vec3 off{hn::Sub(hn::Add(o.x, hn::Mul(side.depth, v.x)), rays.origin.x),
+                   hn::Sub(hn::Add(o.y, hn::Mul(side.depth, v.y)), rays.origin.y),
+                   hn::Sub(hn::Add(o.z, hn::Mul(side.depth, v.z)), rays.origin.z)};
+    return hn::Div(dotted(side.normal, off), dotted(side.normal, rays.direction));
 }
 
-MB faces(const ViewRays& rays, const Side& side) {
-    const VB towards = hn::Neg(scalarProduct(side.normal, rays.direction));
-    const VB least = hn::Mul(constant(kLeastFacing * kLeastFacing), scalarProduct(rays.direction, rays.direction));
-    return hn::And(hn::Gt(towards, constant(0.0F)), hn::Gt(hn::Mul(towards, towards), least));
+M faces(const ViewRays& rays, const Side& side) {
+    const V towards = hn::Neg(dotted(side.normal, rays.direction));
+    const V least = hn::Mul(all(kLeastFacing * kLeastFacing), dotted(rays.direction, rays.direction));
+    return hn::And(hn::Gt(towards, all(0.0F)), hn::Gt(hn::Mul(towards, towards), least));
 }
 
 struct Between {
-    VB depth;
-    MB good;
+    V depth;
+    M good;
 };
 
 Between depthBetween(const CameraFrame& frame, const ViewRays& rays, const Side& a, const Side& b, float most) {
-    const VB zero = constant(0.0F);
-    const VB half = constant(0.5F);
-    const VB fromA = tangentDepth(rays, a);
-    const VB fromB = tangentDepth(rays, b);
+    const V zero = all(0.0F);
+    const V half = all(0.5F);
+    const V fromA = tangentDepth(rays, a);
+    const V fromB = tangentDepth(rays, b);
     // The inverse of depth is linear on the picture in perspective, depth itself in parallel projection.
-    const VB sum = hn::Add(a.depth, b.depth);
-    const VB chord =
-        frame.perspective ? hn::Div(hn::Mul(constant(2.0F), hn::Mul(a.depth, b.depth)), sum) : hn::Mul(half, sum);
-    const VB tangents = hn::Mul(half, hn::Add(fromA, fromB));
-    const VB limit = constant(most);
-    const MB isHit = hn::And(hn::Ge(a.depth, zero), hn::Ge(b.depth, zero));
-    const MB isEven =
+    const V sum = hn::Add(a.depth, b.depth);
+    const V chord =
+        frame.perspective ? hn::Div(hn::Mul(all(2.0F), hn::Mul(a.depth, b.depth)), sum) : hn::Mul(half, sum);
+    const V tangents = hn::Mul(half, hn::Add(fromA, fromB));
+    const V limit = all(most);
+    const M isHit = hn::And(hn::Ge(a.depth, zero), hn::Ge(b.depth, zero));
+    const M isEven =
         hn::And(hn::Lt(hn::Abs(hn::Sub(fromA, fromB)), limit), hn::Lt(hn::Abs(hn::Sub(tangents, chord)), limit));
-    const MB isStraight = hn::Ge(scalarProduct(a.normal, b.normal), constant(kLeastCosine));
+    const M isStraight = hn::Ge(dotted(a.normal, b.normal), all(kLeastCosine));
     return {hn::Mul(half, hn::Add(chord, tangents)),
             hn::And(hn::And(isHit, isEven), hn::And(isStraight, hn::And(faces(rays, a), faces(rays, b))))};
 }
@@ -107,16 +101,16 @@ Between depthBetween(const CameraFrame& frame, const ViewRays& rays, const Side&
 template <std::size_t kCount>
 void putMean(const CoarseHits& coarse, const std::array<std::size_t, kCount>& places, bool openness, RayBlock& block,
              std::size_t k) {
-    const DB d;
-    const VB share = constant(1.0F / static_cast<float>(kCount));
+    const D d;
+    const V share = all(1.0F / static_cast<float>(kCount));
     const auto sumOf = [&](const CoarseHits::Values& values) {
-        VB sum = hn::LoadU(d, &values[places[0]]);
-        for (std::size_t i = 1; i < kCount; ++i) sum = hn::Add(sum, hn::LoadU(d, &values[places[i]]));
+        V sum = hitsFrom(values, places[0]);
+        for (std::size_t i = 1; i < kCount; ++i) sum = hn::Add(sum, hitsFrom(values, places[i]));
         return sum;
     };
-    const Three normal{sumOf(coarse.normal[0]), sumOf(coarse.normal[1]), sumOf(coarse.normal[2])};
-    const VB square = hn::Max(scalarProduct(normal, normal), constant(1e-30F));
-    const VB scale = hn::Div(constant(1.0F), hn::Sqrt(square));
+    const Vec3 normal{sumOf(coarse.normal[0]), sumOf(coarse.normal[1]), sumOf(coarse.normal[2])};
+    const V square = hn::Max(dotted(normal, normal), all(1e-30F));
+    const V scale = hn::Div(all(1.0F), hn::Sqrt(square));
     hn::StoreU(hn::Mul(normal.x, scale), d, &block.normal[0][k]);
     hn::StoreU(hn::Mul(normal.y, scale), d, &block.normal[1][k]);
     hn::StoreU(hn::Mul(normal.z, scale), d, &block.normal[2][k]);
@@ -126,10 +120,8 @@ void putMean(const CoarseHits& coarse, const std::array<std::size_t, kCount>& pl
     }
 }
 
-MB misses(const CoarseHits& coarse, std::size_t at, float most) {
-    const DB d;
-    return hn::And(hn::Lt(hn::LoadU(d, &coarse.depth[at]), constant(0.0F)),
-                   hn::Lt(hn::LoadU(d, &coarse.most[at]), constant(most)));
+M misses(const CoarseHits& coarse, std::size_t at, float most) {
+    return hn::And(hn::Lt(hitsFrom(coarse.depth, at), all(0.0F)), hn::Lt(hitsFrom(coarse.most, at), all(most)));
 }
 
 /// One tile on its way.
@@ -154,9 +146,9 @@ class Filling {
         const Between falling = between(rays, k, first, below + 1, {-1.0F, -1.0F});
         const Between rising = between(rays, k, first + 1, below, {1.0F, -1.0F});
         putMean<4>(coarse_, {first, first + 1, below, below + 1}, cast_.openness, block_, k);
-        const MB allMissed =
+        const M allMissed =
             hn::And(hn::And(missed(first), missed(first + 1)), hn::And(missed(below), missed(below + 1)));
-        finish(k, {hn::Mul(constant(0.5F), hn::Add(falling.depth, rising.depth)), hn::And(falling.good, rising.good)},
+        finish(k, {hn::Mul(all(0.5F), hn::Add(falling.depth, rising.depth)), hn::And(falling.good, rising.good)},
                allMissed);
     }
 
@@ -164,26 +156,26 @@ class Filling {
 
  private:
     ViewRays raysAt(std::size_t k, glm::vec2 off) const {
-        const DB d;
-        return viewRays(cast_.frame, hn::Add(hn::LoadU(d, &block_.x[k]), constant(off.x)),
-                        hn::Add(hn::LoadU(d, &block_.y[k]), constant(off.y)));
+        const D d;
+        return viewRays(cast_.frame, hn::Add(hn::LoadU(d, &block_.x[k]), all(off.x)),
+                        hn::Add(hn::LoadU(d, &block_.y[k]), all(off.y)));
     }
 
     Side side(std::size_t k, std::size_t at, glm::vec2 off) const {
-        return {hn::LoadU(DB(), &coarse_.depth[at]), loaded(coarse_.normal, at), raysAt(k, off)};
+        return {hitsFrom(coarse_.depth, at), hitsFrom(coarse_.normal, at), raysAt(k, off)};
     }
 
     Between between(const ViewRays& rays, std::size_t k, std::size_t a, std::size_t b, glm::vec2 off) const {
         return depthBetween(cast_.frame, rays, side(k, a, off), side(k, b, -off), smoothness_.depth);
     }
 
-    MB missed(std::size_t at) const { return misses(coarse_, at, smoothness_.most); }
+    M missed(std::size_t at) const { return misses(coarse_, at, smoothness_.most); }
 
-    void finish(std::size_t k, const Between& found, MB missed) {
-        const DB d;
-        hn::StoreU(hn::IfThenElse(missed, constant(-1.0F), found.depth), d, &block_.depth[k]);
-        alignas(64) std::array<float, kCoarseSide> isGood;
-        hn::Store(hn::IfThenElseZero(hn::Or(missed, found.good), constant(1.0F)), d, isGood.data());
+    void finish(std::size_t k, const Between& found, M missed) {
+        const D d;
+        hn::StoreU(hn::IfThenElse(missed, all(-1.0F), found.depth), d, &block_.depth[k]);
+        alignas(64) std::array<float, kTileSize> isGood;
+        hn::Store(hn::IfThenElseZero(hn::Or(missed, found.good), all(1.0F)), d, isGood.data());
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) good_[k + lane] = isGood[lane] != 0.0F;
     }
 
@@ -198,14 +190,11 @@ std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& 
                                        RayBlock& block) {
     constexpr std::size_t kKind = kBetween / 3;
     Filling filling(cast, coarse, smoothness, block);
-    for (std::size_t row = 0; row < kCoarseSide; ++row) {
-        for (std::size_t column = 0; column < kCoarseSide; column += hn::Lanes(DB())) {
-            const std::size_t at = row * CoarseHits::kSide + column;
-            const std::size_t k = row * kCoarseSide + column;
-            filling.pair(k, at, at + 1, {-1.0F, 0.0F});
-            filling.pair(kKind + k, at, at + CoarseHits::kSide, {0.0F, -1.0F});
-            filling.pairs(2 * kKind + k, at);
-        }
+    for (std::size_t k = 0; k < kKind; k += hn::Lanes(D())) {
+        const std::size_t at = k / kCoarseSide * CoarseHits::kSide + k % kCoarseSide;
+        filling.pair(k, at, at + 1, {-1.0F, 0.0F});
+        filling.pair(kKind + k, at, at + CoarseHits::kSide, {0.0F, -1.0F});
+        filling.pairs(2 * kKind + k, at);
     }
     return filling.good();
 }
