@@ -78,24 +78,14 @@ class TileColors {
     }
 
     void addEdges(const TileEdges& edges) {
-        static const std::array<glm::vec2, 16> kMiddles = middles();
-        const glm::vec2 corner = cornerOf(*job_.contents.solids.tiles, tile_);
-        SurfacePoints points;
-        points.count = 0;
-        auto thing = edges.things.begin();  // the next
-        std::size_t mixed = 0;              // pixels whose colours are done
-        for (std::size_t p = 0; p < edges.pixels.size(); ++p) {
-            const EdgePixel& pixel = edges.pixels[p];
-            if (points.count + pixel.count > kTilePixels) mixed = mixEdges(edges, mixed, p, thing, points);
-            for (int k = 0; k < pixel.count; ++k, ++thing) {
-                const glm::vec2 at = pixelMiddle(corner, pixel.place) + kMiddles[thing->samples];
-                points.seen[points.count] = thing->seen;
-                points.x[points.count] = at.x;
-                points.y[points.count] = at.y;
-                ++points.count;
-            }
+        std::span<const EdgePixel> pixels = edges.pixels;
+        std::span<const EdgeThing> things = edges.things;
+        while (!pixels.empty()) {
+            // Each has four things at most.
+            const std::size_t count = std::min(pixels.size(), kTilePixels / kFourSamples.size());
+            things = things.subspan(mixEdges(pixels.first(count), things));
+            pixels = pixels.subspan(count);
         }
-        mixEdges(edges, mixed, edges.pixels.size(), thing, points);
     }
 
     void addLines(std::span<const TileRays> rays) {
@@ -113,29 +103,36 @@ class TileColors {
     const PointColors& colors() const { return colors_; }
 
  private:
-    using Thing = std::vector<EdgeThing>::const_iterator;
-
-    /// Colours edge pixels from `begin` to `end`, whose things are in `points`, and empties it; returns `end`.
-    std::size_t mixEdges(const TileEdges& edges, std::size_t begin, std::size_t end, Thing after,
-                         SurfacePoints& points) {
+    /// Colours edge pixels, whose things are the first of these; returns how many.
+    std::size_t mixEdges(std::span<const EdgePixel> pixels, std::span<const EdgeThing> things) {
+        static const std::array<glm::vec2, 16> kMiddles = middles();
+        const glm::vec2 corner = cornerOf(*job_.contents.solids.tiles, tile_);
+        SurfacePoints points;
+        points.count = 0;
+        for (const EdgePixel& pixel : pixels) {
+            for (const std::size_t last = points.count + pixel.count; points.count < last; ++points.count) {
+                const EdgeThing& thing = things[points.count];
+                const glm::vec2 at = pixelMiddle(corner, pixel.place) + kMiddles[thing.samples];
+                points.seen[points.count] = thing.seen;
+                points.x[points.count] = at.x;
+                points.y[points.count] = at.y;
+            }
+        }
         placePoints(job_.surfaces, points);
         PointColors colors;
         shadePoints(job_, points, colors);
-        const Thing first = after - static_cast<std::ptrdiff_t>(points.count);
         std::size_t k = 0;
-        for (std::size_t p = begin; p < end; ++p) {
-            const EdgePixel& pixel = edges.pixels[p];
+        for (const EdgePixel& pixel : pixels) {
             glm::vec3 sum(0.0F);
             for (const std::size_t last = k + pixel.count; k < last; ++k) {
-                const float count = static_cast<float>(std::popcount(first[static_cast<std::ptrdiff_t>(k)].samples));
+                const float count = static_cast<float>(std::popcount(things[k].samples));
                 sum += count * glm::vec3(colors.rgb[0][k], colors.rgb[1][k], colors.rgb[2][k]);
             }
             const std::size_t at = kZPlaces.rank[pixel.place];
-            for (int channel = 0; channel < 3; ++channel)
-                colors_.rgb[static_cast<std::size_t>(channel)][at] = 0.25F * sum[channel];
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                colors_.rgb[channel][at] = 0.25F * sum[static_cast<int>(channel)];
         }
-        points.count = 0;
-        return end;
+        return k;
     }
 
     const PictureJob& job_;
