@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/kept_tiles.h"
@@ -93,6 +94,21 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
                 CHECK(same(surfaces, render::Renderer(context, kSize, quality).surfaces(before)));
             CHECK((renderer.draw(view).rgb == alone.rgb));
         }
+    }
+}
+
+TEST_CASE("A picture is the same in another's memory") {
+    const render::View view = pictures::cloud(60);
+    render::Context context(render::Backend::osmesa);
+    render::Renderer renderer(context, kSize, Quality::normal);
+    const render::Image alone = renderer.draw(view);
+    for (const int side : {1, 500}) {
+        render::Image old{side, side, {}};
+        old.rgb.assign(old.byteCount(), 77);
+        const render::Image image = renderer.draw(view, std::move(old));
+        CHECK(image.width == kSize.width);
+        CHECK(image.height == kSize.height);
+        CHECK((image.rgb == alone.rgb));
     }
 }
 
