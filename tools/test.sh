@@ -22,9 +22,10 @@ build release globular {engine,golden,memory}_tests
 ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill|hard_cases)_tests$' &
 build tsan
 wait $!
-build asan-ubsan
-# In parallel runs sanitized suites keep to a core each: this one, too, though it is alone.
+# In parallel runs sanitized suites keep to a core each: this one, too, though it is alone. Beside the build, because beside
+# other suites two would have the same core.
 ctest --preset tsan --parallel 2 &
-ctest --preset asan-ubsan --parallel 2
+build asan-ubsan
 wait $!
+ctest --preset asan-ubsan --parallel 2
 tests/fuzz/run.sh 30
