@@ -183,26 +183,44 @@ V coverOfBox(const BoxObstacle& box, const Obstruction& obstruction, const LitPo
     return hn::IfThenElseZero(hn::Gt(exit, all(tolerance)), cover);
 }
 
-/// Of three texels around a place in the middle one, from -0.5 to 0.5 off its middle.
-struct TexelWeights {
-    V of[3];
+/// Weights of six heights in a row, which stand half a texel apart, around a place that lies `behind` the third, 0 to 1
+/// of these steps: a quadratic B-spline three texels wide.
+struct HeightWeights {
+    static constexpr std::size_t kCount = 6;
+    V of[kCount];
+
+    explicit HeightWeights(V behind) {
+        const V half = all(0.5F);
+        const V off = hn::Mul(half, behind);
+        // At 1.5 texels less this much from the place, and at places nearer to it.
+        const auto side = [&](V rest) { return hn::Mul(all(0.25F), hn::Mul(rest, rest)); };
+        const auto middle = [&](V at) { return hn::Sub(all(0.375F), hn::Mul(half, hn::Mul(at, at))); };
+        of[0] = side(hn::Sub(half, off));
+        of[1] = side(hn::Sub(all(1.0F), off));
+        of[2] = middle(off);
+        of[3] = middle(hn::Sub(half, off));
+        of[4] = side(hn::Add(half, off));
+        of[5] = side(off);
+    }
 };
 
-TexelWeights texelWeights(V off, bool soft) {
-    const V half = all(0.5F);
-    if (!soft) {  // a box two texels wide
-        const V slope = hn::Mul(half, off);
-        return {{hn::Sub(all(0.25F), slope), half, hn::Add(all(0.25F), slope)}};
+/// What is higher than points, in steps; start: of each point's first height.
+V coverOfHeights(const DepthMap& map, VI start, const HeightWeights& across, const HeightWeights& down, VI steps) {
+    V cover = all(0.0F);
+    for (const V& weight : down.of) {
+        const Sixes heights = sixesFrom(map.heights.data(), start);
+        V sum = all(0.0F);
+        for (std::size_t k = 0; k < HeightWeights::kCount; ++k)
+            sum = hn::Add(sum, hn::IfThenElseZero(laneMask(hn::Gt(heights.of[k], steps)), across.of[k]));
+        cover = hn::Add(cover, hn::Mul(weight, sum));
+        start = hn::Add(start, allOf(2 * map.columns));
     }
-    // A quadratic B-spline, three texels wide.
-    const V before = hn::Sub(half, off);
-    const V after = hn::Add(half, off);
-    return {{hn::Mul(half, hn::Mul(before, before)), hn::Sub(all(0.75F), hn::Mul(off, off)),
-             hn::Mul(half, hn::Mul(after, after))}};
+    return cover;
 }
 
-// Nine texels at the exact place, weights that change continuously with the point.
+// Weights change continuously with the point.
 V coverOfField(const DepthMap& map, const Obstruction& obstruction, const LitPoints& at) {
+    const D d;
     const DI di;
     const LightBasis& light = obstruction.light;
     // Off the surface by as much as the filter reaches sideways, so that a slope does not shade itself.
@@ -210,29 +228,36 @@ V coverOfField(const DepthMap& map, const Obstruction& obstruction, const LitPoi
     const V inverse = all(1.0F / map.texelSize);
     const V u = hn::Mul(hn::Sub(dotted(raised, uniform(light.u)), all(map.origin.x)), inverse);
     const V v = hn::Mul(hn::Sub(dotted(raised, uniform(light.v)), all(map.origin.y)), inverse);
-    const V height = hn::Add(dotted(raised, uniform(light.toLight)), all(0.5F * map.texelSize));
+    const V height = hn::Add(dotted(raised, uniform(light.toLight)), all(0.5F * map.texelSize - map.bottom));
+    // Nothing, at 0, is higher than no point.
+    const V steps = hn::Max(hn::Add(hn::Div(height, all(map.step)), all(1.0F)), all(0.0F));
     const V column = hn::Floor(u);
     const V row = hn::Floor(v);
-    const V one = all(1.0F);
-    const M inMap = hn::And(hn::And(hn::Ge(column, one), hn::Lt(column, all(static_cast<float>(map.columns - 1)))),
-                            hn::And(hn::Ge(row, one), hn::Lt(row, all(static_cast<float>(map.rows - 1)))));
+    const V two = all(2.0F);
+    const M inMap = hn::And(hn::And(hn::Ge(column, two), hn::Lt(column, all(static_cast<float>(map.columns - 2)))),
+                            hn::And(hn::Ge(row, two), hn::Lt(row, all(static_cast<float>(map.rows - 2)))));
+    const auto placeOf = [&](V atColumn, V atRow, int columns) {
+        const auto whole = [&](V place) { return hn::ConvertTo(di, hn::IfThenElseZero(inMap, place)); };
+        return hn::Add(whole(atColumn), hn::Mul(whole(atRow), allOf(columns)));
+    };
+    const VI texel = placeOf(column, row, map.columns);
+    const M below = hn::And(inMap, hn::Lt(steps, hn::GatherIndex(d, map.highest.data(), texel)));
+    if (hn::AllFalse(d, below)) return all(0.0F);
+    const M within = hn::And(below, hn::Ge(steps, hn::GatherIndex(d, map.lowest.data(), texel)));
+    V cover = hn::IfThenElseZero(below, all(1.0F));
+    if (hn::AllFalse(d, within)) return cover;
+    // From the first height, in their steps.
     const V half = all(0.5F);
-    const bool soft = obstruction.softness > 0.0F;
-    const TexelWeights across = texelWeights(hn::Sub(hn::Sub(u, column), half), soft);
-    const TexelWeights down = texelWeights(hn::Sub(hn::Sub(v, row), half), soft);
-    const VI first = hn::Sub(hn::ConvertTo(di, hn::IfThenElse(inMap, column, one)), allOf(1));
-    VI start = hn::Add(
-        first, hn::Mul(hn::Sub(hn::ConvertTo(di, hn::IfThenElse(inMap, row, one)), allOf(1)), allOf(map.columns)));
-    V sum = all(0.0F);
-    for (const V& weight : down.of) {
-        const Fours texels = foursFrom(map.heights.data(), start);
-        const auto part = [&](V texel, V share) { return hn::IfThenElseZero(hn::Gt(texel, height), share); };
-        const V both = hn::Add(part(texels.x, across.of[0]), part(texels.y, across.of[1]));
-        const V inRow = hn::Add(both, part(texels.z, across.of[2]));
-        sum = hn::Add(sum, hn::Mul(weight, inRow));
-        start = hn::Add(start, allOf(map.columns));
-    }
-    return hn::IfThenElseZero(inMap, sum);
+    const V fineU = hn::Sub(hn::Add(u, u), half);
+    const V fineV = hn::Sub(hn::Add(v, v), half);
+    const V fineColumn = hn::Floor(fineU);
+    const V fineRow = hn::Floor(fineV);
+    const VI start = placeOf(hn::Sub(fineColumn, two), hn::Sub(fineRow, two), 2 * map.columns);
+    // Within the map's bounds, and so within those of its heights.
+    const VI wholeSteps = hn::ConvertTo(di, hn::Floor(hn::IfThenElseZero(within, steps)));
+    const V found = coverOfHeights(map, start, HeightWeights(hn::Sub(fineU, fineColumn)),
+                                   HeightWeights(hn::Sub(fineV, fineRow)), wholeSteps);
+    return hn::IfThenElse(within, found, cover);
 }
 
 V visibility(const Obstruction& obstruction, const LitPoints& at) {

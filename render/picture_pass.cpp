@@ -64,8 +64,7 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
         looks_ = looksOf(view, drawn_, particleOpen_);
         findBoxes(view);
     });
-    depthMapTexels_ = depthMapTexels;
-    timed(times.shadow, [&] { castDepths(view, glm::vec2(0.0F)); });
+    timed(times.shadow, [&] { castDepths(view, depthMapTexels); });
     timed(times.bin, [&] { findGround(view); });
 }
 
@@ -103,16 +102,8 @@ void PicturePass::binShadows(const View& view) {
     lightGrid_ = view.light.shadows ? lightGrid(light_, drawn_.spheres, view.light.softness) : LightGrid{};
 }
 
-void PicturePass::castDepths(const View& view, glm::vec2 shift) {
-    depthMapShift_ = shift;
-    depthMap_ = castsField_ && view.light.shadows ? castDepthMap(light_, {view, skin_, {}}, {depthMapTexels_, shift})
-                                                  : DepthMap{};
-}
-
-// Rays moved by a third of a pixel look at texels moved by a third of a texel, so that the mean of the pictures has the
-// mean of the maps.
-void PicturePass::castShadow(const View& view, const Sampling& sampling) {
-    if (castsField_ && view.light.shadows && sampling.offset != depthMapShift_) castDepths(view, sampling.offset);
+void PicturePass::castDepths(const View& view, int mostTexels) {
+    depthMap_ = castsField_ && view.light.shadows ? castDepthMap(light_, {view, skin_, {}}, mostTexels) : DepthMap{};
 }
 
 void PicturePass::findBoxes(const View& view) {
@@ -136,7 +127,7 @@ void PicturePass::castField(const View& view, const Sampling& sampling) {
 
 // Whether anything stands in the light's way.
 bool PicturePass::castsShadows(const View& view) const {
-    return view.light.shadows && (!lightGrid_.empty() || depthMap_.heights.size() > 1 || !view.boxObstacles.empty());
+    return view.light.shadows && (!lightGrid_.empty() || !depthMap_.empty() || !view.boxObstacles.empty());
 }
 
 Obstruction PicturePass::obstructionOf(const View& view) const {
@@ -144,7 +135,7 @@ Obstruction PicturePass::obstructionOf(const View& view) const {
     obstruction.light = light_;
     obstruction.eye = frame_.eye;
     if (!lightGrid_.empty()) obstruction.spheres = &lightGrid_;
-    if (depthMap_.heights.size() > 1) obstruction.field = &depthMap_;
+    if (!depthMap_.empty()) obstruction.field = &depthMap_;
     if (view.light.shadows) obstruction.boxes = view.boxObstacles;
     obstruction.softness = view.light.softness;
     obstruction.meanRadius = meanRadius_;

@@ -95,11 +95,7 @@ struct Renderer::Parts {
     }
 
     void cast(const View& view, const Sampling& sampling) {
-        StageClock clock;
-        pass.castShadow(view, sampling);
-        clock.add(times.shadow);
-        pass.castField(view, sampling);
-        clock.add(times.cast);
+        timed(times.cast, [&] { pass.castField(view, sampling); });
     }
 
     void color(const View& view) {
