@@ -32,7 +32,7 @@ CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) 
 }
 
 // A hard shadow's edge is three texels wide, softened for the eye alone.
-constexpr float kTexelsPerRadius = 8.0F;
+constexpr float kTexelsPerRadius = 12.0F;
 
 // From one texel to the next, in texels: what rises by more is taken for an outline. At half of it three times as many
 // rays are cast, and pictures are no nearer to the exact ones (measured).

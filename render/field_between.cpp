@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-// Normals that differ by more than 20 degrees have an edge between them, or a fold.
-constexpr float kLeastCosine = 0.94F;
+// Normals that differ by more than 11 degrees have an edge between them, or a fold.
+constexpr float kLeastCosine = 0.98F;
 // Surfaces seen at a slant of less than this cosine run away from a pixel to the next.
 constexpr float kLeastFacing = 0.15F;
 

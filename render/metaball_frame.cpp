@@ -68,7 +68,7 @@ Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field) {
     // threshold bends by 4 sqrt(threshold) / reach^2 a square radius.
     const float root = std::sqrt(cast.threshold);  // 1 - 1 / reach^2
     const float missed = 0.125F * root * (1.0F - root);
-    return {0.05F * field.smallestRadius, cast.threshold - missed - kSteepest * pixel / field.smallestRadius};
+    return {0.02F * field.smallestRadius, cast.threshold - missed - kSteepest * pixel / field.smallestRadius};
 }
 
 void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 offset, FieldPicture& picture) {

@@ -43,7 +43,7 @@ float meanRadiusOf(const View& view) {
 }  // namespace
 
 PicturePass::PicturePass(const Gl& gl)
-    : gl_(&gl), programs_(gl), tileTable_(gl, "tiles", GL_RGBA32I, 16), pixels_(gl, "pixels", GL_RG32I, 8) {
+    : gl_(&gl), programs_(gl), tileTable_(gl, "tiles", GL_RGBA32I, 16), pixels_(gl, "pixels", GL_RGBA8, 4) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     frameBlock_ = BufferName(gl, name);

@@ -223,19 +223,29 @@ glm::vec3 undimmedGround(const Shading& shading, glm::vec3 albedo) {
     return {hn::GetLane(color.x), hn::GetLane(color.y), hn::GetLane(color.z)};
 }
 
+/// sRGB in 255ths, by the polynomial of shaders/encode.glsl; linear: at most 1.
+VI encoded(V linear) {
+    const V square = hn::Sqrt(linear);
+    const V y = hn::Sqrt(square);
+    const auto curve = [&](float high, float middle, float low) {
+        return hn::Add(hn::Add(hn::Mul(all(high), linear), hn::Mul(all(middle), square)), all(low));
+    };
+    const V bent =
+        hn::Add(curve(0.2727522F, 1.2442140F, -0.0616297F), hn::Mul(y, curve(-0.0627590F, -0.5575557F, 0.1649740F)));
+    const V value = hn::IfThenElse(hn::Le(linear, all(0.0031308F)), hn::Mul(all(12.92F), linear), bent);
+    return hn::ConvertTo(DI(), hn::Add(hn::Mul(value, all(255.0F)), all(0.5F)));
+}
+
 void packColors(const PointColors& colors, PixelColor* pixels) {
     const D d;
-    const DI di;
     for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
-        const auto bits = [&](std::size_t channel) {
-            // A mean of ones may be a little more.
-            const V root = hn::Sqrt(hn::Min(hn::Load(d, &colors.rgb[channel][place]), all(1.0F)));
-            return hn::ConvertTo(di, hn::Add(hn::Mul(root, all(2097151.0F)), all(0.5F)));
+        // A mean of ones may be a little more.
+        const auto byte = [&](std::size_t channel) {
+            return encoded(hn::Min(hn::Load(d, &colors.rgb[channel][place]), all(1.0F)));
         };
-        const VI green = bits(1);
-        const VI low = hn::Or(bits(0), hn::ShiftLeft<21>(green));
-        const VI high = hn::Or(hn::ShiftRight<11>(green), hn::ShiftLeft<10>(bits(2)));
-        hn::StoreInterleaved2(low, high, di, reinterpret_cast<std::int32_t*>(pixels + place));
+        const VI color = hn::Or(byte(0), hn::Or(hn::ShiftLeft<8>(byte(1)), hn::ShiftLeft<16>(byte(2))));
+        const hn::RebindToUnsigned<D> du;
+        hn::Store(hn::BitCast(du, color), du, pixels + place);
     }
 }
 

@@ -37,12 +37,8 @@ struct PointColors {
 void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints& points, const LightReach* reach,
            PointColors& colors);
 
-/// A colour as shaders/picture.frag reads it: square roots in 21 bits each, as fine as single precision, the lowest
-/// bits red.
-struct PixelColor {
-    std::uint32_t low = 0;
-    std::uint32_t high = 0;
-};
+/// A colour as shaders/picture.frag reads it: sRGB, a byte a channel, the lowest red.
+using PixelColor = std::uint32_t;
 
 /// Shape:  pixels: kTilePixels of them; colors: all of them.
 void packColors(const PointColors& colors, PixelColor* pixels);

@@ -1,6 +1,7 @@
 // sRGB encoding without pow(), which is slow in a software renderer and differs in its last bits between processors.
 // 1.055 c^(1/2.4) - 0.055 is a smooth function of y = c^(1/4), two square roots away: a polynomial of degree 5 in y through the
-// Chebyshev nodes of [0.0031308^(1/4), 1] is within 0.0025 of an 8-bit step. tests/render/encode_test.cpp measures it.
+// Chebyshev nodes of [0.0031308^(1/4), 1] is within 0.0025 of an 8-bit step. tests/render/encode_test.cpp measures it, and
+// the same polynomial in shade.cpp, which encodes the pixels that are coloured one by one.
 // root: of the linear colour; to the nearest 8-bit value, so that the conversion to bytes has nothing left to round.
 vec3 encodeRoots(vec3 root) {
     vec3 square = clamp(root, 0.0, 1.0);

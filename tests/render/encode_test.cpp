@@ -1,8 +1,11 @@
-// The shaders' sRGB encoding against the standard's formula, through the picture of a background.
+// Both sRGB encodings against the standard's formula: the shaders' through the picture of a background, and that of the
+// pixels which they are handed.
 #include "tests/catch.h"
 
+#include <array>
 #include <cmath>
 
+#include "render/shade.h"
 #include "tests/render/pictures.h"
 
 namespace {
@@ -26,13 +29,40 @@ double largestError(float bottom, float top) {
     return largest;
 }
 
+// The same of colours that are packed on vector units, and whether each channel is where it belongs.
+double largestPackedError(float most) {
+    constexpr int kTiles = 32;
+    double largest = 0.0;
+    for (int tile = 0; tile < kTiles; ++tile) {
+        render::PointColors colors;
+        const auto value = [&](std::size_t channel, std::size_t k) {
+            const auto place =
+                static_cast<float>(3 * (render::kTilePixels * static_cast<std::size_t>(tile) + k) + channel);
+            return most * place / static_cast<float>(3 * kTiles * render::kTilePixels - 1);
+        };
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t k = 0; k < render::kTilePixels; ++k) colors.rgb[channel][k] = value(channel, k);
+        alignas(64) std::array<render::PixelColor, render::kTilePixels> packed;
+        render::packColors(colors, packed.data());
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t k = 0; k < render::kTilePixels; ++k)
+                largest = std::max(
+                    largest, std::abs(exactSteps(double(value(channel, k))) - (packed[k] >> (8 * channel) & 0xffU)));
+    }
+    return largest;
+}
+
+// Half a step is the rounding itself; the polynomial is within 0.0025 of a step, single precision (1e-7 of c, with a
+// slope of up to 3300 steps near 0 and 110 steps at 1) within 0.001.
+constexpr double kMostError = 0.5 + 0.0035;
+
 }  // namespace
 
 TEST_CASE("sRGB encoding rounds the exact value to the nearest byte") {
-    // Half a step is the rounding itself; the polynomial is within 0.0025 of a step, single precision (1e-7 of c, with
-    // a slope of up to 3300 steps near 0 and 110 steps at 1) within 0.001.
-    CHECK(largestError(0.0F, 1.0F) < 0.5 + 0.0035);
-    CHECK(largestError(0.0F, 0.02F) < 0.5 + 0.0035);  // the linear part and the joint, looked at closely
+    CHECK(largestError(0.0F, 1.0F) < kMostError);
+    CHECK(largestError(0.0F, 0.02F) < kMostError);  // the linear part and the joint, looked at closely
+    CHECK(largestPackedError(1.0F) < kMostError);
+    CHECK(largestPackedError(0.02F) < kMostError);
 }
 
 TEST_CASE("Black is 0 and white is 255") {

@@ -115,8 +115,8 @@ TEST_CASE("Soft shadows of metaballs are the oracle's up to their map's texels")
     const Difference difference = differenceOf(view, 12);
     INFO(difference);
     // The oracle takes nine rays for each edge, so that single samples are a ninth of the light (some 14 steps) off.
-    CHECK(difference.share < 0.05);  // counted once: 0.032
-    CHECK(difference.mean < 1.2);    // counted once: 0.87
+    CHECK(difference.share < 0.03);  // counted once: 0.021
+    CHECK(difference.mean < 0.8);    // counted once: 0.66
     render::View sharp = view;
     sharp.light.softness = 0.0F;
     CHECK(compare(drawn(view, kSize, Quality::draft), drawn(sharp, kSize, Quality::draft), 12).share > 0.02);
