@@ -34,8 +34,8 @@ CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) 
 // A hard shadow's edge is three texels wide, softened for the eye alone.
 constexpr float kTexelsPerRadius = 12.0F;
 
-// From one texel to the next, in texels: what rises by more is taken for an outline. At half of it three times as many
-// rays are cast, and pictures are no nearer to the exact ones (measured).
+// From one texel to the next, in texels: what rises by more is taken for an outline. At half of it pictures are no nearer
+// to the exact ones (measured).
 constexpr float kJump = 4.0F;
 
 constexpr std::size_t kReadAtOnce = 8;  // heights
@@ -46,7 +46,7 @@ constexpr float kMostSteps = 65535.0F;
 DepthMap emptyMap(const LightBounds& bounds, glm::vec3 eye, float texelSize, int mostTexels) {
     DepthMap map;
     const glm::vec3 extent = bounds.high - bounds.low;
-    map.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(mostTexels - 5), texelSize);
+    map.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(mostTexels - 7), texelSize);
     // Three texels of margin for the filter.
     map.columns = static_cast<int>(extent.x / map.texelSize) + 8;
     map.rows = static_cast<int>(extent.y / map.texelSize) + 8;
@@ -215,7 +215,7 @@ class Heights {
 
 }  // namespace
 
-DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexels) {
+DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthMapSampling& sampling) {
     const View& view = skin.view;
     DepthMap map;
     std::vector<ViewSphere> reaches;
@@ -234,7 +234,8 @@ DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexe
     const auto mean = static_cast<float>(sum / static_cast<double>(reaches.size()));
     const float soft = view.light.softness;
     map = emptyMap(bounds, basis.toLightSpace(view.camera.eye),
-                   soft > 0.0F ? 0.5F * soft * mean : smallest / kTexelsPerRadius, mostTexels);
+                   soft > 0.0F ? 0.5F * soft * mean : smallest / kTexelsPerRadius, sampling.mostTexels);
+    map.origin += sampling.shift * map.texelSize;
     CameraFrame frame = lightFrame(basis, map, bounds.high.z);
     frame.eye += view.camera.eye;
 

@@ -28,7 +28,11 @@ struct DepthMap {
     bool empty() const { return heights.empty(); }
 };
 
-/// mostTexels: along the longer side.
-DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, int mostTexels);
+struct DepthMapSampling {
+    int mostTexels = 1024;  ///< along the longer side
+    glm::vec2 shift{0.0F};  ///< of the texels, in texels, less than a half: pictures of several maps average them
+};
+
+DepthMap castDepthMap(const LightBasis& basis, const Skinned& skin, const DepthMapSampling& sampling);
 
 }  // namespace render

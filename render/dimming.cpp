@@ -22,8 +22,9 @@ Cover shadowsOf(const View& view, const Dimmers& dimmers) {
     const LightGrid& grid = dimmers.spheres;
     if (!grid.empty()) cover.add(grid.origin, grid.origin + grid.cellSize * glm::vec2(grid.columns, grid.rows));
     const DepthMap& map = dimmers.field;
+    // A texel more on each side: the map may be shifted.
     if (!map.empty())
-        cover.add(map.origin, map.origin + map.texelSize * glm::vec2(map.columns, map.rows));
+        cover.add(map.origin - map.texelSize, map.origin + map.texelSize * glm::vec2(map.columns + 1, map.rows + 1));
     for (const BoxObstacle& box : view.boxObstacles) {
         // Half the width of an edge: a soft one's, or a pixel's, which far away is wider than anything.
         const glm::vec3 size = box.maximum - box.minimum;

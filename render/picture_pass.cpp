@@ -64,7 +64,8 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
         looks_ = looksOf(view, drawn_, particleOpen_);
         findBoxes(view);
     });
-    timed(times.shadow, [&] { castDepths(view, depthMapTexels); });
+    depthMapTexels_ = depthMapTexels;
+    timed(times.shadow, [&] { castDepths(view, glm::vec2(0.0F)); });
     timed(times.bin, [&] { findGround(view); });
 }
 
@@ -102,8 +103,16 @@ void PicturePass::binShadows(const View& view) {
     lightGrid_ = view.light.shadows ? lightGrid(light_, drawn_.spheres, view.light.softness) : LightGrid{};
 }
 
-void PicturePass::castDepths(const View& view, int mostTexels) {
-    depthMap_ = castsField_ && view.light.shadows ? castDepthMap(light_, {view, skin_, {}}, mostTexels) : DepthMap{};
+void PicturePass::castDepths(const View& view, glm::vec2 shift) {
+    depthMapShift_ = shift;
+    depthMap_ = castsField_ && view.light.shadows ? castDepthMap(light_, {view, skin_, {}}, {depthMapTexels_, shift})
+                                                  : DepthMap{};
+}
+
+// Rays moved by a third of a pixel look at texels moved by a third of a texel, so that the mean of the pictures has the
+// mean of the maps.
+void PicturePass::castShadow(const View& view, const Sampling& sampling) {
+    if (castsField_ && view.light.shadows && sampling.offset != depthMapShift_) castDepths(view, sampling.offset);
 }
 
 void PicturePass::findBoxes(const View& view) {

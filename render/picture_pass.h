@@ -43,6 +43,9 @@ class PicturePass {
     /// Fills and uploads everything that does not depend on where in the pixel the rays go.
     void prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times);
 
+    /// Casts the metaballs' shadows anew where these rays ask for other texels than the last ones.
+    void castShadow(const View& view, const Sampling& sampling);
+
     /// Casts the metaballs for these rays. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
 
@@ -66,7 +69,7 @@ class PicturePass {
     void bin(const View& view);
     void findOpenness(const View& view);
     void binShadows(const View& view);
-    void castDepths(const View& view, int mostTexels);
+    void castDepths(const View& view, glm::vec2 shift);
     void findBoxes(const View& view);
     void findGround(const View& view);
     bool castsShadows(const View& view) const;
@@ -93,6 +96,8 @@ class PicturePass {
     KeptTiles kept_;
     LightBasis light_;
     LightGrid lightGrid_;
+    int depthMapTexels_ = 1024;
+    glm::vec2 depthMapShift_{0.0F};
     DepthMap depthMap_;
     bool opens_ = false;  // the look asks for openness
     std::vector<Openness> particleOpen_;

@@ -95,7 +95,11 @@ struct Renderer::Parts {
     }
 
     void cast(const View& view, const Sampling& sampling) {
-        timed(times.cast, [&] { pass.castField(view, sampling); });
+        StageClock clock;
+        pass.castShadow(view, sampling);
+        clock.add(times.shadow);
+        pass.castField(view, sampling);
+        clock.add(times.cast);
     }
 
     void color(const View& view) {
