@@ -1,7 +1,8 @@
-// stb's PNG with libdeflate in place of its compressor and its checksum.
+// stb's PNG with ISA-L in place of its compressor and its checksum.
 #include "render/png.h"
 
-#include <libdeflate.h>
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,19 +20,36 @@ namespace {
 
 // stb's own goes byte by byte.
 unsigned int checksum(const unsigned char* data, int size) {
-    return libdeflate_crc32(0, data, static_cast<std::size_t>(size));
+    return crc32_gzip_refl(0, data, static_cast<std::uint64_t>(size));
+}
+
+// What does not get smaller is stored in blocks of 65535 bytes, five more each; and the stream's head and end.
+std::size_t mostCompressed(std::size_t size) {
+    return size + 5 * (size / 65535 + 1) + 64;
 }
 
 // Signature given by stb: returns a malloc'd zlib stream, which stb frees.
 unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, int /*quality*/) {
-    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-        libdeflate_alloc_compressor(1), libdeflate_free_compressor);
-    if (!compressor) return nullptr;
-    const auto input = static_cast<std::size_t>(size);
-    const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), input);
+    const std::size_t bound = mostCompressed(static_cast<std::size_t>(size));
     auto* output = static_cast<unsigned char*>(std::malloc(bound));
     if (output == nullptr) return nullptr;
-    *compressedSize = static_cast<int>(libdeflate_zlib_compress(compressor.get(), data, input, output, bound));
+    std::vector<std::uint8_t> levelBuffer(ISAL_DEF_LVL1_DEFAULT);
+    isal_zstream stream;
+    isal_deflate_stateless_init(&stream);
+    stream.level = 1;
+    stream.level_buf = levelBuffer.data();
+    stream.level_buf_size = static_cast<std::uint32_t>(levelBuffer.size());
+    stream.gzip_flag = IGZIP_ZLIB;
+    stream.end_of_stream = 1;
+    stream.next_in = data;
+    stream.avail_in = static_cast<std::uint32_t>(size);
+    stream.next_out = output;
+    stream.avail_out = static_cast<std::uint32_t>(bound);
+    if (isal_deflate_stateless(&stream) != COMP_OK) {
+        std::free(output);
+        return nullptr;
+    }
+    *compressedSize = static_cast<int>(stream.total_out);
     return output;
 }
 

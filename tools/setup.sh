@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
     cmake ninja-build g++ pkg-config
-    libtbb-dev libhwy-dev libeigen3-dev libglm-dev libstb-dev libdeflate-dev libfmt-dev libcli11-dev nlohmann-json3-dev
+    libtbb-dev libhwy-dev libeigen3-dev libglm-dev libstb-dev libisal-dev libfmt-dev libcli11-dev nlohmann-json3-dev
     libtomlplusplus-dev catch2 fonts-dejavu-core
     libosmesa6-dev libegl-dev libgl-dev libegl1 libgl1-mesa-dri
     ffmpeg gnuplot-nox clang libclang-rt-dev
