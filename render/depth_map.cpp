@@ -34,8 +34,8 @@ CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) 
 // A hard shadow's edge is three texels wide, softened for the eye alone.
 constexpr float kTexelsPerRadius = 12.0F;
 
-// From one texel to the next, in texels: what rises by more is taken for an outline. At half of it pictures are no nearer
-// to the exact ones (measured).
+// From one texel to the next, in texels: what rises by more is taken for an outline. At half of it pictures are no
+// nearer to the exact ones (measured).
 constexpr float kJump = 4.0F;
 
 constexpr std::size_t kReadAtOnce = 8;  // heights

@@ -11,8 +11,8 @@
 
 namespace render {
 
-/// Heights of the surface over the light's plane, towards the light, in steps from where it ends; 0: no surface. A texel
-/// has two rows of two, the first of them a quarter of a texel from its sides.
+/// Heights of the surface over the light's plane, towards the light, in steps from where it ends; 0: no surface. A
+/// texel has two rows of two, the first of them a quarter of a texel from its sides.
 struct DepthMap {
     glm::vec2 origin{0.0F};
     float texelSize = 1.0F;

@@ -58,6 +58,7 @@ namespace render {
     X(TexBuffer, PFNGLTEXBUFFERPROC)                           \
     X(TexImage2D, PFNGLTEXIMAGE2DPROC)                         \
     X(TexParameteri, PFNGLTEXPARAMETERIPROC)                   \
+    X(TexSubImage2D, PFNGLTEXSUBIMAGE2DPROC)                   \
     X(Uniform1i, PFNGLUNIFORM1IPROC)                           \
     X(UniformBlockBinding, PFNGLUNIFORMBLOCKBINDINGPROC)       \
     X(UnmapBuffer, PFNGLUNMAPBUFFERPROC)                       \

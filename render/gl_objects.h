@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -103,18 +104,39 @@ class TextureBuffer {
     TextureName texture_;
 };
 
-/// A target of a fixed size, four bytes a pixel. Throws SystemError where OpenGL cannot make it.
-class Target {
+/// Pixels of a fixed number, row by row, in memory a word each. Throws SystemError where OpenGL cannot make it.
+///
+/// OpenGL takes the lowest byte for blue: llvmpipe keeps such pixels as they come, and copies rectangles of one texture
+/// to another by rows instead of running a shader. Who draws to them swaps red and blue.
+class PixelTexture {
  public:
-    Target(const Gl& gl, int width, int height);
+    PixelTexture(const Gl& gl, int width, int height);
 
-    void bindForDrawing() const;
+    void upload(std::span<const std::uint32_t> pixels) const;
+    void bind(int unit) const;
+    GLuint get() const { return texture_.get(); }
 
  private:
     const Gl* gl_;
     int width_;
     int height_;
     TextureName texture_;
+};
+
+/// What is drawn to.
+class Target {
+ public:
+    Target(const Gl& gl, int width, int height);
+
+    void bindForDrawing() const;
+    /// Reads some of its rows; room: for all their pixels.
+    void readRows(int first, int count, std::uint32_t* room) const;
+
+ private:
+    const Gl* gl_;
+    int width_;
+    int height_;
+    PixelTexture pixels_;
     FramebufferName framebuffer_;
 };
 

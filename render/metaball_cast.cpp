@@ -21,8 +21,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/sieve-inl.h"
 #include "render/lane_rays-inl.h"
+#include "render/sieve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

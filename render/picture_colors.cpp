@@ -170,18 +170,24 @@ TileClass colorTile(const PictureJob& job, std::size_t tile, const Put& put) {
     return TileClass::picture;
 }
 
-void putTile(const PointColors& colors, std::size_t tile, std::span<PixelColor> pixels) {
+void putTile(const PointColors& colors, std::size_t tile, const CellLists& tiles, std::span<PixelColor> pixels) {
     alignas(64) std::array<PixelColor, kTilePixels> packed;
     packColors(colors, packed.data());
-    PixelColor* own = &pixels[tile * kTilePixels];
-    for (std::size_t k = 0; k < kTilePixels; ++k) own[kZCurve[k]] = packed[k];
+    const auto columns = static_cast<std::size_t>(tiles.columns);
+    const std::size_t rowLength = columns * kTileSize;
+    PixelColor* own = &pixels[tile / columns * kTileSize * rowLength + tile % columns * kTileSize];
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        const std::size_t place = kZCurve[k];
+        own[place / kTileSize * rowLength + place % kTileSize] = packed[k];
+    }
 }
 
 }  // namespace
 
 void colorPixels(const PictureJob& job, std::span<PixelColor> pixels, std::span<TileClass> classes) {
+    const CellLists& tiles = *job.contents.solids.tiles;
     tbb::parallel_for(std::size_t{0}, classes.size(), [&](std::size_t tile) {
-        classes[tile] = colorTile(job, tile, [&](const PointColors& colors) { putTile(colors, tile, pixels); });
+        classes[tile] = colorTile(job, tile, [&](const PointColors& colors) { putTile(colors, tile, tiles, pixels); });
     });
 }
 
@@ -194,13 +200,13 @@ void addColors(const PictureJob& job, std::span<PointColors> sums, std::span<Til
     });
 }
 
-void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass> classes,
+void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass> classes, const CellLists& tiles,
                 std::span<PixelColor> pixels) {
     tbb::parallel_for(std::size_t{0}, classes.size(), [&](std::size_t tile) {
         if (classes[tile] != TileClass::picture) return;
         for (std::array<float, kTilePixels>& channel : sums[tile].rgb)
             for (float& value : channel) value /= static_cast<float>(jobs);
-        putTile(sums[tile], tile, pixels);
+        putTile(sums[tile], tile, tiles, pixels);
     });
 }
 

@@ -24,14 +24,14 @@ struct PictureJob {
     const Shading& shading;
 };
 
-/// pixels: 256 a tile, row by row; written, never read, and only those of tiles of pictures. classes: one a tile.
+/// pixels: row by row, whole tiles of them; only those of tiles of pictures are written. classes: one a tile.
 void colorPixels(const PictureJob& job, std::span<PixelColor> pixels, std::span<TileClass> classes);
 
 /// The same of one of several jobs, whose tiles are of the same classes; sums: along kZCurve, a tile each.
 void addColors(const PictureJob& job, std::span<PointColors> sums, std::span<TileClass> classes);
 
 /// The mean of so many.
-void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass> classes,
+void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass> classes, const CellLists& tiles,
                 std::span<PixelColor> pixels);
 
 /// What the job's first sample of each pixel of the picture meets, row by row.

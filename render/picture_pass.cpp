@@ -42,8 +42,7 @@ float meanRadiusOf(const View& view) {
 
 }  // namespace
 
-PicturePass::PicturePass(const Gl& gl)
-    : gl_(&gl), programs_(gl), tileTable_(gl, "tiles", GL_RGBA32I, 16), pixels_(gl, "pixels", GL_RGBA8, 4) {
+PicturePass::PicturePass(const Gl& gl) : gl_(&gl), programs_(gl), tileTable_(gl, "tiles", GL_RGBA32I, 16) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     frameBlock_ = BufferName(gl, name);
@@ -177,11 +176,9 @@ auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visi
                             surfaces, dims ? &obstruction : nullptr, shading_});
 }
 
-void PicturePass::color(const View& view, const Sampling& sampling) {
+void PicturePass::color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels) {
     classes_.resize(groundTiles_.size());
-    Mapped pixels = pixels_.map(classes_.size() * kTilePixels * sizeof(PixelColor));
-    withJob(view, sampling, [&](const PictureJob& job) { colorPixels(job, pixels.as<PixelColor>(), classes_); });
-    pixels.finish();
+    withJob(view, sampling, [&](const PictureJob& job) { colorPixels(job, pixels, classes_); });
 }
 
 void PicturePass::clearSum() {
@@ -193,10 +190,8 @@ void PicturePass::addColors(const View& view, const Sampling& sampling) {
     withJob(view, sampling, [&](const PictureJob& job) { render::addColors(job, sums_, classes_); });
 }
 
-void PicturePass::takeMean(int samplings) {
-    Mapped pixels = pixels_.map(classes_.size() * kTilePixels * sizeof(PixelColor));
-    meanColors(samplings, sums_, classes_, pixels.as<PixelColor>());
-    pixels.finish();
+void PicturePass::takeMean(int samplings, std::span<PixelColor> pixels) {
+    meanColors(samplings, sums_, classes_, sphereTiles_, pixels);
 }
 
 std::vector<SurfacePoint> PicturePass::surfaces(const View& view, const Sampling& sampling) {
@@ -219,7 +214,7 @@ FrameBlock PicturePass::uploadFrame(const View& view) {
     return block;
 }
 
-// Those that the target still holds are not drawn.
+// Plain ones that the last picture did not show yet.
 std::vector<TileClass> PicturePass::classesToDraw(const FrameBlock& block) {
     std::vector<TileClass> classes = classes_;
     kept_.begin(backdropOf(block), classes.size());
@@ -228,13 +223,15 @@ std::vector<TileClass> PicturePass::classesToDraw(const FrameBlock& block) {
     return classes;
 }
 
-void PicturePass::draw(const View& view, PictureSize target) {
+void PicturePass::draw(const View& view, PictureSize target, const PixelTexture& pixels) {
+    gl_->UseProgram(programs_.tiles({TileClass::picture, true}));
+    pixels.bind(kPixelsUnit);
+    gl_->DrawArrays(GL_TRIANGLES, 0, 6);
     const FrameBlock block = uploadFrame(view);
     const TileTable table = tileTable(classesToDraw(block), sphereTiles_.columns);
     tileTable_.upload(bytesOf(table.rows));
     tileTable_.bind(kTileTableUnit);
-    pixels_.bind(kPixelsUnit);
-    for (const TileClass tiles : {TileClass::background, TileClass::ground, TileClass::picture}) {
+    for (const TileClass tiles : {TileClass::background, TileClass::ground}) {
         const int begin = table.first[static_cast<std::size_t>(tiles)];
         const int end = table.first[static_cast<std::size_t>(tiles) + 1];
         if (begin == end) continue;

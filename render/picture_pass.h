@@ -49,19 +49,21 @@ class PicturePass {
     /// Casts the metaballs for these rays. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
 
-    /// Finds the colours of what these rays see; draws nothing yet.
-    void color(const View& view, const Sampling& sampling);
+    /// Finds the colours of what these rays see, but where that is plain; draws nothing yet. pixels: row by row, whole
+    /// tiles of them.
+    void color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels);
 
     /// The same from several samplings without `sparse`: their mean.
     void clearSum();
     void addColors(const View& view, const Sampling& sampling);
-    void takeMean(int samplings);
+    void takeMean(int samplings, std::span<PixelColor> pixels);
 
     /// What the first of these rays through each pixel meets, row by row.
     std::vector<SurfacePoint> surfaces(const View& view, const Sampling& sampling);
 
-    /// Draws the picture to the bound target, whose size is a whole number of tiles, and which holds the last one.
-    void draw(const View& view, PictureSize target);
+    /// Draws the picture to the bound target, whose size is a whole number of tiles: the pixels that were found, and
+    /// what they leave out. Those of other tiles must be those of the last picture.
+    void draw(const View& view, PictureSize target, const PixelTexture& pixels);
 
     ProgramCache& programs() { return programs_; }
 
@@ -81,7 +83,7 @@ class PicturePass {
 
     const Gl* gl_;
     ProgramCache programs_;
-    TextureBuffer tileTable_, pixels_;
+    TextureBuffer tileTable_;
     BufferName frameBlock_;
 
     CameraFrame frame_;

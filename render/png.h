@@ -10,8 +10,8 @@
 
 namespace render {
 
-/// Fast rather than small: a picture of 1280x720 pixels takes 3 ms; libdeflate at its fastest takes 10, and the file is 4
-/// to 7 % smaller (measured). Which bytes stand for the same pixels may depend on the processor.
+/// Fast rather than small: a picture of 1280x720 pixels takes 3 ms; libdeflate at its fastest takes 10, and the file is
+/// 4 to 7 % smaller (measured). Which bytes stand for the same pixels may depend on the processor.
 std::vector<std::uint8_t> encodePng(const Image& image);
 
 /// Throws SystemError, with the name, for what is no PNG, has more than eight bits a channel or is not opaque.

@@ -16,7 +16,6 @@ std::string definesOf(const Features& features) {
     const auto define = [&text](const char* name, bool wanted) {
         if (wanted) text += fmt::format("#define {}\n", name);
     };
-    define("PLAIN", features.tiles != TileClass::picture);
     define("GROUND", features.tiles == TileClass::ground);
     define("PERSPECTIVE", features.perspective);
     return text;
@@ -63,15 +62,11 @@ ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::str
 }
 
 ProgramName ProgramCache::build(const Features& features) const {
-    const bool isPicture = features.tiles == TileClass::picture;
-    std::string vertex = definesOf(features) + "#define VERTEX\n";
-    std::string fragment = joined(definesOf(features), {"encode.glsl"});
-    if (!isPicture) {
-        vertex = joined(vertex, {"frame.glsl"});
-        fragment = joined(fragment, {"frame.glsl"});
-    }
-    return buildProgram(*gl_, joined(vertex, {"tile.vert"}),
-                        joined(fragment, {isPicture ? "picture.frag" : "plain.frag"}));
+    const std::string defines = definesOf(features);
+    if (features.tiles == TileClass::picture)
+        return buildProgram(*gl_, joined(defines, {"copy.vert"}), joined(defines, {"copy.frag"}));
+    return buildProgram(*gl_, joined(defines + "#define VERTEX\n", {"frame.glsl", "tile.vert"}),
+                        joined(defines, {"encode.glsl", "frame.glsl", "plain.frag"}));
 }
 
 GLuint ProgramCache::tiles(const Features& features) {

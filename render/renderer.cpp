@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -25,8 +26,6 @@ namespace {
 int depthMapTexels(Quality quality) {
     return quality == Quality::final ? 2048 : 1024;
 }
-
-using Rgba = std::array<std::uint8_t, 4>;
 
 int wholeTiles(int pixels) {
     return (pixels + kTileSize - 1) / kTileSize * kTileSize;
@@ -87,8 +86,10 @@ struct Renderer::Parts {
           padded{wholeTiles(size_.width), wholeTiles(size_.height)},
           quality(quality_),
           pass(context_.gl()),
+          colors(context_.gl(), padded.width, padded.height),
           bytes(context_.gl(), padded.width, padded.height),
-          vertices(vertexArray(context_.gl())) {
+          vertices(vertexArray(context_.gl())),
+          pixels(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height)) {
         requireLimits(context_.gl());
         context.gl().Enable(GL_PROGRAM_POINT_SIZE);
         context.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -105,7 +106,7 @@ struct Renderer::Parts {
     void color(const View& view) {
         const Sampling sampling{.samples = quality == Quality::draft ? 1 : 4, .sparse = true};
         cast(view, sampling);
-        timed(times.color, [&] { pass.color(view, sampling); });
+        timed(times.color, [&] { pass.color(view, sampling, pixels); });
     }
 
     // Regular 3 x 3 grid, each sample clamped, averaged in linear light.
@@ -118,13 +119,14 @@ struct Renderer::Parts {
                 timed(times.color, [&] { pass.addColors(view, sampling); });
             }
         }
-        timed(times.color, [&] { pass.takeMean(9); });
+        timed(times.color, [&] { pass.takeMean(9, pixels); });
     }
 
     void draw(const View& view) {
         StageClock clock;
+        colors.upload(pixels);
         bytes.bindForDrawing();
-        pass.draw(view, padded);
+        pass.draw(view, padded, colors);
         // OpenGL draws when it is asked for a result.
         context.gl().Finish();
         clock.add(times.openGl);
@@ -148,13 +150,12 @@ struct Renderer::Parts {
         image.height = size.height;
         image.rgb.resize(image.byteCount());
         bytes.bindForDrawing();
-        pixels.resize(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height));
         // What has been read loses its fourth byte while OpenGL hands over the next rows.
         tbb::task_group packing;
         constexpr int kBand = 64;  // chosen: what a processor keeps close by
         for (int row = 0; row < size.height; row += kBand) {
             const int rows = std::min(kBand, size.height - row);
-            readRows(row, rows);
+            bytes.readRows(row, rows, rowOf(row));
             packing.run([this, &image, row, rows] { packRows(row, rows, image); });
         }
         packing.wait();
@@ -163,21 +164,19 @@ struct Renderer::Parts {
         return image;
     }
 
-    // Four bytes a pixel are read several times faster than three.
-    void readRows(int row, int rows) {
-        context.gl().ReadPixels(0, row, padded.width, rows, GL_RGBA, GL_UNSIGNED_BYTE, rowOf(row));
+    PixelColor* rowOf(int row) {
+        return &pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(padded.width)];
     }
-
-    Rgba* rowOf(int row) { return &pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(padded.width)]; }
 
     void packRows(int first, int rows, Image& image) {
         const auto last = static_cast<std::size_t>(size.width) - 1;
         for (int row = first; row < first + rows; ++row) {
-            const Rgba* from = rowOf(row);
+            const PixelColor* from = rowOf(row);
             std::uint8_t* to = &image.rgb[3 * (last + 1) * static_cast<std::size_t>(row)];
             // Whole words: the fourth byte is overwritten by the next pixel.
-            for (std::size_t k = 0; k < last; ++k) std::memcpy(to + 3 * k, from[k].data(), sizeof(Rgba));
-            std::memcpy(to + 3 * last, from[last].data(), 3);
+            static_assert(std::endian::native == std::endian::little);
+            for (std::size_t k = 0; k < last; ++k) std::memcpy(to + 3 * k, &from[k], sizeof(PixelColor));
+            std::memcpy(to + 3 * last, &from[last], 3);
         }
     }
 
@@ -186,9 +185,10 @@ struct Renderer::Parts {
     PictureSize padded;
     Quality quality;
     PicturePass pass;
+    PixelTexture colors;
     Target bytes;
     VertexArrayName vertices;
-    std::vector<Rgba> pixels;  // as they are read back
+    std::vector<PixelColor> pixels;  // of the last picture, until those of the next are found
     DrawTimes times;
 };
 

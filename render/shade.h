@@ -37,7 +37,7 @@ struct PointColors {
 void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints& points, const LightReach* reach,
            PointColors& colors);
 
-/// A colour as shaders/picture.frag reads it: sRGB, a byte a channel, the lowest red.
+/// sRGB, a byte a channel, the lowest red.
 using PixelColor = std::uint32_t;
 
 /// Shape:  pixels: kTilePixels of them; colors: all of them.

@@ -78,13 +78,18 @@ render::VertexArrayName vertexArray(const render::Gl& gl) {
     return {gl, name};
 }
 
-render::TextureName depthTexture(const render::Gl& gl, render::PictureSize size) {
+render::TextureName texture(const render::Gl& gl, render::PictureSize size, GLint stored, GLenum format, GLenum type) {
     GLuint name = 0;
     gl.GenTextures(1, &name);
     gl.ActiveTexture(GL_TEXTURE0);
     gl.BindTexture(GL_TEXTURE_2D, name);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size.width, size.height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                  nullptr);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, stored, size.width, size.height, 0, format, type, nullptr);
+    return {gl, name};
+}
+
+render::FramebufferName framebuffer(const render::Gl& gl) {
+    GLuint name = 0;
+    gl.GenFramebuffers(1, &name);
     return {gl, name};
 }
 
@@ -94,14 +99,16 @@ struct QuadBaseline::Parts {
     Parts(render::Context& context_, render::PictureSize size_)
         : context(context_),
           size(size_),
-          target(context_.gl(), size_.width, size_.height),
-          depth(depthTexture(context_.gl(), size_)),
+          color(texture(context_.gl(), size_, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE)),
+          depth(texture(context_.gl(), size_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT)),
+          target(framebuffer(context_.gl())),
           vertices(vertexArray(context_.gl())),
           spheres(context_.gl(), "spheres of the baseline", GL_RGBA32F, 16),
           block(buffer(context_.gl())),
           program(render::buildProgram(context_.gl(), kVertex, kFragment)) {
         const render::Gl& gl = context.gl();
-        target.bindForDrawing();
+        gl.BindFramebuffer(GL_FRAMEBUFFER, target.get());
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.get(), 0);
         gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.get(), 0);
         gl.UniformBlockBinding(program.get(), gl.GetUniformBlockIndex(program.get(), "Picture"), 0);
     }
@@ -127,7 +134,8 @@ struct QuadBaseline::Parts {
         const render::Gl& gl = context.gl();
         gl.BindVertexArray(vertices.get());
         upload(view);
-        target.bindForDrawing();
+        gl.BindFramebuffer(GL_FRAMEBUFFER, target.get());
+        gl.Viewport(0, 0, size.width, size.height);
         gl.Enable(GL_DEPTH_TEST);
         gl.DepthFunc(GL_LESS);
         gl.ClearColor(0.8F, 0.82F, 0.84F, 1.0F);
@@ -147,8 +155,8 @@ struct QuadBaseline::Parts {
 
     render::Context& context;
     render::PictureSize size;
-    render::Target target;
-    render::TextureName depth;
+    render::TextureName color, depth;
+    render::FramebufferName target;
     render::VertexArrayName vertices;
     render::TextureBuffer spheres;
     render::BufferName block;

@@ -27,5 +27,6 @@ void main() {
 #ifdef GROUND
     color = mix(frame.ground.xyz, color, groundFade(at));
 #endif
-    pixel = vec4(encodeRoots(sqrt(clamp(color, 0.0, 1.0))), 1.0);
+    // Red and blue are swapped, see PixelTexture.
+    pixel = vec4(encodeRoots(sqrt(clamp(color, 0.0, 1.0))).bgr, 1.0);
 }

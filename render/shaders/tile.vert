@@ -4,13 +4,8 @@ uniform int firstTile;
 uniform int targetWidth;            // pixels of the target, whole numbers of tiles
 uniform int targetHeight;
 
-flat out int tilesInRow;
-
 void main() {
-#ifdef PLAIN
     frame = block;
-#endif
-    tilesInRow = targetWidth >> 4;
     ivec4 square = texelFetch(tileTable, firstTile + gl_VertexID);
     vec2 center = (vec2(square.xy) + 0.5 * float(square.z)) * 16.0;
     // Row 0 of the target is the top row of the picture, so that reading back needs no flip.
