@@ -17,11 +17,10 @@
 namespace engine {
 
 #ifdef GLOBULAR_SANITIZES_THREADS
-/// ThreadSanitizer does not see how oneTBB, which is not compiled with it, hands work from thread to thread. Two threads at
-/// least, because one never races.
+/// ThreadSanitizer does not see how oneTBB, which is not compiled with it, hands work from thread to thread.
 template <class Ranges>
 void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
-    const auto most = std::max(std::size_t{2}, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+    const auto most = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
     const std::size_t parts = std::min(most, (count + grain - 1) / grain);
     std::vector<std::thread> threads;
     for (std::size_t part = 1; part < parts; ++part)
