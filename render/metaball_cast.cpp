@@ -273,7 +273,7 @@ class Group {
         near_.farDepth[near_.count] = ball.center.z + ball.reach;
         near_.index[near_.count] = index;
         // Most are met; the others are written over.
-        near_.count += hn::AllFalse(d, hn::Gt(w, hn::Zero(d))) ? 0 : 1;
+        near_.count += hn::AllFalse(d, hn::Gt(w, hn::Zero(d))) ? 0U : 1U;
     }
 
     /// The first of these depths that is not less than t, a vector at a time.

@@ -53,7 +53,7 @@ inline TilePlaces placesWhere(const std::array<bool, kBlockRays>& flags) {
     // Written whether it counts or not: a branch would be mistaken too often.
     for (const std::uint8_t place : kZCurve) {
         found.places[count] = place;
-        count += flags[place] ? 1 : 0;
+        count += flags[place] ? 1U : 0U;
     }
     found.count = count;
     return found;

@@ -40,7 +40,7 @@ Count countIn(const Simulation& simulation) {
     for (std::size_t p = 0; p < simulation.particles.count(); ++p) {
         if (!isClear(simulation, p)) continue;
         ++count.clear;
-        count.touching += gapOf(simulation, p) < 0.0 ? 1 : 0;
+        count.touching += gapOf(simulation, p) < 0.0 ? 1U : 0U;
     }
     return count;
 }

@@ -95,7 +95,7 @@ TEST_CASE("The number of cores does not change a byte") {
     const Folder folder;
     cpu_set_t all;
     REQUIRE(sched_getaffinity(0, sizeof all, &all) == 0);
-    int first = 0;
+    std::size_t first = 0;
     while (!CPU_ISSET(first, &all)) ++first;
     cpu_set_t one;
     CPU_ZERO(&one);
