@@ -107,7 +107,7 @@ class TextureBuffer {
 /// Pixels of a fixed number, row by row, in memory a word each. Throws SystemError where OpenGL cannot make it.
 ///
 /// OpenGL takes the lowest byte for blue: llvmpipe keeps such pixels as they come, and copies rectangles of one texture
-/// to another by rows instead of running a shader. Who draws to them swaps red and blue.
+/// to another by rows instead of running a shader.
 class PixelTexture {
  public:
     PixelTexture(const Gl& gl, int width, int height);

@@ -10,22 +10,10 @@
 #include <tbb/parallel_invoke.h>
 
 #include "render/dimming.h"
-#include "render/tile_table.h"
 
 namespace render {
 
 namespace {
-
-// What the shader of plain tiles reads.
-Backdrop backdropOf(const FrameBlock& block) {
-    return {block.right,  block.up,           block.forward,       block.picture,
-            block.ground, block.groundCenter, block.backgroundTop, block.backgroundBottom};
-}
-
-template <typename T>
-std::span<const std::byte> bytesOf(const std::vector<T>& items) {
-    return std::as_bytes(std::span<const T>(items));
-}
 
 // Whether any term of the shading model looks at openness.
 bool asksForOpenness(const View& view) {
@@ -41,12 +29,6 @@ float meanRadiusOf(const View& view) {
 }
 
 }  // namespace
-
-PicturePass::PicturePass(const Gl& gl) : gl_(&gl), programs_(gl), tileTable_(gl, "tiles", GL_RGBA32I, 16) {
-    GLuint name = 0;
-    gl.GenBuffers(1, &name);
-    frameBlock_ = BufferName(gl, name);
-}
 
 void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times) {
     frame_ = frame;
@@ -179,6 +161,7 @@ auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visi
 void PicturePass::color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels) {
     classes_.resize(groundTiles_.size());
     withJob(view, sampling, [&](const PictureJob& job) { colorPixels(job, pixels, classes_); });
+    colorPlain(view, pixels);
 }
 
 void PicturePass::clearSum() {
@@ -190,58 +173,24 @@ void PicturePass::addColors(const View& view, const Sampling& sampling) {
     withJob(view, sampling, [&](const PictureJob& job) { render::addColors(job, sums_, classes_); });
 }
 
-void PicturePass::takeMean(int samplings, std::span<PixelColor> pixels) {
+void PicturePass::takeMean(const View& view, int samplings, std::span<PixelColor> pixels) {
     meanColors(samplings, sums_, classes_, sphereTiles_, pixels);
+    colorPlain(view, pixels);
+}
+
+void PicturePass::colorPlain(const View& view, std::span<PixelColor> pixels) {
+    const Ground ground = view.ground.value_or(Ground{});
+    const Backdrop backdrop{frame_,
+                            view.background,
+                            undimmedGround(shading_, ground.color),
+                            ground.height - frame_.eye.y,
+                            shading_.groundCenter,
+                            shading_.fadeDistance};
+    plain_.color(backdrop, classes_, sphereTiles_.columns, pixels);
 }
 
 std::vector<SurfacePoint> PicturePass::surfaces(const View& view, const Sampling& sampling) {
     return withJob(view, sampling, [](const PictureJob& job) { return surfacePoints(job); });
-}
-
-FrameBlock PicturePass::uploadFrame(const View& view) {
-    const Ground ground = view.ground.value_or(Ground{});
-    FrameBlock block;
-    block.right = glm::vec4(frame_.right * frame_.halfWidth, 0.0F);
-    block.up = glm::vec4(frame_.up * frame_.halfHeight, 0.0F);
-    block.forward = glm::vec4(frame_.forward, frame_.perspective ? 1.0F : 0.0F);
-    block.picture = glm::vec4(1.0F / glm::vec2(frame_.width, frame_.height), 0.0F, 0.0F);
-    block.ground = glm::vec4(undimmedGround(shading_, ground.color), ground.height - frame_.eye.y);
-    block.groundCenter = glm::vec4(shading_.groundCenter, 1.0F / shading_.fadeDistance);
-    block.backgroundTop = glm::vec4(view.background.top, 0.0F);
-    block.backgroundBottom = glm::vec4(view.background.bottom, 0.0F);
-    gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.get());
-    gl_->BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
-    return block;
-}
-
-// Plain ones that the last picture did not show yet.
-std::vector<TileClass> PicturePass::classesToDraw(const FrameBlock& block) {
-    std::vector<TileClass> classes = classes_;
-    kept_.begin(backdropOf(block), classes.size());
-    for (std::size_t tile = 0; tile < classes.size(); ++tile)
-        if (kept_.keeps(tile, classes[tile])) classes[tile] = TileClass::kept;
-    return classes;
-}
-
-void PicturePass::draw(const View& view, PictureSize target, const PixelTexture& pixels) {
-    gl_->UseProgram(programs_.tiles({TileClass::picture, true}));
-    pixels.bind(kPixelsUnit);
-    gl_->DrawArrays(GL_TRIANGLES, 0, 6);
-    const FrameBlock block = uploadFrame(view);
-    const TileTable table = tileTable(classesToDraw(block), sphereTiles_.columns);
-    tileTable_.upload(bytesOf(table.rows));
-    tileTable_.bind(kTileTableUnit);
-    for (const TileClass tiles : {TileClass::background, TileClass::ground}) {
-        const int begin = table.first[static_cast<std::size_t>(tiles)];
-        const int end = table.first[static_cast<std::size_t>(tiles) + 1];
-        if (begin == end) continue;
-        const GLuint program = programs_.tiles({tiles, frame_.perspective});
-        gl_->UseProgram(program);
-        programs_.setInteger(program, "targetWidth", target.width);
-        programs_.setInteger(program, "targetHeight", target.height);
-        programs_.setInteger(program, "firstTile", begin);
-        gl_->DrawArrays(GL_POINTS, 0, end - begin);
-    }
 }
 
 }  // namespace render

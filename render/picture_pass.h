@@ -1,5 +1,4 @@
-// Draws a view tile by tile: finds the colours of what its pixels show, chooses a program for each class of tiles,
-// draws. Used by the Renderer alone, with the context current.
+// Finds the colours of a view's pixels, tile by tile. Used by the Renderer alone.
 #pragma once
 
 #include <span>
@@ -11,23 +10,16 @@
 #include "render/depth_map.h"
 #include "render/draw_times.h"
 #include "render/drawn_spheres.h"
-#include "render/gl_objects.h"
 #include "render/ground_tiles.h"
-#include "render/kept_tiles.h"
 #include "render/light_space.h"
 #include "render/line_list.h"
 #include "render/metaball_frame.h"
 #include "render/openness.h"
 #include "render/picture_colors.h"
-#include "render/program_cache.h"
+#include "render/plain_tiles.h"
 #include "render/view.h"
 
 namespace render {
-
-/// Mirrors Frame of shaders/frame.glsl, where the fields are explained.
-struct FrameBlock {
-    glm::vec4 right, up, forward, picture, ground, groundCenter, backgroundTop, backgroundBottom;
-};
 
 /// Which rays are taken through each pixel.
 struct Sampling {
@@ -38,9 +30,7 @@ struct Sampling {
 
 class PicturePass {
  public:
-    explicit PicturePass(const Gl& gl);
-
-    /// Fills and uploads everything that does not depend on where in the pixel the rays go.
+    /// Finds everything that does not depend on where in the pixel the rays go.
     void prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times);
 
     /// Casts the metaballs' shadows anew where these rays ask for other texels than the last ones.
@@ -49,23 +39,17 @@ class PicturePass {
     /// Casts the metaballs for these rays. Does nothing for spheres.
     void castField(const View& view, const Sampling& sampling);
 
-    /// Finds the colours of what these rays see, but where that is plain; draws nothing yet. pixels: row by row, whole
-    /// tiles of them.
+    /// Finds the colours of what these rays see. pixels: row by row, whole tiles of them, as the last picture left
+    /// them.
     void color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels);
 
     /// The same from several samplings without `sparse`: their mean.
     void clearSum();
     void addColors(const View& view, const Sampling& sampling);
-    void takeMean(int samplings, std::span<PixelColor> pixels);
+    void takeMean(const View& view, int samplings, std::span<PixelColor> pixels);
 
     /// What the first of these rays through each pixel meets, row by row.
     std::vector<SurfacePoint> surfaces(const View& view, const Sampling& sampling);
-
-    /// Draws the picture to the bound target, whose size is a whole number of tiles: the pixels that were found, and
-    /// what they leave out. Those of other tiles must be those of the last picture.
-    void draw(const View& view, PictureSize target, const PixelTexture& pixels);
-
-    ProgramCache& programs() { return programs_; }
 
  private:
     void bin(const View& view);
@@ -78,13 +62,7 @@ class PicturePass {
     Obstruction obstructionOf(const View& view) const;
     template <typename Visit>
     auto withJob(const View& view, const Sampling& sampling, const Visit& visit) const;
-    FrameBlock uploadFrame(const View& view);
-    std::vector<TileClass> classesToDraw(const FrameBlock& block);
-
-    const Gl* gl_;
-    ProgramCache programs_;
-    TextureBuffer tileTable_;
-    BufferName frameBlock_;
+    void colorPlain(const View& view, std::span<PixelColor> pixels);
 
     CameraFrame frame_;
     DrawnSpheres drawn_;
@@ -95,7 +73,7 @@ class PicturePass {
     LineList lineList_;
     std::vector<std::uint8_t> boxTiles_;  // 1 where a box may be seen
     std::vector<GroundTile> groundTiles_;
-    KeptTiles kept_;
+    PlainTiles plain_;
     LightBasis light_;
     LightGrid lightGrid_;
     int depthMapTexels_ = 1024;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,8 +17,8 @@
 
 #include "render/draw_overlay.h"
 #include "render/picture_pass.h"
+#include "render/program.h"
 #include "render/system_error.h"
-#include "render/tile_table.h"
 
 namespace render {
 
@@ -51,24 +53,15 @@ void requireFinite(const View& view) {
         throw std::logic_error("render: the light has no direction");
 }
 
+constexpr int kPixelsUnit = 0;
+
+std::string textOf(std::string_view shader) {
+    return std::string(shaderSource(shader));
+}
+
 PictureSize checkedSize(PictureSize size) {
     if (size.width > 0 && size.height > 0) return size;
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
-}
-
-// Squares of tiles are drawn as points, and the vertex shader hands the frame over (shaders/frame.glsl).
-void requireLimits(const Gl& gl) {
-    std::array<GLint, 2> sizes{};
-    gl.GetIntegerv(GL_POINT_SIZE_RANGE, sizes.data());
-    if (sizes[1] < kSquareSide * kTileSize)
-        throw SystemError(fmt::format("OpenGL draws points of {} pixels at most, and globular needs {}", sizes[1],
-                                      kSquareSide * kTileSize));
-    constexpr GLint kOutputs = sizeof(FrameBlock) / sizeof(float) + 8;
-    GLint outputs = 0;
-    gl.GetIntegerv(GL_MAX_VERTEX_OUTPUT_COMPONENTS, &outputs);
-    if (outputs < kOutputs)
-        throw SystemError(
-            fmt::format("OpenGL hands over {} numbers a vertex at most, and globular needs {}", outputs, kOutputs));
 }
 
 VertexArrayName vertexArray(const Gl& gl) {
@@ -85,14 +78,15 @@ struct Renderer::Parts {
           size(checkedSize(size_)),
           padded{wholeTiles(size_.width), wholeTiles(size_.height)},
           quality(quality_),
-          pass(context_.gl()),
+          copying(buildProgram(context_.gl(), textOf("copy.vert"), textOf("copy.frag"))),
           colors(context_.gl(), padded.width, padded.height),
           bytes(context_.gl(), padded.width, padded.height),
           vertices(vertexArray(context_.gl())),
           pixels(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height)) {
-        requireLimits(context_.gl());
-        context.gl().Enable(GL_PROGRAM_POINT_SIZE);
-        context.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
+        const Gl& gl = context.gl();
+        gl.UseProgram(copying.get());
+        gl.Uniform1i(gl.GetUniformLocation(copying.get(), "pixels"), kPixelsUnit);
+        gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
     void cast(const View& view, const Sampling& sampling) {
@@ -119,16 +113,19 @@ struct Renderer::Parts {
                 timed(times.color, [&] { pass.addColors(view, sampling); });
             }
         }
-        timed(times.color, [&] { pass.takeMean(9, pixels); });
+        timed(times.color, [&] { pass.takeMean(view, 9, pixels); });
     }
 
-    void draw(const View& view) {
+    void draw() {
+        const Gl& gl = context.gl();
         StageClock clock;
         colors.upload(pixels);
         bytes.bindForDrawing();
-        pass.draw(view, padded, colors);
+        gl.UseProgram(copying.get());
+        colors.bind(kPixelsUnit);
+        gl.DrawArrays(GL_TRIANGLES, 0, 6);
         // OpenGL draws when it is asked for a result.
-        context.gl().Finish();
+        gl.Finish();
         clock.add(times.openGl);
     }
 
@@ -185,6 +182,7 @@ struct Renderer::Parts {
     PictureSize padded;
     Quality quality;
     PicturePass pass;
+    ProgramName copying;
     PixelTexture colors;
     Target bytes;
     VertexArrayName vertices;
@@ -214,7 +212,7 @@ Image Renderer::draw(const View& view, Image old) {
     parts_->times = {};
     parts_->prepare(view);
     parts_->quality == Quality::final ? parts_->colorFinal(view) : parts_->color(view);
-    parts_->draw(view);
+    parts_->draw();
     Image image = parts_->readBack(std::move(old));
     drawOverlay(image, view.overlay, view.camera);
     return image;

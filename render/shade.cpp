@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/lane_colors-inl.h"
 #include "render/lane_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,32 +23,6 @@ struct ShadedPoints {
     V openBehind;  // against it
     V openMirrored;
 };
-
-V mixedBy(float a, float b, V part) {
-    return hn::Add(all(a), hn::Mul(part, all(b - a)));
-}
-
-Vec3 mixedBy(glm::vec3 a, glm::vec3 b, V part) {
-    return {mixedBy(a.x, b.x, part), mixedBy(a.y, b.y, part), mixedBy(a.z, b.z, part)};
-}
-
-Vec3 plus(const Vec3& a, const Vec3& b) {
-    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-
-Vec3 times(const Vec3& a, const Vec3& b) {
-    return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
-}
-
-Vec3 times(const Vec3& a, V b) {
-    return {hn::Mul(a.x, b), hn::Mul(a.y, b), hn::Mul(a.z, b)};
-}
-
-/// a towards b.
-Vec3 mixedBy(const Vec3& a, const Vec3& b, V part) {
-    const V rest = hn::Sub(all(1.0F), part);
-    return plus(times(a, rest), times(b, part));
-}
 
 V positive(V value) {
     return hn::Max(value, all(0.0F));
@@ -157,14 +132,6 @@ Vec3 surfaceColor(const Shading& shading, const ShadedPoints& at) {
     return shading.exposure > 0.0F ? shoulder(times(color, all(shading.exposure))) : color;
 }
 
-/// How much of the background shows through the ground at these places.
-V fadeAt(const Shading& shading, const Vec3& position) {
-    const Vec3 off = times(plus(position, uniform(-shading.groundCenter)), all(1.0F / shading.fadeDistance));
-    const V square = dotted(off, off);
-    const V fade = hn::Min(hn::Mul(square, square), all(1.0e30F));
-    return hn::Div(fade, hn::Add(all(1.0F), fade));
-}
-
 Vec3 loaded(const std::array<std::array<float, kTilePixels>, 3>& values, std::size_t place) {
     const D d;
     return {hn::Load(d, &values[0][place]), hn::Load(d, &values[1][place]), hn::Load(d, &values[2][place])};
@@ -206,7 +173,8 @@ void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints
         const M isBackground = laneMask(hn::Eq(seen, allOf(kSeesBackground)));
         if (!hn::AllFalse(d, hn::Or(isGround, isBackground))) {
             const V down = hn::Mul(hn::Load(d, &points.y[place]), all(1.0F / height));
-            const V fade = hn::IfThenElseZero(isGround, fadeAt(shading, loaded(points.position, place)));
+            const V fade = hn::IfThenElseZero(
+                isGround, fadeAt(loaded(points.position, place), shading.groundCenter, shading.fadeDistance));
             const V share = hn::IfThenElse(isBackground, all(1.0F), fade);
             color = mixedBy(color, mixedBy(background.top, background.bottom, down), share);
         }
@@ -223,29 +191,12 @@ glm::vec3 undimmedGround(const Shading& shading, glm::vec3 albedo) {
     return {hn::GetLane(color.x), hn::GetLane(color.y), hn::GetLane(color.z)};
 }
 
-/// sRGB in 255ths, by the polynomial of shaders/encode.glsl; linear: at most 1.
-VI encoded(V linear) {
-    const V square = hn::Sqrt(linear);
-    const V y = hn::Sqrt(square);
-    const auto curve = [&](float high, float middle, float low) {
-        return hn::Add(hn::Add(hn::Mul(all(high), linear), hn::Mul(all(middle), square)), all(low));
-    };
-    const V bent =
-        hn::Add(curve(0.2727522F, 1.2442140F, -0.0616297F), hn::Mul(y, curve(-0.0627590F, -0.5575557F, 0.1649740F)));
-    const V value = hn::IfThenElse(hn::Le(linear, all(0.0031308F)), hn::Mul(all(12.92F), linear), bent);
-    return hn::ConvertTo(DI(), hn::Add(hn::Mul(value, all(255.0F)), all(0.5F)));
-}
-
 void packColors(const PointColors& colors, PixelColor* pixels) {
     const D d;
     for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
         // A mean of ones may be a little more.
-        const auto byte = [&](std::size_t channel) {
-            return encoded(hn::Min(hn::Load(d, &colors.rgb[channel][place]), all(1.0F)));
-        };
-        const VI color = hn::Or(byte(0), hn::Or(hn::ShiftLeft<8>(byte(1)), hn::ShiftLeft<16>(byte(2))));
-        const hn::RebindToUnsigned<D> du;
-        hn::Store(hn::BitCast(du, color), du, pixels + place);
+        const auto channel = [&](std::size_t k) { return hn::Min(hn::Load(d, &colors.rgb[k][place]), all(1.0F)); };
+        storePacked({channel(0), channel(1), channel(2)}, pixels + place);
     }
 }
 

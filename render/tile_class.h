@@ -1,4 +1,4 @@
-// Classes of tiles: those that are drawn alike are drawn together. Used by the picture pass.
+// Classes of tiles, by how their pixels are found. Used by the picture pass.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,9 @@
 namespace render {
 
 enum class TileClass : std::uint8_t {
-    kept,        ///< is not drawn, because the target holds it already
     background,  ///< and nothing else
     ground,      ///< that nothing dims, and nothing else
-    picture      ///< anything else: pixel by pixel
+    picture      ///< anything else
 };
-
-inline constexpr int kTileClasses = 4;
 
 }  // namespace render

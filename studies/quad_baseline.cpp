@@ -9,7 +9,7 @@
 
 #include "render/camera_frame.h"
 #include "render/gl_objects.h"
-#include "render/program_cache.h"
+#include "render/program.h"
 
 namespace studies {
 namespace {

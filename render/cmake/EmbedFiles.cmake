@@ -14,5 +14,5 @@ endfunction()
 
 # embed_files(OUTPUT NAME...): shaders/NAME... by render::shaderSource(name).
 function(embed_files output)
-    embed_texts(${output} ${CMAKE_CURRENT_SOURCE_DIR}/shaders render/program_cache.h render::shaderSource ${ARGN})
+    embed_texts(${output} ${CMAKE_CURRENT_SOURCE_DIR}/shaders render/program.h render::shaderSource ${ARGN})
 endfunction()

@@ -1,3 +1,4 @@
+#version 330 core
 // Pixels whose colours are known. With nothing but this in it, llvmpipe does not run the shader, but copies rows of pixels.
 uniform sampler2D pixels;
 

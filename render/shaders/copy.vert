@@ -1,3 +1,4 @@
+#version 330 core
 // A rectangle over the whole target, and where its corners lie in the texture.
 out vec2 place;
 

@@ -1,5 +1,4 @@
-// Both sRGB encodings against the standard's formula: the shaders' through the picture of a background, and that of the
-// pixels which they are handed.
+// sRGB encoding against the standard's formula: through the picture of a background, and of colours as they are packed.
 #include "tests/catch.h"
 
 #include <array>

@@ -6,7 +6,6 @@
 
 #include "render/camera_frame.h"
 #include "render/tile_class.h"
-#include "render/tile_table.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -89,36 +88,4 @@ TEST_CASE("A camera inside a box sees its nearest face") {
         INFO(difference);
         CHECK(difference.share <= 4.0 / (201.0 * 122.0));  // on a border between nearest faces
     }
-}
-
-TEST_CASE("Squares cover every tile that is to be drawn once, and hold one class") {
-    constexpr int kColumns = 11;
-    constexpr int kRows = 9;
-    using render::TileClass;
-    std::vector<TileClass> classes(kColumns * kRows, TileClass::ground);
-    classes[3] = TileClass::kept;                    // from the picture before
-    classes[5 * kColumns + 6] = TileClass::picture;  // spoils a square
-    classes[4 * kColumns + 1] = TileClass::background;
-    const render::TileTable table = render::tileTable(classes, kColumns);
-    REQUIRE(table.first.size() == render::kTileClasses + 1);
-    CHECK(table.first.back() == static_cast<int>(table.rows.size()));
-    std::vector<int> covered(classes.size(), 0);
-    int squares = 0;
-    for (std::size_t c = 0; c < render::kTileClasses; ++c) {
-        for (int k = table.first[c]; k < table.first[c + 1]; ++k) {
-            const render::TileRow& row = table.rows[static_cast<std::size_t>(k)];
-            squares += row.side == render::kSquareSide ? 1 : 0;
-            for (int y = row.row; y < row.row + row.side; ++y) {
-                for (int x = row.column; x < row.column + row.side; ++x) {
-                    const auto tile = static_cast<std::size_t>(y * kColumns + x);
-                    ++covered[tile];
-                    CHECK(classes[tile] == static_cast<TileClass>(c));
-                }
-            }
-        }
-    }
-    // Of the four whole squares one lost a tile, one has background in it and one a picture.
-    CHECK(squares == 1);
-    for (std::size_t tile = 0; tile < classes.size(); ++tile)
-        CHECK(covered[tile] == (classes[tile] == TileClass::kept ? 0 : 1));
 }

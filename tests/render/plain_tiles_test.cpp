@@ -2,13 +2,14 @@
 #include "tests/catch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "render/kept_tiles.h"
+#include "render/plain_tiles.h"
 #include "tests/render/pictures.h"
 
 using pictures::drawn;
@@ -112,24 +113,44 @@ TEST_CASE("A picture is the same in another's memory") {
     }
 }
 
-TEST_CASE("A tile is kept while it shows the same before the same backdrop") {
+TEST_CASE("A plain tile is coloured once while it shows the same before the same backdrop") {
     using render::TileClass;
-    render::Backdrop backdrop{};
-    render::KeptTiles kept;
-    kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(0, TileClass::background));
-    CHECK(!kept.keeps(1, TileClass::ground));
-    kept.begin(backdrop, 2);
-    CHECK(kept.keeps(0, TileClass::background));
-    CHECK(!kept.keeps(1, TileClass::background));
-    kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(0, TileClass::picture));
-    CHECK(kept.keeps(1, TileClass::background));
-    kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(0, TileClass::picture));
-    backdrop.back().w = 1.0F;
-    kept.begin(backdrop, 2);
-    CHECK(!kept.keeps(1, TileClass::background));
-    kept.begin(backdrop, 3);
-    CHECK(!kept.keeps(1, TileClass::background));
+    constexpr int kColumns = 3;
+    constexpr render::PixelColor kMark = 0x00badbad;
+    constexpr TileClass kGround = TileClass::ground;
+    constexpr TileClass kPicture = TileClass::picture;
+    std::vector<TileClass> classes{TileClass::background, kGround, kPicture};
+    std::vector<render::PixelColor> pixels(kColumns * render::kTilePixels, kMark);
+    render::Backdrop backdrop;
+    backdrop.frame.width = kColumns * render::kTileSize;
+    backdrop.frame.height = render::kTileSize;
+    render::PlainTiles plain;
+    // Which tiles are coloured, all of it or none.
+    const auto colored = [&] {
+        std::ranges::fill(pixels, kMark);
+        plain.color(backdrop, classes, kColumns, pixels);
+        std::array<int, kColumns> counts{};
+        for (std::size_t k = 0; k < pixels.size(); ++k)
+            counts[k / render::kTileSize % kColumns] += pixels[k] == kMark ? 0 : 1;
+        std::vector<int> tiles;
+        for (int tile = 0; tile < kColumns; ++tile) {
+            const int count = counts[static_cast<std::size_t>(tile)];
+            CHECK((count == 0 || count == int{render::kTilePixels}));
+            if (count > 0) tiles.push_back(tile);
+        }
+        return tiles;
+    };
+    CHECK(colored() == std::vector{0, 1});
+    CHECK(colored().empty());
+    classes = {kGround, kGround, kGround};
+    CHECK(colored() == std::vector{0, 2});
+    classes = {kPicture, kGround, kPicture};
+    CHECK(colored().empty());
+    classes = {kGround, kGround, kGround};
+    CHECK(colored() == std::vector{0, 2});
+    backdrop.fadeDistance = 2.0F;
+    CHECK(colored() == std::vector{0, 1, 2});
+    backdrop.frame.up.x = 0.1F;
+    CHECK(colored() == std::vector{0, 1, 2});
+    CHECK(colored().empty());
 }
