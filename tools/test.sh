@@ -8,7 +8,8 @@ cd "$(dirname "$0")/.."
 
 build() { # preset, targets...
     cmake --preset "$1" -DGLOBULAR_TESTS=ON -DGLOBULAR_WERROR=ON
-    cmake --build --preset "$1" ${2:+--target "${@:2}"}
+    # Suites run beside builds, and go first: they wait for each other's threads.
+    nice cmake --build --preset "$1" ${2:+--target "${@:2}"}
 }
 
 tools/setup.sh
