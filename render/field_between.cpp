@@ -209,10 +209,10 @@ namespace render {
 
 namespace {
 
-constexpr std::array<std::uint8_t, kBetween> betweenPlaces() {
-    std::array<std::uint8_t, kBetween> places{};
+constexpr std::array<std::uint8_t, kBlockRays> sparsePlaces() {
+    std::array<std::uint8_t, kBlockRays> places{};
     std::size_t k = 0;
-    for (const auto& [right, down] : {std::array{1, 0}, std::array{0, 1}, std::array{1, 1}})
+    for (const auto& [right, down] : {std::array{1, 0}, std::array{0, 1}, std::array{1, 1}, std::array{0, 0}})
         for (int row = down; row < kTileSize; row += 2)
             for (int column = right; column < kTileSize; column += 2)
                 places[k++] = static_cast<std::uint8_t>(row * kTileSize + column);
@@ -233,7 +233,7 @@ constexpr std::array<std::uint8_t, kCoarseSide * kCoarseSide> coarsePlaces() {
 }  // namespace
 
 constexpr std::array<std::uint8_t, kCoarseSide* kCoarseSide> kCoarsePlaces = coarsePlaces();
-constexpr std::array<std::uint8_t, kBetween> kBetweenPlaces = betweenPlaces();
+constexpr std::array<std::uint8_t, kBlockRays> kSparsePlaces = sparsePlaces();
 
 void CoarseHits::put(const RayBlock& block, bool openness) {
     constexpr std::size_t kHalf = kCoarseSide / 2;
@@ -249,6 +249,20 @@ void CoarseHits::put(const RayBlock& block, bool openness) {
             take(block.normal[axis], normal[axis]);
             take(block.color[axis], color[axis]);
             if (openness) take(block.open[axis], open[axis]);
+        }
+    }
+}
+
+void CoarseHits::addTo(RayBlock& block, bool openness) const {
+    for (std::size_t row = 0; row < kCoarseSide; ++row, block.count += kCoarseSide) {
+        const auto add = [&](const Values& from, std::array<float, kBlockRays>& to) {
+            std::copy_n(&from[row * kSide], kCoarseSide, &to[block.count]);
+        };
+        add(depth, block.depth);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            add(normal[axis], block.normal[axis]);
+            add(color[axis], block.color[axis]);
+            if (openness) add(open[axis], block.open[axis]);
         }
     }
 }

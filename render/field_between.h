@@ -27,6 +27,8 @@ struct CoarseHits {
 
     /// Takes a block of rays that go through kCoarsePlaces.
     void put(const RayBlock& block, bool openness);
+    /// Adds the tile's own, row by row, to a block.
+    void addTo(RayBlock& block, bool openness) const;
     /// No hits, and no field, in the column and the row after the tile.
     void clearBorder();
     void putBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
@@ -46,10 +48,11 @@ extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePlaces;
 /// The pixels of a tile in between.
 inline constexpr std::size_t kBetween = kBlockRays / 4 * 3;
 
-/// In the order in which fillBetween() has them: beside, below, and in the middle of cast ones; columns plus 16 rows.
-extern const std::array<std::uint8_t, kBetween> kBetweenPlaces;
+/// All pixels of a tile (columns plus 16 rows): first those in between, beside, below, and in the middle of cast ones,
+/// then the cast ones row by row.
+extern const std::array<std::uint8_t, kBlockRays> kSparsePlaces;
 
-/// Fills in all rays of a block, which go through kBetweenPlaces of one tile, and tells which of them are good: those
+/// Fills in all rays of a block, which go through the first of kSparsePlaces of one tile, and tells which of them are good: those
 /// on a cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals, colours and
 /// openness; and no hit where the rays around missed the surface by more than the field may rise within a pixel. Holds:
 /// a ray's result depends on the hits around it alone, bit for bit, not on the number of lanes.

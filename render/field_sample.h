@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,6 +18,8 @@ struct FieldSample {
     std::uint32_t normal = 0;     ///< octahedral, 16 + 16 bits, in world axes
     std::uint32_t color = 0;      ///< square roots, 11 + 11 + 10 bits
     std::uint32_t open = 0;       ///< openness along the normal, against it and along the mirrored ray, 10 bits each
+
+    float depth() const { return std::bit_cast<float>(depthBits); }
 };
 
 using PackedBlock = std::array<FieldSample, kBlockRays>;

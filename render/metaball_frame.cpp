@@ -22,6 +22,7 @@ void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const st
     PackedBlock packed;
     packBlock(cast.frame, block, cast.openness, packed);
     for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed[k];
+    for (std::size_t k = 0; k < block.count; ++k) picture.depths[out + places[k]] = packed[k].depth();
 }
 
 /// A tile's coarse hits with those of its neighbours to the right and below; none where they have no slot.
@@ -79,18 +80,18 @@ void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 off
         RayBlock block;
         placeRays(block, cornerOf(tiles, tile), kCoarsePlaces, offset);
         castBlock(cast, tile, block);
-        putSamples(cast, block, kCoarsePlaces, slot, picture);
         picture.coarse[slot].put(block, cast.openness);
     });
     picture.forSlots([&](std::size_t tile, std::size_t slot) {
         const CoarseHits& hits = withBorder(picture, tiles, tile);
         const glm::vec2 corner = cornerOf(tiles, tile);
         RayBlock block;
-        placeRays(block, corner, kBetweenPlaces, offset);
+        placeRays(block, corner, std::span(kSparsePlaces).first(kBetween), offset);
         const std::array<bool, kBetween> good = fillBetween(cast, hits, smoothness, block);
-        putSamples(cast, block, kBetweenPlaces, slot, picture);
+        hits.addTo(block, cast.openness);
+        putSamples(cast, block, kSparsePlaces, slot, picture);
         std::array<bool, kBlockRays> isRough{};
-        for (std::size_t k = 0; k < kBetween; ++k) isRough[kBetweenPlaces[k]] = !good[k];
+        for (std::size_t k = 0; k < kBetween; ++k) isRough[kSparsePlaces[k]] = !good[k];
         const TilePlaces rough = placesWhere(isRough);
         placeRays(block, corner, rough, offset);
         for (std::size_t k = 0; k < rough.size(); ++k)
@@ -103,10 +104,8 @@ void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 off
 // Tiles where nothing of the surface is seen lose their slots.
 void forgetEmptyTiles(FieldPicture& picture) {
     picture.forSlots([&](std::size_t tile, std::size_t slot) {
-        const auto samples = std::span(picture.samples).subspan(slot * kBlockRays, kBlockRays);
-        const bool isSeen =
-            std::ranges::any_of(samples, [](const FieldSample& sample) { return sample.depthBits != 0; });
-        if (!isSeen && picture.outlines[slot].pixels.size() == 0) picture.slots[tile] = -1;
+        const bool isSeen = std::ranges::any_of(picture.depthsOf(slot), [](float depth) { return depth > 0.0F; });
+        if (!isSeen && picture.outlines[slot].samples.empty()) picture.slots[tile] = -1;
     });
 }
 
@@ -124,9 +123,7 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const BinnedFiel
     for (std::size_t tile = 0; tile < tileCount; ++tile) {
         if (field.tiles.begin[tile + 1] > field.tiles.begin[tile]) picture.slots[tile] = slotCount++;
     }
-    picture.samples.resize(static_cast<std::size_t>(slotCount) * kBlockRays);
-    picture.outlines.resize(static_cast<std::size_t>(slotCount));
-    for (Outlines& outlines : picture.outlines) outlines.pixels.count = 0;
+    picture.makeRoom(static_cast<std::size_t>(slotCount));
     if (sampling.sparse) {
         castSparsely(cast, field, sampling.offset, picture);
     } else {

@@ -12,7 +12,7 @@ namespace render {
 /// Where in the pixel the rays go.
 struct FieldSampling {
     glm::vec2 offset{0.0F};        ///< of the one sample, in pixels from the middle
-    bool extraAtOutlines = false;  ///< four more samples where neighbours differ
+    bool extraAtOutlines = false;  ///< four samples where neighbours differ
     bool sparse = false;  ///< every second pixel of every second row is cast, others where the surface is not smooth
 };
 

@@ -1,4 +1,4 @@
-// Pixels that outlines cross are told by the depths of those around them, which also tell where their rays look.
+// Outlines are told by the depths of pixels beside each other, which also tell where extra rays look.
 #include "render/outline_rays.h"
 
 #include <algorithm>
@@ -19,6 +19,14 @@ struct DepthRange {
     float to = kEndless;
 };
 
+/// A bit for each of a pixel's samples that lies in this direction from its middle.
+constexpr std::uint32_t samplesTowards(glm::vec2 direction) {
+    std::uint32_t bits = 0;
+    for (std::size_t s = 0; s < kFourSamples.size(); ++s)
+        bits |= std::uint32_t{kFourSamples[s].x * direction.x + kFourSamples[s].y * direction.y > 0.0F} << s;
+    return bits;
+}
+
 // The depths of a tile's pixels and of those around them; kNothing where there is no surface.
 class Depths {
  public:
@@ -34,24 +42,29 @@ class Depths {
         copy(left, top + 1, {0, 0}, {kTileSize, 1}, {1, kTileSize + 1});
     }
 
-    // Hit beside miss, or a jump in depth that a pixel's slope does not explain.
-    TilePlaces outlines(float jump) const {
-        std::array<bool, kBlockRays> found;
+    // Samples of each pixel, a bit each, that lie towards a pixel with a hit where this one has a miss, or the other way
+    // round, or beyond a jump in depth that a pixel's slope does not explain.
+    std::array<std::uint32_t, kBlockRays> samplesAtOutlines(float jump) const {
+        std::array<std::uint32_t, kBlockRays> found{};
         for (std::size_t row = 0; row < kTileSize; ++row) {
             const float* at = &depths_[(row + 1) * kSide + 1];
-            std::array<float, kTileSize> most{};
-            for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, std::ptrdiff_t{-1}, kSide, -kSide})
+            std::uint32_t* bits = &found[row * kTileSize];
+            for (const Side& side : kSides)
                 for (std::size_t k = 0; k < kTileSize; ++k)
-                    most[k] = std::max(most[k], std::abs(at[static_cast<std::ptrdiff_t>(k) + step] - at[k]));
-            for (std::size_t k = 0; k < kTileSize; ++k) found[row * kTileSize + k] = most[k] > jump;
+                    bits[k] |= std::abs(at[static_cast<std::ptrdiff_t>(k) + side.step] - at[k]) > jump ? side.samples : 0U;
         }
-        return placesWhere(found);
+        return found;
+    }
+
+    // Whether a sample of a pixel shows what its middle shows.
+    bool isMiddles(std::uint8_t place, float depth, float jump) const {
+        return std::abs(known(depth) - at(place)) <= jump;
     }
 
     // From a radius before the nearest of what the pixel and its neighbours show; where one of them shows nothing, to
     // two radii behind the farthest: what extra rays see is what the rays around them see.
     DepthRange around(std::uint8_t place, float radius) const {
-        const std::ptrdiff_t at = (place / kTileSize + 1) * kSide + place % kTileSize + 1;
+        const std::ptrdiff_t at = indexOf(place);
         DepthRange range{kEndless, 0.0F};
         bool isOpen = false;
         for (const std::ptrdiff_t step : {std::ptrdiff_t{0}, std::ptrdiff_t{1}, std::ptrdiff_t{-1}, kSide, -kSide}) {
@@ -65,19 +78,36 @@ class Depths {
 
  private:
     static constexpr std::ptrdiff_t kSide = kTileSize + 2;
+
+    /// Where a pixel's neighbour is, and the samples that lie towards it.
+    struct Side {
+        std::ptrdiff_t step;
+        std::uint32_t samples;
+    };
+    static constexpr std::array<Side, 4> kSides = {{{1, samplesTowards({1.0F, 0.0F})},
+                                                    {-1, samplesTowards({-1.0F, 0.0F})},
+                                                    {kSide, samplesTowards({0.0F, 1.0F})},
+                                                    {-kSide, samplesTowards({0.0F, -1.0F})}}};
+
     static constexpr float kNothing = -1e30F;  // farther than any jump from what is seen
+
+    static float known(float depth) { return depth > 0.0F ? depth : kNothing; }
+
+    static std::ptrdiff_t indexOf(std::uint8_t place) {
+        return (place / kTileSize + 1) * kSide + place % kTileSize + 1;
+    }
+
+    float at(std::uint8_t place) const { return depths_[static_cast<std::size_t>(indexOf(place))]; }
 
     void copy(int column, int row, glm::ivec2 from, glm::ivec2 size, glm::ivec2 to) {
         if (column < 0 || row < 0 || column >= tiles_.columns || row >= tiles_.rows) return;
         const std::int32_t slot = picture_.slots[tiles_.cellIndex(column, row)];
         if (slot < 0) return;
-        const FieldSample* samples = &picture_.samples[static_cast<std::size_t>(slot) * kBlockRays];
+        const auto depths = picture_.depthsOf(static_cast<std::size_t>(slot));
         for (int y = 0; y < size.y; ++y) {
             float* out = &depths_[static_cast<std::size_t>((to.y + y) * kSide + to.x)];
-            for (int x = 0; x < size.x; ++x) {
-                const float depth = std::bit_cast<float>(samples[(from.y + y) * kTileSize + from.x + x].depthBits);
-                out[x] = depth > 0.0F ? depth : kNothing;
-            }
+            const float* own = &depths[static_cast<std::size_t>((from.y + y) * kTileSize + from.x)];
+            for (int x = 0; x < size.x; ++x) out[x] = known(own[x]);
         }
     }
 
@@ -86,51 +116,77 @@ class Depths {
     std::array<float, kSide * kSide> depths_;
 };
 
-// Four samples for each of these pixels, in their order, from `samples` on.
-void castExtras(const FieldCast& cast, const Depths& depths, float radius, std::size_t tile, const TilePlaces& pixels,
-                FieldSample* samples) {
-    const glm::vec2 corner = cornerOf(*cast.tiles, tile);
-    RayBlock block;
-    block.count = 0;
-    const auto flush = [&] {
-        castBlock(cast, tile, block);
-        PackedBlock packed;
-        packBlock(cast.frame, block, cast.openness, packed);
-        samples = std::copy_n(packed.begin(), block.count, samples);
-        block.count = 0;
-    };
-    for (const std::uint8_t pixel : pixels) {
-        const DepthRange range = depths.around(pixel, radius);
-        for (const glm::vec2 offset : kFourSamples) {
-            block.from[block.count] = range.from;
-            block.to[block.count] = range.to;
-            const glm::vec2 at = pixelMiddle(corner, pixel) + offset;
-            block.x[block.count] = at.x;
-            block.y[block.count] = at.y;
-            ++block.count;
-        }
-        if (block.count == kBlockRays) flush();
+class OutlineCast {
+ public:
+    OutlineCast(const FieldCast& cast, float radius, const FieldPicture& picture, std::size_t tile, Outlines& outlines)
+        : cast_(cast),
+          radius_(radius),
+          tile_(tile),
+          corner_(cornerOf(*cast.tiles, tile)),
+          depths_(picture, *cast.tiles, tile),
+          outlines_(outlines) {
+        block_.count = 0;
     }
-    if (block.count > 0) flush();
-}
+
+    void run() {
+        const std::array<std::uint32_t, kBlockRays> samples = depths_.samplesAtOutlines(jump());
+        std::array<bool, kBlockRays> isAtOutline;
+        for (std::size_t k = 0; k < kBlockRays; ++k) isAtOutline[k] = samples[k] != 0;
+        for (const std::uint8_t pixel : placesWhere(isAtOutline)) {
+            const DepthRange range = depths_.around(pixel, radius_);
+            for (std::uint32_t left = samples[pixel]; left != 0; left &= left - 1)
+                add({pixel, static_cast<std::uint8_t>(std::countr_zero(left))}, range);
+        }
+        flush();
+    }
+
+ private:
+    float jump() const { return 0.5F * radius_; }
+
+    void add(OutlineSample sample, DepthRange range) {
+        const glm::vec2 at = pixelMiddle(corner_, sample.pixel) + kFourSamples[sample.sample];
+        const std::size_t k = block_.count++;
+        samples_[k] = sample;
+        block_.from[k] = range.from;
+        block_.to[k] = range.to;
+        block_.x[k] = at.x;
+        block_.y[k] = at.y;
+        if (block_.count == kBlockRays) flush();
+    }
+
+    void flush() {
+        castBlock(cast_, tile_, block_);
+        PackedBlock packed;
+        packBlock(cast_.frame, block_, cast_.openness, packed);
+        for (std::size_t k = 0; k < block_.count; ++k) {
+            if (depths_.isMiddles(samples_[k].pixel, packed[k].depth(), jump())) continue;
+            outlines_.samples.push_back(samples_[k]);
+            outlines_.shown.push_back(packed[k]);
+        }
+        block_.count = 0;
+    }
+
+    const FieldCast& cast_;
+    float radius_;
+    std::size_t tile_;
+    glm::vec2 corner_;
+    Depths depths_;
+    Outlines& outlines_;
+    RayBlock block_;
+    std::array<OutlineSample, kBlockRays> samples_;
+};
 
 }  // namespace
 
 void castOutlines(const FieldCast& cast, float radius, FieldPicture& picture) {
-    const float jump = 0.5F * radius;
     picture.forSlots([&](std::size_t tile, std::size_t slot) {
-        picture.outlines[slot].pixels = Depths(picture, *cast.tiles, tile).outlines(jump);
+        OutlineCast(cast, radius, picture, tile, picture.outlines[slot]).run();
     });
-    std::size_t end = picture.samples.size();
-    for (Outlines& outlines : picture.outlines)
-        outlines.first = std::exchange(end, end + kFourSamples.size() * outlines.pixels.size());
-    picture.samples.resize(end);
-    picture.forSlots([&](std::size_t tile, std::size_t slot) {
-        const Outlines& outlines = picture.outlines[slot];
-        if (outlines.pixels.size() > 0)
-            castExtras(cast, Depths(picture, *cast.tiles, tile), radius, tile, outlines.pixels,
-                       &picture.samples[outlines.first]);
-    });
+    std::size_t end = picture.depths.size();
+    for (Outlines& outlines : picture.outlines) outlines.first = std::exchange(end, end + outlines.shown.size());
+    picture.samples.resize(std::max(picture.samples.size(), end));
+    for (const Outlines& outlines : picture.outlines)
+        std::ranges::copy(outlines.shown, picture.samples.begin() + static_cast<std::ptrdiff_t>(outlines.first));
 }
 
 }  // namespace render

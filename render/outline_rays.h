@@ -6,8 +6,10 @@
 
 namespace render {
 
-/// Adds four samples to each pixel of a picture cast with one ray a pixel where it and one beside it see the surface at
-/// depths that half a radius does not explain, or one of them sees none. radius: of the smallest ball.
+/// Looks at the four samples of a picture's pixels, which was cast with one ray each, where a pixel and one beside it see
+/// the surface at depths that half a radius does not explain, or one of them sees none. An outline runs between their
+/// middles: samples on that side are cast, and kept where they do not show the middle's surface. radius: of the smallest
+/// ball.
 void castOutlines(const FieldCast& cast, float radius, FieldPicture& picture);
 
 }  // namespace render

@@ -62,6 +62,7 @@ TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, st
 }
 
 void TileSamples::look() {
+    if (contents_.hasField(tile_)) contents_.field->fetch(fieldSlot());
     if (fieldFills()) {
         samples_ = samples_.first(1);
         samples_[0].depth.fill(kFarDepth);
@@ -90,19 +91,13 @@ void TileSamples::findEdges(TileEdges& edges) const {
     for (const std::uint8_t place : placesWhere(several)) addEdge(place, edges);
 }
 
-/// One sample a pixel.
-std::span<const FieldSample> TileSamples::fieldSamples() const {
-    return std::span(contents_.field->samples).subspan(fieldSlot() * kBlockRays, kTilePixels);
-}
-
 /// Whether the tile shows nothing but metaballs, without an outline: one sample is as good as four.
 bool TileSamples::fieldFills() const {
-    if (!contents_.hasField(tile_) || contents_.field->outlines[fieldSlot()].pixels.size() > 0) return false;
+    if (!contents_.hasField(tile_) || !contents_.field->outlines[fieldSlot()].samples.empty()) return false;
     if (contents_.hasSpheres(tile_) || contents_.boxes[tile_] != 0) return false;
     float nearest = kFarDepth;
     float farthest = 0.0F;
-    for (const FieldSample& sample : fieldSamples()) {
-        const float depth = std::bit_cast<float>(sample.depthBits);
+    for (const float depth : contents_.field->depthsOf(fieldSlot())) {
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
     }
@@ -118,23 +113,26 @@ bool TileSamples::isSpheresOnGround() const {
 }
 
 void TileSamples::lookAtField() {
-    const FieldPicture& field = *contents_.field;
-    const Outlines& outlines = field.outlines[fieldSlot()];
+    struct Found {
+        std::array<float, kTilePixels> depth;
+        std::array<std::int32_t, kTilePixels> seen;
+    };
+    std::array<Found, 4> found;
     const auto first = kSeesField + static_cast<std::int32_t>(fieldSlot() * kBlockRays);
-    std::array<float, kTilePixels> depth;
-    const std::span<const FieldSample> own = fieldSamples();
-    for (std::size_t k = 0; k < kTilePixels; ++k) depth[k] = std::bit_cast<float>(own[k].depthBits);
-    if (samples_.size() > 1)
-        for (const std::uint8_t pixel : outlines.pixels) depth[pixel] = 0.0F;
-    for (TileRays& rays : samples_)
-        for (std::size_t k = 0; k < kTilePixels; ++k) seeField(rays, k, depth[k], first + static_cast<std::int32_t>(k));
-    if (samples_.size() == 1) return;
-    std::size_t place = outlines.first;
-    for (const std::uint8_t pixel : outlines.pixels)
-        for (TileRays& rays : samples_) {
-            const float extra = std::bit_cast<float>(field.samples[place].depthBits);
-            seeField(rays, pixel, extra, kSeesField + static_cast<std::int32_t>(place++));
+    std::ranges::copy(contents_.field->depthsOf(fieldSlot()), found[0].depth.begin());
+    for (std::size_t k = 0; k < kTilePixels; ++k) found[0].seen[k] = first + static_cast<std::int32_t>(k);
+    for (std::size_t s = 1; s < samples_.size(); ++s) found[s] = found[0];
+    if (samples_.size() > 1) {
+        const Outlines& outlines = contents_.field->outlines[fieldSlot()];
+        for (std::size_t k = 0; k < outlines.samples.size(); ++k) {
+            const auto [pixel, sample] = outlines.samples[k];
+            found[sample].depth[pixel] = outlines.shown[k].depth();
+            found[sample].seen[pixel] = kSeesField + static_cast<std::int32_t>(outlines.first + k);
         }
+    }
+    for (std::size_t s = 0; s < samples_.size(); ++s)
+        for (std::size_t k = 0; k < kTilePixels; ++k)
+            seeField(samples_[s], k, found[s].depth[k], found[s].seen[k]);
 }
 
 void TileSamples::addEdge(std::uint8_t place, TileEdges& edges) const {

@@ -74,7 +74,6 @@ class TileSamples {
 
  private:
     std::size_t fieldSlot() const { return static_cast<std::size_t>(contents_.field->slots[tile_]); }
-    std::span<const FieldSample> fieldSamples() const;
     void look();
     bool fieldFills() const;
     bool isSpheresOnGround() const;

@@ -257,7 +257,7 @@ TEST_CASE("Every instruction set gives the same bits") {
         for (const render::FieldSample& s : picture.samples)
             bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.open});
         for (const render::Outlines& outlines : picture.outlines)
-            bits.insert(bits.end(), outlines.pixels.begin(), outlines.pixels.end());
+            for (const render::OutlineSample& s : outlines.samples) bits.insert(bits.end(), {s.pixel, s.sample});
         const std::vector<std::uint16_t> heights = render::castDepthMap(light, {view, skin, {}}, {256, {}}).heights;
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;
