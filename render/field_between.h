@@ -52,10 +52,10 @@ inline constexpr std::size_t kBetween = kBlockRays / 4 * 3;
 /// then the cast ones row by row.
 extern const std::array<std::uint8_t, kBlockRays> kSparsePlaces;
 
-/// Fills in all rays of a block, which go through the first of kSparsePlaces of one tile, and tells which of them are good: those
-/// on a cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals, colours and
-/// openness; and no hit where the rays around missed the surface by more than the field may rise within a pixel. Holds:
-/// a ray's result depends on the hits around it alone, bit for bit, not on the number of lanes.
+/// Fills in all rays of a block, which go through the first of kSparsePlaces of one tile, and tells which of them are
+/// good: those on a cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals,
+/// colours and openness; and no hit where the rays around missed the surface by more than the field may rise within a
+/// pixel. Holds: a ray's result depends on the hits around it alone, bit for bit, not on the number of lanes.
 std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness,
                                        RayBlock& block);
 

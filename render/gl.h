@@ -1,5 +1,5 @@
-// The few dozen OpenGL functions that render/ calls, as one table per context. Loaded by hand because the usual loaders
-// look for a GLX or EGL context and abort under OSMesa.
+// The few dozen OpenGL functions that render/ and the studies' baseline call, as one table per context. Loaded by hand
+// because the usual loaders look for a GLX or EGL context and abort under OSMesa.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -51,7 +51,6 @@ namespace render {
     X(GetUniformBlockIndex, PFNGLGETUNIFORMBLOCKINDEXPROC)     \
     X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)         \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                       \
-    X(MapBufferRange, PFNGLMAPBUFFERRANGEPROC)                 \
     X(PixelStorei, PFNGLPIXELSTOREIPROC)                       \
     X(ReadPixels, PFNGLREADPIXELSPROC)                         \
     X(ShaderSource, PFNGLSHADERSOURCEPROC)                     \
@@ -61,7 +60,6 @@ namespace render {
     X(TexSubImage2D, PFNGLTEXSUBIMAGE2DPROC)                   \
     X(Uniform1i, PFNGLUNIFORM1IPROC)                           \
     X(UniformBlockBinding, PFNGLUNIFORMBLOCKBINDINGPROC)       \
-    X(UnmapBuffer, PFNGLUNMAPBUFFERPROC)                       \
     X(UseProgram, PFNGLUSEPROGRAMPROC)                         \
     X(Viewport, PFNGLVIEWPORTPROC)
 

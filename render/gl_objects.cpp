@@ -1,12 +1,7 @@
 // Creation and use of GL objects, with every limit that depends on data checked.
 #include "render/gl_objects.h"
 
-#include <algorithm>
-#include <cstring>
-
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "render/system_error.h"
 
@@ -31,72 +26,6 @@ GLint limitOf(const Gl& gl, GLenum name) {
 }
 
 }  // namespace
-
-Mapped::Mapped(const Gl& gl, GLuint buffer, std::size_t bytes) : gl_(&gl), buffer_(buffer), bytes_(bytes) {
-    gl.BindBuffer(GL_TEXTURE_BUFFER, buffer);
-    memory_ = gl.MapBufferRange(GL_TEXTURE_BUFFER, 0, static_cast<GLsizeiptr>(bytes),
-                                GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
-    if (memory_ == nullptr) throw SystemError(fmt::format("OpenGL does not lend {} bytes of a buffer", bytes));
-}
-
-Mapped::~Mapped() {
-    if (memory_ == nullptr) return;
-    gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_);
-    gl_->UnmapBuffer(GL_TEXTURE_BUFFER);
-}
-
-void Mapped::finish() {
-    memory_ = nullptr;
-    gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_);
-    if (gl_->UnmapBuffer(GL_TEXTURE_BUFFER) != GL_TRUE)
-        throw SystemError(fmt::format("OpenGL has lost {} bytes that were written to a buffer", bytes_));
-}
-
-TextureBuffer::TextureBuffer(const Gl& gl, std::string_view name, GLenum format, std::size_t texelBytes)
-    : gl_(&gl),
-      name_(name),
-      texelBytes_(texelBytes),
-      room_(texelBytes),  // an empty buffer may not be sampled at all; one texel always stands
-      buffer_(generate<BufferName>(gl, gl.GenBuffers)),
-      texture_(generate<TextureName>(gl, gl.GenTextures)) {
-    gl.BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
-    gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(texelBytes), nullptr, GL_STREAM_DRAW);
-    gl.BindTexture(GL_TEXTURE_BUFFER, texture_.get());
-    gl.TexBuffer(GL_TEXTURE_BUFFER, format, buffer_.get());
-}
-
-Mapped TextureBuffer::map(std::size_t bytes) {
-    const auto limit = static_cast<std::size_t>(limitOf(*gl_, GL_MAX_TEXTURE_BUFFER_SIZE));
-    const std::size_t texels = bytes / texelBytes_;
-    if (texels > limit) {
-        throw SystemError(
-            fmt::format("{} entries of {} are more than OpenGL's texture buffers hold ({})", texels, name_, limit));
-    }
-    if (bytes > room_) {
-        // A list that has grown once will grow again.
-        const std::size_t room = room_ == texelBytes_ ? bytes : std::min(bytes + bytes / 2, limit * texelBytes_);
-        gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
-        gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(room), nullptr, GL_STREAM_DRAW);
-        checkGl(*gl_, "making room for a list");
-        room_ = room;
-    }
-    return {*gl_, buffer_.get(), bytes};
-}
-
-void TextureBuffer::upload(std::span<const std::byte> bytes) {
-    if (bytes.empty()) return;
-    Mapped mapped = map(bytes.size());
-    const std::span<std::byte> to = mapped.as<std::byte>();
-    constexpr std::size_t kGrain = 1U << 16U;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size(), kGrain),
-                      [&](const auto& range) { std::memcpy(&to[range.begin()], &bytes[range.begin()], range.size()); });
-    mapped.finish();
-}
-
-void TextureBuffer::bind(int unit) const {
-    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    gl_->BindTexture(GL_TEXTURE_BUFFER, texture_.get());
-}
 
 PixelTexture::PixelTexture(const Gl& gl, int width, int height)
     : gl_(&gl), width_(width), height_(height), texture_(generate<TextureName>(gl, gl.GenTextures)) {

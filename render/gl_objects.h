@@ -1,7 +1,6 @@
 // OpenGL handles that free themselves. All need their context current while they live, are used and die.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -55,59 +54,11 @@ using FramebufferName = GlName<deleteFramebuffer>;
 using VertexArrayName = GlName<deleteVertexArray>;
 using ProgramName = GlName<deleteProgram>;
 
-/// The new contents of a texture buffer while they are written; they are never read.
-class Mapped {
- public:
-    /// bytes: more than none, and no more than the buffer has room for.
-    Mapped(const Gl& gl, GLuint buffer, std::size_t bytes);
-    /// Without finish() the contents are nothing of use.
-    ~Mapped();
-    Mapped(const Mapped&) = delete;
-    Mapped& operator=(const Mapped&) = delete;
-
-    /// Hands the contents over. Throws SystemError where OpenGL has lost them.
-    void finish();
-
-    /// As many items as fit.
-    template <typename T>
-    std::span<T> as() const {
-        return {static_cast<T*>(memory_), bytes_ / sizeof(T)};
-    }
-
- private:
-    const Gl* gl_;
-    GLuint buffer_;
-    void* memory_;
-    std::size_t bytes_;
-};
-
-/// A list that shaders read by texelFetch; a texture buffer is read twice as fast as a storage buffer in llvmpipe.
-class TextureBuffer {
- public:
-    /// format: GL_RGBA32F and the like; texelBytes: its size.
-    TextureBuffer(const Gl& gl, std::string_view name, GLenum format, std::size_t texelBytes);
-
-    /// Replaces the contents by so many bytes (more than none) to be written. Throws SystemError beyond what OpenGL can
-    /// address.
-    Mapped map(std::size_t bytes);
-
-    /// Replaces the contents, by all threads. An empty list changes nothing, as no shader looks at it.
-    void upload(std::span<const std::byte> bytes);
-    void bind(int unit) const;
-
- private:
-    const Gl* gl_;
-    std::string_view name_;
-    std::size_t texelBytes_;
-    std::size_t room_;  // bytes
-    BufferName buffer_;
-    TextureName texture_;
-};
-
 /// Pixels of a fixed number, row by row, in memory a word each. Throws SystemError where OpenGL cannot make it.
 ///
-/// OpenGL takes the lowest byte for blue: llvmpipe keeps such pixels as they come, and copies rectangles of one texture
-/// to another by rows instead of running a shader.
+/// OpenGL is told that the lowest byte is blue, although shade.h's PixelColor has red there: nothing but copies is
+/// made, llvmpipe keeps such pixels as they come, and copies rectangles of one texture to another by rows instead of
+/// running a shader.
 class PixelTexture {
  public:
     PixelTexture(const Gl& gl, int width, int height);

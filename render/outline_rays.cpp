@@ -42,8 +42,8 @@ class Depths {
         copy(left, top + 1, {0, 0}, {kTileSize, 1}, {1, kTileSize + 1});
     }
 
-    // Samples of each pixel, a bit each, that lie towards a pixel with a hit where this one has a miss, or the other way
-    // round, or beyond a jump in depth that a pixel's slope does not explain.
+    // Samples of each pixel, a bit each, on the side of a pixel beside it whose depth differs by more than this; a hit
+    // and a miss differ by more than any.
     std::array<std::uint32_t, kBlockRays> samplesAtOutlines(float jump) const {
         std::array<std::uint32_t, kBlockRays> found{};
         for (std::size_t row = 0; row < kTileSize; ++row) {
@@ -51,7 +51,8 @@ class Depths {
             std::uint32_t* bits = &found[row * kTileSize];
             for (const Side& side : kSides)
                 for (std::size_t k = 0; k < kTileSize; ++k)
-                    bits[k] |= std::abs(at[static_cast<std::ptrdiff_t>(k) + side.step] - at[k]) > jump ? side.samples : 0U;
+                    bits[k] |=
+                        std::abs(at[static_cast<std::ptrdiff_t>(k) + side.step] - at[k]) > jump ? side.samples : 0U;
         }
         return found;
     }

@@ -6,10 +6,9 @@
 
 namespace render {
 
-/// Looks at the four samples of a picture's pixels, which was cast with one ray each, where a pixel and one beside it see
-/// the surface at depths that half a radius does not explain, or one of them sees none. An outline runs between their
-/// middles: samples on that side are cast, and kept where they do not show the middle's surface. radius: of the smallest
-/// ball.
+/// Looks again where a pixel and one beside it see the surface at depths that half a radius does not explain, or one of
+/// them sees none: an outline runs between their middles. Of the pixel's four samples those on that side are cast, and
+/// kept where they do not show the middle's surface. picture: cast with one ray a pixel. radius: of the smallest ball.
 void castOutlines(const FieldCast& cast, float radius, FieldPicture& picture);
 
 }  // namespace render

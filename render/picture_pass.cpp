@@ -2,7 +2,6 @@
 #include "render/picture_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -179,13 +178,16 @@ void PicturePass::takeMean(const View& view, int samplings, std::span<PixelColor
 }
 
 void PicturePass::colorPlain(const View& view, std::span<PixelColor> pixels) {
-    const Ground ground = view.ground.value_or(Ground{});
-    const Backdrop backdrop{frame_,
-                            view.background,
-                            undimmedGround(shading_, ground.color),
-                            ground.height - frame_.eye.y,
-                            shading_.groundCenter,
-                            shading_.fadeDistance};
+    Backdrop backdrop;
+    backdrop.frame = frame_;
+    backdrop.frame.eye = glm::vec3(0.0F);
+    backdrop.background = view.background;
+    if (view.ground) {
+        backdrop.ground = undimmedGround(shading_, view.ground->color);
+        backdrop.groundHeight = view.ground->height - frame_.eye.y;
+        backdrop.groundCenter = shading_.groundCenter;
+        backdrop.fadeDistance = shading_.fadeDistance;
+    }
     plain_.color(backdrop, classes_, sphereTiles_.columns, pixels);
 }
 

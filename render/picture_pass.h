@@ -43,7 +43,7 @@ class PicturePass {
     /// them.
     void color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels);
 
-    /// The same from several samplings without `sparse`: their mean.
+    /// The same from several samplings of one view without `sparse`: their mean.
     void clearSum();
     void addColors(const View& view, const Sampling& sampling);
     void takeMean(const View& view, int samplings, std::span<PixelColor> pixels);

@@ -131,8 +131,7 @@ void TileSamples::lookAtField() {
         }
     }
     for (std::size_t s = 0; s < samples_.size(); ++s)
-        for (std::size_t k = 0; k < kTilePixels; ++k)
-            seeField(samples_[s], k, found[s].depth[k], found[s].seen[k]);
+        for (std::size_t k = 0; k < kTilePixels; ++k) seeField(samples_[s], k, found[s].depth[k], found[s].seen[k]);
 }
 
 void TileSamples::addEdge(std::uint8_t place, TileEdges& edges) const {

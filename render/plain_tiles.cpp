@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-Vec3 groundBefore(const Backdrop& backdrop, V x, V y, const Vec3& background) {
+Vec3 groundOver(const Backdrop& backdrop, V x, V y, const Vec3& background) {
     const WorldRay ray = worldRay(backdrop.frame, planeAt(backdrop.frame, x, y));
     const V depth = hn::Div(hn::Sub(all(backdrop.groundHeight), ray.origin.y), ray.direction.y);
     const V fade = fadeAt(along(ray.origin, depth, ray.direction), backdrop.groundCenter, backdrop.fadeDistance);
@@ -20,7 +20,8 @@ Vec3 groundBefore(const Backdrop& backdrop, V x, V y, const Vec3& background) {
 }
 
 /// A tile at this place of the picture; rowLength: pixels.
-void colorTile(const Backdrop& backdrop, TileClass tiles, glm::ivec2 corner, std::size_t rowLength, PixelColor* to) {
+void colorPlainTile(const Backdrop& backdrop, TileClass shown, glm::ivec2 corner, std::size_t rowLength,
+                    PixelColor* to) {
     const Background& background = backdrop.background;
     const auto unit = [](const Vec3& color) {
         return Vec3{clamped(color.x, 0.0F, 1.0F), clamped(color.y, 0.0F, 1.0F), clamped(color.z, 0.0F, 1.0F)};
@@ -31,8 +32,8 @@ void colorTile(const Backdrop& backdrop, TileClass tiles, glm::ivec2 corner, std
         const Vec3 behind = mixedBy(background.top, background.bottom, down);
         for (std::size_t column = 0; column < kTileSize; column += hn::Lanes(D())) {
             const V x = hn::Add(hn::Iota(D(), static_cast<float>(corner.x) + 0.5F), all(static_cast<float>(column)));
-            const bool isGround = tiles == TileClass::ground;
-            storePacked(unit(isGround ? groundBefore(backdrop, x, y, behind) : behind), to + column);
+            const bool isGround = shown == TileClass::ground;
+            storePacked(unit(isGround ? groundOver(backdrop, x, y, behind) : behind), to + column);
         }
     }
 }
@@ -47,23 +48,23 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-HWY_EXPORT(colorTile);
+HWY_EXPORT(colorPlainTile);
 
 void PlainTiles::color(const Backdrop& backdrop, std::span<const TileClass> classes, int columns,
                        std::span<PixelColor> pixels) {
-    // Of what a picture shows nothing is kept: nothing is known, too, before the first.
-    if (backdrop != backdrop_ || looks_.size() != classes.size()) looks_.assign(classes.size(), TileClass::picture);
+    // `picture` stands for not known, too: such tiles are never kept.
+    if (backdrop != backdrop_ || classes_.size() != classes.size()) classes_.assign(classes.size(), TileClass::picture);
     backdrop_ = backdrop;
     const std::size_t rowLength = static_cast<std::size_t>(columns) * kTileSize;
     tbb::parallel_for(std::size_t{0}, classes.size(), [&](std::size_t tile) {
-        const bool kept = looks_[tile] == classes[tile];
-        looks_[tile] = classes[tile];
+        const bool kept = classes_[tile] == classes[tile];
+        classes_[tile] = classes[tile];
         if (kept || classes[tile] == TileClass::picture) return;
         const glm::ivec2 corner =
             kTileSize * glm::ivec2(tile % static_cast<std::size_t>(columns), tile / static_cast<std::size_t>(columns));
         PixelColor* first =
             &pixels[static_cast<std::size_t>(corner.y) * rowLength + static_cast<std::size_t>(corner.x)];
-        HWY_DYNAMIC_DISPATCH(colorTile)(backdrop, classes[tile], corner, rowLength, first);
+        HWY_DYNAMIC_DISPATCH(colorPlainTile)(backdrop, classes[tile], corner, rowLength, first);
     });
 }
 

@@ -3,7 +3,6 @@
 // pass.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,11 +15,11 @@
 
 namespace render {
 
-/// Everything that such a tile's pixels are computed from; positions relative to the eye, but for the frame's.
+/// Everything that such a tile's pixels are computed from; positions relative to the eye.
 struct Backdrop {
-    CameraFrame frame;
+    CameraFrame frame;  ///< its eye at 0
     Background background;
-    glm::vec3 ground{0.0F};  ///< its colour, not faded yet
+    glm::vec3 ground{0.0F};  ///< its colour, not faded yet; all of the ground's where there is one
     float groundHeight = 0.0F;
     glm::vec3 groundCenter{0.0F};
     float fadeDistance = 1.0F;
@@ -30,13 +29,14 @@ struct Backdrop {
 
 class PlainTiles {
  public:
-    /// Colours the plain ones of these tiles, row by row and so many a row. pixels: row by row; where the last picture
-    /// of as many tiles had plain ones before the same backdrop, as it left them.
+    /// Colours those of these tiles that are plain, and were not the same in the last call with an equal backdrop.
+    /// classes: of the tiles, row by row, so many a row. pixels: of whole tiles, row by row; those of plain tiles as
+    /// the last call left them.
     void color(const Backdrop& backdrop, std::span<const TileClass> classes, int columns, std::span<PixelColor> pixels);
 
  private:
     Backdrop backdrop_;
-    std::vector<TileClass> looks_;  // of the last picture
+    std::vector<TileClass> classes_;  // in the last call
 };
 
 }  // namespace render

@@ -3,7 +3,6 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -86,7 +85,6 @@ struct Renderer::Parts {
         const Gl& gl = context.gl();
         gl.UseProgram(copying.get());
         gl.Uniform1i(gl.GetUniformLocation(copying.get(), "pixels"), kPixelsUnit);
-        gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
     void cast(const View& view, const Sampling& sampling) {
@@ -119,6 +117,8 @@ struct Renderer::Parts {
     void draw() {
         const Gl& gl = context.gl();
         StageClock clock;
+        // Another renderer of this context may have been at work.
+        gl.BindVertexArray(vertices.get());
         colors.upload(pixels);
         bytes.bindForDrawing();
         gl.UseProgram(copying.get());
@@ -136,8 +136,6 @@ struct Renderer::Parts {
     }
 
     void prepare(const View& view) {
-        // Another renderer of this context may have been at work.
-        context.gl().BindVertexArray(vertices.get());
         pass.prepare(cameraFrame(view.camera, size), view, depthMapTexels(quality), times);
     }
 
@@ -220,7 +218,6 @@ Image Renderer::draw(const View& view, Image old) {
 
 std::vector<SurfacePoint> Renderer::surfaces(const View& view) {
     requireFinite(view);
-    const CurrentContext current(parts_->context);
     parts_->times = {};
     parts_->prepare(view);
     return parts_->surfaces(view);

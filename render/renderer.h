@@ -22,8 +22,8 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Throws SystemError where OpenGL fails or a list outgrows its limits, std::logic_error for a view with numbers
-    /// that are not finite.
+    /// Throws SystemError where OpenGL fails or a list outgrows its limits, and then no longer knows what it keeps of
+    /// the last picture: draw no more with it. Throws std::logic_error for a view with numbers that are not finite.
     /// old: a picture that is no longer needed, whose memory is used again.
     Image draw(const View& view, Image old = {});
 

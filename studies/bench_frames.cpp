@@ -20,7 +20,7 @@ std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* co
     std::optional<render::Renderer> renderer;
     if (context != nullptr) {
         renderer.emplace(*context, scene.size, render::Quality::normal);
-        renderer->draw(scenes::frameView(scene, simulation));  // compiles the shaders
+        renderer->draw(scenes::frameView(scene, simulation));  // touches the memory
     }
     const std::uint64_t stepsBefore = simulation.steps.count;
     std::vector<double> simulated;

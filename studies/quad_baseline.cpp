@@ -2,7 +2,6 @@
 #include "studies/quad_baseline.h"
 
 #include <array>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +71,16 @@ render::BufferName buffer(const render::Gl& gl) {
     return {gl, name};
 }
 
+/// What shaders read of a buffer by texelFetch.
+render::TextureName fourFloats(const render::Gl& gl, GLuint items) {
+    GLuint name = 0;
+    gl.GenTextures(1, &name);
+    gl.BindBuffer(GL_TEXTURE_BUFFER, items);
+    gl.BindTexture(GL_TEXTURE_BUFFER, name);
+    gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, items);
+    return {gl, name};
+}
+
 render::VertexArrayName vertexArray(const render::Gl& gl) {
     GLuint name = 0;
     gl.GenVertexArrays(1, &name);
@@ -103,7 +112,8 @@ struct QuadBaseline::Parts {
           depth(texture(context_.gl(), size_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT)),
           target(framebuffer(context_.gl())),
           vertices(vertexArray(context_.gl())),
-          spheres(context_.gl(), "spheres of the baseline", GL_RGBA32F, 16),
+          spheres(buffer(context_.gl())),
+          sphereTexels(fourFloats(context_.gl(), spheres.get())),
           block(buffer(context_.gl())),
           program(render::buildProgram(context_.gl(), kVertex, kFragment)) {
         const render::Gl& gl = context.gl();
@@ -121,7 +131,9 @@ struct QuadBaseline::Parts {
             texels.emplace_back(particle.center, particle.radius);
             texels.emplace_back(particle.color, 0.0F);
         }
-        spheres.upload(std::as_bytes(std::span(texels)));
+        gl.BindBuffer(GL_TEXTURE_BUFFER, spheres.get());
+        gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(texels.size() * sizeof(glm::vec4)), texels.data(),
+                      GL_STREAM_DRAW);
         const render::CameraFrame frame = render::cameraFrame(view.camera, size);
         const Block values{glm::vec4(frame.right, frame.halfWidth), glm::vec4(frame.up, frame.halfHeight),
                            glm::vec4(frame.forward, 0.0F), glm::vec4(frame.eye, 0.0F),
@@ -141,7 +153,8 @@ struct QuadBaseline::Parts {
         gl.ClearColor(0.8F, 0.82F, 0.84F, 1.0F);
         gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         gl.UseProgram(program.get());
-        spheres.bind(0);
+        gl.ActiveTexture(GL_TEXTURE0);
+        gl.BindTexture(GL_TEXTURE_BUFFER, sphereTexels.get());
         gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(view.particles.size()));
         gl.Disable(GL_DEPTH_TEST);
         image.width = size.width;
@@ -158,7 +171,8 @@ struct QuadBaseline::Parts {
     render::TextureName color, depth;
     render::FramebufferName target;
     render::VertexArrayName vertices;
-    render::TextureBuffer spheres;
+    render::BufferName spheres;
+    render::TextureName sphereTexels;
     render::BufferName block;
     render::ProgramName program;
 };

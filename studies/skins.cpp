@@ -126,7 +126,7 @@ double secondsAFrame(const SkinSettings& settings, render::Context& context, std
     render::View view = pictureCloud(particles, render::Style::metaballs);
     view.field.skin = skin;
     render::Renderer renderer(context, settings.size, render::Quality::normal);
-    renderer.draw(view);  // compiles the shaders
+    renderer.draw(view);  // touches the memory
     std::vector<double> seconds;
     for (const render::View& frame : framesOf(view, settings.frames))
         seconds.push_back(secondsOf([&] { renderer.draw(frame); }, 1));

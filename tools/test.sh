@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 
 build() { # preset, targets...
     cmake --preset "$1" -DGLOBULAR_TESTS=ON -DGLOBULAR_WERROR=ON
-    # Suites run beside builds, and go first: they wait for each other's threads.
+    # Beside suites a build yields: threads of a suite wait for each other, and one without a core would hold all up.
     nice cmake --build --preset "$1" ${2:+--target "${@:2}"}
 }
 

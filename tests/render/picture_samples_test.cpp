@@ -1,11 +1,9 @@
-// What samples see and what is drawn together: the same bits on every instruction set, edges of boxes, squares of
-// tiles.
+// What samples see: the same bits on every instruction set, edges of boxes.
 #include "tests/catch.h"
 
 #include <hwy/highway.h>
 
 #include "render/camera_frame.h"
-#include "render/tile_class.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;

@@ -32,10 +32,16 @@ std::vector<Change> changes() {
                  for (render::Sphere& particle : v.particles) particle.center += glm::vec3(0.7F, 0.2F, -0.4F);
              }},
             {"particles are gone", [](render::View& v) { v.particles.resize(3); }},
-            {"the background",
+            {"the background's top",
              [](render::View& v) {
                  v.background.top = {0.1F, 0.2F, 0.9F};
              }},
+            {"its bottom",
+             [](render::View& v) {
+                 v.background.bottom = {0.9F, 0.3F, 0.2F};
+             }},
+            {"the ground's height", [](render::View& v) { v.ground->height -= 0.2F; }},
+            {"the ground's center", [](render::View& v) { v.ground->center.x += 2.0F; }},
             {"the ground's color",
              [](render::View& v) {
                  v.ground->color = {0.7F, 0.2F, 0.1F};
@@ -64,6 +70,21 @@ std::vector<Change> changes() {
              }},
             {"a plane as large as the picture", [](render::View& v) { v.camera.halfHeight = 3.0F; }},
             {"many more particles", [](render::View& v) { v.particles = pictures::cloud(900).particles; }},
+            {"lines",
+             [](render::View& v) {
+                 v.edges.push_back({{-9.0F, 3.0F, -9.0F}, {9.0F, 4.0F, -9.0F}});
+             }},
+            {"no lines", [](render::View& v) { v.edges.clear(); }},
+            {"a box",
+             [](render::View& v) {
+                 v.boxObstacles.push_back({{-2.0F, 0.1F, -2.0F}, {2.0F, 2.5F, -1.0F}, {0.2F, 0.3F, 0.7F}});
+             }},
+            {"no box", [](render::View& v) { v.boxObstacles.clear(); }},
+            {"metaballs", [](render::View& v) { v.style = render::Style::metaballs; }},
+            {"metaballs have moved",
+             [](render::View& v) {
+                 for (render::Sphere& particle : v.particles) particle.center.x -= 0.9F;
+             }},
             {"no shadows", [](render::View& v) { v.light.shadows = false; }},
             {"no ground", [](render::View& v) { v.ground.reset(); }}};
 }
@@ -89,7 +110,7 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
             change.make(view);
             const render::Image alone = drawn(view, kSize, quality);
             CHECK((renderer.draw(view).rgb == alone.rgb));
-            // A drawing to another target in between.
+            // Another view's surfaces in between, which leave its tiles and its frame in the pass.
             const std::vector<render::SurfacePoint> surfaces = renderer.surfaces(before);
             if (quality == Quality::draft)
                 CHECK(same(surfaces, render::Renderer(context, kSize, quality).surfaces(before)));
@@ -124,6 +145,10 @@ TEST_CASE("A plain tile is coloured once while it shows the same before the same
     render::Backdrop backdrop;
     backdrop.frame.width = kColumns * render::kTileSize;
     backdrop.frame.height = render::kTileSize;
+    backdrop.background = {glm::vec3(1.0F), glm::vec3(1.0F)};
+    backdrop.ground = {1.0F, 0.0F, 0.0F};
+    backdrop.groundHeight = -1.0F;
+    backdrop.fadeDistance = 1e6F;
     render::PlainTiles plain;
     // Which tiles are coloured, all of it or none.
     const auto colored = [&] {
@@ -141,6 +166,9 @@ TEST_CASE("A plain tile is coloured once while it shows the same before the same
         return tiles;
     };
     CHECK(colored() == std::vector{0, 1});
+    constexpr std::size_t kLastRow = (render::kTileSize - 1) * kColumns * render::kTileSize;
+    CHECK(pixels[kLastRow] == 0x00ffffff);
+    CHECK(pixels[kLastRow + render::kTileSize] == 0x000000ff);
     CHECK(colored().empty());
     classes = {kGround, kGround, kGround};
     CHECK(colored() == std::vector{0, 2});
