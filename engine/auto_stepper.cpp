@@ -278,10 +278,16 @@ double agitationSince(const Simulation& simulation, const BeforeStep& before) {
     return std::sqrt(sumSq / static_cast<double>(count)) / duration;
 }
 
+/// Of some.
+double smallestRadius(const Particles& particles) {
+    return *std::min_element(particles.radius.begin(), particles.radius.end());
+}
+
 /// Whether something happened that the last look did not know of, such as an impact.
 bool isSurprised(const Simulation& simulation, const BeforeStep& before) {
     // Changes of velocity below the wanted error matter to nobody.
-    const double least = simulation.setup.error * simulation.particles.radius[0] / (simulation.time - before.time);
+    const double least =
+        simulation.setup.error * smallestRadius(simulation.particles) / (simulation.time - before.time);
     return agitationSince(simulation, before) > kSurprise * std::max(simulation.automatic.agitation, least);
 }
 
@@ -295,8 +301,7 @@ bool isChoice(const AutoChoice& choice) {
 }  // namespace
 
 double acceptableResidual(const Simulation& simulation) {
-    const std::vector<double>& radius = simulation.particles.radius;
-    return kSolverShare * simulation.setup.error * *std::min_element(radius.begin(), radius.end()) / kErrorHorizon;
+    return kSolverShare * simulation.setup.error * smallestRadius(simulation.particles) / kErrorHorizon;
 }
 
 bool isReachable(const AutoState& state, StepperKind inUse) {

@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 /// Changed whenever what is kept changes.
-constexpr std::uint64_t kFormat = 0x34504B434C424C47;  // "GLBLCKP4"
+constexpr std::uint64_t kFormat = 0x35504B434C424C47;  // "GLBLCKP5"
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -174,10 +174,10 @@ void exchange(Archive& archive, Of& simulation) {
     exchangeParticles(archive, simulation.particles);
     exchangeEmitters(archive, simulation.emitters);
     archive(simulation.deaths);
+    archive(simulation.mostBeforeDeaths);
     archive(simulation.time);
     archive(simulation.stepper);
     archive(simulation.forces);
-    archive(simulation.swept);
     archive(simulation.forcesCurrent);
     exchangeOptional(archive, simulation.energy);
     archive(simulation.kinetic);
@@ -229,7 +229,7 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     reader.finish();
     require(isInWorld(builtAt) && (builtAt.empty() || (std::isfinite(reach) && reach > kLeastReach)),
             "its neighbour list is not one");
-    simulation.evaluator.restoreList(simulation.particles, builtAt, reach);
+    simulation.evaluator.restoreList(builtAt, reach);
     return simulation;
 }
 

@@ -17,7 +17,7 @@ class CheckpointError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The state as little-endian bytes; the last eight are a checksum of the others (FNV-1a). About 200 bytes a particle.
+/// The state as little-endian bytes; the last eight are a checksum of the others (FNV-1a). Some 130 bytes a particle.
 std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation);
 
 /// The simulation of a set-up at an encoded state.

@@ -1,6 +1,8 @@
 // Looking is cheap and happens every interval; closing the ranks is for the few in which somebody leaves.
 #include "engine/deaths.h"
 
+#include <algorithm>
+
 #include "engine/parallel.h"
 
 namespace engine {
@@ -14,6 +16,7 @@ void removeLeavers(Simulation& simulation) {
     const std::size_t before = particles.count();
     keepWhere(particles, stays);
     simulation.deaths += before - particles.count();
+    simulation.mostBeforeDeaths = std::max<std::uint64_t>(simulation.mostBeforeDeaths, before);
     // All of it is by index.
     simulation.forcesCurrent = false;
     simulation.clearance.clear();

@@ -48,6 +48,9 @@ void prepareDrift(Simulation& simulation) {
     copy(simulation.particles.position, simulation.startPositions);
     // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
     simulation.startCutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
+    // Verlet has the forces of the start, and with them its list.
+    simulation.startIsListed = isVerlet(simulation.stepper) ||
+                               covers(simulation.evaluator.list(), simulation.startPositions, simulation.startCutoff);
 }
 
 Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
@@ -62,7 +65,8 @@ Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
     // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
     // what the whole heap does.
     const auto isAlone = [&] {
-        return simulation.evaluator.isAlone(simulation.startPositions, simulation.startCutoff, p);
+        return simulation.startIsListed &&
+               simulation.evaluator.isAlone(simulation.startPositions, simulation.startCutoff, p);
     };
     if (!contacts.needsSweep && !(way > contacts.gap && isAlone())) return contacts.force;
     simulation.swept[p] = 1;

@@ -18,10 +18,20 @@ constexpr double kMostIntervals = 12.0;
 /// Chosen: what a longer step would save is worth another look from this factor on.
 constexpr double kWorthMore = 1.4;
 
-/// The step whose error is the wanted one on the line through two measurements, one less and one more, in logarithms.
+/// The step whose error is the wanted one on the line through two measurements, one less and one more, in logarithms:
+/// by bisection, because a library's logarithms differ in their last bits from machine to machine.
 double between(const Trial& less, const Trial& more, double wanted) {
-    const double order = std::log(more.error / less.error) / std::log(more.step / less.step);
-    return less.step * std::pow(wanted / less.error, 1.0 / order);
+    constexpr int kHalvings = 40;
+    Trial low = less;
+    Trial high = more;
+    for (int k = 0; k < kHalvings; ++k) {
+        const double error = std::sqrt(low.error) * std::sqrt(high.error);
+        const double step = std::sqrt(low.step) * std::sqrt(high.step);
+        Trial& moved = error <= wanted ? low : high;
+        moved.error = error;
+        moved.step = step;
+    }
+    return low.step;
 }
 
 }  // namespace

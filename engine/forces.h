@@ -72,9 +72,7 @@ class ForceEvaluator {
     void forgetList();
 
     /// Brings back a list by what it was built for, as of a run that is gone on with.
-    void restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double reach) {
-        pairs_.restoreList(law_, particles, builtAt, reach);
-    }
+    void restoreList(const std::vector<Vec3>& builtAt, double reach) { pairs_.restoreList(builtAt, reach); }
 
     /// Whether nobody in a particle's row of the list is within a cutoff (m), at these positions (m): nobody at all, as
     /// long as the list covers them. False for a newborn, which is in no row and may have been placed beside anyone.

@@ -7,7 +7,7 @@
 
 namespace engine {
 
-/// Of a group's particles, by place.
+/// Of a group's particles, by seat.
 struct LaneProduct {
     std::array<double, kGroup> x, y, z;
 };

@@ -96,10 +96,4 @@ void PairTraversal::makeRecords(const Particles& particles, const std::vector<Ve
     });
 }
 
-void PairTraversal::restoreList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& builtAt,
-                                double reach) {
-    terms = termsFor(law, particles);
-    build(list, builtAt, reach, 0.0);
-}
-
 }  // namespace engine

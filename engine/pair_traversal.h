@@ -45,7 +45,7 @@ struct PairTraversal {
     void makeRecords(const Particles& particles, const std::vector<Vec3>& velocities);
 
     /// Brings back the list that was built for these positions (m) with this reach (m).
-    void restoreList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& builtAt, double reach);
+    void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(list, builtAt, reach, 0.0); }
 
     template <bool isUniform>
     PairConstants<double> constants(const PairRecord& p, const PairRecord& i) const {

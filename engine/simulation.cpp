@@ -66,6 +66,10 @@ void advance(Simulation& simulation, double time) {
         advanceAudited(simulation, time, simulation.setup.step, StepLimit::given);
 }
 
+std::uint64_t largestCount(const Simulation& simulation) {
+    return std::max<std::uint64_t>(simulation.mostBeforeDeaths, simulation.particles.count());
+}
+
 std::uint64_t birthCount(const Simulation& simulation) {
     std::uint64_t sum = 0;
     for (const EmitterState& state : simulation.emitters) sum += state.births;

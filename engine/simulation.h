@@ -135,6 +135,7 @@ struct Simulation {
     Particles particles;
     std::vector<EmitterState> emitters;
     std::uint64_t deaths = 0;                           ///< particles that have left a bounded world
+    std::uint64_t mostBeforeDeaths = 0;                 ///< particles that there were at most when some left
     double time = 0.0;                                  ///< s
     StepperKind stepper = StepperKind::velocityVerlet;  ///< in use; the automatic one is never
     std::vector<Vec3> forces;  ///< pairs and gravity, N; while forcesCurrent those that the next step starts with
@@ -144,6 +145,7 @@ struct Simulation {
     std::vector<double> clearance;
     Scratch<std::vector<Vec3>> startPositions;  ///< of the drift: at the step's start, m, while some have moved already
     double startCutoff = 0.0;                   ///< likewise: no pair acts at or beyond it, m
+    bool startIsListed = false;                 ///< likewise: who is within it of whom stands in the list
     bool forcesCurrent = false;
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J
@@ -173,6 +175,9 @@ Simulation start(const Setup& setup);
 /// world now has left it before the first step.
 /// Throws InstabilityError when a particle is no longer finite or has left the world.
 void advance(Simulation& simulation, double time);
+
+/// Particles that there have been at most when an interval began or now.
+std::uint64_t largestCount(const Simulation& simulation);
 
 /// Births that have happened and births that had to wait, over all emitters.
 std::uint64_t birthCount(const Simulation& simulation);

@@ -40,6 +40,8 @@ bool isOfSetup(const Simulation& simulation, std::size_t p) {
 bool areOfSetup(const Simulation& simulation) {
     const std::size_t everBorn = simulation.setup.initial.count() + birthCount(simulation);
     if (simulation.deaths > 0 && !simulation.setup.world) return false;
+    if (simulation.mostBeforeDeaths > everBorn || (simulation.mostBeforeDeaths > 0) != (simulation.deaths > 0))
+        return false;
     if (simulation.particles.nextId != everBorn || simulation.particles.count() + simulation.deaths != everBorn)
         return false;
     for (std::size_t p = 0; p < simulation.particles.count(); ++p)

@@ -9,7 +9,7 @@
 
 namespace engine {
 
-/// Moves particles, velocities and time by one step of the set-up's stepper, h in seconds.
+/// Moves particles by one step of the simulation's stepper, h in seconds; its time is the caller's.
 void takeStep(Simulation& simulation, double h);
 
 /// The paper's own. Equations 7 and 8: v += F/M dt, then x += v dt with the new velocity. The drag multiplies v in
@@ -25,7 +25,7 @@ inline constexpr std::array kSteppers = {StepperKind::symplecticEuler,  StepperK
 /// scene files and reports.
 std::string_view nameOf(StepperKind stepper);
 
-/// "given", "error", "stability", ...: what limited a step, in reports.
+/// "given step", "wanted error", "energy audit" and so on: what limited a step, in reports.
 std::string_view nameOf(StepLimit limit);
 
 /// Order of convergence of the positions, where there is damping.

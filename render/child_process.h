@@ -14,6 +14,9 @@ namespace render {
 /// Chosen: no frame takes an encoder as long, s, nor does the end of a long film.
 inline constexpr std::chrono::duration<double> kPatience{120.0};
 
+/// Of what takes as long as it takes and tells nothing on the way, s.
+inline constexpr std::chrono::duration<double> kEndlessPatience{1e6};
+
 /// A running program. Its output goes to an unnamed file, because a pipe that nobody reads fills up and stops both
 /// sides.
 class ChildProcess {

@@ -8,7 +8,7 @@ namespace render {
 /// FILM.partial, empty, for one run alone: the lock is the system's, and goes with the process however that ends.
 class PartialFilm {
  public:
-    /// Throws SystemError: the file cannot be made, or another run is writing it.
+    /// Throws SystemError: the file cannot be made, the film is a folder, or another run is writing it.
     explicit PartialFilm(const std::string& film);
     /// Removes it unless it has become the film.
     ~PartialFilm();

@@ -15,9 +15,14 @@ void checkRamp(Section& section, BuildContext& context) {
         reportBoth(section, "colors", "color_map", context);
 }
 
+/// So that the one that does not count is no part of what the scene means.
+void dropOverruled(Section& section) {
+    const bool isMap = overrules(section, "color_map", "colors");
+    if (section.isGiven("colors") && section.isGiven("color_map")) section.drop(isMap ? "colors" : "color_map");
+}
+
 std::vector<engine::Vec3> rampOf(const Section& section) {
-    const bool isMap = section.has("color_map") && !overrules(section, "colors", "color_map");
-    return isMap ? colorMap(section.text("color_map")) : section.vectors("colors");
+    return section.has("color_map") ? colorMap(section.text("color_map")) : section.vectors("colors");
 }
 
 void readColors(const Section& section, Look& look) {
@@ -66,6 +71,7 @@ Look buildLook(Section& section, BuildContext& context) {
     const auto toLight = unitVector(section.vector("light_direction"));
     if (!toLight) report(section, "light_direction", "light_direction is [0, 0, 0], must not be zero", context);
     checkRamp(section, context);
+    dropOverruled(section);
     if (!section.isSound()) return look;
     look.toLight = *toLight;
     look.style = section.text("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;

@@ -141,14 +141,16 @@ std::string plainWords(std::string_view description) {
     return "syntax error: " + std::string(description);
 }
 
-bool isDuplicate(std::string_view description) {
-    return description.find("cannot redefine") != std::string_view::npos;
+/// Whether a statement repeats an earlier one; not whether there is a repetition within its value.
+bool isDuplicate(const Repair& repair, std::size_t index, const toml::parse_error& error) {
+    if (error.description().find("cannot redefine") == std::string_view::npos) return false;
+    return repair.statements[index].form == Form::header || original(repair, index) != index;
 }
 
 void report(const Repair& repair, std::size_t index, const toml::parse_error& error, ProblemList& problems) {
     const Statement& statement = repair.statements[index];
     const Position start{static_cast<int>(statement.firstLine) + 1, statement.column};
-    if (isDuplicate(error.description()))
+    if (isDuplicate(repair, index, error))
         problems.add(start, duplicateMessage(repair, index));
     else if (!statement.closed)
         problems.add(start, fmt::format("the value of \"{}\" is never closed", statement.name));
@@ -213,7 +215,7 @@ Document parseDocument(std::string_view text, ProblemList& problems) {
             const std::size_t index = culprit(repair, error.source().begin.line);
             if (repair.attempts[index] == 0) report(repair, index, error, problems);
             if (repair.attempts[index] > 1) break;
-            mend(repair, index, isDuplicate(error.description()));
+            mend(repair, index, isDuplicate(repair, index, error));
         }
     }
     problems.throwIfAny();

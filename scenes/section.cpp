@@ -45,6 +45,10 @@ void Section::putUnfit(std::string_view name, Position at) {
     if (!isGiven(name)) unfit_.insert_or_assign(std::string(name), at);
 }
 
+void Section::drop(std::string_view name) {
+    if (const auto found = slots_.find(name); found != slots_.end()) slots_.erase(found);
+}
+
 void Section::deriveTyped(std::string_view name, Typed value) {
     if (findKey(table_->name, name) == nullptr)
         throw std::logic_error(fmt::format("scene reader: no key {} in {}", name, prefix_));

@@ -55,6 +55,9 @@ class Section {
     /// Remembers a key that was written but does not fit; it keeps its default, if it has one.
     void putUnfit(std::string_view name, Position at);
 
+    /// Forgets a value: it is as if there had never been one.
+    void drop(std::string_view name);
+
     /// Sets what a builder worked out, unless the key was written.
     void deriveNumber(std::string_view name, double number);
     void deriveVector(std::string_view name, const engine::Vec3& vector);

@@ -59,7 +59,14 @@ std::string hashOf(const std::vector<Vec3>& vectors) {
 struct Subject {
     engine::Setup setup;
     BenchRow row;
+    double rowBytes = 0.0;  ///< a particle
 };
+
+/// As forces read them.
+std::size_t bytesOf(const engine::LaneRows& rows) {
+    return engine::roomOf(rows) * sizeof(std::int32_t) + rows.selves.size() * sizeof(rows.selves[0]) +
+           rows.length.size() * sizeof(rows.length[0]) + rows.parts.size() * sizeof(rows.parts[0]);
+}
 
 Subject subjectOf(const Packed& packed, std::size_t count) {
     Subject subject{packedBlock(packed.material, count, {.spacing = packed.spacing}), {}};
@@ -69,8 +76,8 @@ Subject subjectOf(const Packed& packed, std::size_t count) {
     subject.row.material = packed.name;
     subject.row.particles = particles.count();
     subject.row.neighbours = meanNeighbours(subject.setup, particles);
-    subject.row.bytesPerParticle = sizeof(engine::PairRecord) + static_cast<double>(engine::bytesOf(pairs.list)) /
-                                                                    static_cast<double>(particles.count());
+    subject.rowBytes = static_cast<double>(bytesOf(pairs.list.rows)) / static_cast<double>(particles.count());
+    subject.row.bytesPerParticle = subject.rowBytes + sizeof(engine::PairRecord);
     return subject;
 }
 
@@ -122,6 +129,8 @@ class Bench {
         BenchRow row = subject.row;
         row.name = "forces";
         row.precision = precision;
+        if (precision == Precision::singles)
+            row.bytesPerParticle = subject.rowBytes + sizeof(engine::SinglePrecisionRecord);
         const Work pass = [&] { evaluator.pairForcesGrid(particles, particles.velocity, forces); };
         pass();  // builds the list
         row.seconds = measured(pass, settings_);

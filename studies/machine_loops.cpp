@@ -1,6 +1,7 @@
 // Compiled once per instruction set.
 #include "studies/machine_loops.h"
 
+#include <numeric>
 #include <vector>
 
 #include "engine/parallel.h"
@@ -55,12 +56,8 @@ double multiplyAdd(std::size_t threads, std::size_t rounds, float& sink) {
     std::vector<float> sinks(threads);
     engine::inParallel(threads, 1,
                        [&](std::size_t t) { counts[t] = HWY_DYNAMIC_DISPATCH(multiplyAddHere)(rounds, sinks[t]); });
-    double sum = 0.0;
-    for (std::size_t t = 0; t < threads; ++t) {
-        sum += counts[t];
-        sink += sinks[t];
-    }
-    return sum;
+    sink = std::accumulate(sinks.begin(), sinks.end(), 0.0F);
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
 }
 
 }  // namespace studies

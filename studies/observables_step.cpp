@@ -7,6 +7,7 @@
 #include "engine/soundness.h"
 #include "engine/step_bound.h"
 #include "engine/steppers.h"
+#include "scenes/input_error.h"
 #include "studies/infinity.h"
 #include "studies/observables.h"
 
@@ -106,6 +107,9 @@ double stepBound(const Trial& trial) {
 
 /// The order p from the ends of runs at h, h/2 and h/4: their distances are C h^p (1 - 2^-p) and 2^-p of that.
 double order(const Trial& trial) {
+    if (!trial.scene.setup.emitters.empty() || trial.scene.setup.stepper == StepperKind::automatic)
+        throw scenes::InputError({{trial.scene.sourceName, 0, 0,
+                                   "an order is that of one stepper, and of particles that are there from the start"}});
     const int steps = static_cast<int>(std::lround(trial.scene.duration / trial.scene.setup.step));
     const engine::Particles whole = endAfter(trial.scene, steps);
     const engine::Particles half = endAfter(trial.scene, 2 * steps);

@@ -33,6 +33,8 @@ std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set
     std::vector<scenes::Problem> problems;
     if (set.decoded)
         throw render::SystemError("frames of a video are no goldens; approve the PNG files it was made of");
+    if (set.single && !job.names.empty())
+        throw scenes::InputError({{job.names.front(), 0, 0, "names are of pictures in a folder"}});
     for (const std::string& name : job.names)
         if (!set.single && set.pictures.count(name) == 0)
             problems.push_back({name, 0, 0, fmt::format("there is no such picture in {}", job.actual.string())});

@@ -60,6 +60,7 @@ std::size_t bytesPerParticle(const engine::Simulation& simulation) {
 /// How the beginning of the run went.
 struct Preview {
     engine::Simulation simulation;
+    std::string unstable;  ///< why the run does not come further; empty: it does
     int frames = 0;        ///< that were simulated
     double seconds = 0.0;  ///< of wall clock, births and looks included
     double particleFrames = 0.0;
@@ -77,11 +78,18 @@ void noteMemory(Preview& preview) {
 /// Simulates until a share of the work of a short run is done: what is predicted is what happened so far.
 Preview simulateBeginning(const scenes::Scene& scene) {
     constexpr double kSecondsEnough = 2.0;  // chosen: as long as one likes to wait for a check
-    Preview preview{engine::start(scene.setup)};
+    Preview preview;
+    preview.simulation = engine::start(scene.setup);
     noteMemory(preview);
     const auto start = std::chrono::steady_clock::now();
     while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
-        scenes::advanceToFrame(scene, preview.simulation, ++preview.frames);
+        try {
+            scenes::advanceToFrame(scene, preview.simulation, preview.frames + 1);
+        } catch (const engine::InstabilityError& error) {
+            preview.unstable = error.what();
+            break;
+        }
+        ++preview.frames;
         preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
         noteMemory(preview);
@@ -96,6 +104,7 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
     const double framesLeft = scenes::frameCount(scene) - 1 - preview.frames;
     const double perFrame = static_cast<double>(simulation.steps.count) / std::max(1, preview.frames);
     Json json;
+    json["unstable"] = preview.unstable.empty() ? Json(nullptr) : Json(preview.unstable);
     json["from_frames"] = preview.frames;
     json["stepper"] = engine::nameOf(simulation.stepper);
     json["step"] = perFrame > 0.0 ? 1.0 / scene.fps / perFrame : 0.0;
@@ -144,6 +153,7 @@ Json checkJson(const scenes::Scene& scene) {
     json["terms"] = Json::array({"repulsion"});
     if (terms.pair.attraction) json["terms"].push_back("attraction");
     if (terms.pair.damping) json["terms"].push_back("damping");
+    if (terms.pair.friction) json["terms"].push_back("friction");
     json["uniform"] = terms.uniform;
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.scenery.colliders.size();
@@ -182,18 +192,23 @@ void printCheck(const Json& json) {
                json["cutoff"].get<double>());
     fmt::print("obstacles  {}\n", json["obstacles"].get<std::size_t>());
     const Json& predicted = json["predicted"];
-    fmt::print("stepper    {}; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}\n",
-               json["stepper"].get<std::string>(), predicted["from_frames"].get<int>(),
-               predicted["stepper"].get<std::string>(), predicted["steps"].get<std::int64_t>(),
-               predicted["step"].get<double>(), predicted["limited_by"].get<std::string>());
+    if (!predicted["unstable"].is_null())
+        fmt::print("stepper    {}; unstable after {} frames\n", json["stepper"].get<std::string>(),
+                   predicted["from_frames"].get<int>());
+    else
+        fmt::print("stepper    {}; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}\n",
+                   json["stepper"].get<std::string>(), predicted["from_frames"].get<int>(),
+                   predicted["stepper"].get<std::string>(), predicted["steps"].get<std::int64_t>(),
+                   predicted["step"].get<double>(), predicted["limited_by"].get<std::string>());
     if (!predicted["error"].is_null())
         fmt::print("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
                    json["wanted_error"].get<double>(), predicted["error"].get<double>());
     fmt::print("step bound {}\n", boundText(json));
     fmt::print("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
                json["bytes_per_particle"].get<std::size_t>());
-    fmt::print("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
-               std::ceil(json["predicted"]["seconds_simulating"].get<double>()));
+    if (predicted["unstable"].is_null())
+        fmt::print("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
+                   std::ceil(predicted["seconds_simulating"].get<double>()));
 }
 
 void check(const CheckOptions& options) {
@@ -204,6 +219,8 @@ void check(const CheckOptions& options) {
         printJson(json);
     else if (!options.run.quiet)
         printCheck(json);
+    if (const Json& unstable = json["predicted"]["unstable"]; !unstable.is_null())
+        throw engine::InstabilityError(unstable.get<std::string>());
 }
 
 }  // namespace

@@ -143,8 +143,6 @@ void compareAll(const CompareOptions& options) {
 }
 
 void compareOrTrouble(const CompareOptions& options) {
-    // A reader that has seen enough is trouble like any other: the frames of films that were unpacked must go.
-    std::signal(SIGPIPE, SIG_IGN);
     try {
         compareAll(options);
     } catch (const Ended&) {

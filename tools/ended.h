@@ -1,10 +1,14 @@
 // A command that has exit codes of its own.
 #pragma once
 
+#include <csignal>
 #include <stdexcept>
 #include <string>
 
 namespace tools {
+
+/// As shells have it for a program that a closed pipe ends.
+inline constexpr int kReaderGone = 128 + SIGPIPE;
 
 /// Thrown by a command to end the program with this code. The message is printed as an error; empty: nothing is.
 class Ended : public std::runtime_error {

@@ -43,7 +43,6 @@ FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& option
     RenderJob job;
     job.scene = &scene;
     job.frames = {0, scenes::frameCount(scene) - 1};
-    job.pngPath = [](int) { return std::nullopt; };
     job.videoPath = entry.videoPath;
     job.backend = backendOf(options.draw);
     job.threads = threadCount(options.run);

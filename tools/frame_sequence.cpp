@@ -54,8 +54,9 @@ bool FrameSequence::goOn() {
 
 std::optional<SequencedFrame> FrameSequence::next() {
     // Frames that are only passed on cost little, and a film of some of them would be worth less than the one there is.
+    if (next_ > frames_.last) return std::nullopt;
     if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
-    if (next_ > frames_.last || run_.report.interruptedBy != 0) return std::nullopt;
+    if (run_.report.interruptedBy != 0) return std::nullopt;
     SequencedFrame frame;
     frame.number = next_;
     frame.time = scenes::frameTime(scene_, frame.number);
@@ -65,7 +66,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     if (isNew && !advanceTo(frame.number)) return std::nullopt;
     ++next_;
     if (folder_ == nullptr) return frame;
-    if (frame.isWanted && !frame.isKept) frame.stateHash = engine::stateHash(run_.simulation.particles);
+    if (frame.isWanted && !frame.isKept) frame.stateHash = run_.report.stateHash;
     if (isNew && isCheckpointDue()) {
         frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
         frame.report = checkpointReport();
@@ -84,6 +85,7 @@ bool FrameSequence::advanceTo(int frame) {
         return false;
     }
     position_ = frame;
+    if (frame >= frames_.first) run_.report.stateHash = engine::stateHash(run_.simulation.particles);
     if (frame >= frames_.first && (frame - frames_.first) % sampleStride(frames_) == 0)
         addSample(run_.report.errors, scene_, run_.simulation);
     return true;
@@ -106,7 +108,9 @@ void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint
 }
 
 void FrameSequence::finish() {
-    if (run_.report.unstable.empty() && folder_ != nullptr && position_ >= 0)
+    // Of an unstable run the simulation is within a frame that is not there.
+    if (!run_.report.unstable.empty()) return;
+    if (folder_ != nullptr && position_ >= 0)
         folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation), checkpointReport());
     run_.report.stateHash = engine::stateHash(run_.simulation.particles);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <system_error>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -20,8 +21,8 @@ constexpr int kOutsideFailed = 1;
 constexpr int kInputWrong = 2;
 constexpr int kUnstable = 3;
 
-/// Every frame and every list asks for the memory that the last one has freed. glibc hands lists of 128 KiB and more back
-/// to the system, whose pages then have to be filled with zeros again: up to a quarter of a frame.
+/// Every frame and every list asks for the memory that the last one has freed. glibc hands lists of 128 KiB and more
+/// back to the system, whose pages then have to be filled with zeros again: up to a quarter of a frame.
 void keepFreedMemory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 32 << 20);  // its largest
@@ -49,6 +50,10 @@ int run(const tools::CommandLine& line, int argc, char** argv) {
         return report(error.what(), kUnstable);
     } catch (const tools::Ended& ended) {
         return report(ended.what(), ended.exitCode());
+    } catch (const std::system_error& error) {
+        // Of what prints results.
+        const bool isReaderGone = error.code() == std::errc::broken_pipe;
+        return isReaderGone ? tools::kReaderGone : report(error.what(), kOutsideFailed);
     } catch (const std::exception& error) {
         return report(error.what(), kOutsideFailed);
     }
@@ -58,6 +63,7 @@ int run(const tools::CommandLine& line, int argc, char** argv) {
 
 int main(int argc, char** argv) {
     keepFreedMemory();
+    tools::prepareStandardStreams();
     const tools::CommandLine line("globular",
                                   "globular: a scene file to an animation of globular dynamics, without a display",
                                   "globular " GLOBULAR_VERSION);

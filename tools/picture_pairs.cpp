@@ -37,10 +37,11 @@ PictureSet framesOf(const fs::path& video) {
     std::string pattern = "file:";
     for (const char c : set.decoded->path().string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
     pattern += "/frame-%05d.png";
-    render::ChildProcess ffmpeg({"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-i",
-                                 "file:" + video.string(), "-fps_mode", "passthrough", "-sws_flags",
-                                 "accurate_rnd+full_chroma_int+bitexact", "-pix_fmt", "rgb24", "-start_number", "0",
-                                 pattern});
+    render::ChildProcess ffmpeg(
+        {"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-i", "file:" + video.string(),
+         "-fps_mode", "passthrough", "-sws_flags", "accurate_rnd+full_chroma_int+bitexact", "-pix_fmt", "rgb24",
+         "-start_number", "0", pattern},
+        render::kEndlessPatience);
     if (const std::string ending = ffmpeg.wait(); !ending.empty())
         throw render::SystemError(
             fmt::format("ffmpeg cannot decode {}: {}: {}", video.string(), ending, ffmpeg.output()));

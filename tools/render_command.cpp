@@ -51,7 +51,6 @@ void render(const RenderOptions& options) {
     job.title = fs::path(scene.sourceName).stem().string();
     job.videoPath = options.video;
     job.folder = folderOf(options.folder, job.title);
-    job.pngPath = [](int) { return std::nullopt; };
     const fs::path folder = job.folder->path;
 
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());

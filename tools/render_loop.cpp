@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/partial_film.h"
 #include "render/png.h"
 #include "render/renderer.h"
 #include "render/video.h"
@@ -75,9 +76,16 @@ class Run {
     static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
         if (!job.folder) return nullptr;
         // Before frames of another run are removed for a film that cannot be made.
-        if (!job.videoPath.empty() && job.folder->existing == Existing::overwrite)
-            render::requireEncoder(videoOptions(job));
+        if (!job.videoPath.empty() && job.folder->existing == Existing::overwrite) requireFilm(videoOptions(job));
         return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
+    }
+
+    static void requireFilm(const render::VideoOptions& options) {
+        render::requireEncoder(options);
+        const std::filesystem::path beside = std::filesystem::path(options.path).parent_path();
+        // Another folder may be made yet, with that of the frames.
+        if (!beside.empty() && !std::filesystem::is_directory(beside)) return;
+        const render::PartialFilm begun(options.path);
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
@@ -129,11 +137,9 @@ class Run {
     void encode(FrameInFlight& flight) {
         const Stopwatch watch(report().seconds.encoding);
         const SequencedFrame& frame = flight.frame;
-        const auto elsewhere = flight.image ? job_.pngPath(frame.number) : std::nullopt;
         std::vector<std::uint8_t> png;
-        if (flight.image && (folder_ || elsewhere)) png = render::encodePng(*flight.image);
+        if (flight.image && folder_) png = render::encodePng(*flight.image);
         if (folder_) frames_.store(frame, png);
-        if (elsewhere) writeFile(*elsewhere, png);
         if (!frame.isWanted) return;
         if (video_) video_->add(flight.image ? *flight.image : kept(frame.number));
         ++report().frames;

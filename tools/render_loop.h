@@ -2,7 +2,6 @@
 // Called by `render` and `figures`.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,8 +19,7 @@ struct RenderJob {
     const scenes::Scene* scene = nullptr;
     FrameRange frames;
     std::optional<FolderOptions> folder;  ///< that frames go to, with what is needed to go on; none: no frames
-    std::function<std::optional<std::string>(int)> pngPath;  ///< where else a frame goes, if anywhere
-    std::string videoPath;                                   ///< empty: no video
+    std::string videoPath;                ///< empty: no video
     render::Quality quality = render::Quality::normal;
     render::Backend backend = render::Backend::osmesa;
     int threads = 1;

@@ -139,7 +139,7 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
     json["threads"] = report.threads;
     json["instruction_set"] = render::castInstructionSet();
     json["gl_renderer"] = report.glRenderer.empty() ? Json(nullptr) : Json(report.glRenderer);
-    json["particles"] = simulation.particles.count();
+    json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);
     json["deaths"] = simulation.deaths;

@@ -39,7 +39,7 @@ struct RunReport {
     int frames = 0;  ///< of those asked for, written by this run or kept
     int threads = 1;
     std::string glRenderer;          ///< empty where nothing was drawn
-    std::string stateHash;           ///< of the last frame
+    std::string stateHash;           ///< of the last frame; empty: there is none
     std::string unstable;            ///< why the run ended early; empty for a whole one
     int interruptedBy = 0;           ///< the signal that ended the run early, or 0
     std::optional<int> resumedFrom;  ///< the frame whose checkpoint the run went on from

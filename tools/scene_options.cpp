@@ -129,8 +129,8 @@ render::Quality qualityOf(const DrawOptions& options) {
 render::Backend backendOf(const DrawOptions& options) {
     const auto backend = render::backendNamed(options.backend);
     if (!backend)
-        throw render::SystemError(fmt::format("there is no OpenGL backend \"{}\"; choose one of: {}", options.backend,
-                                              render::kBackendNames));
+        throw UsageError(fmt::format("there is no OpenGL backend \"{}\"; choose one of: {}", options.backend,
+                                     render::kBackendNames));
     return *backend;
 }
 

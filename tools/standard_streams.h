@@ -5,10 +5,15 @@
 
 namespace tools {
 
+/// Opens those of the three standard streams that are closed, to nothing: a file that is opened later must not become
+/// one of them. A reader that goes away is an error from now on, and no signal: it must not end a run halfway.
+void prepareStandardStreams();
+
 /// Writes to standard error, whether or not anybody takes it: nothing is lost but words.
 void say(const std::string& text);
 
-/// Throws render::SystemError when something that was printed to standard output could not be written.
+/// Throws render::SystemError when something that was printed to standard output could not be written; Ended, without a
+/// word and with the code that shells give a program whose reader went away, when that is why.
 void requirePrinted();
 
 }  // namespace tools

@@ -76,3 +76,19 @@ TEST_CASE("Steps that are taken back, and the paper's, leave no clearance behind
     takeStep(simulation, 0.002);
     CHECK(countIn(simulation).clear == 0);
 }
+
+TEST_CASE("Alone and from rest, too, nothing falls through a box in one long step", "[clearance]") {
+    for (const StepperKind stepper : kSteppers) {
+        if (stepper == StepperKind::symplecticEuler) continue;  // the paper's judges no step
+        Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 1.0);
+        setup.gravity = Vec3(0.0, -9.8, 0.0);
+        setup.scenery.colliders = {Box{Vec3(-5.0, -0.5, -5.0), Vec3(5.0, 0.0, 5.0)}};
+        const double radius = setup.materials[0].radius;
+        append(setup.initial,
+               {.position = Vec3(0.0, radius + 0.05, 0.0), .radius = radius, .mass = setup.materials[0].mass});
+        Simulation simulation = start(setup);
+        advance(simulation, 1.0);
+        INFO(nameOf(stepper));
+        CHECK(simulation.particles.position[0].y() > 0.0);
+    }
+}

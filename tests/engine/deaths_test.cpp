@@ -68,15 +68,21 @@ TEST_CASE("A world of nobody stays one", "[deaths]") {
     runs::advanceFrames(simulation, 0, 10);
     CHECK(simulation.particles.count() == 0);
     CHECK(simulation.deaths == 3);
+    CHECK(largestCount(simulation) >= 1);
 }
 
 TEST_CASE("Births and deaths leave as many as there are, and none outside for longer than a frame", "[deaths]") {
     for (const StepperKind stepper : kSteppers) {
         Simulation simulation = start(overflowing(stepper));
-        runs::advanceFrames(simulation, 0, 45);
+        std::size_t most = 0;
+        for (int frame = 0; frame < 45; ++frame) {
+            runs::advanceFrames(simulation, frame, frame + 1);
+            most = std::max(most, simulation.particles.count());
+        }
         INFO(nameOf(stepper));
         CHECK(simulation.deaths > 20);
         CHECK(simulation.particles.count() + simulation.deaths == birthCount(simulation));
+        CHECK(largestCount(simulation) == most);
         for (const Vec3& position : simulation.particles.position)
             CHECK(position.x() < 2.5 + 10.0 * runs::kFrame);  // nothing moves at 10 m/s
     }
@@ -133,6 +139,8 @@ TEST_CASE("A checkpoint with deaths that cannot have been is refused", "[deaths]
     };
     CHECK(isTaken(setup, [](Simulation&) {}));
     CHECK_FALSE(isTaken(setup, [](Simulation& s) { ++s.deaths; }));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { s.mostBeforeDeaths = birthCount(s) + 1; }));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { s.mostBeforeDeaths = 0; }));
     CHECK_FALSE(isTaken(setup, [](Simulation& s) { ++s.particles.nextId; }));
     CHECK_FALSE(isTaken(setup, [](Simulation& s) { std::swap(s.particles.id[0], s.particles.id[1]); }));
     Setup boundless = setup;

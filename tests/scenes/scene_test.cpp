@@ -110,6 +110,10 @@ TEST_CASE("the hash changes with any value and with nothing else") {
     CHECK(sceneOf("# comment\n" + kBall + "\n\n").sceneHash == hash);
     CHECK(sceneOf(kBall + "center = [0.0, 0, 0]\n[physics]\nstep = 2e-3\n").sceneHash == hash);
     CHECK(sceneOf(kBall, {"duration=2"}).sceneHash == hash);
+    // Which of two counts is part of what a scene means.
+    const std::string ramp = "look.colors=[\"#1f4e9e\", \"#4fb3d9\", \"#f4f1de\"]";
+    const std::string mapped = kBall + "[look]\ncolor_by = \"speed\"\ncolor_map = \"lagoon\"\n";
+    CHECK(sceneOf(mapped, {ramp}).sceneHash != sceneOf(mapped).sceneHash);
     std::set<std::string> hashes = {hash};
     for (const char* change :
          {"title=u", "duration=2.5", "fps=31", "seed=2", "physics.step=0.003", "physics.gravity=[0,-9.8,1e-9]",

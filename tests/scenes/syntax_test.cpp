@@ -32,6 +32,13 @@ TEST_CASE("duplicate keys name the line of the first") {
     CHECK(problemsOf(kBall + "[[body]]\nshape = \"ball\"\nradius = 3\n") == Lines{});
 }
 
+TEST_CASE("what is given twice within a value is not the key that the value is of") {
+    const Lines lines = problemsOf(kTop + "body = [{ shape = \"ball\", shape = \"ball\", radius = 1 }]\n");
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].find("pile.toml:3:") == 0);
+    CHECK(lines[0].find("\"body\" is given twice") == std::string::npos);
+}
+
 TEST_CASE("duplicate tables are reported, and their keys are not taken for those of the table before") {
     CHECK(problemsOf("[physics]\nstep = 0.1\n[look]\nshadows = false\n[physics]\ndrag = 1\n") ==
           Lines{"pile.toml: title is missing, a scene needs it",

@@ -1,6 +1,8 @@
 // What goes wrong in the user's hands: one clear line each, and the exit code that says whose fault it was.
 #include <fstream>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/catch.h"
 #include "tests/tools/program.h"
 
@@ -45,7 +47,7 @@ TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant"
     for (const char* arguments :
          {"paint", "render", "render liquid --frames 9-3", "render liquid --frames 0-100000", "render liquid --size 12",
           "render liquid --size 8x64", "render liquid --style blobs", "render liquid --set physics.stp=1",
-          "render no-such-scene", "check no-such-file.toml", "figures 5", "--nonsense"}) {
+          "render no-such-scene", "render liquid --gl vulkan", "check no-such-file.toml", "figures 5", "--nonsense"}) {
         const auto outcome = run(arguments);
         INFO(arguments << ": " << outcome.err);
         CHECK(outcome.code == 2);
@@ -53,6 +55,7 @@ TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant"
         CHECK(outcome.err.rfind("error: ", 0) == 0);
     }
     CHECK(run("check liqid").err.find("liquid") != std::string::npos);
+    CHECK(run("render liquid --gl vulkan").err.find("choose one of: osmesa, egl") != std::string::npos);
 }
 
 TEST_CASE("The outside world's failures exit with 1 and one line", "[tools]") {
@@ -60,10 +63,6 @@ TEST_CASE("The outside world's failures exit with 1 and one line", "[tools]") {
     std::ofstream(folder / "file") << "not a folder";
     const std::string output = " -o " + (folder / "frames").string();
     const std::string scene = kTiny;
-
-    const auto backend = run("render " + scene + output + " --gl vulkan");
-    CHECK(backend.code == 1);
-    CHECK(backend.err == "error: there is no OpenGL backend \"vulkan\"; choose one of: osmesa, egl\n");
 
     const auto unwritable = run("render " + scene + " -o " + (folder / "file").string() + "/frames");
     INFO(unwritable.err);
@@ -78,7 +77,17 @@ TEST_CASE("The outside world's failures exit with 1 and one line", "[tools]") {
     CHECK(program::lineCount(noFfmpeg.err) == 1);
     CHECK(noFfmpeg.err.find("ffmpeg") != std::string::npos);
 
-    const auto noFrames = run("video " + (folder / "frames").string() + " -o " + (folder / "b.mp4").string());
+    // Before anything is drawn, and before old frames are removed.
+    const auto isFolder = run("render " + scene + output + " --video " + (folder / "").string());
+    INFO(isFolder.err);
+    CHECK(isFolder.code == 1);
+    CHECK(isFolder.err.find("it is a folder") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "frames/frame-00000.png"));
+    REQUIRE(run("render " + scene + output).code == 0);
+    CHECK(run("render " + scene + output + " --overwrite --video " + (folder / "").string()).code == 1);
+    CHECK(std::filesystem::exists(folder / "frames/frame-00000.png"));
+
+    const auto noFrames = run("video " + (folder / "none").string() + " -o " + (folder / "b.mp4").string());
     CHECK(noFrames.code == 1);
     CHECK(program::lineCount(noFrames.err) == 1);
 }
@@ -95,6 +104,20 @@ TEST_CASE("An unstable run exits with 3 and keeps the frames before", "[tools]")
     CHECK(outcome.err.find("physics.step") != std::string::npos);
     CHECK(std::filesystem::exists(folder / "frames/frame-00000.png"));
     CHECK(program::textOf(folder / "frames/run.json").find("unstable") != std::string::npos);
+    // The hash is that of the last frame, which the manifest has, too.
+    const auto json = nlohmann::json::parse(program::textOf(folder / "frames/run.json"));
+    const std::string hash = json["state_hash"];
+    CHECK(program::textOf(folder / "frames/manifest.json").find(hash) != std::string::npos);
+}
+
+TEST_CASE("What becomes unstable soon is checked all the same", "[tools]") {
+    const auto outcome =
+        run("check powder --set material[0].b1=1e12 --set physics.stepper=symplectic-euler --set physics.step=0.01");
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.out.find("cutoff 0.3 m") != std::string::npos);
+    CHECK(outcome.out.find("unstable after 0 frames") != std::string::npos);
+    CHECK(program::lineCount(outcome.err) == 1);
 }
 
 TEST_CASE("Exit codes do not depend on whether anybody listens", "[tools]") {
@@ -108,6 +131,17 @@ TEST_CASE("Exit codes do not depend on whether anybody listens", "[tools]") {
         CHECK(codeOf(program + " check no-such-file.toml" + deaf) == 2);
     }
     CHECK(codeOf(program + " scenes >/dev/full 2>/dev/null") == 1);
+    // Who reads no further ends no run, only what it says.
+    const program::Folder folder;
+    const std::string frames = " --size 64x36 --frames 0-2 -o " + (folder / "frames").string();
+    CHECK(codeOf("( " + program + " render powder" + frames + "; echo $? >" + (folder / "code").string() +
+                 " ) 2>&1 | true") == 0);
+    CHECK(program::textOf(folder / "code") == "141\n");
+    CHECK(std::filesystem::exists(folder / "frames/run.json"));
+    CHECK(codeOf("( " + program + " schema; echo $? >" + (folder / "code").string() + " ) 2>" +
+                 (folder / "words").string() + " | true") == 0);
+    CHECK(program::textOf(folder / "code") == "141\n");
+    CHECK(program::textOf(folder / "words").empty());
     CHECK(codeOf(program + " --version >/dev/full 2>/dev/null") == 1);
     CHECK(codeOf(program + " bench --filter copy --rounds 1 >/dev/full 2>/dev/null") == 1);
 }
