@@ -133,6 +133,13 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
             {"particle", bound->particle}};
 }
 
+/// As a scene's keys have them.
+Json materialJson(const engine::Material& material) {
+    return {{"name", material.name},         {"b1", material.repulsion},      {"bd", material.damping},
+            {"cr", material.repulsionReach}, {"cd", material.dampingReach},   {"radius", material.radius},
+            {"mass", material.mass},         {"core", material.coreFraction}, {"friction", material.friction}};
+}
+
 Json checkJson(const scenes::Scene& scene) {
     const engine::ForceTerms terms =
         engine::termsFor({scene.setup.materials, scene.setup.gravity, scene.setup.scenery}, everyKind(scene));
@@ -154,6 +161,8 @@ Json checkJson(const scenes::Scene& scene) {
     if (terms.pair.attraction) json["terms"].push_back("attraction");
     if (terms.pair.damping) json["terms"].push_back("damping");
     if (terms.pair.friction) json["terms"].push_back("friction");
+    json["materials"] = Json::array();
+    for (const engine::Material& material : scene.setup.materials) json["materials"].push_back(materialJson(material));
     json["uniform"] = terms.uniform;
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.scenery.colliders.size();
@@ -190,6 +199,14 @@ void printCheck(const Json& json) {
     fmt::print("kernel     {}; {}; {}; cutoff {:.4g} m\n", json["kernel"].get<std::string>(), terms,
                json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair",
                json["cutoff"].get<double>());
+    for (const Json& material : json["materials"]) {
+        const auto value = [&](const char* key) { return material[key].get<double>(); };
+        fmt::print(
+            "material   {}: b1 {:g}, bd {:g}, cr {:g}, cd {:g}, radius {:g} m, mass {:g} kg, core {:g}, friction "
+            "{:g}\n",
+            material["name"].get<std::string>(), value("b1"), value("bd"), value("cr"), value("cd"), value("radius"),
+            value("mass"), value("core"), value("friction"));
+    }
     fmt::print("obstacles  {}\n", json["obstacles"].get<std::size_t>());
     const Json& predicted = json["predicted"];
     if (!predicted["unstable"].is_null())

@@ -69,7 +69,7 @@ void addRenderCommand(const Command& program) {
     addTo(command, options->scene);
     addTo(command, options->folder);
     command.option("--video", options->video, "also write an MP4").of("FILE.mp4");
-    command.option("--frames", options->frames, "draw only these frames").of("A-B");
+    command.option("--frames", options->frames, "draw only frames A to B, counted from 0, or one").of("A-B");
     addTo(command, options->draw);
     addTo(command, options->run);
     command.example("globular render liquid -o out/liquid --video out/liquid.mp4");

@@ -82,7 +82,7 @@ void addSimulateCommand(const Command& program) {
     addTo(command, options->scene);
     addTo(command, options->folder);
     command.option("--format", options->format, "ply: binary little-endian PLY").oneOf({"ply"});
-    command.option("--frames", options->frames, "write only these frames").of("A-B");
+    command.option("--frames", options->frames, "write only frames A to B, counted from 0, or one").of("A-B");
     addTo(command, options->run);
     command.example("globular simulate powder -o out/states --frames 0-59");
     command.run([options] { simulate(*options); });

@@ -116,6 +116,7 @@ TEST_CASE("What becomes unstable soon is checked all the same", "[tools]") {
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 3);
     CHECK(outcome.out.find("cutoff 0.3 m") != std::string::npos);
+    CHECK(outcome.out.find("b1 1e+12, bd 4, cr 1, cd 1, radius 0.15 m, mass 0.1 kg") != std::string::npos);
     CHECK(outcome.out.find("unstable after 0 frames") != std::string::npos);
     CHECK(program::lineCount(outcome.err) == 1);
 }
