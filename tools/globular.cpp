@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -54,6 +55,9 @@ int run(const tools::CommandLine& line, int argc, char** argv) {
         // Of what prints results.
         const bool isReaderGone = error.code() == std::errc::broken_pipe;
         return isReaderGone ? tools::kReaderGone : report(error.what(), kOutsideFailed);
+    } catch (const std::logic_error& error) {
+        report(fmt::format("a mistake of the program itself: {}", error.what()), 0);
+        std::abort();  // where it can be looked at
     } catch (const std::exception& error) {
         return report(error.what(), kOutsideFailed);
     }
