@@ -14,10 +14,10 @@ namespace render {
 
 /// A point of the surface.
 struct FieldSample {
-    std::uint32_t depthBits = 0;  ///< view depth, a float's bits; 0: no surface
-    std::uint32_t normal = 0;     ///< octahedral, 16 + 16 bits, in world axes
-    std::uint32_t color = 0;      ///< square roots, 11 + 11 + 10 bits
-    std::uint32_t open = 0;       ///< openness along the normal, against it and along the mirrored ray, 10 bits each
+    std::uint32_t depthBits;  ///< view depth, a float's bits; 0: no surface
+    std::uint32_t normal;     ///< octahedral, 16 + 16 bits, in world axes
+    std::uint32_t color;      ///< square roots, 11 + 11 + 10 bits
+    std::uint32_t open;       ///< openness along the normal, against it and along the mirrored ray, 10 bits each
 
     float depth() const { return std::bit_cast<float>(depthBits); }
 };
