@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/lane_colors-inl.h"
 #include "render/lane_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -97,106 +98,144 @@ Between depthBetween(const CameraFrame& frame, const ViewRays& rays, const Side&
             hn::And(hn::And(isHit, isEven), hn::And(isStraight, hn::And(faces(rays, a), faces(rays, b))))};
 }
 
-/// The mean of the hits at these places, normals of unit length.
+/// What rays of one kind show: cast ones, those beside them, below them, or in the middle of four.
+struct Surface {
+    V depth;  ///< negative: nothing
+    Vec3 normal, color, open;
+};
+
+/// The mean of the hits at these places, normals of unit length; without a depth.
 template <std::size_t kCount>
-void putMean(const CoarseHits& coarse, const std::array<std::size_t, kCount>& places, bool openness, RayBlock& block,
-             std::size_t k) {
-    const D d;
-    const V share = all(1.0F / static_cast<float>(kCount));
-    const auto sumOf = [&](const CoarseHits::Values& values) {
-        V sum = hitsFrom(values, places[0]);
-        for (std::size_t i = 1; i < kCount; ++i) sum = hn::Add(sum, hitsFrom(values, places[i]));
+Surface meanOf(const CoarseHits& coarse, const std::array<std::size_t, kCount>& places, bool openness) {
+    const auto sumOf = [&](const std::array<CoarseHits::Values, 3>& values) {
+        Vec3 sum = hitsFrom(values, places[0]);
+        for (std::size_t i = 1; i < kCount; ++i) sum = plus(sum, hitsFrom(values, places[i]));
         return sum;
     };
-    const Vec3 normal{sumOf(coarse.normal[0]), sumOf(coarse.normal[1]), sumOf(coarse.normal[2])};
-    const V square = hn::Max(dotted(normal, normal), all(1e-30F));
-    const V scale = hn::Div(all(1.0F), hn::Sqrt(square));
-    hn::StoreU(hn::Mul(normal.x, scale), d, &block.normal[0][k]);
-    hn::StoreU(hn::Mul(normal.y, scale), d, &block.normal[1][k]);
-    hn::StoreU(hn::Mul(normal.z, scale), d, &block.normal[2][k]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        hn::StoreU(hn::Mul(sumOf(coarse.color[axis]), share), d, &block.color[axis][k]);
-        if (openness) hn::StoreU(hn::Mul(sumOf(coarse.open[axis]), share), d, &block.open[axis][k]);
-    }
+    const V share = all(1.0F / static_cast<float>(kCount));
+    Surface mean;
+    mean.normal = sumOf(coarse.normal);
+    mean.normal =
+        times(mean.normal, hn::Div(all(1.0F), hn::Sqrt(hn::Max(dotted(mean.normal, mean.normal), all(1e-30F)))));
+    mean.color = times(sumOf(coarse.color), share);
+    if (openness) mean.open = times(sumOf(coarse.open), share);
+    return mean;
 }
 
 M misses(const CoarseHits& coarse, std::size_t at, float most) {
     return hn::And(hn::Lt(hitsFrom(coarse.depth, at), all(0.0F)), hn::Lt(hitsFrom(coarse.most, at), all(most)));
 }
 
+/// Writes what two rays beside each other have, of as many pairs as there are lanes, to their rows of the tile.
+/// first: place of the first pair.
+void putPairs(V left, V right, std::size_t first, std::array<float, kBlockRays>& values) {
+    const D d;
+    constexpr std::size_t kPairs = std::min(hn::MaxLanes(D()), kCoarseSide);  // in a row
+    alignas(64) std::array<float, 2 * kTileSize> both;
+    hn::StoreInterleaved2(left, right, d, both.data());
+    for (std::size_t pair = 0; pair < hn::Lanes(d); pair += kPairs)
+        std::copy_n(&both[2 * pair], 2 * kPairs, &values[first + pair / kCoarseSide * 2 * kTileSize]);
+}
+
 /// One tile on its way.
 class Filling {
  public:
-    Filling(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness, RayBlock& block)
-        : cast_(cast), coarse_(coarse), smoothness_(smoothness), block_(block) {}
+    Filling(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness, glm::vec2 corner)
+        : cast_(cast), coarse_(coarse), smoothness_(smoothness), corner_(corner) {}
 
-    /// Pixels from place k of the block on; the hits on both sides of each begin at these places of the coarse grid, so
-    /// many pixels away from it.
-    void pair(std::size_t k, std::size_t a, std::size_t b, glm::vec2 off) {
-        const ViewRays rays = raysAt(k, glm::vec2(0.0F));
-        const Between found = between(rays, k, a, b, off);
-        putMean<2>(coarse_, {a, b}, cast_.openness, block_, k);
-        finish(k, found, hn::And(missed(a), missed(b)));
+    /// The rays that belong to cast ones from this one on, row by row.
+    void fill(std::size_t k, RayBlock& block, std::array<float, kBlockRays>& good) const {
+        const std::size_t at = k / kCoarseSide * CoarseHits::kSide + k % kCoarseSide;
+        const std::size_t below = at + CoarseHits::kSide;
+        const Surface own{hitsFrom(coarse_.depth, at), hitsFrom(coarse_.normal, at), hitsFrom(coarse_.color, at),
+                          hitsFrom(coarse_.open, at)};
+        V isBeside, isBelow, isMiddle;
+        const Surface beside = pair(k, at, at + 1, {1.0F, 0.0F}, isBeside);
+        const Surface under = pair(k, at, below, {0.0F, 1.0F}, isBelow);
+        const Surface middle = pairs(k, at, isMiddle);
+        const std::size_t first = k / kCoarseSide * 2 * kTileSize + k % kCoarseSide * 2;
+        putRow(own, beside, first, block);
+        putRow(under, middle, first + kTileSize, block);
+        putPairs(all(1.0F), isBeside, first, good);
+        putPairs(isBelow, isMiddle, first + kTileSize, good);
+    }
+
+ private:
+    /// The hits on both sides of each ray begin at these places of the coarse grid; off: from the first of them.
+    Surface pair(std::size_t k, std::size_t a, std::size_t b, glm::vec2 off, V& good) const {
+        const ViewRays rays = raysAt(k, off);
+        const Between found =
+            depthBetween(cast_.frame, rays, side(k, a, glm::vec2(0.0F)), side(k, b, 2.0F * off), smoothness_.depth);
+        Surface mean = meanOf<2>(coarse_, {a, b}, cast_.openness);
+        finish(found, hn::And(missed(a), missed(b)), mean, good);
+        return mean;
     }
 
     /// The same in the middle of four.
-    void pairs(std::size_t k, std::size_t first) {
-        const ViewRays rays = raysAt(k, glm::vec2(0.0F));
+    Surface pairs(std::size_t k, std::size_t first, V& good) const {
+        const ViewRays rays = raysAt(k, glm::vec2(1.0F));
         const std::size_t below = first + CoarseHits::kSide;
-        const Between falling = between(rays, k, first, below + 1, {-1.0F, -1.0F});
-        const Between rising = between(rays, k, first + 1, below, {1.0F, -1.0F});
-        putMean<4>(coarse_, {first, first + 1, below, below + 1}, cast_.openness, block_, k);
+        const auto between = [&](std::size_t a, glm::vec2 offA, std::size_t b, glm::vec2 offB) {
+            return depthBetween(cast_.frame, rays, side(k, a, offA), side(k, b, offB), smoothness_.depth);
+        };
+        const Between falling = between(first, {0.0F, 0.0F}, below + 1, {2.0F, 2.0F});
+        const Between rising = between(first + 1, {2.0F, 0.0F}, below, {0.0F, 2.0F});
+        Surface mean = meanOf<4>(coarse_, {first, first + 1, below, below + 1}, cast_.openness);
         const M allMissed =
             hn::And(hn::And(missed(first), missed(first + 1)), hn::And(missed(below), missed(below + 1)));
-        finish(k, {hn::Mul(all(0.5F), hn::Add(falling.depth, rising.depth)), hn::And(falling.good, rising.good)},
-               allMissed);
+        finish({hn::Mul(all(0.5F), hn::Add(falling.depth, rising.depth)), hn::And(falling.good, rising.good)},
+               allMissed, mean, good);
+        return mean;
     }
 
-    const std::array<bool, kBetween>& good() const { return good_; }
+    static void finish(const Between& found, M missed, Surface& mean, V& good) {
+        mean.depth = hn::IfThenElse(missed, all(-1.0F), found.depth);
+        good = hn::IfThenElseZero(hn::Or(missed, found.good), all(1.0F));
+    }
 
- private:
+    void putRow(const Surface& left, const Surface& right, std::size_t first, RayBlock& block) const {
+        putPairs(left.depth, right.depth, first, block.depth);
+        const auto put = [&](const Vec3& a, const Vec3& b, std::array<std::array<float, kBlockRays>, 3>& values) {
+            putPairs(a.x, b.x, first, values[0]);
+            putPairs(a.y, b.y, first, values[1]);
+            putPairs(a.z, b.z, first, values[2]);
+        };
+        put(left.normal, right.normal, block.normal);
+        put(left.color, right.color, block.color);
+        if (cast_.openness) put(left.open, right.open, block.open);
+    }
+
+    /// Rays so many pixels from the cast ones.
     ViewRays raysAt(std::size_t k, glm::vec2 off) const {
-        const D d;
-        return viewRays(cast_.frame, hn::Add(hn::LoadU(d, &block_.x[k]), all(off.x)),
-                        hn::Add(hn::LoadU(d, &block_.y[k]), all(off.y)));
+        const V lane = hn::Iota(D(), static_cast<float>(k % kCoarseSide));
+        const V wraps = hn::IfThenElseZero(hn::Ge(lane, all(static_cast<float>(kCoarseSide))), all(1.0F));
+        const V column = hn::Sub(lane, hn::Mul(wraps, all(static_cast<float>(kCoarseSide))));
+        const V row = hn::Add(wraps, all(static_cast<float>(k / kCoarseSide)));
+        const auto pixel = [](V place, float first, float offPixel) {
+            return hn::Add(hn::Add(hn::Mul(all(2.0F), place), all(offPixel)), all(first));
+        };
+        return viewRays(cast_.frame, pixel(column, corner_.x, off.x), pixel(row, corner_.y, off.y));
     }
 
     Side side(std::size_t k, std::size_t at, glm::vec2 off) const {
         return {hitsFrom(coarse_.depth, at), hitsFrom(coarse_.normal, at), raysAt(k, off)};
     }
 
-    Between between(const ViewRays& rays, std::size_t k, std::size_t a, std::size_t b, glm::vec2 off) const {
-        return depthBetween(cast_.frame, rays, side(k, a, off), side(k, b, -off), smoothness_.depth);
-    }
-
     M missed(std::size_t at) const { return misses(coarse_, at, smoothness_.most); }
-
-    void finish(std::size_t k, const Between& found, M missed) {
-        const D d;
-        hn::StoreU(hn::IfThenElse(missed, all(-1.0F), found.depth), d, &block_.depth[k]);
-        alignas(64) std::array<float, kTileSize> isGood;
-        hn::Store(hn::IfThenElseZero(hn::Or(missed, found.good), all(1.0F)), d, isGood.data());
-        for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) good_[k + lane] = isGood[lane] != 0.0F;
-    }
 
     const FieldCast& cast_;
     const CoarseHits& coarse_;
     Smoothness smoothness_;
-    RayBlock& block_;
-    std::array<bool, kBetween> good_{};
+    glm::vec2 corner_;
 };
 
-std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness,
-                                       RayBlock& block) {
-    constexpr std::size_t kKind = kBetween / 3;
-    Filling filling(cast, coarse, smoothness, block);
-    for (std::size_t k = 0; k < kKind; k += hn::Lanes(D())) {
-        const std::size_t at = k / kCoarseSide * CoarseHits::kSide + k % kCoarseSide;
-        filling.pair(k, at, at + 1, {-1.0F, 0.0F});
-        filling.pair(kKind + k, at, at + CoarseHits::kSide, {0.0F, -1.0F});
-        filling.pairs(2 * kKind + k, at);
-    }
-    return filling.good();
+void fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness, glm::vec2 corner,
+                 RayBlock& block, std::array<bool, kBlockRays>& isRough) {
+    const Filling filling(cast, coarse, smoothness, corner);
+    alignas(64) std::array<float, kBlockRays> good;
+    for (std::size_t k = 0; k < kCoarseSide * kCoarseSide; k += hn::Lanes(D())) filling.fill(k, block, good);
+    for (std::size_t k = 0; k < kBlockRays; ++k) isRough[k] = good[k] == 0.0F;
+    block.count = kBlockRays;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -208,16 +247,6 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 
 namespace {
-
-constexpr std::array<std::uint8_t, kBlockRays> sparsePlaces() {
-    std::array<std::uint8_t, kBlockRays> places{};
-    std::size_t k = 0;
-    for (const auto& [right, down] : {std::array{1, 0}, std::array{0, 1}, std::array{1, 1}, std::array{0, 0}})
-        for (int row = down; row < kTileSize; row += 2)
-            for (int column = right; column < kTileSize; column += 2)
-                places[k++] = static_cast<std::uint8_t>(row * kTileSize + column);
-    return places;
-}
 
 constexpr std::array<std::uint8_t, kCoarseSide * kCoarseSide> coarsePlaces() {
     std::array<std::uint8_t, kCoarseSide * kCoarseSide> places{};
@@ -233,7 +262,6 @@ constexpr std::array<std::uint8_t, kCoarseSide * kCoarseSide> coarsePlaces() {
 }  // namespace
 
 constexpr std::array<std::uint8_t, kCoarseSide* kCoarseSide> kCoarsePlaces = coarsePlaces();
-constexpr std::array<std::uint8_t, kBlockRays> kSparsePlaces = sparsePlaces();
 
 void CoarseHits::put(const RayBlock& block, bool openness) {
     constexpr std::size_t kHalf = kCoarseSide / 2;
@@ -249,20 +277,6 @@ void CoarseHits::put(const RayBlock& block, bool openness) {
             take(block.normal[axis], normal[axis]);
             take(block.color[axis], color[axis]);
             if (openness) take(block.open[axis], open[axis]);
-        }
-    }
-}
-
-void CoarseHits::addTo(RayBlock& block, bool openness) const {
-    for (std::size_t row = 0; row < kCoarseSide; ++row, block.count += kCoarseSide) {
-        const auto add = [&](const Values& from, std::array<float, kBlockRays>& to) {
-            std::copy_n(&from[row * kSide], kCoarseSide, &to[block.count]);
-        };
-        add(depth, block.depth);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            add(normal[axis], block.normal[axis]);
-            add(color[axis], block.color[axis]);
-            if (openness) add(open[axis], block.open[axis]);
         }
     }
 }
@@ -290,9 +304,9 @@ void CoarseHits::putBorder(std::size_t column, std::size_t row, const CoarseHits
 
 HWY_EXPORT(fillBetween);
 
-std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness,
-                                       RayBlock& block) {
-    return HWY_DYNAMIC_DISPATCH(fillBetween)(cast, coarse, smoothness, block);
+void fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness, glm::vec2 corner,
+                 RayBlock& block, std::array<bool, kBlockRays>& isRough) {
+    HWY_DYNAMIC_DISPATCH(fillBetween)(cast, coarse, smoothness, corner, block, isRough);
 }
 
 }  // namespace render

@@ -27,8 +27,6 @@ struct CoarseHits {
 
     /// Takes a block of rays that go through kCoarsePlaces.
     void put(const RayBlock& block, bool openness);
-    /// Adds the tile's own, row by row, to a block.
-    void addTo(RayBlock& block, bool openness) const;
     /// No hits, and no field, in the column and the row after the tile.
     void clearBorder();
     void putBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
@@ -45,18 +43,12 @@ struct Smoothness {
 /// rays is compact, and so are the rows of a quarter.
 extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePlaces;
 
-/// The pixels of a tile in between.
-inline constexpr std::size_t kBetween = kBlockRays / 4 * 3;
-
-/// All pixels of a tile (columns plus 16 rows): first those in between, beside, below, and in the middle of cast ones,
-/// then the cast ones row by row.
-extern const std::array<std::uint8_t, kBlockRays> kSparsePlaces;
-
-/// Fills in all rays of a block, which go through the first of kSparsePlaces of one tile, and tells which of them are
-/// good: those on a cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals,
-/// colours and openness; and no hit where the rays around missed the surface by more than the field may rise within a
-/// pixel. Holds: a ray's result depends on the hits around it alone, bit for bit, not on the number of lanes.
-std::array<bool, kBetween> fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness,
-                                       RayBlock& block);
+/// Makes a block of a tile's pixels, row by row, of its cast rays and those of its neighbours. In between they are on a
+/// cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals, colours and
+/// openness; or there is nothing, where the rays around missed the surface by more than the field may rise within a
+/// pixel. Where neither is sure, isRough tells. corner: the first cast ray's place in the picture. Holds: a ray's
+/// result depends on the hits around it alone, bit for bit, not on the number of lanes.
+void fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness, glm::vec2 corner,
+                 RayBlock& block, std::array<bool, kBlockRays>& isRough);
 
 }  // namespace render

@@ -41,7 +41,7 @@ VI packedRoots(V red, V green, V blue) {
                   hn::ShiftLeft<22>(bits(blue, 1023.0F)));
 }
 
-void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, PackedBlock& packed) {
+void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, FieldSample* packed) {
     const D d;
     const DI di;
     const Vec3 right = uniform(frame.right);
@@ -81,7 +81,7 @@ namespace render {
 
 HWY_EXPORT(packBlock);
 
-void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, PackedBlock& packed) {
+void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, FieldSample* packed) {
     HWY_DYNAMIC_DISPATCH(packBlock)(frame, block, openness, packed);
 }
 

@@ -20,9 +20,16 @@ void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const st
                 FieldPicture& picture) {
     const std::size_t out = slot * kBlockRays;
     PackedBlock packed;
-    packBlock(cast.frame, block, cast.openness, packed);
+    packBlock(cast.frame, block, cast.openness, packed.data());
     for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed[k];
     for (std::size_t k = 0; k < block.count; ++k) picture.depths[out + places[k]] = packed[k].depth();
+}
+
+/// Packs a block of all pixels of a tile, row by row.
+void putTile(const FieldCast& cast, const RayBlock& block, std::size_t slot, FieldPicture& picture) {
+    const std::size_t out = slot * kBlockRays;
+    packBlock(cast.frame, block, cast.openness, &picture.samples[out]);
+    for (std::size_t k = 0; k < kBlockRays; ++k) picture.depths[out + k] = picture.samples[out + k].depth();
 }
 
 /// A tile's coarse hits with those of its neighbours to the right and below; none where they have no slot.
@@ -86,12 +93,9 @@ void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 off
         const CoarseHits& hits = withBorder(picture, tiles, tile);
         const glm::vec2 corner = cornerOf(tiles, tile);
         RayBlock block;
-        placeRays(block, corner, std::span(kSparsePlaces).first(kBetween), offset);
-        const std::array<bool, kBetween> good = fillBetween(cast, hits, smoothness, block);
-        hits.addTo(block, cast.openness);
-        putSamples(cast, block, kSparsePlaces, slot, picture);
-        std::array<bool, kBlockRays> isRough{};
-        for (std::size_t k = 0; k < kBetween; ++k) isRough[kSparsePlaces[k]] = !good[k];
+        std::array<bool, kBlockRays> isRough;
+        fillBetween(cast, hits, smoothness, pixelMiddle(corner, 0) + offset, block, isRough);
+        putTile(cast, block, slot, picture);
         const TilePlaces rough = placesWhere(isRough);
         placeRays(block, corner, rough, offset);
         for (std::size_t k = 0; k < rough.size(); ++k)

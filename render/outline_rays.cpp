@@ -158,7 +158,7 @@ class OutlineCast {
     void flush() {
         castBlock(cast_, tile_, block_);
         PackedBlock packed;
-        packBlock(cast_.frame, block_, cast_.openness, packed);
+        packBlock(cast_.frame, block_, cast_.openness, packed.data());
         for (std::size_t k = 0; k < block_.count; ++k) {
             if (depths_.isMiddles(samples_[k].pixel, packed[k].depth(), jump())) continue;
             outlines_.samples.push_back(samples_[k]);
