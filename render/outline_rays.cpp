@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/outline_marks.h"
 #include "render/ray_places.h"
 
 namespace render {
@@ -34,7 +35,7 @@ class Depths {
         const auto columns = static_cast<std::size_t>(tiles.columns);
         const int left = static_cast<int>(tile % columns);
         const int top = static_cast<int>(tile / columns);
-        depths_.fill(kNothing);
+        depths_.values.fill(kNothing);
         copy(left, top, {0, 0}, {kTileSize, kTileSize}, {1, 1});
         copy(left - 1, top, {kTileSize - 1, 0}, {1, kTileSize}, {0, 1});
         copy(left + 1, top, {0, 0}, {1, kTileSize}, {kTileSize + 1, 1});
@@ -44,17 +45,8 @@ class Depths {
 
     // Samples of each pixel, a bit each, on the side of a pixel beside it whose depth differs by more than this; a hit
     // and a miss differ by more than any.
-    std::array<std::uint32_t, kBlockRays> samplesAtOutlines(float jump) const {
-        std::array<std::uint32_t, kBlockRays> found{};
-        for (std::size_t row = 0; row < kTileSize; ++row) {
-            const float* at = &depths_[(row + 1) * kSide + 1];
-            std::uint32_t* bits = &found[row * kTileSize];
-            for (const Side& side : kSides)
-                for (std::size_t k = 0; k < kTileSize; ++k)
-                    bits[k] |=
-                        std::abs(at[static_cast<std::ptrdiff_t>(k) + side.step] - at[k]) > jump ? side.samples : 0U;
-        }
-        return found;
+    std::array<std::uint32_t, kTilePixels> samplesAtOutlines(float jump) const {
+        return marksOf(depths_, jump, kSides);
     }
 
     // Whether a sample of a pixel shows what its middle shows.
@@ -65,11 +57,11 @@ class Depths {
     // From a radius before the nearest of what the pixel and its neighbours show; where one of them shows nothing, to
     // two radii behind the farthest: what extra rays see is what the rays around them see.
     DepthRange around(std::uint8_t place, float radius) const {
-        const std::ptrdiff_t at = indexOf(place);
+        const float* at = &depths_.values[BorderedDepths::indexOf(place)];
         DepthRange range{kEndless, 0.0F};
         bool isOpen = false;
         for (const std::ptrdiff_t step : {std::ptrdiff_t{0}, std::ptrdiff_t{1}, std::ptrdiff_t{-1}, kSide, -kSide}) {
-            const float depth = depths_[static_cast<std::size_t>(at + step)];
+            const float depth = at[step];
             isOpen = isOpen || depth == kNothing;
             range.from = depth > 0.0F ? std::min(range.from, depth - radius) : range.from;
             range.to = std::max(range.to, depth + 2.0F * radius);
@@ -78,27 +70,19 @@ class Depths {
     }
 
  private:
-    static constexpr std::ptrdiff_t kSide = kTileSize + 2;
+    static constexpr std::ptrdiff_t kSide = BorderedDepths::kSide;
 
-    /// Where a pixel's neighbour is, and the samples that lie towards it.
-    struct Side {
-        std::ptrdiff_t step;
-        std::uint32_t samples;
-    };
-    static constexpr std::array<Side, 4> kSides = {{{1, samplesTowards({1.0F, 0.0F})},
-                                                    {-1, samplesTowards({-1.0F, 0.0F})},
-                                                    {kSide, samplesTowards({0.0F, 1.0F})},
-                                                    {-kSide, samplesTowards({0.0F, -1.0F})}}};
+    // A neighbour, and the samples that lie towards it.
+    static constexpr std::array<MarkedSide, 4> kSides = {{{1, samplesTowards({1.0F, 0.0F})},
+                                                          {-1, samplesTowards({-1.0F, 0.0F})},
+                                                          {kSide, samplesTowards({0.0F, 1.0F})},
+                                                          {-kSide, samplesTowards({0.0F, -1.0F})}}};
 
     static constexpr float kNothing = -1e30F;  // farther than any jump from what is seen
 
     static float known(float depth) { return depth > 0.0F ? depth : kNothing; }
 
-    static std::ptrdiff_t indexOf(std::uint8_t place) {
-        return (place / kTileSize + 1) * kSide + place % kTileSize + 1;
-    }
-
-    float at(std::uint8_t place) const { return depths_[static_cast<std::size_t>(indexOf(place))]; }
+    float at(std::uint8_t place) const { return depths_.values[BorderedDepths::indexOf(place)]; }
 
     void copy(int column, int row, glm::ivec2 from, glm::ivec2 size, glm::ivec2 to) {
         if (column < 0 || row < 0 || column >= tiles_.columns || row >= tiles_.rows) return;
@@ -106,7 +90,7 @@ class Depths {
         if (slot < 0) return;
         const auto depths = picture_.depthsOf(static_cast<std::size_t>(slot));
         for (int y = 0; y < size.y; ++y) {
-            float* out = &depths_[static_cast<std::size_t>((to.y + y) * kSide + to.x)];
+            float* out = &depths_.values[static_cast<std::size_t>((to.y + y) * kSide + to.x)];
             const float* own = &depths[static_cast<std::size_t>((from.y + y) * kTileSize + from.x)];
             for (int x = 0; x < size.x; ++x) out[x] = known(own[x]);
         }
@@ -114,7 +98,7 @@ class Depths {
 
     const FieldPicture& picture_;
     const CellLists& tiles_;
-    std::array<float, kSide * kSide> depths_;
+    BorderedDepths depths_;
 };
 
 class OutlineCast {
@@ -130,7 +114,7 @@ class OutlineCast {
     }
 
     void run() {
-        const std::array<std::uint32_t, kBlockRays> samples = depths_.samplesAtOutlines(jump());
+        const std::array<std::uint32_t, kTilePixels> samples = depths_.samplesAtOutlines(jump());
         std::array<bool, kBlockRays> isAtOutline;
         for (std::size_t k = 0; k < kBlockRays; ++k) isAtOutline[k] = samples[k] != 0;
         for (const std::uint8_t pixel : placesWhere(isAtOutline)) {
