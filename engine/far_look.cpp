@@ -22,14 +22,14 @@ constexpr double kWorthMore = 1.4;
 /// by bisection, because a library's logarithms differ in their last bits from machine to machine.
 double between(const Trial& less, const Trial& more, double wanted) {
     constexpr int kHalvings = 40;
-    Trial low = less;
-    Trial high = more;
+    struct Point {
+        double step, error;
+    };
+    Point low{less.step, less.error};
+    Point high{more.step, more.error};
     for (int k = 0; k < kHalvings; ++k) {
-        const double error = std::sqrt(low.error) * std::sqrt(high.error);
-        const double step = std::sqrt(low.step) * std::sqrt(high.step);
-        Trial& moved = error <= wanted ? low : high;
-        moved.error = error;
-        moved.step = step;
+        const Point middle{std::sqrt(low.step) * std::sqrt(high.step), std::sqrt(low.error) * std::sqrt(high.error)};
+        (middle.error <= wanted ? low : high) = middle;
     }
     return low.step;
 }

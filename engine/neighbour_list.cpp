@@ -122,6 +122,11 @@ void sortByCell(NeighbourList& list, const std::vector<Vec3>& positions) {
     });
 }
 
+template <class... Vectors>
+std::size_t bytesHeld(const Vectors&... vectors) {
+    return (std::size_t{0} + ... + (vectors.capacity() * sizeof(vectors[0])));
+}
+
 }  // namespace
 
 void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutoff, double skin) {
@@ -156,14 +161,15 @@ std::size_t roomOf(const LaneRows& rows) {
     return sum;
 }
 
+std::size_t bytesOf(const LaneRows& rows) {
+    return bytesHeld(rows.selves, rows.length, rows.parts) + roomOf(rows) * sizeof(std::int32_t);
+}
+
 std::size_t bytesOf(const NeighbourList& list) {
-    const auto held = [](const auto&... vectors) {
-        return (std::size_t{0} + ... + (vectors.capacity() * sizeof(vectors[0])));
-    };
-    return held(list.order, list.seatOf, list.rows.selves, list.rows.length, list.rows.parts, list.builtAt,
-                list.scratch.grid.start, list.scratch.grid.order, list.scratch.grid.cellOf, list.scratch.candidates.x,
-                list.scratch.candidates.y, list.scratch.candidates.z) +
-           roomOf(list.rows) * sizeof(std::int32_t);
+    const BuildScratch& scratch = list.scratch;
+    return bytesOf(list.rows) + bytesHeld(list.order, list.seatOf, list.builtAt, scratch.grid.start, scratch.grid.order,
+                                          scratch.grid.cellOf, scratch.candidates.x, scratch.candidates.y,
+                                          scratch.candidates.z);
 }
 
 }  // namespace engine

@@ -43,6 +43,9 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
 /// Entries for which the rows have room, with those that fill them up.
 std::size_t roomOf(const LaneRows& rows);
 
+/// Bytes that the rows hold.
+std::size_t bytesOf(const LaneRows& rows);
+
 /// Bytes that the list holds, with the scratch of its build.
 std::size_t bytesOf(const NeighbourList& list);
 

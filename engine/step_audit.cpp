@@ -33,7 +33,7 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p, const Link
 }
 
 /// Alone, a particle may go as far as it likes, but where it may have passed an obstacle unseen.
-bool hasNothingToPass(const Simulation& simulation) {
+bool mayGoFar(const Simulation& simulation) {
     if (simulation.particles.count() > 1) return false;
     return simulation.particles.count() == 0 || simulation.setup.scenery.colliders.empty() ||
            simulation.swept[0] != 0 || isClear(simulation, 0);
@@ -41,7 +41,7 @@ bool hasNothingToPass(const Simulation& simulation) {
 
 bool movedTooFar(const Simulation& simulation, const BeforeStep& kept) {
     const Particles& particles = simulation.particles;
-    if (hasNothingToPass(simulation)) return false;
+    if (mayGoFar(simulation)) return false;
     const double far = largestOver(particles.count(), [&](std::size_t p) {
         const double waySq = squaredLength(particles.position[p] - kept.position[p]);
         return waySq <= particles.radius[p] * particles.radius[p] ? 0.0 : 1.0;  // what is no number is too far

@@ -1,6 +1,5 @@
 // The longest step at which a state is stable, estimated from a few passes over the pairs and some products with the
-// matrix that they assemble. `globular check` prints it beside
-// the step that a scene asks for.
+// matrix that they assemble. `globular check` prints it beside the step that a scene asks for.
 #pragma once
 
 #include <cstddef>

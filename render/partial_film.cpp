@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <filesystem>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -40,9 +39,6 @@ void removeOld(const std::string& path) {
 }  // namespace
 
 PartialFilm::PartialFilm(const std::string& film) : film_(replaceable(film)), path_(film_ + ".partial") {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(film_, ignored))
-        throw SystemError(fmt::format("cannot write {}: it is a folder, a file is wanted", film));
     removeOld(path_);
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("write " + path_, errno);

@@ -19,8 +19,9 @@ fs::path replaceable(const fs::path& path) {
         target = target.parent_path() / next;
     }
     const fs::file_status status = fs::status(target, error);
-    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
-        throw SystemError(fmt::format("cannot write {}: it is a device or a pipe, a file is wanted", path.string()));
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw SystemError(fmt::format("cannot write {}: it is a {}, a file is wanted", path.string(),
+                                      fs::is_directory(status) ? "folder" : "device or a pipe"));
     return target;
 }
 

@@ -6,7 +6,8 @@
 namespace render {
 
 /// The path, or what it leads to if it is a symbolic link.
-/// Throws SystemError where that is a device or a pipe, which a rename would destroy.
+/// Throws SystemError where that is a folder, which no file takes the place of, or a device or a pipe, which a rename
+/// would destroy.
 std::filesystem::path replaceable(const std::filesystem::path& path);
 
 }  // namespace render

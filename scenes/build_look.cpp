@@ -10,15 +10,16 @@ bool overrules(const Section& section, std::string_view one, std::string_view ot
     return section.isGiven(one) && section.at(one).overrideIndex >= 0 && section.at(other).overrideIndex < 0;
 }
 
-void checkRamp(Section& section, BuildContext& context) {
-    if (!overrules(section, "color_map", "colors") && !overrules(section, "colors", "color_map"))
+/// Of a map and colours in the file, both given, an override decides; the other is then no part of what the scene
+/// means.
+void settleRamp(Section& section, BuildContext& context) {
+    if (!section.isGiven("colors") || !section.isGiven("color_map")) return;
+    if (overrules(section, "color_map", "colors"))
+        section.drop("colors");
+    else if (overrules(section, "colors", "color_map"))
+        section.drop("color_map");
+    else
         reportBoth(section, "colors", "color_map", context);
-}
-
-/// So that the one that does not count is no part of what the scene means.
-void dropOverruled(Section& section) {
-    const bool isMap = overrules(section, "color_map", "colors");
-    if (section.isGiven("colors") && section.isGiven("color_map")) section.drop(isMap ? "colors" : "color_map");
 }
 
 std::vector<engine::Vec3> rampOf(const Section& section) {
@@ -70,8 +71,7 @@ Look buildLook(Section& section, BuildContext& context) {
     Look look;
     const auto toLight = unitVector(section.vector("light_direction"));
     if (!toLight) report(section, "light_direction", "light_direction is [0, 0, 0], must not be zero", context);
-    checkRamp(section, context);
-    dropOverruled(section);
+    settleRamp(section, context);
     if (!section.isSound()) return look;
     look.toLight = *toLight;
     look.style = section.text("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;

@@ -46,7 +46,7 @@ void Section::putUnfit(std::string_view name, Position at) {
 }
 
 void Section::drop(std::string_view name) {
-    if (const auto found = slots_.find(name); found != slots_.end()) slots_.erase(found);
+    slots_.erase(std::string(name));
 }
 
 void Section::deriveTyped(std::string_view name, Typed value) {

@@ -62,12 +62,6 @@ struct Subject {
     double rowBytes = 0.0;  ///< a particle
 };
 
-/// As forces read them.
-std::size_t bytesOf(const engine::LaneRows& rows) {
-    return engine::roomOf(rows) * sizeof(std::int32_t) + rows.selves.size() * sizeof(rows.selves[0]) +
-           rows.length.size() * sizeof(rows.length[0]) + rows.parts.size() * sizeof(rows.parts[0]);
-}
-
 Subject subjectOf(const Packed& packed, std::size_t count) {
     Subject subject{packedBlock(packed.material, count, {.spacing = packed.spacing}), {}};
     const engine::Particles& particles = subject.setup.initial;

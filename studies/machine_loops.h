@@ -1,4 +1,4 @@
-// A plain loop that show what the machine could do at most, to hold the kernels against.
+// A plain loop that shows what the machine could do at most, to hold the kernels against.
 #pragma once
 
 #include <cstddef>

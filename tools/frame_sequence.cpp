@@ -53,8 +53,8 @@ bool FrameSequence::goOn() {
 }
 
 std::optional<SequencedFrame> FrameSequence::next() {
-    // Frames that are only passed on cost little, and a film of some of them would be worth less than the one there is.
     if (next_ > frames_.last) return std::nullopt;
+    // Frames that are only passed on cost little, and a film of some of them would be worth less than the one there is.
     if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
     if (run_.report.interruptedBy != 0) return std::nullopt;
     SequencedFrame frame;
@@ -66,6 +66,8 @@ std::optional<SequencedFrame> FrameSequence::next() {
     if (isNew && !advanceTo(frame.number)) return std::nullopt;
     ++next_;
     if (folder_ == nullptr) return frame;
+    if (frame.isWanted && frame.number == position_)
+        run_.report.stateHash = engine::stateHash(run_.simulation.particles);
     if (frame.isWanted && !frame.isKept) frame.stateHash = run_.report.stateHash;
     if (isNew && isCheckpointDue()) {
         frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
@@ -85,7 +87,6 @@ bool FrameSequence::advanceTo(int frame) {
         return false;
     }
     position_ = frame;
-    if (frame >= frames_.first) run_.report.stateHash = engine::stateHash(run_.simulation.particles);
     if (frame >= frames_.first && (frame - frames_.first) % sampleStride(frames_) == 0)
         addSample(run_.report.errors, scene_, run_.simulation);
     return true;

@@ -82,9 +82,6 @@ class Run {
 
     static void requireFilm(const render::VideoOptions& options) {
         render::requireEncoder(options);
-        const std::filesystem::path beside = std::filesystem::path(options.path).parent_path();
-        // Another folder may be made yet, with that of the frames.
-        if (!beside.empty() && !std::filesystem::is_directory(beside)) return;
         const render::PartialFilm begun(options.path);
     }
 

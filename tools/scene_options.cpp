@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <thread>
 
-#include "render/system_error.h"
 #include "scenes/input_error.h"
 #include "scenes/library.h"
 #include "tools/number_in.h"

@@ -14,7 +14,7 @@ namespace tools {
 
 void prepareStandardStreams() {
     for (const int descriptor : {0, 1, 2})
-        if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // gets the lowest number that is free
+        if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);  // gets the lowest number that is free
     std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -5,8 +5,9 @@
 
 namespace tools {
 
-/// Opens those of the three standard streams that are closed, to nothing: a file that is opened later must not become
-/// one of them. A reader that goes away is an error from now on, and no signal: it must not end a run halfway.
+/// Opens those of the three standard streams that are closed, so that no file that is opened later becomes one of them;
+/// writing to them stays an error. A reader that goes away is an error from now on, and no signal: it must not end a
+/// run halfway.
 void prepareStandardStreams();
 
 /// Writes to standard error, whether or not anybody takes it: nothing is lost but words.
