@@ -42,13 +42,17 @@ class Folder {
     fs::path path_;
 };
 
-/// arguments: as typed in a shell. environment: assignments put before the program's name.
-inline Outcome run(const std::string& arguments, const std::string& environment = "") {
+/// What a line typed in a shell ends with and says.
+inline Outcome shell(const std::string& line) {
     const Folder folder;
-    const std::string command = environment + " " GLOBULAR_PROGRAM " " + arguments + " >" + (folder / "out").string() +
-                                " 2>" + (folder / "err").string();
+    const std::string command = "{ " + line + "; } >" + (folder / "out").string() + " 2>" + (folder / "err").string();
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
+}
+
+/// arguments: as typed in a shell. environment: assignments put before the program's name.
+inline Outcome run(const std::string& arguments, const std::string& environment = "") {
+    return shell(environment + " " GLOBULAR_PROGRAM " " + arguments);
 }
 
 inline long lineCount(const std::string& text) {

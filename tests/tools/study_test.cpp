@@ -1,6 +1,4 @@
 // The study as a user runs it, on a scene of two particles.
-#include <sys/stat.h>
-
 #include <fstream>
 
 #include "tests/catch.h"
@@ -101,11 +99,11 @@ TEST_CASE("The study of scaling writes tables, a plot and a page, and says when 
 TEST_CASE("A study of pictures that is interrupted leaves the rows that it has told of", "[tools]") {
     const program::Folder folder;
     const std::string table = (folder / "pictures" / "pictures.csv").string();
-    const std::string told = (folder / "told").string();
-    REQUIRE(::mkfifo(told.c_str(), 0600) == 0);
-    const auto outcome = run("study pictures --quick --particles 100 200 --size 256x144 --threads 1 -o " +
-                             (folder / "pictures").string() + " 2>" + told + " >/dev/null & study=$!; (read row; cat " +
-                             table + "; kill $study) <" + told);
+    const std::string study = "exec " GLOBULAR_PROGRAM
+                              " study pictures --quick --particles 100 200 --size 256x144 --threads 1 -o " +
+                              (folder / "pictures").string() + " 2>&1 >/dev/null";
+    const auto outcome =
+        program::shell("sh -c 'echo $$; " + study + "' | (read study; read row; cat " + table + "; kill $study)");
     INFO(outcome.out);
     REQUIRE(outcome.code == 0);
     CHECK(program::lineCount(outcome.out) >= 2);  // a head, and the row just told of
