@@ -13,7 +13,7 @@ struct DrawTimes {
     double shadow = 0.0;     ///< the light's grid of spheres and its map of the metaballs
     double cast = 0.0;       ///< ray casting of metaballs on the CPU
     double color = 0.0;      ///< what the samples see, and its colours, on the CPU
-    double openGl = 0.0;     ///< the pixels handed to it, and drawn
+    double openGl = 0.0;     ///< the pixels handed to it
     double readBack = 0.0;
 };
 

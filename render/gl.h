@@ -32,10 +32,8 @@ namespace render {
     X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)         \
     X(DepthFunc, PFNGLDEPTHFUNCPROC)                           \
     X(Disable, PFNGLDISABLEPROC)                               \
-    X(DrawArrays, PFNGLDRAWARRAYSPROC)                         \
     X(DrawArraysInstanced, PFNGLDRAWARRAYSINSTANCEDPROC)       \
     X(Enable, PFNGLENABLEPROC)                                 \
-    X(Finish, PFNGLFINISHPROC)                                 \
     X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)     \
     X(GenBuffers, PFNGLGENBUFFERSPROC)                         \
     X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)               \
@@ -49,7 +47,6 @@ namespace render {
     X(GetShaderiv, PFNGLGETSHADERIVPROC)                       \
     X(GetString, PFNGLGETSTRINGPROC)                           \
     X(GetUniformBlockIndex, PFNGLGETUNIFORMBLOCKINDEXPROC)     \
-    X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)         \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                       \
     X(PixelStorei, PFNGLPIXELSTOREIPROC)                       \
     X(ReadPixels, PFNGLREADPIXELSPROC)                         \
@@ -58,7 +55,6 @@ namespace render {
     X(TexImage2D, PFNGLTEXIMAGE2DPROC)                         \
     X(TexParameteri, PFNGLTEXPARAMETERIPROC)                   \
     X(TexSubImage2D, PFNGLTEXSUBIMAGE2DPROC)                   \
-    X(Uniform1i, PFNGLUNIFORM1IPROC)                           \
     X(UniformBlockBinding, PFNGLUNIFORMBLOCKBINDINGPROC)       \
     X(UseProgram, PFNGLUSEPROGRAMPROC)                         \
     X(Viewport, PFNGLVIEWPORTPROC)

@@ -27,38 +27,20 @@ GLint limitOf(const Gl& gl, GLenum name) {
 
 }  // namespace
 
-PixelTexture::PixelTexture(const Gl& gl, int width, int height)
-    : gl_(&gl), width_(width), height_(height), texture_(generate<TextureName>(gl, gl.GenTextures)) {
+Target::Target(const Gl& gl, int width, int height)
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      pixels_(generate<TextureName>(gl, gl.GenTextures)),
+      framebuffer_(generate<FramebufferName>(gl, gl.GenFramebuffers)) {
     const GLint limit = limitOf(gl, GL_MAX_TEXTURE_SIZE);
     if (width > limit || height > limit) {
         throw SystemError(
             fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}", width, height, limit));
     }
-    bind(0);
+    gl.BindTexture(GL_TEXTURE_2D, pixels_.get());
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, kPixelOrder, kPixelType, nullptr);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-}
-
-void PixelTexture::upload(std::span<const std::uint32_t> pixels) const {
-    gl_->BindTexture(GL_TEXTURE_2D, texture_.get());
-    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, kPixelOrder, kPixelType, pixels.data());
-}
-
-void PixelTexture::bind(int unit) const {
-    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    gl_->BindTexture(GL_TEXTURE_2D, texture_.get());
-}
-
-Target::Target(const Gl& gl, int width, int height)
-    : gl_(&gl),
-      width_(width),
-      height_(height),
-      pixels_(gl, width, height),
-      framebuffer_(generate<FramebufferName>(gl, gl.GenFramebuffers)) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, pixels_.get(), 0);
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
@@ -68,12 +50,13 @@ Target::Target(const Gl& gl, int width, int height)
     }
 }
 
-void Target::bindForDrawing() const {
-    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    gl_->Viewport(0, 0, width_, height_);
+void Target::put(std::span<const std::uint32_t> pixels) const {
+    gl_->BindTexture(GL_TEXTURE_2D, pixels_.get());
+    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, kPixelOrder, kPixelType, pixels.data());
 }
 
 void Target::readRows(int first, int count, std::uint32_t* room) const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     gl_->ReadPixels(0, first, width_, count, kPixelOrder, kPixelType, room);
 }
 

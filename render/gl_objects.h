@@ -54,32 +54,16 @@ using FramebufferName = GlName<deleteFramebuffer>;
 using VertexArrayName = GlName<deleteVertexArray>;
 using ProgramName = GlName<deleteProgram>;
 
-/// Pixels of a fixed number, row by row, in memory a word each. Throws SystemError where OpenGL cannot make it.
+/// OpenGL's picture: pixels of a fixed number, row by row, in memory a word each. Throws SystemError where OpenGL
+/// cannot make it.
 ///
-/// OpenGL is told that the lowest byte is blue, although shade.h's PixelColor has red there: nothing but copies is
-/// made, llvmpipe keeps such pixels as they come, and copies rectangles of one texture to another by rows instead of
-/// running a shader.
-class PixelTexture {
- public:
-    PixelTexture(const Gl& gl, int width, int height);
-
-    void upload(std::span<const std::uint32_t> pixels) const;
-    void bind(int unit) const;
-    GLuint get() const { return texture_.get(); }
-
- private:
-    const Gl* gl_;
-    int width_;
-    int height_;
-    TextureName texture_;
-};
-
-/// What is drawn to.
+/// OpenGL is told that the lowest byte is blue, although shade.h's PixelColor has red there: what goes in comes out
+/// again, and llvmpipe keeps such pixels as they come.
 class Target {
  public:
     Target(const Gl& gl, int width, int height);
 
-    void bindForDrawing() const;
+    void put(std::span<const std::uint32_t> pixels) const;
     /// Reads some of its rows; room: for all their pixels.
     void readRows(int first, int count, std::uint32_t* room) const;
 
@@ -87,7 +71,7 @@ class Target {
     const Gl* gl_;
     int width_;
     int height_;
-    PixelTexture pixels_;
+    TextureName pixels_;
     FramebufferName framebuffer_;
 };
 

@@ -15,8 +15,8 @@
 #include <tbb/task_group.h>
 
 #include "render/draw_overlay.h"
+#include "render/gl_objects.h"
 #include "render/picture_pass.h"
-#include "render/program.h"
 #include "render/system_error.h"
 
 namespace render {
@@ -52,21 +52,9 @@ void requireFinite(const View& view) {
         throw std::logic_error("render: the light has no direction");
 }
 
-constexpr int kPixelsUnit = 0;
-
-std::string textOf(std::string_view shader) {
-    return std::string(shaderSource(shader));
-}
-
 PictureSize checkedSize(PictureSize size) {
     if (size.width > 0 && size.height > 0) return size;
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
-}
-
-VertexArrayName vertexArray(const Gl& gl) {
-    GLuint name = 0;
-    gl.GenVertexArrays(1, &name);
-    return VertexArrayName(gl, name);
 }
 
 }  // namespace
@@ -77,15 +65,8 @@ struct Renderer::Parts {
           size(checkedSize(size_)),
           padded{wholeTiles(size_.width), wholeTiles(size_.height)},
           quality(quality_),
-          copying(buildProgram(context_.gl(), textOf("copy.vert"), textOf("copy.frag"))),
-          colors(context_.gl(), padded.width, padded.height),
-          bytes(context_.gl(), padded.width, padded.height),
-          vertices(vertexArray(context_.gl())),
-          pixels(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height)) {
-        const Gl& gl = context.gl();
-        gl.UseProgram(copying.get());
-        gl.Uniform1i(gl.GetUniformLocation(copying.get(), "pixels"), kPixelsUnit);
-    }
+          target(context_.gl(), padded.width, padded.height),
+          pixels(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height)) {}
 
     void cast(const View& view, const Sampling& sampling) {
         StageClock clock;
@@ -114,21 +95,6 @@ struct Renderer::Parts {
         timed(times.color, [&] { pass.takeMean(view, 9, pixels); });
     }
 
-    void draw() {
-        const Gl& gl = context.gl();
-        StageClock clock;
-        // Another renderer of this context may have been at work.
-        gl.BindVertexArray(vertices.get());
-        colors.upload(pixels);
-        bytes.bindForDrawing();
-        gl.UseProgram(copying.get());
-        colors.bind(kPixelsUnit);
-        gl.DrawArrays(GL_TRIANGLES, 0, 6);
-        // OpenGL draws when it is asked for a result.
-        gl.Finish();
-        clock.add(times.openGl);
-    }
-
     std::vector<SurfacePoint> surfaces(const View& view) {
         const Sampling sampling{.sparse = quality != Quality::final};
         cast(view, sampling);
@@ -144,13 +110,12 @@ struct Renderer::Parts {
         image.width = size.width;
         image.height = size.height;
         image.rgb.resize(image.byteCount());
-        bytes.bindForDrawing();
         // What has been read loses its fourth byte while OpenGL hands over the next rows.
         tbb::task_group packing;
         constexpr int kBand = 64;  // chosen: what a processor keeps close by
         for (int row = 0; row < size.height; row += kBand) {
             const int rows = std::min(kBand, size.height - row);
-            bytes.readRows(row, rows, rowOf(row));
+            target.readRows(row, rows, rowOf(row));
             packing.run([this, &image, row, rows] { packRows(row, rows, image); });
         }
         packing.wait();
@@ -180,10 +145,7 @@ struct Renderer::Parts {
     PictureSize padded;
     Quality quality;
     PicturePass pass;
-    ProgramName copying;
-    PixelTexture colors;
-    Target bytes;
-    VertexArrayName vertices;
+    Target target;
     std::vector<PixelColor> pixels;  // of the last picture, until those of the next are found
     DrawTimes times;
 };
@@ -210,7 +172,7 @@ Image Renderer::draw(const View& view, Image old) {
     parts_->times = {};
     parts_->prepare(view);
     parts_->quality == Quality::final ? parts_->colorFinal(view) : parts_->color(view);
-    parts_->draw();
+    timed(parts_->times.openGl, [&] { parts_->target.put(parts_->pixels); });
     Image image = parts_->readBack(std::move(old));
     drawOverlay(image, view.overlay, view.camera);
     return image;

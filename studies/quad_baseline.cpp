@@ -8,7 +8,7 @@
 
 #include "render/camera_frame.h"
 #include "render/gl_objects.h"
-#include "render/program.h"
+#include "studies/shader_program.h"
 
 namespace studies {
 namespace {
@@ -115,7 +115,7 @@ struct QuadBaseline::Parts {
           spheres(buffer(context_.gl())),
           sphereTexels(fourFloats(context_.gl(), spheres.get())),
           block(buffer(context_.gl())),
-          program(render::buildProgram(context_.gl(), kVertex, kFragment)) {
+          program(buildProgram(context_.gl(), kVertex, kFragment)) {
         const render::Gl& gl = context.gl();
         gl.BindFramebuffer(GL_FRAMEBUFFER, target.get());
         gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.get(), 0);

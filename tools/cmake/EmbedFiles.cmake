@@ -11,8 +11,3 @@ function(embed_texts output folder header function)
         DEPENDS ${paths} ${EMBED_SCRIPT}
         VERBATIM)
 endfunction()
-
-# embed_files(OUTPUT NAME...): shaders/NAME... by render::shaderSource(name).
-function(embed_files output)
-    embed_texts(${output} ${CMAKE_CURRENT_SOURCE_DIR}/shaders render/program.h render::shaderSource ${ARGN})
-endfunction()

@@ -1,5 +1,5 @@
 // Compiles and links, and hands on the words of whoever refuses.
-#include "render/program.h"
+#include "studies/shader_program.h"
 
 #include <array>
 
@@ -7,11 +7,11 @@
 
 #include "render/system_error.h"
 
-namespace render {
+namespace studies {
 
 namespace {
 
-GLuint compile(const Gl& gl, GLenum stage, const std::string& source) {
+GLuint compile(const render::Gl& gl, GLenum stage, const std::string& source) {
     const GLuint shader = gl.CreateShader(stage);
     const char* text = source.c_str();
     gl.ShaderSource(shader, 1, &text, nullptr);
@@ -22,13 +22,13 @@ GLuint compile(const Gl& gl, GLenum stage, const std::string& source) {
     std::array<char, 2000> words{};
     gl.GetShaderInfoLog(shader, static_cast<GLsizei>(words.size()), nullptr, words.data());
     gl.DeleteShader(shader);
-    throw SystemError(fmt::format("OpenGL cannot compile globular's shaders: {}", words.data()));
+    throw render::SystemError(fmt::format("OpenGL cannot compile the study's shaders: {}", words.data()));
 }
 
 }  // namespace
 
-ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::string& fragment) {
-    ProgramName program(gl, gl.CreateProgram());
+render::ProgramName buildProgram(const render::Gl& gl, const std::string& vertex, const std::string& fragment) {
+    render::ProgramName program(gl, gl.CreateProgram());
     const GLuint vertexShader = compile(gl, GL_VERTEX_SHADER, vertex);
     const GLuint fragmentShader = compile(gl, GL_FRAGMENT_SHADER, fragment);
     gl.AttachShader(program.get(), vertexShader);
@@ -41,9 +41,9 @@ ProgramName buildProgram(const Gl& gl, const std::string& vertex, const std::str
     if (good != GL_TRUE) {
         std::array<char, 2000> words{};
         gl.GetProgramInfoLog(program.get(), static_cast<GLsizei>(words.size()), nullptr, words.data());
-        throw SystemError(fmt::format("OpenGL cannot link globular's shaders: {}", words.data()));
+        throw render::SystemError(fmt::format("OpenGL cannot link the study's shaders: {}", words.data()));
     }
     return program;
 }
 
-}  // namespace render
+}  // namespace studies
