@@ -28,12 +28,12 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-// Newton steps on the cubic between two samples, then at most so many on the field, until they would move by less than
-// this share of the distance between samples. More guesses gain nothing: each waits for the one before, as the field's
-// steps do, which are exact.
+// Newton steps on the cubic between two samples, then at most so many on the field, until one moved by less than this
+// share of the distance between samples: what is left is of the order of its square. More guesses gain nothing: each
+// waits for the one before, as the field's steps do, which are exact.
 constexpr int kGuesses = 2;
 constexpr int kRefinements = 6;
-constexpr float kTinyStep = 2e-4F;
+constexpr float kSmallStep = 1e-2F;
 constexpr int kPeakSearches = 4;  // steps towards the maximum of a suspected sliver
 
 /// The balls that the rays of a group meet, in the order of the tile's list.
@@ -372,26 +372,28 @@ class Group {
         return hn::Add(low.depth, hn::Mul(u, width));
     }
 
-    /// Newton's method inside the bracket, ray by ray until the next step would be tiny; a step that would leave the
-    /// bracket is replaced by its middle.
+    /// Newton's method inside the bracket, ray by ray until a step was small; a step that would leave the bracket is
+    /// replaced by its middle.
     V refine(const Sample& from, const Sample& to) const {
         const D d;
-        const V tiny = hn::Set(d, kTinyStep * cast_.step);
+        const V small = hn::Set(d, kSmallStep * cast_.step);
         V low = from.depth;
         V high = to.depth;
         V t = guess(from, to);
+        M rough = hn::FirstN(d, hn::Lanes(d));
         for (int k = 0; k < kRefinements; ++k) {
             const Value value = sum(t, firstFound_);
             const V over = hn::Sub(value.field, hn::Set(d, cast_.threshold));
-            const M rough = hn::Gt(hn::Abs(over), hn::Mul(value.slope, tiny));
-            if (hn::AllFalse(d, rough)) break;
             const M beyond = hn::Ge(over, hn::Zero(d));
             high = hn::IfThenElse(beyond, t, high);
             low = hn::IfThenElse(beyond, low, t);
             const V newton = hn::Sub(t, hn::Div(over, hn::Max(value.slope, hn::Set(d, 1e-20F))));
             const M good = hn::And(hn::Ge(newton, low), hn::Le(newton, high));
             const V middle = hn::Mul(hn::Add(low, high), hn::Set(d, 0.5F));
-            t = hn::IfThenElse(rough, hn::IfThenElse(good, newton, middle), t);
+            const V next = hn::IfThenElse(rough, hn::IfThenElse(good, newton, middle), t);
+            rough = hn::Gt(hn::Abs(hn::Sub(next, t)), small);
+            t = next;
+            if (hn::AllFalse(d, rough)) break;
         }
         return t;
     }

@@ -62,6 +62,35 @@ void forCellsInBands(std::span<const BinItem> items, const CellLists& lists, con
     });
 }
 
+// How many items each cell has. An item adds to the corners of its cells, and sums along rows and columns do the rest,
+// however many cells it has.
+std::vector<std::uint32_t> itemCounts(std::span<const BinItem> items, const CellLists& lists) {
+    const std::size_t across = static_cast<std::size_t>(lists.columns) + 1;
+    // With a column and a row more, where what an item adds ends. Sums wrap around on the way, and come right.
+    std::vector<std::uint32_t> steps(across * (static_cast<std::size_t>(lists.rows) + 1), 0);
+    const auto at = [&](int column, int row) -> std::uint32_t& {
+        return steps[static_cast<std::size_t>(row) * across + static_cast<std::size_t>(column)];
+    };
+    for (const BinItem& item : items) {
+        const Rect& cells = item.cells;
+        ++at(cells.x0, cells.y0);
+        --at(cells.x1 + 1, cells.y0);
+        --at(cells.x0, cells.y1 + 1);
+        ++at(cells.x1 + 1, cells.y1 + 1);
+    }
+    std::vector<std::uint32_t> counts;
+    counts.reserve(static_cast<std::size_t>(lists.columns) * static_cast<std::size_t>(lists.rows));
+    for (int row = 0; row < lists.rows; ++row) {
+        std::uint32_t count = 0;
+        for (int column = 0; column < lists.columns; ++column) {
+            if (row > 0) at(column, row) += at(column, row - 1);
+            count += at(column, row);
+            counts.push_back(count);
+        }
+    }
+    return counts;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> orderByKey(std::span<const float> keys) {
@@ -83,8 +112,7 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
     lists.columns = columns;
     lists.rows = rows;
     const std::size_t cellCount = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    std::vector<std::uint32_t> next(cellCount, 0);
-    forCellsInBands(items, lists, [&](std::size_t cell, const BinItem&) { ++next[cell]; });
+    std::vector<std::uint32_t> next = itemCounts(items, lists);
 
     lists.begin.resize(cellCount + 1, 0);
     std::uint64_t total = 0;
