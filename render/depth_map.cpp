@@ -210,7 +210,6 @@ class Heights {
     DepthMap& map_;
     std::size_t columns_, rows_;
     std::vector<float> first_;  // heights, one a texel
-    std::vector<float> lowestOfThree_, highestOfThree_;
 };
 
 }  // namespace

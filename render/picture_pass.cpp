@@ -36,16 +36,16 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     castsField_ = view.style == Style::metaballs && !view.particles.empty();
     meanRadius_ = meanRadiusOf(view);
     timed(times.bin, [&] { drawn_ = drawnSpheres(view); });
+    depthMapTexels_ = depthMapTexels;
+    timed(times.bin, [&] { skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{}; });
     // None needs what the others find, and each has parts that keep one thread alone busy.
     tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); },
                          [&] { timed(times.bin, [&] { bin(view); }); },
-                         [&] { timed(times.shadow, [&] { binShadows(view); }); });
+                         [&] { timed(times.shadow, [&] { findShadows(view); }); });
     timed(times.bin, [&] {
         looks_ = looksOf(view, drawn_, particleOpen_);
         findBoxes(view);
     });
-    depthMapTexels_ = depthMapTexels;
-    timed(times.shadow, [&] { castDepths(view, glm::vec2(0.0F)); });
     timed(times.bin, [&] { findGround(view); });
 }
 
@@ -73,14 +73,12 @@ void PicturePass::bin(const View& view) {
     spherePixels_ = touchedPixels(frame_, viewSpheres_);
     sphereTiles_ = binToTiles(frame_, viewSpheres_, spherePixels_);
     lineList_ = projectEdges(frame_, view.edges);
-    skin_.clear();
-    if (!castsField_) return;
-    skin_ = skinOf(view);
-    binnedField_ = binField(frame_, {view, skin_, {}});
+    if (castsField_) binnedField_ = binField(frame_, {view, skin_, {}});
 }
 
-void PicturePass::binShadows(const View& view) {
+void PicturePass::findShadows(const View& view) {
     lightGrid_ = view.light.shadows ? lightGrid(light_, drawn_.spheres, view.light.softness) : LightGrid{};
+    castDepths(view, glm::vec2(0.0F));
 }
 
 void PicturePass::castDepths(const View& view, glm::vec2 shift) {

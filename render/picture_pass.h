@@ -54,7 +54,7 @@ class PicturePass {
  private:
     void bin(const View& view);
     void findOpenness(const View& view);
-    void binShadows(const View& view);
+    void findShadows(const View& view);
     void castDepths(const View& view, glm::vec2 shift);
     void findBoxes(const View& view);
     void findGround(const View& view);
