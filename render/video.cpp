@@ -31,17 +31,18 @@ ChildProcess started(const std::vector<std::string>& arguments, const VideoOptio
 // Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes on any processor. The encoder's
 // threads are fixed, because its bytes depend on their number. Without the BT.709 conversion and tags ffmpeg assumes
 // BT.601 and colours shift. An even size is what yuv420p takes. Without -xerror an end that could not be written would
-// count as success. `superfast` because the encoder shares the processor with the drawing.
+// count as success. `superfast` because the encoder shares the processor with the drawing; no frames in between and no
+// weights, because without them it takes a fifth less time, for a quarter more bytes and no more error.
 std::vector<std::string> commandLine(const VideoOptions& options, const std::string& path) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",
             "-pix_fmt", "rgb24", "-video_size",
             fmt::format("{}x{}", even(options.size.width), even(options.size.height)), "-framerate",
-            fmt::format("{}", options.fps), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset", "superfast", "-crf",
-            "20", "-pix_fmt", "yuv420p", "-threads", "2", "-sws_flags", "+accurate_rnd+bitexact", "-color_range", "tv",
-            "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-fflags", "+bitexact",
-            "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v", "filter_units=remove_types=6", "-movflags",
-            "+faststart", "-f", "mp4",
+            fmt::format("{}", options.fps), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset", "superfast", "-bf",
+            "0", "-x264-params", "weightp=0", "-crf", "20", "-pix_fmt", "yuv420p", "-threads", "2", "-sws_flags",
+            "+accurate_rnd+bitexact", "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709",
+            "-color_trc", "bt709", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v",
+            "filter_units=remove_types=6", "-movflags", "+faststart", "-f", "mp4",
             // A path that begins with a dash or looks like a protocol is still a file.
             "file:" + path};
 }
