@@ -81,15 +81,15 @@ struct Root {
 class Group {
  public:
     /// at: where its rays cross the plane; open, from: as cast() has them.
-    Group(const FieldCast& cast, const TileBalls& balls, NearBalls& near, const Plane& at, M open, V from)
+    Group(const FieldCast& cast, TileBalls& balls, NearBalls& near, const Plane& at, M open, V from)
         : cast_(cast),
           balls_(balls),
           near_(near),
-          start_(balls.index.empty() ? 0.0F : std::max(0.0F, balls.nearDepth(0))),
+          start_(balls.size() == 0 ? 0.0F : std::max(0.0F, balls.nearDepth(0))),
           begin_(sampleBefore(hn::GetLane(leastOf(from, open)))),
           sieve_(balls, Bundle(cast.frame, at, open), depthOf(begin_)) {
         const D d;
-        near_.prepare(balls.index.size(), hn::Lanes(d));
+        near_.prepare(balls.size(), hn::Lanes(d));
         const bool perspective = cast.frame.perspective;
         const V one = hn::Set(d, 1.0F);
         const V zero = hn::Zero(d);
@@ -239,7 +239,7 @@ class Group {
 
     /// Takes in the balls that begin before depth t and that some ray meets.
     void admit(float t) {
-        while (sieved_ < balls_.index.size() && balls_.nearDepth(sieved_) <= t) takeIn();
+        while (sieved_ < balls_.size() && balls_.nearDepth(sieved_) <= t) takeIn();
         begun_ = firstBeyond(near_.nearDepth, begun_, near_.count, t);
     }
 
@@ -247,7 +247,7 @@ class Group {
     void takeIn() {
         const D d;
         for (std::uint32_t left = sieve_.met(sieved_); left != 0; left &= left - 1)
-            put(balls_.index[sieved_ + static_cast<std::size_t>(std::countr_zero(left))]);
+            put(balls_.index(sieved_ + static_cast<std::size_t>(std::countr_zero(left))));
         sieved_ += hn::Lanes(d);
     }
 
@@ -291,7 +291,7 @@ class Group {
 
     /// No ball is near: moves to the last sample before the next ball. False when there is none.
     bool leap(long& k) {
-        while (begun_ == near_.count && sieved_ < balls_.index.size()) takeIn();
+        while (begun_ == near_.count && sieved_ < balls_.size()) takeIn();
         if (begun_ == near_.count) return false;
         k = std::max(k, sampleBefore(near_.nearDepth[begun_]) - 1);
         return true;
@@ -399,7 +399,7 @@ class Group {
     }
 
     const FieldCast& cast_;
-    const TileBalls& balls_;
+    TileBalls& balls_;
     NearBalls& near_;
     float start_;                 // where the tile's samples begin
     long begin_;                  // the first sample of these rays
@@ -418,7 +418,7 @@ void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
     if (block.count == 0) return;
     thread_local TileBalls balls;
     thread_local NearBalls near;
-    balls.load(cast, tile);
+    balls.begin(cast, tile);
     for (std::size_t place = 0; place < block.count; place += lanes) {
         const M open = hn::FirstN(d, std::min(lanes, block.count - place));
         const V from = hn::Load(d, &block.from[place]);

@@ -7,6 +7,7 @@
 #define RENDER_SIEVE_INL_H_
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -21,33 +22,65 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// The balls of a tile's list side by side, front to back.
-struct TileBalls {
-    std::vector<float> x, y, z, reach;
-    std::vector<float> distance;  ///< from the eye or, in parallel projection, from the picture's middle
-    std::span<const std::uint32_t> index;
-
-    void load(const FieldCast& cast, std::size_t tile) {
+/// The balls of a tile's list side by side, front to back, a vector at a time as they are asked for: most lie behind
+/// the surface, where no ray comes.
+class TileBalls {
+ public:
+    /// Those of another tile.
+    void begin(const FieldCast& cast, std::size_t tile) {
         const CellLists& tiles = *cast.tiles;
-        index = std::span(tiles.items).subspan(tiles.begin[tile], tiles.begin[tile + 1] - tiles.begin[tile]);
+        balls_ = cast.balls;
+        index_ = std::span(tiles.items).subspan(tiles.begin[tile], tiles.begin[tile + 1] - tiles.begin[tile]);
+        copied_ = 0;
         // Whole vectors are read.
-        const std::size_t room = index.size() + hn::Lanes(D());
-        for (std::vector<float>* values : {&x, &y, &z, &reach, &distance})
+        const std::size_t room = index_.size() + hn::Lanes(D());
+        for (std::vector<float>* values : {&x_, &y_, &z_, &reach_, &distance_})
             if (values->size() < room) values->resize(room);
-        for (std::size_t k = 0; k < index.size(); ++k) {
-            const FieldBall& ball = cast.balls[index[k]];
-            x[k] = ball.center.x;
-            y[k] = ball.center.y;
-            z[k] = ball.center.z;
-            reach[k] = ball.reach;
-        }
-        for (std::size_t k = 0; k < index.size(); k += hn::Lanes(D())) {
-            const Vec3 center{hn::LoadU(D(), &x[k]), hn::LoadU(D(), &y[k]), hn::LoadU(D(), &z[k])};
-            hn::StoreU(hn::Sqrt(dotted(center, center)), D(), &distance[k]);
+    }
+
+    std::size_t size() const { return index_.size(); }
+    std::uint32_t index(std::size_t k) const { return index_[k]; }
+
+    float nearDepth(std::size_t k) {
+        if (k >= copied_) copyUpTo(k);
+        return z_[k] - reach_[k];
+    }
+
+    /// A vector of balls.
+    struct Vector {
+        Vec3 center;
+        V reach;
+        V distance;  ///< from the eye or, in parallel projection, from the picture's middle
+    };
+    Vector from(std::size_t first) {
+        const D d;
+        if (first >= copied_) copyUpTo(first);
+        return {{hn::LoadU(d, &x_[first]), hn::LoadU(d, &y_[first]), hn::LoadU(d, &z_[first])},
+                hn::LoadU(d, &reach_[first]),
+                hn::LoadU(d, &distance_[first])};
+    }
+
+ private:
+    void copyUpTo(std::size_t k) {
+        const D d;
+        for (; copied_ <= k; copied_ += hn::Lanes(d)) {
+            const std::size_t end = std::min(copied_ + hn::Lanes(d), index_.size());
+            for (std::size_t place = copied_; place < end; ++place) {
+                const FieldBall& ball = balls_[index_[place]];
+                x_[place] = ball.center.x;
+                y_[place] = ball.center.y;
+                z_[place] = ball.center.z;
+                reach_[place] = ball.reach;
+            }
+            const Vec3 center{hn::LoadU(d, &x_[copied_]), hn::LoadU(d, &y_[copied_]), hn::LoadU(d, &z_[copied_])};
+            hn::StoreU(hn::Sqrt(dotted(center, center)), d, &distance_[copied_]);
         }
     }
 
-    float nearDepth(std::size_t k) const { return z[k] - reach[k]; }
+    std::span<const FieldBall> balls_;
+    std::span<const std::uint32_t> index_;
+    std::size_t copied_ = 0;  // whole vectors of them
+    std::vector<float> x_, y_, z_, reach_, distance_;
 };
 
 /// A line that no ray of a group is far from.
@@ -76,7 +109,7 @@ struct Bundle {
 /// on a ray of the bundle, a place t from its beginning is at most apart + widen t from the bundle's line.
 class Sieve {
  public:
-    Sieve(const TileBalls& balls, const Bundle& bundle, float begin)
+    Sieve(TileBalls& balls, const Bundle& bundle, float begin)
         : balls_(balls),
           bundle_(bundle),
           inverseSquare_(1.0F / dot(bundle.direction, bundle.direction)),
@@ -86,20 +119,20 @@ class Sieve {
     std::uint32_t met(std::size_t first) const {
         const D d;
         const Vec3 direction = uniform(bundle_.direction);
-        const Vec3 off{hn::Sub(hn::LoadU(d, &balls_.x[first]), all(bundle_.origin.x)),
-                       hn::Sub(hn::LoadU(d, &balls_.y[first]), all(bundle_.origin.y)), hn::LoadU(d, &balls_.z[first])};
-        const V reach = hn::LoadU(d, &balls_.reach[first]);
+        const TileBalls::Vector balls = balls_.from(first);
+        const Vec3 off{hn::Sub(balls.center.x, all(bundle_.origin.x)), hn::Sub(balls.center.y, all(bundle_.origin.y)),
+                       balls.center.z};
         const V closest = hn::Mul(dotted(off, direction), all(inverseSquare_));
         const Vec3 away = along(off, hn::Neg(closest), direction);
-        const V limit = hn::Add(hn::Add(reach, all(bundle_.apart)),
-                                hn::Mul(all(bundle_.widen), hn::Add(reach, hn::LoadU(d, &balls_.distance[first]))));
-        const M met =
-            hn::And(hn::Lt(dotted(away, away), hn::Mul(limit, limit)), hn::Ge(hn::Add(off.z, reach), all(begin_)));
-        return bitsOf(hn::And(met, hn::FirstN(d, balls_.index.size() - first)));
+        const V limit = hn::Add(hn::Add(balls.reach, all(bundle_.apart)),
+                                hn::Mul(all(bundle_.widen), hn::Add(balls.reach, balls.distance)));
+        const M met = hn::And(hn::Lt(dotted(away, away), hn::Mul(limit, limit)),
+                              hn::Ge(hn::Add(off.z, balls.reach), all(begin_)));
+        return bitsOf(hn::And(met, hn::FirstN(d, balls_.size() - first)));
     }
 
  private:
-    const TileBalls& balls_;
+    TileBalls& balls_;
     Bundle bundle_;
     float inverseSquare_;
     float begin_;
