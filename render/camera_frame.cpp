@@ -22,8 +22,9 @@ Interval tangents(double a, double z, double r) {
     return {(a * z - root) * scale, (a * z + root) * scale};
 }
 
+// Rounded down, as conversion does from zero on; std::floor may be a call.
 int clampedPixel(double at, int count) {
-    return static_cast<int>(std::clamp(std::floor(at), -1.0, static_cast<double>(count)));
+    return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)) + 1.0) - 1;
 }
 
 // Intervals on the plane at depth 1 (parallel projection: on any) as pixels of the picture, so many pixels wider.

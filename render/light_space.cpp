@@ -15,7 +15,7 @@ namespace {
 constexpr int kMostCellsPerSide = 512;
 
 int cellOf(float at, float origin, float cellSize, int count) {
-    return std::clamp(static_cast<int>(std::floor((at - origin) / cellSize)), 0, count - 1);
+    return std::clamp(static_cast<int>((at - origin) / cellSize), 0, count - 1);
 }
 
 float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {

@@ -78,7 +78,7 @@ bool touches(const ScreenLine& line, int column, int row) {
 void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame, std::vector<BinItem>& items) {
     const float reach = 0.5F * line.width + 1.5F;
     const auto tileOf = [](float at, int count) {
-        return std::clamp(static_cast<int>(std::floor(at / static_cast<float>(kTileSize))), 0, (count - 1) / kTileSize);
+        return std::clamp(static_cast<int>(at / static_cast<float>(kTileSize)), 0, (count - 1) / kTileSize);
     };
     const int x0 = tileOf(std::min(line.from.x, line.to.x) - reach, frame.width);
     const int x1 = tileOf(std::max(line.from.x, line.to.x) + reach, frame.width);

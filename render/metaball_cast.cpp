@@ -234,7 +234,7 @@ class Group {
 
     /// The last sample that does not lie beyond this depth; the first where all do.
     long sampleBefore(float depth) const {
-        return std::max(0L, static_cast<long>(std::floor((depth - start_) / cast_.step)));
+        return std::max(0L, static_cast<long>((depth - start_) / cast_.step));
     }
 
     /// Takes in the balls that begin before depth t and that some ray meets.

@@ -27,9 +27,8 @@ struct Cells {
     std::vector<glm::vec4> places;     ///< center, radius
     std::vector<std::uint32_t> index;  ///< of the particle at each place
 
-    glm::ivec3 cellOf(glm::vec3 at) const {
-        return clamp(glm::ivec3(glm::floor((at - low) / side)), glm::ivec3(0), count - 1);
-    }
+    /// at: not below `low`, so that conversion rounds down; glm::floor may be a call.
+    glm::ivec3 cellOf(glm::vec3 at) const { return min(glm::ivec3((at - low) / side), count - 1); }
     std::size_t cellIndex(int x, int y, int z) const {
         return (static_cast<std::size_t>(z) * static_cast<std::size_t>(count.y) + static_cast<std::size_t>(y)) *
                    static_cast<std::size_t>(count.x) +
