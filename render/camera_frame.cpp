@@ -1,4 +1,4 @@
-// Camera basis and bounds of projected spheres. Used by the binning, the ray cast and the uniforms alike.
+// Camera basis and bounds of projected spheres. Used by the binning and the ray cast alike.
 #include "render/camera_frame.h"
 
 #include <algorithm>

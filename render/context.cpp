@@ -15,7 +15,8 @@ std::string stringOf(const Gl& gl, GLenum name) {
     return text == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(text));
 }
 
-// A GPU's driver would give other pixels than the golden frames, and other pixels on every machine.
+// A GPU's driver may keep other bits of pixels than it is given, and what the studies draw for comparison is to be
+// drawn on the processor.
 void requireSoftware(const std::string& rendererName) {
     for (const char* known : {"llvmpipe", "softpipe"}) {
         if (rendererName.find(known) != std::string::npos) return;

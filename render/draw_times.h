@@ -8,12 +8,12 @@ namespace render {
 /// Wall-clock seconds of one picture; a stage that the view does not need takes next to nothing. The first three run
 /// side by side, so that together they may be more than the picture took.
 struct DrawTimes {
-    double bin = 0.0;        ///< spheres, boxes and lines to tiles
+    double bin = 0.0;        ///< skin and looks; spheres, boxes, lines and ground to tiles
     double occlusion = 0.0;  ///< how open to the sky the particles are
     double shadow = 0.0;     ///< the light's grid of spheres and its map of the metaballs
     double cast = 0.0;       ///< ray casting of metaballs on the CPU
     double color = 0.0;      ///< what the samples see, and its colours, on the CPU
-    double openGl = 0.0;     ///< the pixels handed to it
+    double openGl = 0.0;     ///< the pixels handed to OpenGL
     double readBack = 0.0;
 };
 

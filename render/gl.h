@@ -59,7 +59,7 @@ namespace render {
     X(UseProgram, PFNGLUSEPROGRAMPROC)                         \
     X(Viewport, PFNGLVIEWPORTPROC)
 
-/// OpenGL's functions, called as gl.DrawArrays(...).
+/// OpenGL's functions, called as gl.ReadPixels(...).
 struct Gl {
 #define RENDER_GL_MEMBER(name, type) type name = nullptr;
     RENDER_GL_FUNCTIONS(RENDER_GL_MEMBER)

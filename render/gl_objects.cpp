@@ -39,8 +39,9 @@ Target::Target(const Gl& gl, int width, int height)
             fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}", width, height, limit));
     }
     gl.BindTexture(GL_TEXTURE_2D, pixels_.get());
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, kPixelOrder, kPixelType, nullptr);
+    // Without room for smaller copies.
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, kPixelOrder, kPixelType, nullptr);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, pixels_.get(), 0);
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);

@@ -32,27 +32,15 @@ class GlName {
     GLuint name_ = 0;
 };
 
-inline void deleteBuffer(const Gl& gl, GLuint name) {
-    gl.DeleteBuffers(1, &name);
-}
 inline void deleteTexture(const Gl& gl, GLuint name) {
     gl.DeleteTextures(1, &name);
 }
 inline void deleteFramebuffer(const Gl& gl, GLuint name) {
     gl.DeleteFramebuffers(1, &name);
 }
-inline void deleteVertexArray(const Gl& gl, GLuint name) {
-    gl.DeleteVertexArrays(1, &name);
-}
-inline void deleteProgram(const Gl& gl, GLuint name) {
-    gl.DeleteProgram(name);
-}
 
-using BufferName = GlName<deleteBuffer>;
 using TextureName = GlName<deleteTexture>;
 using FramebufferName = GlName<deleteFramebuffer>;
-using VertexArrayName = GlName<deleteVertexArray>;
-using ProgramName = GlName<deleteProgram>;
 
 /// OpenGL's picture: pixels of a fixed number, row by row, in memory a word each. Throws SystemError where OpenGL
 /// cannot make it.

@@ -14,6 +14,7 @@ namespace {
 // Enough for cells of two radii in a pile of a million; more would cost more to clear than it saves.
 constexpr int kMostCellsPerSide = 512;
 
+// Conversion rounds towards zero, below which all is zero.
 int cellOf(float at, float origin, float cellSize, int count) {
     return std::clamp(static_cast<int>((at - origin) / cellSize), 0, count - 1);
 }

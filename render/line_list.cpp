@@ -2,7 +2,6 @@
 #include "render/line_list.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -77,6 +76,7 @@ bool touches(const ScreenLine& line, int column, int row) {
 
 void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame, std::vector<BinItem>& items) {
     const float reach = 0.5F * line.width + 1.5F;
+    // Conversion rounds towards zero, below which all is zero.
     const auto tileOf = [](float at, int count) {
         return std::clamp(static_cast<int>(at / static_cast<float>(kTileSize)), 0, (count - 1) / kTileSize);
     };

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -29,8 +28,9 @@ namespace render {
 namespace HWY_NAMESPACE {
 
 // Newton steps on the cubic between two samples, then at most so many on the field, until one moved by less than this
-// share of the distance between samples: what is left is of the order of its square. More guesses gain nothing: each
-// waits for the one before, as the field's steps do, which are exact.
+// share of the distance between samples, which is half a radius: what such a step leaves is of the order of its square,
+// 5e-5 radii, but at grazing rays, where it is half of it. More guesses gain nothing: each waits for the one before, as
+// the field's steps do, which are exact.
 constexpr int kGuesses = 2;
 constexpr int kRefinements = 6;
 constexpr float kSmallStep = 1e-2F;
@@ -233,9 +233,7 @@ class Group {
     float depthOf(long k) const { return start_ + static_cast<float>(k) * cast_.step; }
 
     /// The last sample that does not lie beyond this depth; the first where all do.
-    long sampleBefore(float depth) const {
-        return std::max(0L, static_cast<long>((depth - start_) / cast_.step));
-    }
+    long sampleBefore(float depth) const { return std::max(0L, static_cast<long>((depth - start_) / cast_.step)); }
 
     /// Takes in the balls that begin before depth t and that some ray meets.
     void admit(float t) {
@@ -391,7 +389,9 @@ class Group {
             const M good = hn::And(hn::Ge(newton, low), hn::Le(newton, high));
             const V middle = hn::Mul(hn::Add(low, high), hn::Set(d, 0.5F));
             const V next = hn::IfThenElse(rough, hn::IfThenElse(good, newton, middle), t);
-            rough = hn::Gt(hn::Abs(hn::Sub(next, t)), small);
+            // Half of the bracket is left after a step to its middle.
+            const V left = hn::IfThenElse(good, hn::Abs(hn::Sub(next, t)), hn::Sub(high, low));
+            rough = hn::And(rough, hn::Gt(left, small));
             t = next;
             if (hn::AllFalse(d, rough)) break;
         }

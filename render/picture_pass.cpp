@@ -35,9 +35,11 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     shading_ = shadingOf(view);
     castsField_ = view.style == Style::metaballs && !view.particles.empty();
     meanRadius_ = meanRadiusOf(view);
-    timed(times.bin, [&] { drawn_ = drawnSpheres(view); });
     depthMapTexels_ = depthMapTexels;
-    timed(times.bin, [&] { skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{}; });
+    timed(times.bin, [&] {
+        drawn_ = drawnSpheres(view);
+        skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
+    });
     // None needs what the others find, and each has parts that keep one thread alone busy.
     tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); },
                          [&] { timed(times.bin, [&] { bin(view); }); },
@@ -45,8 +47,8 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     timed(times.bin, [&] {
         looks_ = looksOf(view, drawn_, particleOpen_);
         findBoxes(view);
+        findGround(view);
     });
-    timed(times.bin, [&] { findGround(view); });
 }
 
 void PicturePass::findGround(const View& view) {

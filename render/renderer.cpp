@@ -1,5 +1,5 @@
-// From view to image: prepare, cast, colour, draw, read back; at final quality nine times with the rays moved within
-// the pixel.
+// From view to image: prepare, cast, colour, hand to OpenGL, read back; at final quality casts and colours nine times,
+// with the rays moved within the pixel.
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>

@@ -2,9 +2,11 @@
 // lines.
 #include "render/tiles.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -37,31 +39,6 @@ void sortByDigit(const std::vector<KeyedPlace>& from, std::vector<KeyedPlace>& t
     for (const KeyedPlace& item : from) to[start[(item.key >> shift) & (kDigits - 1)]++] = item;
 }
 
-// Calls visit(cell, item) for every cell of every item within rows [row0, row1).
-template <typename Visit>
-void forCells(std::span<const BinItem> items, const CellLists& lists, Rect band, const Visit& visit) {
-    for (const BinItem& item : items) {
-        const int first = std::max(item.cells.y0, band.y0);
-        const int last = std::min(item.cells.y1, band.y1);
-        for (int row = first; row <= last; ++row) {
-            for (int column = item.cells.x0; column <= item.cells.x1; ++column) {
-                visit(lists.cellIndex(column, row), item);
-            }
-        }
-    }
-}
-
-// Bands of rows are independent of each other, so threads share neither counters nor lists. Each looks at all items, so
-// that there are only as many as threads need to share the work evenly.
-template <typename Visit>
-void forCellsInBands(std::span<const BinItem> items, const CellLists& lists, const Visit& visit) {
-    const int bands = 2 * tbb::this_task_arena::max_concurrency();
-    tbb::parallel_for(0, bands, [&](int band) {
-        const Rect rows{0, lists.rows * band / bands, lists.columns - 1, lists.rows * (band + 1) / bands - 1};
-        forCells(items, lists, rows, visit);
-    });
-}
-
 // How many items each cell has. An item adds to the corners of its cells, and sums along rows and columns do the rest,
 // however many cells it has.
 std::vector<std::uint32_t> itemCounts(std::span<const BinItem> items, const CellLists& lists) {
@@ -73,6 +50,9 @@ std::vector<std::uint32_t> itemCounts(std::span<const BinItem> items, const Cell
     };
     for (const BinItem& item : items) {
         const Rect& cells = item.cells;
+        if (cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= lists.columns || cells.y1 >= lists.rows ||
+            cells.x1 < cells.x0 || cells.y1 < cells.y0)
+            throw std::logic_error("render: an item in cells that are not there");
         ++at(cells.x0, cells.y0);
         --at(cells.x1 + 1, cells.y0);
         --at(cells.x0, cells.y1 + 1);
@@ -89,6 +69,21 @@ std::vector<std::uint32_t> itemCounts(std::span<const BinItem> items, const Cell
         }
     }
     return counts;
+}
+
+// Writes the items to their cells. next: where each cell's first goes.
+void fill(std::span<const BinItem> items, CellLists& lists, std::vector<std::uint32_t>& next) {
+    // Bands of rows are independent of each other, so threads share neither counters nor lists. Each looks at all
+    // items, so that there are only as many as threads need to share the work evenly.
+    const int bands = 2 * tbb::this_task_arena::max_concurrency();
+    tbb::parallel_for(0, bands, [&](int band) {
+        const int top = lists.rows * band / bands;
+        const int bottom = lists.rows * (band + 1) / bands - 1;
+        for (const BinItem& item : items)
+            for (int row = std::max(item.cells.y0, top); row <= std::min(item.cells.y1, bottom); ++row)
+                for (int column = item.cells.x0; column <= item.cells.x1; ++column)
+                    lists.items[next[lists.cellIndex(column, row)]++] = item.index;
+    });
 }
 
 }  // namespace
@@ -126,8 +121,7 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
     lists.begin[cellCount] = static_cast<std::uint32_t>(total);
     lists.items.resize(total);
     for (std::size_t cell = 0; cell < cellCount; ++cell) next[cell] = lists.begin[cell];
-    forCellsInBands(items, lists,
-                    [&](std::size_t cell, const BinItem& item) { lists.items[next[cell]++] = item.index; });
+    fill(items, lists, next);
     return lists;
 }
 

@@ -32,7 +32,8 @@ ChildProcess started(const std::vector<std::string>& arguments, const VideoOptio
 // threads are fixed, because its bytes depend on their number. Without the BT.709 conversion and tags ffmpeg assumes
 // BT.601 and colours shift. An even size is what yuv420p takes. Without -xerror an end that could not be written would
 // count as success. `superfast` because the encoder shares the processor with the drawing; no frames in between and no
-// weights, because without them it takes a fifth less time, for a quarter more bytes and no more error.
+// weights, because without them it takes a quarter less time (mp4_ms of `globular study pictures`, 10,000 metaballs at
+// 1280 x 720), for a quarter more bytes and, by ffmpeg's ssim, no more error.
 std::vector<std::string> commandLine(const VideoOptions& options, const std::string& path) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",

@@ -1,8 +1,6 @@
 // One instanced draw of four vertices a particle.
 #include "studies/quad_baseline.h"
 
-#include <array>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -65,7 +63,7 @@ struct Block {
     glm::vec4 right, up, forward, eye, toLight;
 };
 
-render::BufferName buffer(const render::Gl& gl) {
+BufferName buffer(const render::Gl& gl) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     return {gl, name};
@@ -81,7 +79,7 @@ render::TextureName fourFloats(const render::Gl& gl, GLuint items) {
     return {gl, name};
 }
 
-render::VertexArrayName vertexArray(const render::Gl& gl) {
+VertexArrayName vertexArray(const render::Gl& gl) {
     GLuint name = 0;
     gl.GenVertexArrays(1, &name);
     return {gl, name};
@@ -170,11 +168,11 @@ struct QuadBaseline::Parts {
     render::PictureSize size;
     render::TextureName color, depth;
     render::FramebufferName target;
-    render::VertexArrayName vertices;
-    render::BufferName spheres;
+    VertexArrayName vertices;
+    BufferName spheres;
     render::TextureName sphereTexels;
-    render::BufferName block;
-    render::ProgramName program;
+    BufferName block;
+    ProgramName program;
 };
 
 QuadBaseline::QuadBaseline(render::Context& context, render::PictureSize size) {

@@ -27,8 +27,8 @@ GLuint compile(const render::Gl& gl, GLenum stage, const std::string& source) {
 
 }  // namespace
 
-render::ProgramName buildProgram(const render::Gl& gl, const std::string& vertex, const std::string& fragment) {
-    render::ProgramName program(gl, gl.CreateProgram());
+ProgramName buildProgram(const render::Gl& gl, const std::string& vertex, const std::string& fragment) {
+    ProgramName program(gl, gl.CreateProgram());
     const GLuint vertexShader = compile(gl, GL_VERTEX_SHADER, vertex);
     const GLuint fragmentShader = compile(gl, GL_FRAGMENT_SHADER, fragment);
     gl.AttachShader(program.get(), vertexShader);

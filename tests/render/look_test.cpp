@@ -145,8 +145,8 @@ TEST_CASE("Tiles of plain ground and of background leave nothing out") {
     const render::Image plain = drawn(view, {400, 225}, Quality::normal);
     view.sphereObstacles.push_back({{-300.0F, -400.0F, -300.0F}, 1.0F, {}});
     view.sphereObstacles.push_back({{300.0F, -400.0F, 300.0F}, 1.0F, {}});
-    // OpenGL shades plain ground, vector units any other: few of their last bits differ, and few of these round a step
-    // apart.
+    // Plain ground is found tile by tile, any other pixel by pixel: few of their last bits differ, and few of these
+    // round a step apart.
     const render::Image pixelwise = drawn(view, {400, 225}, Quality::normal);
     CHECK(compare(pixelwise, plain, 1).share == 0.0);
     CHECK(compare(pixelwise, plain, 0).share < 1e-4);

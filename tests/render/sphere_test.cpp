@@ -10,7 +10,7 @@ namespace {
 
 constexpr render::PictureSize kSize{121, 75};  // no whole number of tiles
 
-// Nine tenths of a step: rounding to bytes half a step either side, single precision in the shader far less.
+// Nine tenths of a step: rounding to bytes half a step either side, single precision far less.
 constexpr int kStep = 1;
 
 void requireAlike(const render::View& view, double share) {

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "render/tiles.h"
 #include "tests/render/pictures.h"
@@ -53,6 +57,40 @@ TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to
                                  [&](std::uint32_t a, std::uint32_t b) { return front(a) < front(b); }));
         }
     }
+}
+
+TEST_CASE("Each cell lists the items that have it, in their order") {
+    std::mt19937 random(7);
+    const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+    for (const auto& [columns, rows] : {std::pair{1, 1}, std::pair{7, 5}, std::pair{1, 40}, std::pair{33, 2}}) {
+        for (const std::uint32_t count : {0U, 1U, 200U}) {
+            std::vector<render::BinItem> items;
+            for (std::uint32_t k = 0; k < count; ++k) {
+                const int x = below(columns);
+                const int y = below(rows);
+                items.push_back({1000 - k, {x, y, x + below(columns - x), y + below(rows - y)}});
+            }
+            items.push_back({1, {0, 0, columns - 1, rows - 1}});
+            const render::CellLists lists = render::binItems(items, columns, rows);
+            REQUIRE(lists.begin.size() == static_cast<std::size_t>(columns * rows) + 1);
+            CHECK(lists.begin.back() == lists.items.size());
+            for (int row = 0; row < rows; ++row) {
+                for (int column = 0; column < columns; ++column) {
+                    std::vector<std::uint32_t> expected;
+                    for (const render::BinItem& item : items)
+                        if (column >= item.cells.x0 && column <= item.cells.x1 && row >= item.cells.y0 &&
+                            row <= item.cells.y1)
+                            expected.push_back(item.index);
+                    const std::size_t cell = lists.cellIndex(column, row);
+                    CHECK(std::vector(lists.items.begin() + lists.begin[cell],
+                                      lists.items.begin() + lists.begin[cell + 1]) == expected);
+                }
+            }
+        }
+    }
+    for (const render::Rect outside : {render::Rect{0, 0, 4, 2}, render::Rect{-1, 0, 1, 2}, render::Rect{0, 0, 1, 3},
+                                       render::Rect{0, -1, 1, 2}, render::Rect{2, 0, 1, 2}, render::Rect{0, 2, 1, 1}})
+        CHECK_THROWS_AS(render::binItems(std::vector{render::BinItem{0, outside}}, 4, 3), std::logic_error);
 }
 
 TEST_CASE("Lists stay short: a small sphere touches few tiles") {
