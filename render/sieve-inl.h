@@ -42,7 +42,7 @@ class TileBalls {
     std::uint32_t index(std::size_t k) const { return index_[k]; }
 
     float nearDepth(std::size_t k) {
-        if (k >= copied_) copyUpTo(k);
+        copyUpTo(k);
         return z_[k] - reach_[k];
     }
 
@@ -54,13 +54,14 @@ class TileBalls {
     };
     Vector from(std::size_t first) {
         const D d;
-        if (first >= copied_) copyUpTo(first);
+        copyUpTo(first);
         return {{hn::LoadU(d, &x_[first]), hn::LoadU(d, &y_[first]), hn::LoadU(d, &z_[first])},
                 hn::LoadU(d, &reach_[first]),
                 hn::LoadU(d, &distance_[first])};
     }
 
  private:
+    /// So far as that is not done yet.
     void copyUpTo(std::size_t k) {
         const D d;
         for (; copied_ <= k; copied_ += hn::Lanes(d)) {

@@ -6,7 +6,7 @@
 
 #include "render/camera_frame.h"
 #include "render/gl_objects.h"
-#include "studies/shader_program.h"
+#include "studies/gl_drawing.h"
 
 namespace studies {
 namespace {

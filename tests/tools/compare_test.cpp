@@ -273,7 +273,7 @@ TEST_CASE("compare: pictures that say more than eight opaque bits a channel are 
     const auto made = [&](const std::string& source, const std::string& format, const std::string& name) {
         const std::string command = "ffmpeg -loglevel error -nostdin -f lavfi -i " + source + " -frames:v 1 -pix_fmt " +
                                     format + " " + (two / name).string();
-        REQUIRE(std::system(command.c_str()) == 0);
+        REQUIRE(program::shell(command).code == 0);
         return run("compare " + (two / name).string() + " " + (two / name).string());
     };
     CHECK(made("color=red@0.5:s=16x16,format=rgba", "rgba", "half.png").out.find("transparent") != std::string::npos);
@@ -290,9 +290,8 @@ TEST_CASE("compare: what is no verdict is trouble", "[compare]") {
     CHECK(two.compare("--max-mean nan").code == 2);
     CHECK(two.compare("--min-ssim nan").code == 2);
     CHECK(two.compare("--max-share -1").code == 2);
-    CHECK(std::system((GLOBULAR_PROGRAM " compare " + (two / "actual").string() + " " + (two / "expected").string() +
-                       " >/dev/full 2>/dev/null")
-                          .c_str()) == 2 << 8);
+    CHECK(run("compare " + (two / "actual").string() + " " + (two / "expected").string() + " >/dev/full 2>/dev/null")
+              .code == 2);
     for (int k = 0; k < 20; ++k)
         two.actual("film/frame-" + std::string(k < 10 ? "0000" : "000") + std::to_string(k) + ".png",
                    noisy(balls(), k));

@@ -72,8 +72,7 @@ std::string onceThat(const std::string& condition) {
 int interrupted(const std::string& arguments, const std::string& signal, const std::string& when, const fs::path& log) {
     const std::string command = "sh -c '" GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() + " & child=$!; " +
                                 when + "; kill -" + signal + " $child 2>/dev/null; wait $child'";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return program::shell(command).code;
 }
 
 }  // namespace

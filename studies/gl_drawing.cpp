@@ -1,5 +1,5 @@
 // Compiles and links, and hands on the words of whoever refuses.
-#include "studies/shader_program.h"
+#include "studies/gl_drawing.h"
 
 #include <array>
 
