@@ -1,8 +1,12 @@
-// Sixteen sums side by side, however many lanes there are, and their sum in a fixed order, so that every instruction
-// set gives the same bits; this file is compiled once per instruction set.
+// All in reach of a cell's particles, gathered once, and sixteen sums side by side, however many lanes there are, added
+// up in a fixed order, so that every instruction set gives the same bits; this file is compiled once per instruction
+// set.
 #include "render/crowd_sums.h"
 
-#include <stdexcept>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/crowd_sums.cpp"
@@ -11,11 +15,15 @@
 
 #include "render/lane_rays-inl.h"
 
-#ifndef RENDER_CROWD_BLOCK
-#define RENDER_CROWD_BLOCK
+#ifndef RENDER_CROWD
+#define RENDER_CROWD
 namespace render {
-inline constexpr std::size_t kCrowdBlock = 16;
-}
+/// Particles side by side: x, y, z and radius, in whole blocks.
+struct Crowd {
+    std::size_t size = 0;
+    std::array<std::vector<float>, 4> values;  // with room for more than `size`
+};
+}  // namespace render
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -23,13 +31,49 @@ namespace render {
 namespace HWY_NAMESPACE {
 
 constexpr std::size_t kParts = kCrowdBlock / hn::MaxLanes(D());
+using Parts = std::array<V, kParts>;
 
-float sumOf(const V* parts) {
+HWY_INLINE void copyBlock(const float* from, float* to) {
+    for (std::size_t lane = 0; lane < kCrowdBlock; lane += hn::Lanes(D()))
+        hn::StoreU(hn::LoadU(D(), from + lane), D(), to + lane);
+}
+
+/// All that may be in reach of the particles of one cell, themselves included.
+void gather(const SkinCells& cells, glm::ivec3 cell, Crowd& crowd) {
+    const glm::ivec3 first = max(cell - 1, glm::ivec3(0));
+    const glm::ivec3 last = min(cell + 1, cells.count - 1);
+    const std::array<const float*, 4> from = {cells.x.data(), cells.y.data(), cells.z.data(), cells.radius.data()};
+    crowd.size = 0;
+    for (int z = first.z; z <= last.z; ++z) {
+        for (int y = first.y; y <= last.y; ++y) {
+            const std::size_t begin = cells.begin[cells.cellIndex(first.x, y, z)];
+            const std::size_t count = cells.begin[cells.cellIndex(last.x, y, z) + 1] - begin;
+            for (std::vector<float>& values : crowd.values)
+                if (values.size() < crowd.size + count + 2 * kCrowdBlock)
+                    values.resize(2 * (crowd.size + count + kCrowdBlock));
+            // What a block holds beyond `count` is written over.
+            for (std::size_t value = 0; value < 4; ++value)
+                for (std::size_t k = 0; k < count; k += kCrowdBlock)
+                    copyBlock(from[value] + begin + k, &crowd.values[value][crowd.size + k]);
+            crowd.size += count;
+        }
+    }
+    // Far beyond any reach, and its distance squared still a number.
+    constexpr std::array<float, 4> kNobody = {1e18F, 1e18F, 1e18F, 0.0F};
+    for (std::size_t value = 0; value < 4; ++value)
+        std::fill_n(&crowd.values[value][crowd.size], kCrowdBlock, kNobody[value]);
+    crowd.size = (crowd.size + kCrowdBlock - 1) / kCrowdBlock * kCrowdBlock;
+}
+
+/// The sum of sixteen, the second half added to the first until one is left.
+HWY_INLINE float sumOf(const Parts& parts) {
+    const hn::CappedTag<float, 4> d;
     alignas(64) std::array<float, kCrowdBlock> sums;
     for (std::size_t part = 0; part < kParts; ++part) hn::Store(parts[part], D(), &sums[part * hn::Lanes(D())]);
-    for (std::size_t half = kCrowdBlock / 2; half > 0; half /= 2)
-        for (std::size_t k = 0; k < half; ++k) sums[k] += sums[k + half];
-    return sums[0];
+    for (const std::size_t half : {std::size_t{8}, std::size_t{4}})
+        for (std::size_t k = 0; k < half; k += hn::Lanes(d))
+            hn::Store(hn::Add(hn::Load(d, &sums[k]), hn::Load(d, &sums[k + half])), d, &sums[k]);
+    return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
 CrowdSum sumOver(const Crowd& crowd, glm::vec4 particle, float reach) {
@@ -37,14 +81,15 @@ CrowdSum sumOver(const Crowd& crowd, glm::vec4 particle, float reach) {
     const Vec3 here = uniform(glm::vec3(particle));
     const V zero = all(0.0F);
     const V one = all(1.0F);
-    V share[kParts], pullX[kParts], pullY[kParts], pullZ[kParts];
-    for (std::size_t part = 0; part < kParts; ++part) share[part] = pullX[part] = pullY[part] = pullZ[part] = zero;
-    for (std::size_t block = 0; block < crowd.size(); block += kCrowdBlock) {
+    Parts share, pullX, pullY, pullZ;
+    for (Parts* parts : {&share, &pullX, &pullY, &pullZ}) parts->fill(zero);
+    const auto& [x, y, z, radius] = crowd.values;
+    for (std::size_t block = 0; block < crowd.size; block += kCrowdBlock) {
         for (std::size_t part = 0; part < kParts; ++part) {
             const std::size_t k = block + part * hn::Lanes(d);
-            const Vec3 off{hn::Sub(hn::LoadU(d, crowd.x() + k), here.x), hn::Sub(hn::LoadU(d, crowd.y() + k), here.y),
-                           hn::Sub(hn::LoadU(d, crowd.z() + k), here.z)};
-            const V far = hn::Mul(all(0.5F * reach), hn::Add(all(particle.w), hn::LoadU(d, crowd.radius() + k)));
+            const Vec3 off{hn::Sub(hn::LoadU(d, &x[k]), here.x), hn::Sub(hn::LoadU(d, &y[k]), here.y),
+                           hn::Sub(hn::LoadU(d, &z[k]), here.z)};
+            const V far = hn::Mul(all(0.5F * reach), hn::Add(all(particle.w), hn::LoadU(d, &radius[k])));
             const V root = hn::Max(zero, hn::Sub(one, hn::Div(dotted(off, off), hn::Mul(far, far))));
             const V weight = hn::Mul(root, root);
             share[part] = hn::Add(share[part], weight);
@@ -56,6 +101,21 @@ CrowdSum sumOver(const Crowd& crowd, glm::vec4 particle, float reach) {
     return {sumOf(share), {sumOf(pullX), sumOf(pullY), sumOf(pullZ)}};
 }
 
+void crowdSums(const SkinCells& cells, float reach, std::size_t first, std::span<CrowdSum> sums) {
+    thread_local Crowd crowd;
+    std::size_t end = 0;  // of the cell whose crowd has been gathered
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const std::size_t place = first + k;
+        const glm::vec4 particle(cells.x[place], cells.y[place], cells.z[place], cells.radius[place]);
+        if (place >= end) {
+            const glm::ivec3 cell = cells.cellOf(particle);
+            gather(cells, cell, crowd);
+            end = cells.begin[cells.cellIndex(cell.x, cell.y, cell.z) + 1];
+        }
+        sums[k] = sumOver(crowd, particle, reach);
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace render
 HWY_AFTER_NAMESPACE();
@@ -64,28 +124,10 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-HWY_EXPORT(sumOver);
+HWY_EXPORT(crowdSums);
 
-CrowdSum sumOver(const Crowd& crowd, glm::vec4 particle, float reach) {
-    if (crowd.size() % kCrowdBlock != 0) throw std::logic_error("render: sums over a crowd that is not finished");
-    return HWY_DYNAMIC_DISPATCH(sumOver)(crowd, particle, reach);
-}
-
-void Crowd::add(std::span<const glm::vec4> places) {
-    if (x_.size() < count_ + places.size())
-        for (std::vector<float>* values : {&x_, &y_, &z_, &radius_}) values->resize(2 * (count_ + places.size()));
-    for (const glm::vec4& place : places) {
-        x_[count_] = place.x;
-        y_[count_] = place.y;
-        z_[count_] = place.z;
-        radius_[count_++] = place.w;
-    }
-}
-
-void Crowd::finish() {
-    // Far beyond any reach, and its distance squared still a number.
-    constexpr glm::vec4 kNobody(1e18F, 1e18F, 1e18F, 0.0F);
-    while (count_ % kCrowdBlock != 0) add({&kNobody, 1});
+void crowdSums(const SkinCells& cells, float reach, std::size_t first, std::span<CrowdSum> sums) {
+    HWY_DYNAMIC_DISPATCH(crowdSums)(cells, reach, first, sums);
 }
 
 }  // namespace render

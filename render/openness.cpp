@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -64,9 +65,7 @@ void forCorners(const OpennessGrid& grid, const Trilinear& at, const Visit& visi
 }
 
 // Size and place of a grid around the particles, its corners at multiples of the side.
-OpennessGrid emptyGrid(std::span<const Sphere> particles) {
-    OpennessGrid grid;
-    if (particles.empty()) return grid;
+void fitTo(std::span<const Sphere> particles, OpennessGrid& grid) {
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(std::numeric_limits<float>::lowest());
     for (const Sphere& particle : particles) {
@@ -84,69 +83,80 @@ OpennessGrid emptyGrid(std::span<const Sphere> particles) {
         grid.origin[axis] = static_cast<float>((first + 0.5) * double(grid.side));
         grid.cells[axis] = static_cast<int>(cellsAlong(axis));
     }
-    return grid;
 }
 
-std::vector<float> filling(const OpennessGrid& grid, std::span<const Sphere> particles) {
-    std::vector<float> full(grid.cellIndex(0, 0, grid.cells.z), 0.0F);
+// Values of all cubes between two margins of zeros, so that looks may leave the grid.
+struct Filling {
+    std::size_t margin = 0;
+    std::vector<float> values;
+
+    explicit Filling(const OpennessGrid& grid)
+        : margin(grid.cellIndex(0, 0, kReach)), values(grid.cellIndex(0, 0, grid.cells.z) + 2 * margin, 0.0F) {}
+
+    float* at(std::size_t cell) { return &values[margin + cell]; }
+    const float* at(std::size_t cell) const { return &values[margin + cell]; }
+};
+
+Filling filling(const OpennessGrid& grid, std::span<const Sphere> particles) {
+    Filling full(grid);
     for (const Sphere& particle : particles) {
         const float share = particle.radius / grid.side;
         const float volume = 4.1887902F * share * share * share;
         forCorners(grid, cubesAround(placeIn(grid, particle.center)),
-                   [&](std::size_t cell, float weight) { full[cell] += volume * weight; });
+                   [&](std::size_t cell, float weight) { *full.at(cell) += volume * weight; });
     }
     return full;
 }
 
 // Weights 1/4, 1/2, 1/4 along one axis; nothing lies at the border.
-std::vector<float> blurred(const OpennessGrid& grid, const std::vector<float>& from, std::size_t stride) {
-    std::vector<float> to(from.size(), 0.0F);
-    const auto count = static_cast<std::size_t>(grid.cells.x);
+void blur(const OpennessGrid& grid, std::ptrdiff_t stride, const Filling& from, Filling& to) {
+    const std::ptrdiff_t count = grid.cells.x;
     tbb::parallel_for(1, grid.cells.z - 1, [&](int z) {
         for (int y = 1; y < grid.cells.y - 1; ++y) {
-            const std::size_t row = grid.cellIndex(0, y, z);
-            for (std::size_t k = row + 1; k < row + count - 1; ++k)
-                to[k] = 0.25F * (from[k - stride] + from[k + stride]) + 0.5F * from[k];
+            const float* in = from.at(grid.cellIndex(0, y, z));
+            float* out = to.at(grid.cellIndex(0, y, z));
+            for (std::ptrdiff_t k = 1; k < count - 1; ++k)
+                out[k] = 0.25F * (in[k - stride] + in[k + stride]) + 0.5F * in[k];
         }
     });
-    return to;
 }
 
 // 1 / (1 + tau)^2 with tau = sum over j = 1 ... 6 of (1 - (j - 1/2)/6) F(j cubes ahead), for one row of cubes along x,
-// whose values begin at `row`. open: zeros. All of it at a time, for compilers to make lanes of.
-void lookAlong(const std::vector<float>& full, std::size_t row, std::ptrdiff_t stride, std::span<float> open) {
+// whose fillings begin at `full`. What leaves a row comes in on the other side of another, where nothing lies either.
+void lookAlong(const float* full, std::ptrdiff_t stride, std::span<float> open) {
+    constexpr auto weight = [](int j) { return 1.0F - (static_cast<float>(j) - 0.5F) / static_cast<float>(kReach); };
     const auto count = static_cast<std::ptrdiff_t>(open.size());
-    const auto all = static_cast<std::ptrdiff_t>(full.size());
     float* out = open.data();
-    for (int j = 1; j <= kReach; ++j) {
-        const float weight = 1.0F - (static_cast<float>(j) - 0.5F) / static_cast<float>(kReach);
-        // What leaves the grid comes in on its other side, where nothing lies either.
-        const std::ptrdiff_t ahead = static_cast<std::ptrdiff_t>(row) + j * stride;
-        const std::ptrdiff_t end = std::min(count, all - ahead);
-        for (std::ptrdiff_t k = std::max(std::ptrdiff_t{0}, -ahead); k < end; ++k)
-            out[k] += weight * full[static_cast<std::size_t>(ahead + k)];
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+        float tau = 0.0F;
+        for (int j = 1; j <= kReach; ++j) tau += weight(j) * full[k + j * stride];
+        out[k] = 1.0F / ((1.0F + tau) * (1.0F + tau));
     }
-    for (std::ptrdiff_t k = 0; k < count; ++k) out[k] = 1.0F / ((1.0F + out[k]) * (1.0F + out[k]));
 }
 
 }  // namespace
 
-OpennessGrid opennessGrid(std::span<const Sphere> particles) {
-    OpennessGrid grid = emptyGrid(particles);
-    if (particles.empty()) return grid;
+OpennessGrid opennessGrid(std::span<const Sphere> particles, OpennessGrid old) {
+    if (particles.empty()) return {};
+    OpennessGrid grid = std::move(old);
+    fitTo(particles, grid);
     const auto row = static_cast<std::size_t>(grid.cells.x);
     const std::size_t slice = row * static_cast<std::size_t>(grid.cells.y);
-    std::vector<float> full = filling(grid, particles);
-    for (const std::size_t stride : {std::size_t{1}, row, slice}) full = blurred(grid, full, stride);
     const std::array<std::ptrdiff_t, 3> strides = {1, static_cast<std::ptrdiff_t>(row),
                                                    static_cast<std::ptrdiff_t>(slice)};
-    for (std::vector<float>& values : grid.values) values.assign(full.size(), 0.0F);
+    Filling full = filling(grid, particles);
+    Filling other(grid);
+    for (const std::ptrdiff_t stride : strides) {
+        blur(grid, stride, full, other);
+        std::swap(full, other);
+    }
+    for (std::vector<float>& values : grid.values) values.resize(grid.cellIndex(0, 0, grid.cells.z));
     tbb::parallel_for(0, grid.cells.z, [&](int z) {
         for (int y = 0; y < grid.cells.y; ++y) {
             const std::size_t first = grid.cellIndex(0, y, z);
             for (std::size_t direction = 0; direction < 6; ++direction) {
                 const std::ptrdiff_t stride = strides[direction / 2];
-                lookAlong(full, first, direction % 2 == 0 ? stride : -stride,
+                lookAlong(full.at(first), direction % 2 == 0 ? stride : -stride,
                           std::span(grid.values[direction]).subspan(first, row));
             }
         }

@@ -41,8 +41,9 @@ struct OpennessMap {
     std::vector<float> values;
 };
 
+/// old: one that is no longer used, whose memory is taken.
 /// Holds:  the result depends on the view's particles alone, bit for bit, not on the number of threads.
-OpennessGrid opennessGrid(std::span<const Sphere> particles);
+OpennessGrid opennessGrid(std::span<const Sphere> particles, OpennessGrid old = {});
 
 /// Sides of a cube that a place is moved along the direction it looks in.
 inline constexpr float kOpennessAhead = 0.75F;

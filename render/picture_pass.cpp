@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -36,14 +37,16 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     castsField_ = view.style == Style::metaballs && !view.particles.empty();
     meanRadius_ = meanRadiusOf(view);
     depthMapTexels_ = depthMapTexels;
-    timed(times.bin, [&] {
-        drawn_ = drawnSpheres(view);
-        skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
-    });
-    // None needs what the others find, and each has parts that keep one thread alone busy.
+    // None needs what those beside it find, and each has parts that keep one thread alone busy.
     tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); },
-                         [&] { timed(times.bin, [&] { bin(view); }); },
-                         [&] { timed(times.shadow, [&] { findShadows(view); }); });
+                         [&] {
+                             timed(times.bin, [&] {
+                                 drawn_ = drawnSpheres(view);
+                                 skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
+                             });
+                             tbb::parallel_invoke([&] { timed(times.bin, [&] { bin(view); }); },
+                                                  [&] { timed(times.shadow, [&] { findShadows(view); }); });
+                         });
     timed(times.bin, [&] {
         looks_ = looksOf(view, drawn_, particleOpen_);
         findBoxes(view);
@@ -61,7 +64,7 @@ void PicturePass::findGround(const View& view) {
 
 void PicturePass::findOpenness(const View& view) {
     opens_ = asksForOpenness(view);
-    openGrid_ = opens_ ? opennessGrid(view.particles) : OpennessGrid{};
+    openGrid_ = opens_ ? opennessGrid(view.particles, std::move(openGrid_)) : OpennessGrid{};
     openMap_ = OpennessMap{};
     particleOpen_ = opens_ ? opennessOf(view.particles, openGrid_) : std::vector<Openness>{};
     if (!opens_) return;

@@ -1,16 +1,17 @@
-// Counting sort of items into cells: count, add up, fill. Called for the camera's tiles, the light's grid and the
-// lines.
+// Counting sort of items into cells, first by rows, then by columns: count, add up, fill. Called for the camera's
+// tiles, the light's grid and the lines.
 #include "render/tiles.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "render/system_error.h"
 
@@ -39,51 +40,54 @@ void sortByDigit(const std::vector<KeyedPlace>& from, std::vector<KeyedPlace>& t
     for (const KeyedPlace& item : from) to[start[(item.key >> shift) & (kDigits - 1)]++] = item;
 }
 
-// How many items each cell has. An item adds to the corners of its cells, and sums along rows and columns do the rest,
-// however many cells it has.
-std::vector<std::uint32_t> itemCounts(std::span<const BinItem> items, const CellLists& lists) {
-    const std::size_t across = static_cast<std::size_t>(lists.columns) + 1;
-    // With a column and a row more, where what an item adds ends. Sums wrap around on the way, and come right.
-    std::vector<std::uint32_t> steps(across * (static_cast<std::size_t>(lists.rows) + 1), 0);
-    const auto at = [&](int column, int row) -> std::uint32_t& {
-        return steps[static_cast<std::size_t>(row) * across + static_cast<std::size_t>(column)];
-    };
+/// What an item covers of one row of cells.
+struct RowItem {
+    std::uint32_t index;
+    std::int32_t first, last;  ///< columns
+};
+
+/// Items of each row, in the order that they came in, one row after another.
+struct RowLists {
+    std::vector<std::size_t> begin;  ///< rows + 1 entries
+    std::vector<RowItem> items;
+
+    std::span<const RowItem> of(std::size_t row) const {
+        return std::span(items).subspan(begin[row], begin[row + 1] - begin[row]);
+    }
+};
+
+RowLists rowLists(std::span<const BinItem> items, int columns, int rows) {
+    RowLists lists;
+    // An item adds one where it begins and takes it away where it ends; sums along the rows do the rest.
+    std::vector<std::size_t> next(static_cast<std::size_t>(rows) + 1, 0);
     for (const BinItem& item : items) {
         const Rect& cells = item.cells;
-        if (cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= lists.columns || cells.y1 >= lists.rows ||
-            cells.x1 < cells.x0 || cells.y1 < cells.y0)
+        if (cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= columns || cells.y1 >= rows || cells.x1 < cells.x0 ||
+            cells.y1 < cells.y0)
             throw std::logic_error("render: an item in cells that are not there");
-        ++at(cells.x0, cells.y0);
-        --at(cells.x1 + 1, cells.y0);
-        --at(cells.x0, cells.y1 + 1);
-        ++at(cells.x1 + 1, cells.y1 + 1);
+        ++next[static_cast<std::size_t>(cells.y0)];
+        --next[static_cast<std::size_t>(cells.y1) + 1];
     }
-    std::vector<std::uint32_t> counts;
-    counts.reserve(static_cast<std::size_t>(lists.columns) * static_cast<std::size_t>(lists.rows));
-    for (int row = 0; row < lists.rows; ++row) {
-        std::uint32_t count = 0;
-        for (int column = 0; column < lists.columns; ++column) {
-            if (row > 0) at(column, row) += at(column, row - 1);
-            count += at(column, row);
-            counts.push_back(count);
-        }
-    }
-    return counts;
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    lists.begin.resize(next.size());
+    std::exclusive_scan(next.begin(), next.end(), lists.begin.begin(), std::size_t{0});
+    lists.items.resize(lists.begin.back());
+    next = lists.begin;
+    for (const BinItem& item : items)
+        for (int row = item.cells.y0; row <= item.cells.y1; ++row)
+            lists.items[next[static_cast<std::size_t>(row)]++] = {item.index, item.cells.x0, item.cells.x1};
+    return lists;
 }
 
-// Writes the items to their cells. next: where each cell's first goes.
-void fill(std::span<const BinItem> items, CellLists& lists, std::vector<std::uint32_t>& next) {
-    // Bands of rows are independent of each other, so threads share neither counters nor lists. Each looks at all
-    // items, so that there are only as many as threads need to share the work evenly.
-    const int bands = 2 * tbb::this_task_arena::max_concurrency();
-    tbb::parallel_for(0, bands, [&](int band) {
-        const int top = lists.rows * band / bands;
-        const int bottom = lists.rows * (band + 1) / bands - 1;
-        for (const BinItem& item : items)
-            for (int row = std::max(item.cells.y0, top); row <= std::min(item.cells.y1, bottom); ++row)
-                for (int column = item.cells.x0; column <= item.cells.x1; ++column)
-                    lists.items[next[lists.cellIndex(column, row)]++] = item.index;
-    });
+/// How many of these items each cell of their row has.
+void count(std::span<const RowItem> items, std::span<std::uint32_t> cells) {
+    // Sums wrap around on the way, and come right.
+    for (const RowItem& item : items) {
+        ++cells[static_cast<std::size_t>(item.first)];
+        const auto end = static_cast<std::size_t>(item.last) + 1;
+        if (end < cells.size()) --cells[end];
+    }
+    std::partial_sum(cells.begin(), cells.end(), cells.begin());
 }
 
 }  // namespace
@@ -106,22 +110,33 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
     CellLists lists;
     lists.columns = columns;
     lists.rows = rows;
-    const std::size_t cellCount = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    std::vector<std::uint32_t> next = itemCounts(items, lists);
+    const RowLists rowItems = rowLists(items, columns, rows);
+    const auto across = static_cast<std::size_t>(columns);
+    std::vector<std::uint32_t> next(across * static_cast<std::size_t>(rows), 0);
+    const auto cellsOf = [&](std::size_t row) { return std::span(next).subspan(row * across, across); };
+    // Rows are independent of each other, so threads share neither counters nor lists.
+    const auto forRows = [&](const auto& visit) {
+        tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(rows), visit);
+    };
+    forRows([&](std::size_t row) { count(rowItems.of(row), cellsOf(row)); });
 
-    lists.begin.resize(cellCount + 1, 0);
+    lists.begin.reserve(next.size() + 1);
     std::uint64_t total = 0;
-    for (std::size_t cell = 0; cell < cellCount; ++cell) {
-        lists.begin[cell] = static_cast<std::uint32_t>(total);
-        total += next[cell];
+    for (std::uint32_t& cell : next) {
+        lists.begin.push_back(static_cast<std::uint32_t>(total));
+        total += std::exchange(cell, lists.begin.back());
         if (total > std::numeric_limits<std::int32_t>::max()) {
             throw SystemError(fmt::format("drawing {} items takes more than 2^31 list entries", items.size()));
         }
     }
-    lists.begin[cellCount] = static_cast<std::uint32_t>(total);
+    lists.begin.push_back(static_cast<std::uint32_t>(total));
     lists.items.resize(total);
-    for (std::size_t cell = 0; cell < cellCount; ++cell) next[cell] = lists.begin[cell];
-    fill(items, lists, next);
+    forRows([&](std::size_t row) {
+        std::uint32_t* place = cellsOf(row).data();
+        for (const RowItem& item : rowItems.of(row))
+            for (std::int32_t column = item.first; column <= item.last; ++column)
+                lists.items[place[column]++] = item.index;
+    });
     return lists;
 }
 
