@@ -8,6 +8,7 @@
 #endif
 
 #include <cstddef>
+#include <cstdint>
 
 #include <hwy/highway.h>
 
@@ -22,6 +23,30 @@ HWY_INLINE V mixed(V a, V b, V part) {
     return hn::Add(hn::Mul(a, hn::Sub(all(1.0F), part)), hn::Mul(b, part));
 }
 
+/// Numbers beside each other.
+struct Pair {
+    V first, second;
+};
+
+/// The pairs that begin at these places.
+HWY_INLINE Pair pairsAt(const float* values, VI places) {
+    const D d;
+#if HWY_TARGET <= HWY_AVX2
+    // Half as many loads as numbers, and loads are what gathering takes.
+    const hn::Repartition<std::int64_t, D> wide;
+    const auto pairs = [&](auto half) {
+        return hn::BitCast(d, hn::GatherOffset(wide, reinterpret_cast<const std::int64_t*>(values),
+                                               hn::ShiftLeft<2>(hn::PromoteTo(wide, half))));
+    };
+    const hn::Half<DI> half;
+    const V lower = pairs(hn::LowerHalf(half, places));
+    const V upper = pairs(hn::UpperHalf(half, places));
+    return {hn::ConcatEven(d, upper, lower), hn::ConcatOdd(d, upper, lower)};
+#else
+    return {hn::GatherIndex(d, values, places), hn::GatherIndex(d, values, hn::Add(places, allOf(1)))};
+#endif
+}
+
 /// In sides of a cube, from the middle of the first; eye: what positions are relative to.
 HWY_INLINE Vec3 placeInGrid(const OpennessGrid& grid, glm::vec3 eye, const Vec3& position) {
     const V inverse = all(1.0F / grid.side);
@@ -32,7 +57,6 @@ HWY_INLINE Vec3 placeInGrid(const OpennessGrid& grid, glm::vec3 eye, const Vec3&
 
 /// Towards one of the six sides, at places as placeInGrid() has them; 1 outside of the grid.
 HWY_INLINE V openInGrid(const OpennessGrid& grid, std::size_t side, const Vec3& at) {
-    const D d;
     const DI di;
     const V zero = all(0.0F);
     glm::vec3 ahead(0.0F);
@@ -50,9 +74,8 @@ HWY_INLINE V openInGrid(const OpennessGrid& grid, std::size_t side, const Vec3& 
     const VI first = hn::Add(whole(x), hn::Mul(columns, hn::Add(whole(y), hn::Mul(allOf(grid.cells.y), whole(z)))));
     const V partX = hn::Sub(place.x, x);
     const auto pairAt = [&](int off) {
-        const float* values = grid.values[side].data();
-        return mixed(hn::GatherIndex(d, values, hn::Add(first, allOf(off))),
-                     hn::GatherIndex(d, values, hn::Add(first, allOf(off + 1))), partX);
+        const Pair pair = pairsAt(grid.values[side].data(), hn::Add(first, allOf(off)));
+        return mixed(pair.first, pair.second, partX);
     };
     const int row = grid.cells.x;
     const int slice = row * grid.cells.y;
