@@ -1,4 +1,4 @@
-// Camera basis and bounds of projected spheres. Used by the binning and the ray cast alike.
+// Camera basis and bounds of projected boxes. Used by the binning and the ray cast alike.
 #include "render/camera_frame.h"
 
 #include <algorithm>
@@ -13,14 +13,6 @@ struct Interval {
     double low;
     double high;
 };
-
-// Tangents from the eye to the circle (a, z, r): a/z runs over (a z -+ r sqrt(a^2 + z^2 - r^2)) / (z^2 - r^2), for z >
-// r.
-Interval tangents(double a, double z, double r) {
-    const double root = r * std::sqrt(std::max(a * a + z * z - r * r, 0.0));
-    const double scale = 1.0 / (z * z - r * r);
-    return {(a * z - root) * scale, (a * z + root) * scale};
-}
 
 // Rounded down, as conversion does from zero on; std::floor may be a call.
 int clampedPixel(double at, int count) {
@@ -63,21 +55,6 @@ CameraFrame cameraFrame(const Camera& camera, PictureSize size) {
     frame.halfHeight = frame.perspective ? std::tan(0.5F * camera.verticalFov) : camera.halfHeight;
     frame.halfWidth = frame.halfHeight * static_cast<float>(size.width) / static_cast<float>(size.height);
     return frame;
-}
-
-std::optional<Rect> pixelsTouched(const CameraFrame& frame, glm::vec3 center, float radius) {
-    const double z = center.z;
-    const double r = radius;
-    if (z + r <= 0.0) return std::nullopt;
-    Interval x{center.x - r, center.x + r};
-    Interval y{center.y - r, center.y + r};
-    if (frame.perspective) {
-        // Touching the eye's plane to within rounding: the tangents are useless there.
-        if (z <= r * 1.0001) return Rect{0, 0, frame.width - 1, frame.height - 1};
-        x = tangents(center.x, z, r);
-        y = tangents(center.y, z, r);
-    }
-    return within(frame, x, y, 1.0);
 }
 
 std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minimum, glm::vec3 maximum) {

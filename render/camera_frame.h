@@ -52,12 +52,8 @@ struct CameraFrame {
 
 CameraFrame cameraFrame(const Camera& camera, PictureSize size);
 
-/// The pixels that a sphere in view coordinates can touch, one pixel of margin included, within the picture; empty when
-/// it is behind the eye or outside the picture. A sphere that reaches the eye's plane may touch every pixel.
-std::optional<Rect> pixelsTouched(const CameraFrame& frame, glm::vec3 center, float radius);
-
-/// The same for a box given by two corners in world axes; the rectangle is that of its projected corners, two pixels
-/// wider.
+/// The pixels that a box given by two corners in world axes can touch, within the picture; empty when it is behind the
+/// eye or outside the picture. The rectangle is that of its projected corners, two pixels wider.
 std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minimum, glm::vec3 maximum);
 
 }  // namespace render

@@ -140,16 +140,6 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
     return lists;
 }
 
-std::vector<Rect> touchedPixels(const CameraFrame& frame, std::span<const ViewSphere> spheres) {
-    std::vector<Rect> pixels(spheres.size());
-    constexpr std::size_t kChunk = 1024;
-    tbb::parallel_for(std::size_t{0}, spheres.size() / kChunk + 1, [&](std::size_t chunk) {
-        for (std::size_t k = chunk * kChunk; k < std::min((chunk + 1) * kChunk, spheres.size()); ++k)
-            pixels[k] = pixelsTouched(frame, spheres[k].center, spheres[k].radius).value_or(Rect{});
-    });
-    return pixels;
-}
-
 CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<const Rect> pixels) {
     std::vector<float> nearest(spheres.size());
     for (std::size_t k = 0; k < spheres.size(); ++k) nearest[k] = spheres[k].center.z - spheres[k].radius;

@@ -51,7 +51,8 @@ struct ViewSphere {
     float radius = 0.0F;
 };
 
-/// The pixels that each sphere may touch; none (an empty rectangle) where it is out of sight.
+/// The pixels that each sphere may touch, one pixel of margin included; none (an empty rectangle) where it is out of
+/// sight. One that reaches the eye's plane, or almost, may touch every pixel.
 std::vector<Rect> touchedPixels(const CameraFrame& frame, std::span<const ViewSphere> spheres);
 
 /// The spheres of each 16-pixel tile, front to back: by rising (center's depth - radius). pixels: as touchedPixels has

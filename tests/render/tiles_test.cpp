@@ -59,6 +59,71 @@ TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to
     }
 }
 
+namespace {
+
+/// Where the projections of a sphere's points begin and end along one axis, in pixels from the picture's middle.
+std::pair<double, double> projected(double center, double depth, double radius, bool perspective, double perUnit) {
+    if (!perspective) return {(center - radius) * perUnit, (center + radius) * perUnit};
+    // The eye sees the circle's middle at an angle, and half of it at another.
+    const double middle = std::atan2(center, depth);
+    const double half = std::asin(radius / std::hypot(center, depth));
+    return {std::tan(middle - half) * perUnit, std::tan(middle + half) * perUnit};
+}
+
+}  // namespace
+
+TEST_CASE("The pixels that spheres may touch are their projection and a margin of one") {
+    std::mt19937 random(11);
+    const auto between = [&](double low, double high) {
+        return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
+    };
+    for (const auto projection : {render::Projection::perspective, render::Projection::orthographic}) {
+        render::Camera camera;
+        camera.projection = projection;
+        const render::CameraFrame frame = render::cameraFrame(camera, {1280, 720});
+        std::vector<render::ViewSphere> spheres;
+        for (int k = 0; k < 2003; ++k) {
+            const float radius = between(0.001, 1.0);
+            spheres.push_back({{between(-8.0, 8.0), between(-5.0, 5.0), between(-1.0, 9.0)}, radius});
+            if (k % 5 == 0) spheres.back().center.z = radius * between(1.002, 1.1);  // just before the eye's plane
+        }
+        const std::vector<render::Rect> touched = render::touchedPixels(frame, spheres);
+        REQUIRE(touched.size() == spheres.size());
+        int seen = 0;
+        int hidden = 0;
+        for (std::size_t k = 0; k < spheres.size(); ++k) {
+            const auto [center, radius] = spheres[k];
+            const render::Rect& at = touched[k];
+            const bool isHidden = at.x1 < at.x0 || at.y1 < at.y0;
+            (isHidden ? hidden : seen) += 1;
+            if (center.z + radius <= 0.0F) CHECK(isHidden);
+            if (center.z <= 1.0005F * radius && center.z + radius > 0.0F && frame.perspective)
+                CHECK((at.x0 == 0 && at.y0 == 0 && at.x1 == 1279 && at.y1 == 719));
+            if (frame.perspective && center.z <= 1.0015F * radius) continue;
+            if (center.z + radius <= 0.0F) continue;
+            const auto [left, right] =
+                projected(center.x, center.z, radius, frame.perspective, 640.0 / frame.halfWidth);
+            const auto [down, up] = projected(center.y, center.z, radius, frame.perspective, 360.0 / frame.halfHeight);
+            const auto holds = [](int first, int last, double low, double high, int count) {
+                // What is touched at all is within; what is within lies no farther than two pixels from it.
+                const double from = std::max(0.0, low);
+                const double to = std::min(static_cast<double>(count), high);
+                if (from > to) return true;
+                return first <= from && last + 1 >= to && (first == 0 || first > low - 2.1) &&
+                       (last == count - 1 || last < high + 1.1);
+            };
+            const bool isSeen =
+                640.0 + right > 0.0 && 640.0 + left < 1280.0 && 360.0 - down > 0.0 && 360.0 - up < 720.0;
+            if (isSeen) CHECK(!isHidden);
+            if (isHidden) continue;
+            CHECK(holds(at.x0, at.x1, 640.0 + left, 640.0 + right, 1280));
+            CHECK(holds(at.y0, at.y1, 360.0 - up, 360.0 - down, 720));
+        }
+        CHECK(seen > 300);
+        CHECK(hidden > 50);
+    }
+}
+
 TEST_CASE("Each cell lists the items that have it, in their order") {
     std::mt19937 random(7);
     const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
