@@ -153,7 +153,7 @@ TEST_CASE("A lone ball has its sphere's volume in either skin, and a pool its ow
 
 TEST_CASE("A small study has a row for each style, number, size and quality", "[pictures]") {
     PictureSettings settings;
-    settings.particles = {500};
+    settings.particles = {500, 100};
     settings.sizes = {kSize};
     settings.frames = 2;
     settings.encodedFrames = 2;
@@ -165,8 +165,8 @@ TEST_CASE("A small study has a row for each style, number, size and quality", "[
     const auto rows =
         measurePictures(settings, [&](const std::vector<PictureRow>& soFar) { CHECK(soFar.size() == ++told); });
     std::filesystem::remove(settings.videoPath);
-    REQUIRE(rows.size() == 6);
-    CHECK(told == 6);
+    REQUIRE(rows.size() == 12);
+    CHECK(told == 12);
     for (const PictureRow& row : rows) {
         CHECK(row.draw > 0.0);
         CHECK(row.baseline > 0.0);
@@ -177,11 +177,13 @@ TEST_CASE("A small study has a row for each style, number, size and quality", "[
         for (const double stage : {stages.bin, stages.occlusion, stages.shadow}) CHECK(stage < 2.0 * row.draw);
         CHECK(row.ratio() > 0.0);
         CHECK(row.ratioAtRest() > 0.0);
+        CHECK(row.leastBaseline > 0.0);
+        CHECK(row.ratioToLeast() == row.draw / row.leastBaseline);
         CHECK((row.stages.cast > 1e-5) == (row.style == Style::metaballs));  // s; less is the clock itself
         CHECK(row.error.ssim > 0.9);
     }
     const std::string csv = picturesCsv(rows);
-    CHECK(std::count(csv.begin(), csv.end(), '\n') == 7);
+    CHECK(std::count(csv.begin(), csv.end(), '\n') == 13);
     CHECK(csv.find("metaballs,500,160,90,final,") != std::string::npos);
     CHECK(pictureTimesPlot(rows, {{render::Skin::plain, 700}}).find("700 ") != std::string::npos);
     CHECK(pictureErrorsPlot(rows).find("metaballs, normal") != std::string::npos);
