@@ -1,4 +1,4 @@
-// Camera basis and bounds of projected boxes. Used by the binning and the ray cast alike.
+// Camera basis and bounds of projected boxes.
 #include "render/camera_frame.h"
 
 #include <algorithm>
@@ -19,14 +19,15 @@ int clampedPixel(double at, int count) {
     return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)) + 1.0) - 1;
 }
 
-// Intervals on the plane at depth 1 (parallel projection: on any) as pixels of the picture, so many pixels wider.
-std::optional<Rect> within(const CameraFrame& frame, Interval x, Interval y, double margin) {
+// Intervals on the plane at depth 1 (parallel projection: on any) as pixels of the picture, two pixels wider.
+std::optional<Rect> within(const CameraFrame& frame, Interval x, Interval y) {
+    constexpr double kMargin = 2.0;
     const double perX = 0.5 * frame.width / frame.halfWidth;
     const double perY = 0.5 * frame.height / frame.halfHeight;
-    const Rect rect{clampedPixel(0.5 * frame.width + x.low * perX - margin, frame.width),
-                    clampedPixel(0.5 * frame.height - y.high * perY - margin, frame.height),
-                    clampedPixel(0.5 * frame.width + x.high * perX + margin, frame.width),
-                    clampedPixel(0.5 * frame.height - y.low * perY + margin, frame.height)};
+    const Rect rect{clampedPixel(0.5 * frame.width + x.low * perX - kMargin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.high * perY - kMargin, frame.height),
+                    clampedPixel(0.5 * frame.width + x.high * perX + kMargin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.low * perY + kMargin, frame.height)};
     if (rect.x0 >= frame.width || rect.y0 >= frame.height || rect.x1 < 0 || rect.y1 < 0) return std::nullopt;
     return Rect{std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, frame.width - 1),
                 std::min(rect.y1, frame.height - 1)};
@@ -73,7 +74,7 @@ std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minim
     if (behind == 8) return std::nullopt;
     // Corners on both sides of the eye's plane: what is between them may be anywhere.
     if (behind > 0 && frame.perspective) return Rect{0, 0, frame.width - 1, frame.height - 1};
-    return within(frame, x, y, 2.0);
+    return within(frame, x, y);
 }
 
 }  // namespace render

@@ -1,5 +1,5 @@
-// A camera as the passes use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that a sphere
-// can touch. The light is such a camera too (parallel projection along the light).
+// A camera as the passes use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that a box can
+// touch. The light is such a camera too (parallel projection along the light).
 #pragma once
 
 #include <array>

@@ -6,7 +6,8 @@
 namespace render {
 
 /// Wall-clock seconds of one picture; a stage that the view does not need takes next to nothing. The first three run
-/// side by side, so that together they may be more than the picture took.
+/// side by side, so that together they may be more than the picture took, and one may hold what its thread did for
+/// another while it waited.
 struct DrawTimes {
     double bin = 0.0;        ///< skin and looks; spheres, boxes, lines and ground to tiles
     double occlusion = 0.0;  ///< how open to the sky the particles are

@@ -13,7 +13,8 @@
 
 namespace render {
 
-/// More numbers than particles, so that whole blocks can be read from any place.
+/// Particles that lanes take at a time. The vectors below hold so many numbers more than there are particles, so that
+/// whole blocks can be read from any place.
 inline constexpr std::size_t kCrowdBlock = 16;
 
 struct SkinCells {

@@ -80,7 +80,7 @@ RowLists rowLists(std::span<const BinItem> items, int columns, int rows) {
 }
 
 /// How many of these items each cell of their row has.
-void count(std::span<const RowItem> items, std::span<std::uint32_t> cells) {
+void countPerCell(std::span<const RowItem> items, std::span<std::uint32_t> cells) {
     // Sums wrap around on the way, and come right.
     for (const RowItem& item : items) {
         ++cells[static_cast<std::size_t>(item.first)];
@@ -118,7 +118,7 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
     const auto forRows = [&](const auto& visit) {
         tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(rows), visit);
     };
-    forRows([&](std::size_t row) { count(rowItems.of(row), cellsOf(row)); });
+    forRows([&](std::size_t row) { countPerCell(rowItems.of(row), cellsOf(row)); });
 
     lists.begin.reserve(next.size() + 1);
     std::uint64_t total = 0;

@@ -1,8 +1,11 @@
-// Bounds of projected spheres, as many at a time as the machine has lanes; this file is compiled once per instruction
-// set.
+// Bounds of projected spheres for the binning, as many at a time as the machine has lanes; this file is compiled once
+// per instruction set.
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
@@ -25,11 +28,16 @@ struct Interval {
 };
 
 /// Tangents from the eye to the circle (a, z, r): a/z runs over (a z -+ r sqrt(a^2 + z^2 - r^2)) / (z^2 - r^2), for z >
-/// r. front: z^2 - r^2.
+/// r. front: z^2 - r^2. Where the numerator's terms cancel it is rationalised: it is (a^2 - r^2) front over their sum.
 Interval tangents(V a, V z, V r, V front) {
     const V root = hn::Mul(r, hn::Sqrt(hn::Max(hn::Add(hn::Mul(a, a), front), all(0.0F))));
     const V middle = hn::Mul(a, z);
-    return {hn::Div(hn::Sub(middle, root), front), hn::Div(hn::Add(middle, root), front)};
+    const V product = hn::Mul(hn::Sub(a, r), hn::Add(a, r));
+    const V least = hn::Sub(middle, root);
+    const V most = hn::Add(middle, root);
+    const M isRight = hn::Ge(middle, all(0.0F));
+    return {hn::IfThenElse(isRight, hn::Div(product, most), hn::Div(least, front)),
+            hn::IfThenElse(isRight, hn::Div(most, front), hn::Div(product, least))};
 }
 
 /// Rounded down; from -1 to count.
@@ -53,7 +61,7 @@ void touchedByVector(const CameraFrame& frame, const ViewSphere* spheres, Rect* 
         across = tangents(x, z, r, front);
         up = tangents(y, z, r, front);
         // Where a sphere all but touches the eye's plane, tangents are useless.
-        isWhole = hn::Le(z, hn::Mul(r, all(1.001F)));
+        isWhole = hn::Le(z, hn::Mul(r, all(1.0001F)));
     }
     const auto width = static_cast<float>(frame.width);
     const auto height = static_cast<float>(frame.height);
@@ -74,24 +82,25 @@ void touchedByVector(const CameraFrame& frame, const ViewSphere* spheres, Rect* 
     const M isBehind = hn::Le(hn::Add(z, r), all(0.0F));
     const auto none = hn::RebindMask(DI(), hn::Or(isBehind, hn::AndNot(isWhole, isOutside)));
     const auto whole = hn::RebindMask(DI(), isWhole);
-    const auto chosen = [&](VI within, VI all, VI nothing) {
-        return hn::IfThenElse(none, nothing, hn::IfThenElse(whole, all, within));
+    const auto pick = [&](VI within, VI everything, VI nothing) {
+        return hn::IfThenElse(none, nothing, hn::IfThenElse(whole, everything, within));
     };
     const VI before = allOf(-1);
-    hn::StoreInterleaved4(chosen(hn::Max(left, zero), zero, zero), chosen(hn::Max(top, zero), zero, zero),
-                          chosen(hn::Min(right, lastColumn), lastColumn, before),
-                          chosen(hn::Min(bottom, lastRow), lastRow, before), DI(), &pixels->x0);
+    hn::StoreInterleaved4(pick(hn::Max(left, zero), zero, zero), pick(hn::Max(top, zero), zero, zero),
+                          pick(hn::Min(right, lastColumn), lastColumn, before),
+                          pick(hn::Min(bottom, lastRow), lastRow, before), DI(), &pixels->x0);
 }
 
 void touched(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<Rect> pixels) {
     const std::size_t lanes = hn::Lanes(D());
-    const std::size_t whole = spheres.size() / lanes * lanes;
-    for (std::size_t k = 0; k < whole; k += lanes) touchedByVector(frame, &spheres[k], &pixels[k]);
+    const std::size_t end = spheres.size() / lanes * lanes;
+    for (std::size_t k = 0; k < end; k += lanes) touchedByVector(frame, &spheres[k], &pixels[k]);
+    if (end == spheres.size()) return;
     std::array<ViewSphere, kTileSize> rest;
     std::array<Rect, kTileSize> touchedByRest;
-    std::copy(spheres.begin() + static_cast<std::ptrdiff_t>(whole), spheres.end(), rest.begin());
-    if (whole < spheres.size()) touchedByVector(frame, rest.data(), touchedByRest.data());
-    std::copy_n(touchedByRest.begin(), spheres.size() - whole, pixels.begin() + static_cast<std::ptrdiff_t>(whole));
+    std::ranges::copy(spheres.subspan(end), rest.begin());
+    touchedByVector(frame, rest.data(), touchedByRest.data());
+    std::copy_n(touchedByRest.begin(), spheres.size() - end, pixels.subspan(end).begin());
 }
 
 }  // namespace HWY_NAMESPACE

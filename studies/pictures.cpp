@@ -140,22 +140,23 @@ struct Drawing {
     DrawTimes stages;
 };
 
-/// Draws every frame with the quads and with the renderer in turn, and the least number's quads, so that all meet the
-/// machine in the same mood.
-Drawing measureDrawing(QuadBaseline& quads, const render::View& least, render::Renderer& renderer,
-                       const std::vector<render::View>& frames) {
+/// Draws every frame with the quads and with the renderer in turn, so that both meet the machine in the same mood.
+/// least: drawn with the quads in turn, too; none: nothing.
+Drawing measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
+                       const render::View* least = nullptr) {
     std::vector<DrawTimes> times;
     std::vector<double> baseline, leastBaseline, draw;
     // The first frame compiles shaders.
     render::Image ofQuads = quads.draw(frames.front());
     render::Image ours = renderer.draw(frames.front());
     for (const render::View& view : frames) {
-        leastBaseline.push_back(secondsOf([&] { ofQuads = quads.draw(least, std::move(ofQuads)); }, 1));
+        if (least != nullptr)
+            leastBaseline.push_back(secondsOf([&] { ofQuads = quads.draw(*least, std::move(ofQuads)); }, 1));
         baseline.push_back(secondsOf([&] { ofQuads = quads.draw(view, std::move(ofQuads)); }, 1));
         draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }, 1));
         times.push_back(renderer.times());
     }
-    return {median(baseline), median(leastBaseline), median(draw), medianStages(times)};
+    return {median(baseline), least == nullptr ? 0.0 : median(leastBaseline), median(draw), medianStages(times)};
 }
 
 PictureRow measureQuality(const PictureSettings& settings, render::Context& context, const Subject& subject,
@@ -168,13 +169,12 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
     render::Renderer renderer(context, subject.size, quality);
     {
         QuadBaseline quads(context, subject.size);
-        const Drawing moving = measureDrawing(quads, subject.least, renderer, frames);
+        const Drawing moving = measureDrawing(quads, renderer, frames, &subject.least);
         row.baseline = moving.baseline;
         row.leastBaseline = moving.leastBaseline;
         row.draw = moving.draw;
         row.stages = moving.stages;
-        const Drawing resting =
-            measureDrawing(quads, subject.least, renderer, framesAtRest(frames.front(), settings.frames));
+        const Drawing resting = measureDrawing(quads, renderer, framesAtRest(frames.front(), settings.frames));
         row.atRestBaseline = resting.baseline;
         row.atRest = resting.draw;
     }
@@ -209,6 +209,7 @@ const char* nameOf(Quality quality) {
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, const PictureListener& listener) {
     render::Context context(settings.backend);
     std::vector<PictureRow> rows;
+    if (settings.particles.empty()) return rows;
     for (const Style style : {Style::spheres, Style::metaballs}) {
         const render::View least = pictureCloud(std::ranges::min(settings.particles), style);
         for (const render::PictureSize size : settings.sizes)

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <tbb/global_control.h>
 
@@ -177,6 +179,20 @@ TEST_CASE("Openness: a lone particle sees the sky, one in a block does not, one 
     CHECK(top[3] < 0.3F);
     CHECK(openOf(block, {50.0F, 1.0F, 1.0F}) == render::kOpen);
     CHECK(openOf({}, {0.0F, 0.0F, 0.0F}) == render::kOpen);
+}
+
+TEST_CASE("Openness is the same in the memory of another scene's") {
+    std::vector<render::Sphere> block;
+    for (int k = 0; k < 12 * 12 * 12; ++k) block.push_back({0.2F * glm::vec3(k % 12, k / 12 % 12, k / 144), 0.1F, {}});
+    const std::span all(block);
+    for (const auto& [now, before] : {std::pair{all, all.first(7)}, std::pair{all.first(7), all}}) {
+        const render::OpennessGrid fresh = render::opennessGrid(now);
+        const render::OpennessGrid reused = render::opennessGrid(now, render::opennessGrid(before));
+        CHECK(reused.cells == fresh.cells);
+        CHECK(reused.origin == fresh.origin);
+        CHECK(reused.values == fresh.values);
+    }
+    CHECK(render::opennessGrid({}, render::opennessGrid(block)).cells == glm::ivec3(0));
 }
 
 TEST_CASE("Openness does not depend on where the cubes lie by more than a little") {

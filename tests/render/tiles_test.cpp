@@ -73,19 +73,37 @@ std::pair<double, double> projected(double center, double depth, double radius, 
 }  // namespace
 
 TEST_CASE("The pixels that spheres may touch are their projection and a margin of one") {
+    struct Lens {
+        render::Projection projection;
+        float degrees;
+        render::PictureSize size;
+    };
     std::mt19937 random(11);
     const auto between = [&](double low, double high) {
         return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
     };
-    for (const auto projection : {render::Projection::perspective, render::Projection::orthographic}) {
+    for (const Lens& lens : {Lens{render::Projection::perspective, 40.0F, {1280, 720}},
+                             Lens{render::Projection::perspective, 1.0F, {8192, 8192}},
+                             Lens{render::Projection::perspective, 150.0F, {640, 480}},
+                             Lens{render::Projection::orthographic, 40.0F, {1280, 720}}}) {
+        CAPTURE(lens.degrees);
         render::Camera camera;
-        camera.projection = projection;
-        const render::CameraFrame frame = render::cameraFrame(camera, {1280, 720});
+        camera.projection = lens.projection;
+        camera.verticalFov = glm::radians(lens.degrees);
+        const render::CameraFrame frame = render::cameraFrame(camera, lens.size);
+        const bool perspective = frame.perspective;
         std::vector<render::ViewSphere> spheres;
         for (int k = 0; k < 2003; ++k) {
             const float radius = between(0.001, 1.0);
-            spheres.push_back({{between(-8.0, 8.0), between(-5.0, 5.0), between(-1.0, 9.0)}, radius});
-            if (k % 5 == 0) spheres.back().center.z = radius * between(1.002, 1.1);  // just before the eye's plane
+            const float z = between(-1.0, 9.0);
+            const float reach = perspective ? 1.3F * std::abs(z) : 1.3F;
+            spheres.push_back(
+                {{between(-1.0, 1.0) * reach * frame.halfWidth, between(-1.0, 1.0) * reach * frame.halfHeight, z},
+                 radius});
+            if (k % 5 > 1) continue;
+            // Just before the eye's plane, all in front of the eye or with a border there.
+            spheres.back().center.z = radius * between(1.0002, 1.1);
+            if (k % 5 == 1) spheres.back().center.x = radius * between(0.98, 1.02);
         }
         const std::vector<render::Rect> touched = render::touchedPixels(frame, spheres);
         REQUIRE(touched.size() == spheres.size());
@@ -96,28 +114,34 @@ TEST_CASE("The pixels that spheres may touch are their projection and a margin o
             const render::Rect& at = touched[k];
             const bool isHidden = at.x1 < at.x0 || at.y1 < at.y0;
             (isHidden ? hidden : seen) += 1;
-            if (center.z + radius <= 0.0F) CHECK(isHidden);
-            if (center.z <= 1.0005F * radius && center.z + radius > 0.0F && frame.perspective)
-                CHECK((at.x0 == 0 && at.y0 == 0 && at.x1 == 1279 && at.y1 == 719));
-            if (frame.perspective && center.z <= 1.0015F * radius) continue;
-            if (center.z + radius <= 0.0F) continue;
-            const auto [left, right] =
-                projected(center.x, center.z, radius, frame.perspective, 640.0 / frame.halfWidth);
-            const auto [down, up] = projected(center.y, center.z, radius, frame.perspective, 360.0 / frame.halfHeight);
-            const auto holds = [](int first, int last, double low, double high, int count) {
-                // What is touched at all is within; what is within lies no farther than two pixels from it.
-                const double from = std::max(0.0, low);
-                const double to = std::min(static_cast<double>(count), high);
-                if (from > to) return true;
-                return first <= from && last + 1 >= to && (first == 0 || first > low - 2.1) &&
-                       (last == count - 1 || last < high + 1.1);
+            if (center.z + radius <= 0.0F) {
+                CHECK(isHidden);
+                continue;
+            }
+            if (perspective && center.z <= 1.00011F * radius) {
+                if (center.z < 1.00009F * radius)
+                    CHECK((at.x0 == 0 && at.y0 == 0 && at.x1 == frame.width - 1 && at.y1 == frame.height - 1));
+                continue;
+            }
+            const auto holds = [](int first, int last, std::pair<double, double> ends, int count) {
+                // What is touched at all is within, and with what is within goes a pixel on each side, and a part of
+                // one.
+                const double low = std::max(0.0, ends.first);
+                const double high = std::min(static_cast<double>(count), ends.second);
+                if (low > high) return true;
+                return first <= std::max(0.0, low - 0.9) && last + 1 >= std::min(high + 0.9, double(count)) &&
+                       (first == 0 || first > low - 2.1) && (last == count - 1 || last < high + 1.1);
             };
-            const bool isSeen =
-                640.0 + right > 0.0 && 640.0 + left < 1280.0 && 360.0 - down > 0.0 && 360.0 - up < 720.0;
-            if (isSeen) CHECK(!isHidden);
+            const double middleX = 0.5 * frame.width;
+            const double middleY = 0.5 * frame.height;
+            const auto [left, right] =
+                projected(center.x, center.z, radius, perspective, middleX / double(frame.halfWidth));
+            const auto [down, up] =
+                projected(center.y, center.z, radius, perspective, middleY / double(frame.halfHeight));
+            if (right > -middleX && left < middleX && up > -middleY && down < middleY) CHECK(!isHidden);
             if (isHidden) continue;
-            CHECK(holds(at.x0, at.x1, 640.0 + left, 640.0 + right, 1280));
-            CHECK(holds(at.y0, at.y1, 360.0 - up, 360.0 - down, 720));
+            CHECK(holds(at.x0, at.x1, {middleX + left, middleX + right}, frame.width));
+            CHECK(holds(at.y0, at.y1, {middleY - up, middleY - down}, frame.height));
         }
         CHECK(seen > 300);
         CHECK(hidden > 50);

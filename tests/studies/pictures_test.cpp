@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
+#include <string>
 #include <vector>
 #include "tests/catch.h"
 
@@ -151,6 +153,17 @@ TEST_CASE("A lone ball has its sphere's volume in either skin, and a pool its ow
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
 }
 
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> fields;
+    std::istringstream of(line);
+    for (std::string field; std::getline(of, field, ',');) fields.push_back(field);
+    return fields;
+}
+
+}  // namespace
+
 TEST_CASE("A small study has a row for each style, number, size and quality", "[pictures]") {
     PictureSettings settings;
     settings.particles = {500, 100};
@@ -178,12 +191,28 @@ TEST_CASE("A small study has a row for each style, number, size and quality", "[
         CHECK(row.ratio() > 0.0);
         CHECK(row.ratioAtRest() > 0.0);
         CHECK(row.leastBaseline > 0.0);
-        CHECK(row.ratioToLeast() == row.draw / row.leastBaseline);
         CHECK((row.stages.cast > 1e-5) == (row.style == Style::metaballs));  // s; less is the clock itself
         CHECK(row.error.ssim > 0.9);
     }
     const std::string csv = picturesCsv(rows);
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 13);
+    // As many fields in each line as the header has names, and each under its own.
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    const std::vector<std::string> names = split(line);
+    for (const PictureRow& row : rows) {
+        std::getline(lines, line);
+        const std::vector<std::string> fields = split(line);
+        REQUIRE(fields.size() == names.size());
+        const auto field = [&](const char* name) {
+            return std::stod(
+                fields[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]);
+        };
+        CHECK(field("least_baseline_ms") == Approx(1e3 * row.leastBaseline).epsilon(1e-3));
+        CHECK(field("ratio_to_least") == Approx(field("draw_ms") / field("least_baseline_ms")).epsilon(0.01));
+        CHECK(field("ssim") == Approx(row.error.ssim).epsilon(1e-4));
+    }
     CHECK(csv.find("metaballs,500,160,90,final,") != std::string::npos);
     CHECK(pictureTimesPlot(rows, {{render::Skin::plain, 700}}).find("700 ") != std::string::npos);
     CHECK(pictureErrorsPlot(rows).find("metaballs, normal") != std::string::npos);
