@@ -20,7 +20,7 @@ namespace render {
 /// Particles side by side: x, y, z and radius, in whole blocks.
 struct Crowd {
     std::size_t size = 0;
-    std::array<std::vector<float>, 4> values;  // with room for more than `size`
+    std::array<std::vector<float>, 4> values;  // alike in room for more than `size`
 };
 }  // namespace render
 #endif
@@ -47,9 +47,8 @@ void gather(const SkinCells& cells, glm::ivec3 cell, Crowd& crowd) {
         for (int y = first.y; y <= last.y; ++y) {
             const std::size_t begin = cells.begin[cells.cellIndex(first.x, y, z)];
             const std::size_t count = cells.begin[cells.cellIndex(last.x, y, z) + 1] - begin;
-            for (std::vector<float>& values : crowd.values)
-                if (values.size() < crowd.size + count + 2 * kCrowdBlock)
-                    values.resize(2 * (crowd.size + count + kCrowdBlock));
+            if (crowd.values[0].size() < crowd.size + count + 2 * kCrowdBlock)
+                for (std::vector<float>& values : crowd.values) values.resize(2 * (crowd.size + count + kCrowdBlock));
             // What a block holds beyond `count` is written over.
             for (std::size_t value = 0; value < 4; ++value)
                 for (std::size_t k = 0; k < count; k += kCrowdBlock)

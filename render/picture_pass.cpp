@@ -38,15 +38,15 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     meanRadius_ = meanRadiusOf(view);
     depthMapTexels_ = depthMapTexels;
     // None needs what those beside it find, and each has parts that keep one thread alone busy.
-    tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); },
-                         [&] {
-                             timed(times.bin, [&] {
-                                 drawn_ = drawnSpheres(view);
-                                 skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
-                             });
-                             tbb::parallel_invoke([&] { timed(times.bin, [&] { bin(view); }); },
-                                                  [&] { timed(times.shadow, [&] { findShadows(view); }); });
-                         });
+    const auto placeBalls = [&] {
+        timed(times.bin, [&] {
+            drawn_ = drawnSpheres(view);
+            skin_ = castsField_ ? skinOf(view) : std::vector<SkinBall>{};
+        });
+        tbb::parallel_invoke([&] { timed(times.bin, [&] { bin(view); }); },
+                             [&] { timed(times.shadow, [&] { findShadows(view); }); });
+    };
+    tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); }, placeBalls);
     timed(times.bin, [&] {
         looks_ = looksOf(view, drawn_, particleOpen_);
         findBoxes(view);

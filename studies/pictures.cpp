@@ -129,34 +129,34 @@ struct Subject {
     Style style;
     std::size_t particles;
     render::PictureSize size;
-    const render::View& least;  ///< of the least number that the study has
+    const render::View& fewest;  ///< particles of all that the study draws
 };
 
 /// Medians over some frames.
 struct Drawing {
-    double baseline = 0.0;       ///< s
-    double leastBaseline = 0.0;  ///< s
-    double draw = 0.0;           ///< s
+    double baseline = 0.0;        ///< s
+    double fewestBaseline = 0.0;  ///< s
+    double draw = 0.0;            ///< s
     DrawTimes stages;
 };
 
 /// Draws every frame with the quads and with the renderer in turn, so that both meet the machine in the same mood.
-/// least: drawn with the quads in turn, too; none: nothing.
+/// fewest: drawn with the quads in turn, too; none: nothing.
 Drawing measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
-                       const render::View* least = nullptr) {
+                       const render::View* fewest = nullptr) {
     std::vector<DrawTimes> times;
-    std::vector<double> baseline, leastBaseline, draw;
+    std::vector<double> baseline, fewestBaseline, draw;
     // The first frame compiles shaders.
     render::Image ofQuads = quads.draw(frames.front());
     render::Image ours = renderer.draw(frames.front());
     for (const render::View& view : frames) {
-        if (least != nullptr)
-            leastBaseline.push_back(secondsOf([&] { ofQuads = quads.draw(*least, std::move(ofQuads)); }, 1));
+        if (fewest != nullptr)
+            fewestBaseline.push_back(secondsOf([&] { ofQuads = quads.draw(*fewest, std::move(ofQuads)); }, 1));
         baseline.push_back(secondsOf([&] { ofQuads = quads.draw(view, std::move(ofQuads)); }, 1));
         draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }, 1));
         times.push_back(renderer.times());
     }
-    return {median(baseline), least == nullptr ? 0.0 : median(leastBaseline), median(draw), medianStages(times)};
+    return {median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline), median(draw), medianStages(times)};
 }
 
 PictureRow measureQuality(const PictureSettings& settings, render::Context& context, const Subject& subject,
@@ -169,9 +169,9 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
     render::Renderer renderer(context, subject.size, quality);
     {
         QuadBaseline quads(context, subject.size);
-        const Drawing moving = measureDrawing(quads, renderer, frames, &subject.least);
+        const Drawing moving = measureDrawing(quads, renderer, frames, &subject.fewest);
         row.baseline = moving.baseline;
-        row.leastBaseline = moving.leastBaseline;
+        row.fewestBaseline = moving.fewestBaseline;
         row.draw = moving.draw;
         row.stages = moving.stages;
         const Drawing resting = measureDrawing(quads, renderer, framesAtRest(frames.front(), settings.frames));
@@ -211,10 +211,10 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, const P
     std::vector<PictureRow> rows;
     if (settings.particles.empty()) return rows;
     for (const Style style : {Style::spheres, Style::metaballs}) {
-        const render::View least = pictureCloud(std::ranges::min(settings.particles), style);
+        const render::View fewest = pictureCloud(std::ranges::min(settings.particles), style);
         for (const render::PictureSize size : settings.sizes)
             for (const std::size_t particles : settings.particles)
-                measureSubject(settings, context, {style, particles, size, least}, listener, rows);
+                measureSubject(settings, context, {style, particles, size, fewest}, listener, rows);
     }
     return rows;
 }

@@ -30,12 +30,12 @@ struct PictureRow {
     double atRestBaseline = 0.0;  ///< the quads of those frames, in turn with them, s
     double withPng = 0.0;         ///< a frame of many, one encoded while the next is drawn, s
     double withMp4 = 0.0;         ///< likewise
-    double baseline = 0.0;       ///< the lit quads of the same spheres and size, drawn and read back in turn, s; median
-    double leastBaseline = 0.0;  ///< likewise of the least number of spheres that the study has
+    double baseline = 0.0;  ///< the lit quads of the same spheres and size, drawn and read back in turn, s; median
+    double fewestBaseline = 0.0;  ///< likewise of the fewest spheres that the study draws
     PictureError error;
 
     double ratio() const { return draw / baseline; }
-    double ratioToLeast() const { return draw / leastBaseline; }
+    double ratioToFewest() const { return draw / fewestBaseline; }
     double ratioAtRest() const { return atRest / atRestBaseline; }
 };
 

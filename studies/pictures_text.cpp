@@ -40,7 +40,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
     std::string csv =
         "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,color_ms,opengl_ms,read_back_ms,"
         "png_ms,mp4_ms,mp4_once_ms,draw_ms,draw_at_rest_ms,with_png_ms,with_mp4_ms,baseline_ms,baseline_at_rest_ms,"
-        "least_baseline_ms,ratio,ratio_at_rest,ratio_to_least,rmse,ssim,wrong_hits,depth_error_radii,"
+        "fewest_baseline_ms,ratio,ratio_at_rest,ratio_to_fewest,rmse,ssim,wrong_hits,depth_error_radii,"
         "normal_error_degrees\n";
     for (const PictureRow& row : rows) {
         csv += fmt::format("{},{},{},{},{}", nameOf(row.style), row.particles, row.size.width, row.size.height,
@@ -48,10 +48,10 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
         for (const double seconds :
              {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.color,
               row.stages.openGl, row.stages.readBack, row.png, row.mp4, row.mp4Once, row.draw, row.atRest, row.withPng,
-              row.withMp4, row.baseline, row.atRestBaseline, row.leastBaseline})
+              row.withMp4, row.baseline, row.atRestBaseline, row.fewestBaseline})
             csv += fmt::format(",{:.4g}", 1e3 * seconds);
         csv += fmt::format(",{:.3g},{:.3g},{:.3g},{:.4g},{:.5f},{:.3g},{:.3g},{:.3g}\n", row.ratio(), row.ratioAtRest(),
-                           row.ratioToLeast(), row.error.rmse, row.error.ssim, row.error.wrongHits, row.error.depth,
+                           row.ratioToFewest(), row.error.rmse, row.error.ssim, row.error.wrongHits, row.error.depth,
                            row.error.normal);
     }
     return csv;

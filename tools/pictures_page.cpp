@@ -30,11 +30,11 @@ std::string timeTable(const std::vector<studies::PictureRow>& rows) {
         const render::DrawTimes& t = row.stages;
         for (const double seconds :
              {t.bin, t.occlusion, t.shadow, t.cast, t.color, t.openGl, t.readBack, row.png, row.mp4, row.mp4Once,
-              row.draw, row.atRest, row.withPng, row.withMp4, row.baseline, row.atRestBaseline, row.leastBaseline})
+              row.draw, row.atRest, row.withPng, row.withMp4, row.baseline, row.atRestBaseline, row.fewestBaseline})
             cells.push_back(milliseconds(seconds));
         cells.push_back(fmt::format("{:.2f}", row.ratio()));
         cells.push_back(fmt::format("{:.2f}", row.ratioAtRest()));
-        cells.push_back(fmt::format("{:.2f}", row.ratioToLeast()));
+        cells.push_back(fmt::format("{:.2f}", row.ratioToFewest()));
         table_.push_back(cells);
     }
     return table({"style",

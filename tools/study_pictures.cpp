@@ -80,7 +80,7 @@ void tellRow(const studies::PictureRow& row, Talk talk) {
                        {"seconds", row.draw},
                        {"ratio", row.ratio()},
                        {"ratio_at_rest", row.ratioAtRest()},
-                       {"ratio_to_least", row.ratioToLeast()},
+                       {"ratio_to_fewest", row.ratioToFewest()},
                        {"ssim", row.error.ssim}});
     else if (talk == Talk::normal)
         say(fmt::format("{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
@@ -113,11 +113,10 @@ void print(const std::vector<studies::PictureRow>& rows) {
     for (const studies::PictureRow& row : rows)
         fmt::print(
             "{:9} {:>9} {:>9} {:7} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>6.2f} {:>8.2f} {:>9.2f} {:>9.3f} "
-            "{:>8.5f} "
-            "{:>9.4f}\n",
+            "{:>8.5f} {:>9.4f}\n",
             studies::nameOf(row.style), row.particles, fmt::format("{}x{}", row.size.width, row.size.height),
             studies::nameOf(row.quality), 1e3 * row.draw, 1e3 * row.atRest, 1e3 * row.withPng, 1e3 * row.withMp4,
-            1e3 * row.baseline, row.ratio(), row.ratioAtRest(), row.ratioToLeast(), row.error.rmse, row.error.ssim,
+            1e3 * row.baseline, row.ratio(), row.ratioAtRest(), row.ratioToFewest(), row.error.rmse, row.error.ssim,
             100.0 * row.error.wrongHits);
 }
 
