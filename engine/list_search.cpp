@@ -25,6 +25,7 @@ constexpr hn::Rebind<float, decltype(kWide)> kNarrow{};       // as many
 constexpr hn::Rebind<std::uint32_t, decltype(kWide)> kFew{};  // as many
 constexpr hn::CappedTag<float, 2 * kSearchOverhang> kTag{};
 constexpr hn::RebindToUnsigned<decltype(kTag)> kPlaces{};
+constexpr hn::CappedTag<std::uint16_t, 64> kNear{};
 
 std::uint32_t countOf(const Neighbourhood& around) {
     std::uint32_t sum = 0;
@@ -33,24 +34,30 @@ std::uint32_t countOf(const Neighbourhood& around) {
     return sum;
 }
 
+/// A bit a lane.
+std::uint16_t bitsOf(hn::Mask<decltype(kTag)> mask) {
+    std::array<std::uint8_t, 8> bytes = {};
+    hn::StoreMaskBits(kTag, mask, bytes.data());
+    return static_cast<std::uint16_t>(bytes[0] | static_cast<unsigned>(bytes[1]) << 8U);
+}
+
 /// As CompressStore, whose table gcc copies to the stack whenever it looks something up, and with which lists take four
-/// times as long on processors (Zen 4) that are slow to store what they pack.
-std::size_t pack(hn::Vec<decltype(kPlaces)> places, hn::Mask<decltype(kPlaces)> chosen, std::uint32_t* to) {
+/// times as long on processors (Zen 4) that are slow to store what they pack. Shape: a bit a lane.
+std::size_t pack(hn::Vec<decltype(kPlaces)> places, std::uint16_t chosen, std::uint32_t* to) {
 #if HWY_TARGET <= HWY_AVX3
-    hn::StoreU(hn::Compress(places, chosen), kPlaces, to);
-    return hn::CountTrue(kPlaces, chosen);
+    const std::array<std::uint8_t, 8> bytes = {static_cast<std::uint8_t>(chosen),
+                                               static_cast<std::uint8_t>(chosen >> 8U)};
+    hn::StoreU(hn::Compress(places, hn::LoadMaskBits(kPlaces, bytes.data())), kPlaces, to);
 #else
     static_assert(hn::MaxLanes(kPlaces) <= kPacked);
     constexpr hn::Rebind<std::uint8_t, decltype(kPlaces)> kBytes{};
-    std::array<std::uint8_t, 8> bits = {};
-    hn::StoreMaskBits(kPlaces, chosen, bits.data());
-    const auto numbers = hn::PromoteTo(kPlaces, hn::LoadU(kBytes, kPackings[bits[0]].data()));
+    const auto numbers = hn::PromoteTo(kPlaces, hn::LoadU(kBytes, kPackings[chosen].data()));
     hn::StoreU(hn::TableLookupLanes(places, hn::IndicesFromVec(kPlaces, numbers)), kPlaces, to);
-    return static_cast<std::size_t>(std::popcount(bits[0]));
 #endif
+    return static_cast<std::size_t>(std::popcount(chosen));
 }
 
-/// What the particles of a cell have in common.
+/// What the particles of a run have in common.
 struct Search {
     const Candidates& candidates;
     const Neighbourhood& around;
@@ -61,6 +68,11 @@ struct Search {
 
     Vec3 positionOf(std::uint32_t place) const {
         return {candidates.x[place], candidates.y[place], candidates.z[place]};
+    }
+
+    /// Whether float, from the origin, tells apart what is near to a particle.
+    bool seesWell(std::uint32_t self) const {
+        return ((positionOf(self) - origin).array().abs() < kClearSight / perReach).all();
     }
 
     void look(const Vec3& from) {
@@ -88,27 +100,74 @@ struct Search {
         hn::StoreU(hn::DemoteTo(kNarrow, hn::Mul(away, hn::Set(kWide, perReach))), kNarrow, to);
     }
 
-    /// Writes a row and returns its length.
-    std::size_t sift(std::uint32_t self, std::uint32_t* row) const {
-        const Vec3 from = (positionOf(self) - origin) * perReach;
-        const auto x = hn::Set(kTag, static_cast<float>(from.x()));
-        const auto y = hn::Set(kTag, static_cast<float>(from.y()));
-        const auto z = hn::Set(kTag, static_cast<float>(from.z()));
-        const auto limit = hn::Set(kTag, kFloatMargin);
-        const auto own = hn::Set(kPlaces, self);
+    /// Where a particle, who is one of them, stands among the candidates.
+    std::uint32_t standsAt(std::uint32_t self) const {
+        std::uint32_t before = 0;
+        for (int r = 0; r < around.count; ++r) {
+            const CellRange range = around.ranges[static_cast<std::size_t>(r)];
+            if (range.begin <= self && self < range.end) return before + self - range.begin;
+            before += range.end - range.begin;
+        }
+        return before;
+    }
+
+    /// Vectors of candidates.
+    std::uint32_t vectors() const { return (count + lanes() - 1) / lanes(); }
+
+    static std::uint32_t lanes() { return static_cast<std::uint32_t>(hn::Lanes(kTag)); }
+
+    /// Notes which candidates are near, for each of some particles who stand side by side. A vector of candidates is
+    /// compared with all of them while it is at hand.
+    void sift(std::uint32_t first, std::uint32_t selves) {
+        const std::size_t stride = vectors();
+        const std::size_t room = selves * stride + hn::Lanes(kNear);  // some are read beyond the last
+        if (seen.near.size() < room) seen.near.resize(2 * room);
         const float* const xs = seen.x.data();
         const float* const ys = seen.y.data();
         const float* const zs = seen.z.data();
+        const auto limit = hn::Set(kTag, kFloatMargin);
+        for (std::uint32_t k = 0; k < stride; ++k) {
+            std::uint16_t* near = &seen.near[k];
+            const auto x = hn::LoadU(kTag, xs + k * lanes());
+            const auto y = hn::LoadU(kTag, ys + k * lanes());
+            const auto z = hn::LoadU(kTag, zs + k * lanes());
+            for (std::uint32_t self = first; self < first + selves; ++self, near += stride) {
+                const auto dx = hn::Sub(hn::Set(kTag, xs[self]), x);
+                const auto dy = hn::Sub(hn::Set(kTag, ys[self]), y);
+                const auto dz = hn::Sub(hn::Set(kTag, zs[self]), z);
+                const auto distanceSq = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+                *near = bitsOf(hn::Lt(distanceSq, limit));
+            }
+        }
+        // Nobody is near to himself.
+        for (std::uint32_t self = 0; self < selves; ++self)
+            seen.near[self * stride + (first + self) / lanes()] &=
+                static_cast<std::uint16_t>(~(1U << (first + self) % lanes()));
+    }
+
+    /// Writes the row of one of those and returns its length.
+    std::size_t pick(std::uint32_t self, std::uint32_t* row) const {
+        const auto atOnce = static_cast<std::uint32_t>(hn::Lanes(kNear));
+        const std::uint16_t* const near = &seen.near[std::size_t{self} * vectors()];
         const std::uint32_t* const all = seen.places.data();
         std::size_t length = 0;
-        for (std::uint32_t k = 0; k < count; k += static_cast<std::uint32_t>(hn::Lanes(kTag))) {
-            const auto dx = hn::Sub(x, hn::LoadU(kTag, xs + k));
-            const auto dy = hn::Sub(y, hn::LoadU(kTag, ys + k));
-            const auto dz = hn::Sub(z, hn::LoadU(kTag, zs + k));
-            const auto distanceSq = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-            const auto places = hn::LoadU(kPlaces, all + k);
-            const auto isNear = hn::And(hn::RebindMask(kPlaces, hn::Lt(distanceSq, limit)), hn::Ne(places, own));
-            length += pack(places, isNear, row + length);
+        const auto take = [&](std::uint32_t k) {
+            length += pack(hn::LoadU(kPlaces, all + k * lanes()), near[k], row + length);
+        };
+        // Of few vectors all are taken sooner than chosen from.
+        constexpr std::uint32_t kMostTaken = 12;
+        if (vectors() <= kMostTaken) {
+            for (std::uint32_t k = 0; k < vectors(); ++k) take(k);
+            return length;
+        }
+        // In half of many nobody is near.
+        for (std::uint32_t k = 0; k < vectors(); k += atOnce) {
+            std::uint64_t some = 0;
+            hn::StoreMaskBits(kNear, hn::Ne(hn::LoadU(kNear, near + k), hn::Zero(kNear)),
+                              reinterpret_cast<std::uint8_t*>(&some));
+            const std::uint32_t left = vectors() - k;
+            if (left < atOnce) some &= (std::uint64_t{1} << left) - 1;
+            for (; some != 0; some &= some - 1) take(k + static_cast<std::uint32_t>(std::countr_zero(some)));
         }
         return length;
     }
@@ -123,17 +182,21 @@ void findInReachHere(const Candidates& candidates, const Neighbourhood& around, 
         scratch.places.resize(2 * room);
     }
     Search search{candidates, around, 1.0 / reach, count, scratch, {}};
-    search.look(search.positionOf(selves.begin));
-    for (std::uint32_t self = selves.begin; self < selves.end; ++self) {
-        // Particles that are far apart may share a cell; others are no further apart than a cell is wide.
-        const Vec3 position = search.positionOf(self);
-        if (!((position - search.origin).array().abs() < 1.5 * reach).all()) search.look(position);
-        if (rows.places.size() < rows.used + room) rows.places.resize(rows.used + rows.used / 2 + room);
-        const std::size_t length = search.sift(self, &rows.places[rows.used]);
-        lengths[self - selves.begin] = static_cast<std::uint32_t>(length);
-        rows.used += length;
-        std::fill_n(&rows.places[rows.used], kRowPadding, self);
-        rows.used += kRowPadding;
+    for (std::uint32_t begin = selves.begin; begin < selves.end;) {
+        // Particles that are far apart may share a cell.
+        search.look(search.positionOf(begin));
+        std::uint32_t end = begin + 1;
+        while (end < selves.end && search.seesWell(end)) ++end;
+        search.sift(search.standsAt(begin), end - begin);
+        for (std::uint32_t self = begin; self < end; ++self) {
+            if (rows.places.size() < rows.used + room) rows.places.resize(rows.used + rows.used / 2 + room);
+            const std::size_t length = search.pick(self - begin, &rows.places[rows.used]);
+            lengths[self - selves.begin] = static_cast<std::uint32_t>(length);
+            rows.used += length;
+            std::fill_n(&rows.places[rows.used], kRowPadding, self);
+            rows.used += kRowPadding;
+        }
+        begin = end;
     }
 }
 

@@ -24,6 +24,7 @@ struct Candidates {
 struct Surroundings {
     std::vector<float> x, y, z;  ///< from the origin, in reaches
     std::vector<std::uint32_t> places;
+    std::vector<std::uint16_t> near;  ///< for each particle and vector of candidates a bit a lane: whether it is near
 };
 
 /// Rows one after the other, each followed by its padding.
@@ -32,12 +33,15 @@ struct FoundRows {
     std::size_t used = 0;
 };
 
-/// Of the reach squared: float errs by 1e-6 of it, and no pair within may be missed.
+/// Of the reach squared: float errs by 4e-6 of it, and no pair within may be missed.
 inline constexpr float kFloatMargin = 1.00001F;
 
-/// Appends for one place of a cell after the other the row of the places of all others within reach (m) of it, in the
-/// order of the neighbourhood's ranges; of none whose distance squared is beyond reach^2 kFloatMargin by more than
-/// float's error. Writes the length of each.
+/// How far from the origin a particle may be, along each axis, for float to tell apart what is near to it, in reaches.
+inline constexpr double kClearSight = 8.0;
+
+/// Appends for one place of a run of cells after the other the row of the places of all others within reach (m) of it,
+/// in the order of the neighbourhood's ranges; of none whose distance squared is beyond reach^2 kFloatMargin by more
+/// than float's error. Writes the length of each.
 void findInReach(const Candidates& candidates, const Neighbourhood& around, CellRange selves, double reach,
                  Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths);
 

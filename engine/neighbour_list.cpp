@@ -41,13 +41,18 @@ struct FoundPart {
     std::array<std::uint32_t, kSeatsPerPart> lengths;
 };
 
+/// Chosen: what is around some cells is looked at once for so many particles, if they are no further apart than float
+/// sees well.
+constexpr std::uint32_t kRunParticles = 12;
+constexpr auto kRunCells = static_cast<std::uint32_t>(kClearSight);
+
 void search(const NeighbourList& list, const CellRange& range, FoundPart& found) {
     found.rows.used = 0;
+    const CellGrid& grid = list.scratch.grid;
     for (std::uint32_t place = range.begin; place < range.end;) {
-        const CellGrid& grid = list.scratch.grid;
-        const std::uint32_t cell = grid.cellOf[list.order[place]];
-        const CellRange selves{place, std::min(grid.start[cell + 1], range.end)};
-        findInReach(list.scratch.candidates, neighbourhood(grid, cell), selves, list.reach, found.surroundings,
+        const CellRun run = runFrom(grid, grid.cellOf[list.order[place]], kRunParticles, kRunCells);
+        const CellRange selves{place, std::min(grid.start[run.last + 1], range.end)};
+        findInReach(list.scratch.candidates, neighbourhood(grid, run), selves, list.reach, found.surroundings,
                     found.rows, &found.lengths[place - range.begin]);
         place = selves.end;
     }
@@ -151,8 +156,8 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
     if (positions.empty()) return true;
     const double slack = 0.5 * (list.reach - cutoff);
     const auto way = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
-    if (farthestFrom(Vec3::Zero(), positions.size(), way) <= slack) return true;  // mostly, and soon known
-    return farthestFrom(extentOver(positions.size(), way).middle(), positions.size(), way) <= slack;
+    if (areWithin(slack, Vec3::Zero(), positions.size(), way)) return true;  // mostly, and soon known
+    return areWithin(slack, extentOver(positions.size(), way).middle(), positions.size(), way);
 }
 
 std::size_t roomOf(const LaneRows& rows) {

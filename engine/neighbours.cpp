@@ -16,12 +16,11 @@ std::int64_t cellLimit(std::size_t particleCount) {
     return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount));
 }
 
-std::array<std::int64_t, 3> chooseDimensions(const std::vector<Vec3>& positions, double width) {
-    const auto [low, high] = extentOver(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
-    const std::int64_t limit = cellLimit(positions.size());
+std::array<std::int64_t, 3> chooseDimensions(const Extent& extent, std::size_t particleCount, double width) {
+    const std::int64_t limit = cellLimit(particleCount);
     std::array<std::int64_t, 3> dimensions{};
     for (int axis = 0; axis < 3; ++axis) {
-        const double along = std::floor((high[axis] - low[axis]) / width) + 2.0;
+        const double along = std::floor((extent.high[axis] - extent.low[axis]) / width) + 2.0;
         // In this order a width that is not a number is the limit.
         dimensions[static_cast<std::size_t>(axis)] =
             static_cast<std::int64_t>(std::min(static_cast<double>(limit), along));
@@ -49,11 +48,25 @@ std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
     return index < size ? index : index - size;
 }
 
-/// The cell of a coordinate along one axis. What has left every world, or is no number, shares the last cell: the audit
-/// after the step says what happened.
-std::int64_t cellAlong(double coordinate, double width, std::int64_t size) {
-    return wrapped(cellNumber(coordinate, width), size);
-}
+/// Cells along one axis. What has left every world, or is no number, shares a cell with others: the audit after the
+/// step says what happened.
+struct Axis {
+    double width;         ///< m
+    std::int64_t size;    ///< cells
+    std::int64_t first;   ///< number of the first that is used
+    std::int64_t stored;  ///< where that one is kept
+
+    Axis(double cellWidth, std::int64_t cells, double lowest)
+        : width(cellWidth), size(cells), first(cellNumber(lowest, width)), stored(wrapped(first, size)) {}
+
+    std::int64_t cellOf(double coordinate) const {
+        const std::int64_t number = cellNumber(coordinate, width);
+        const std::int64_t steps = number - first;
+        // Mostly there are as many cells as are needed, and a division takes as long as all the rest.
+        if (steps < 0 || steps >= size) return wrapped(number, size);
+        return wrappedStep(stored + steps, size);
+    }
+};
 
 }  // namespace
 
@@ -65,14 +78,18 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     if (positions.empty()) return;
 
     const double width = cellWidth * kRoundingMargin;
-    grid.dimensions = chooseDimensions(positions, width);
+    const Extent extent = extentOver(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
+    grid.dimensions = chooseDimensions(extent, positions.size(), width);
     const std::array<std::int64_t, 3>& size = grid.dimensions;
     // One more than there are, and counts two places further on: filling leaves each start where it belongs.
     grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 2, 0);
+    const Axis alongX(width, size[0], extent.low.x());
+    const Axis alongY(width, size[1], extent.low.y());
+    const Axis alongZ(width, size[2], extent.low.z());
     inParallel(positions.size(), kParticleGrain, [&](std::size_t p) {
-        const std::int64_t x = cellAlong(positions[p].x(), width, size[0]);
-        const std::int64_t y = cellAlong(positions[p].y(), width, size[1]);
-        const std::int64_t z = cellAlong(positions[p].z(), width, size[2]);
+        const std::int64_t x = alongX.cellOf(positions[p].x());
+        const std::int64_t y = alongY.cellOf(positions[p].y());
+        const std::int64_t z = alongZ.cellOf(positions[p].z());
         grid.cellOf[p] = static_cast<std::uint32_t>((z * size[1] + y) * size[0] + x);
     });
     for (const std::uint32_t cell : grid.cellOf) ++grid.start[cell + 2];
@@ -82,11 +99,22 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     grid.start.pop_back();
 }
 
-Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {
+CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells) {
+    const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
+    const std::uint32_t x = cell % nx;
+    CellRun run{cell, cell};
+    if (x == 0) return run;
+    const std::uint32_t end = std::min(cell + mostCells, cell - x + nx - 1);
+    while (run.last + 1 < end && grid.start[run.last + 2] - grid.start[cell] <= mostParticles) ++run.last;
+    return run;
+}
+
+Neighbourhood neighbourhood(const CellGrid& grid, const CellRun& run) {
     const auto [nx, ny, nz] = grid.dimensions;
     // In 32 bits, which hold any cell's number, divisions take half as long.
-    const std::uint32_t row = cell / static_cast<std::uint32_t>(nx);
-    const std::int64_t x = cell % static_cast<std::uint32_t>(nx);
+    const std::uint32_t row = run.first / static_cast<std::uint32_t>(nx);
+    const std::int64_t x = run.first % static_cast<std::uint32_t>(nx);
+    const std::int64_t lastX = x + run.last - run.first;
     const std::int64_t y = row % static_cast<std::uint32_t>(ny);
     const std::int64_t z = row / static_cast<std::uint32_t>(ny);
     // With one or two cells along an axis, steps of -1 and +1 meet: visit each cell once.
@@ -104,12 +132,12 @@ Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell) {
         else
             found.ranges[static_cast<std::size_t>(found.count++)] = range;
     };
-    const bool isInside = x > 0 && x + 1 < nx;  // its neighbours along x lie side by side
+    const bool isInside = x > 0 && lastX + 1 < nx;  // its neighbours along x lie side by side
     for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
         for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
             const std::int64_t first = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;
             if (isInside) {
-                add(first + x - 1, first + x + 1);
+                add(first + x - 1, first + lastX + 1);
                 continue;
             }
             for (std::int64_t dx = firstStep(nx); dx <= lastStep(nx); ++dx) {

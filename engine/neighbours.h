@@ -38,7 +38,17 @@ struct CellGrid {
 /// Holds:  the order within a cell is that of the indices, so that it depends on the positions alone.
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth);
 
-/// The ranges around a cell, in a fixed order, neighbours along x joined where storage is consecutive.
-Neighbourhood neighbourhood(const CellGrid& grid, std::uint32_t cell);
+/// Cells side by side along x, none at the end of a row but for one alone.
+struct CellRun {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+};
+
+/// The longest run from a cell on without more particles or cells than that, or the cell itself.
+CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells);
+
+/// The ranges in and around the cells of a run, in a fixed order, neighbours along x joined where storage is
+/// consecutive.
+Neighbourhood neighbourhood(const CellGrid& grid, const CellRun& run);
 
 }  // namespace engine

@@ -2,7 +2,7 @@
 #include "engine/pair_traversal.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "engine/extent.h"
 #include "engine/list_skin.h"
@@ -13,13 +13,14 @@ namespace {
 /// Units in the reach of a list: differences within it stay below 2^24, which float holds exactly.
 constexpr double kUnits = 8388608.0;
 
-/// Rounded to a whole number, modulo 2^32; some number for what is no number or beyond all worlds. A conversion that
-/// cuts off is one instruction, llround a call.
+/// Rounded to a whole number, modulo 2^32; some number for what is no number. A sum with 1.5 x 2^52 is rounded to a
+/// whole number that stands in its last bits: no conversion, which would need a branch for what does not fit.
 std::int32_t wrapped(double units) {
-    constexpr double kFarthest = 9e18;  // below 2^63
-    const double within = std::max(-kFarthest, std::min(kFarthest, units));
-    const auto whole = static_cast<std::int64_t>(within + std::copysign(0.5, within));
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(whole)));
+    constexpr double kRounding = 0x1.8p52;
+    constexpr double kTurn = 0x1p32;
+    const double turns = (units / kTurn + kRounding) - kRounding;
+    const double rest = units - turns * kTurn;  // exact
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(rest + kRounding)));
 }
 
 /// Fetches a particle some places ahead into the cache: the list's order is not that of the particles, so that no

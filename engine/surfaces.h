@@ -81,6 +81,8 @@ bool mayReach(const Shape& shape, const Vec3& point, double reach) {
     } else if constexpr (std::is_same_v<Shape, Box>) {
         const Vec3 closest = point.cwiseMax(shape.minimum).cwiseMin(shape.maximum);
         return squaredLength(point - closest) < kSlack * reach * reach;
+    } else if constexpr (std::is_same_v<Shape, Container>) {
+        return ((point - shape.minimum).array() < reach).any() || ((shape.maximum - point).array() < reach).any();
     } else {
         return true;
     }

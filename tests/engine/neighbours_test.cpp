@@ -12,10 +12,10 @@ using namespace engine;
 
 namespace {
 
-/// Every particle that the grid offers as a candidate for p; fails on one that is offered twice.
-std::set<std::uint32_t> candidates(const CellGrid& grid, std::size_t p) {
+/// Every particle that the grid offers as a candidate for those in a run; fails on one that is offered twice.
+std::set<std::uint32_t> candidates(const CellGrid& grid, const CellRun& run) {
     std::set<std::uint32_t> found;
-    const Neighbourhood around = neighbourhood(grid, grid.cellOf[p]);
+    const Neighbourhood around = neighbourhood(grid, run);
     for (int r = 0; r < around.count; ++r) {
         const CellRange range = around.ranges[static_cast<std::size_t>(r)];
         for (std::uint32_t slot = range.begin; slot < range.end; ++slot) CHECK(found.insert(grid.order[slot]).second);
@@ -23,17 +23,31 @@ std::set<std::uint32_t> candidates(const CellGrid& grid, std::size_t p) {
     return found;
 }
 
+void checkOffered(const std::vector<Vec3>& positions, double width, std::size_t p,
+                  const std::set<std::uint32_t>& found) {
+    for (std::uint32_t i = 0; i < positions.size(); ++i)
+        if (squaredLength(positions[p] - positions[i]) < width * width) {
+            INFO("particle " << p << " misses " << i);
+            CHECK(found.count(i) == 1);
+        }
+}
+
+constexpr std::uint32_t kMostParticles = 12;
+constexpr std::uint32_t kMostCells = 5;
+
 void checkComplete(const std::vector<Vec3>& positions, double width) {
     CellGrid grid;
     build(grid, positions, width);
     CHECK(grid.cellCount() <= std::max<std::size_t>(64, 2 * positions.size()));
-    for (std::size_t p = 0; p < positions.size(); ++p) {
-        const auto found = candidates(grid, p);
-        for (std::uint32_t i = 0; i < positions.size(); ++i)
-            if (squaredLength(positions[p] - positions[i]) < width * width) {
-                INFO("particle " << p << " misses " << i);
-                CHECK(found.count(i) == 1);
-            }
+    for (std::size_t p = 0; p < positions.size(); ++p)
+        checkOffered(positions, width, p, candidates(grid, {grid.cellOf[p], grid.cellOf[p]}));
+    for (std::uint32_t cell = 0; cell < grid.cellCount(); ++cell) {
+        const CellRun run = runFrom(grid, cell, kMostParticles, kMostCells);
+        CHECK(run.first == cell);
+        CHECK(run.last < cell + kMostCells);
+        const auto found = candidates(grid, run);
+        for (std::uint32_t slot = grid.start[cell]; slot < grid.start[run.last + 1]; ++slot)
+            checkOffered(positions, width, grid.order[slot], found);
     }
 }
 
@@ -71,11 +85,28 @@ TEST_CASE("The order within a cell is that of the indices", "[neighbours]") {
         CHECK(std::is_sorted(grid.order.begin() + grid.start[cell], grid.order.begin() + grid.start[cell + 1]));
 }
 
+TEST_CASE("Runs are as long as they may be, and end before the end of a row", "[neighbours]") {
+    std::vector<Vec3> positions;
+    for (int x = 0; x < 12; ++x) positions.emplace_back(x + 0.5, 0.5, 0.5);  // one a cell, of 13 a row
+    CellGrid grid;
+    build(grid, positions, 1.0);
+    const auto cellsFrom = [&](std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells) {
+        const CellRun run = runFrom(grid, cell, mostParticles, mostCells);
+        return run.last - run.first + 1;
+    };
+    CHECK(cellsFrom(0, 100, 100) == 1);
+    CHECK(cellsFrom(1, 100, 100) == 11);
+    CHECK(cellsFrom(1, 100, 6) == 6);
+    CHECK(cellsFrom(1, 3, 100) == 3);
+    CHECK(cellsFrom(1, 0, 100) == 1);
+    CHECK(cellsFrom(12, 100, 100) == 1);
+}
+
 TEST_CASE("No particles, no cells to visit", "[neighbours]") {
     CellGrid grid;
     build(grid, {}, 0.6);
     CHECK(grid.order.empty());
-    CHECK(neighbourhood(grid, 0).count == 0);
+    CHECK(neighbourhood(grid, {}).count == 0);
 }
 
 TEST_CASE("Positions that are no numbers or beyond all cells do no harm to the others", "[neighbours]") {
@@ -87,7 +118,7 @@ TEST_CASE("Positions that are no numbers or beyond all cells do no harm to the o
     CellGrid grid;
     build(grid, positions, 0.6);
     for (std::size_t p = 0; p < sound; ++p) {
-        const auto found = candidates(grid, p);
+        const auto found = candidates(grid, {grid.cellOf[p], grid.cellOf[p]});
         for (std::uint32_t i = 0; i < sound; ++i)
             if (squaredLength(positions[p] - positions[i]) < 0.36) CHECK(found.count(i) == 1);
     }
