@@ -99,7 +99,8 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
         const Lanes<T> separationSq = dot(row.separation, row.separation);
         const Lanes<T> distanceSq = law.squareMetres(separationSq);
         const auto isCoincident = hn::And(row.isPair, hn::Eq(separationSq, hn::Zero(kTag)));
-        coincident = hn::Or(coincident, isCoincident);
+        if (HWY_UNLIKELY(!hn::AllFalse(kTag, isCoincident)))
+            coincident = hn::Or(coincident, source.sharePlace(entry, isCoincident));
         Lanes<T> approach = hn::Zero(kTag);
         if constexpr (Kind::kPair.damping) approach = dot(row.velocity, row.separation);
         // A place that fills up a row is the particle itself, for which P is zero.

@@ -29,7 +29,7 @@ struct LanePass {
 /// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by seat.
 struct LaneSums {
     std::array<double, kGroup> x, y, z, energy;
-    std::uint32_t coincident = 0;  ///< a bit each: shares its position, as separations tell it, with another
+    std::uint32_t coincident = 0;  ///< a bit each: shares its position with another, as far as the kernel knows
 };
 
 void addUpGroup(const LanePass& pass, std::size_t group, LaneSums& sums);

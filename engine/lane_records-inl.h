@@ -115,6 +115,11 @@ struct Doubles {
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
         return row;
     }
+
+    /// Of pairs of a row without separation those that share their position.
+    hn::Mask<Tag<double>> sharePlace(const std::int32_t* /*places*/, hn::Mask<Tag<double>> pairs) const {
+        return pairs;
+    }
 };
 
 /// In float: positions are whole numbers of a unit, modulo 2^32, whose differences are exact anywhere in the world, and
@@ -127,12 +132,14 @@ struct Singles {
     static constexpr hn::Rebind<std::int32_t, Tag<float>> kWhole{};
     static constexpr std::int64_t kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
 
+    const SinglePrecisionRecord* records;
+    const std::int32_t* selves;
     const float* base;  ///< of the first record; its positions are bits of integers
     I self;
     Others<I, V> own;
 
-    Singles(const SinglePrecisionRecord* records, const std::int32_t* places)
-        : base(reinterpret_cast<const float*>(records)), self(hn::LoadU(kWhole, places)) {
+    Singles(const SinglePrecisionRecord* all, const std::int32_t* places)
+        : records(all), selves(places), base(reinterpret_cast<const float*>(all)), self(hn::LoadU(kWhole, places)) {
         own = load<true>(places);
     }
 
@@ -193,6 +200,16 @@ struct Singles {
         row.separation = {hn::ConvertTo(kTag, units.x), hn::ConvertTo(kTag, units.y), hn::ConvertTo(kTag, units.z)};
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
         return row;
+    }
+
+    /// Of pairs of a row without separation those that share their position: others are only nearer than a unit.
+    hn::Mask<Tag<float>> sharePlace(const std::int32_t* places, hn::Mask<Tag<float>> pairs) const {
+        std::array<std::uint8_t, 8> bits = {};
+        hn::StoreMaskBits(kTag, pairs, bits.data());
+        for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane)
+            if (!coincide(records[selves[lane]], records[places[lane]]))
+                bits[lane / 8] &= static_cast<std::uint8_t>(~(1U << lane % 8));
+        return hn::LoadMaskBits(kTag, bits.data());
     }
 };
 
