@@ -58,7 +58,7 @@ double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorO
     }));
 }
 
-/// Whether none of vectorOf(index) over 0 ... count - 1 is further than that from a vector, or no number.
+/// Whether none of vectorOf(index) over 0 ... count - 1 is further than a distance from a vector, or no number.
 template <class VectorOf>
 bool areWithin(double distance, const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
     std::atomic<bool> all = true;

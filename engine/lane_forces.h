@@ -29,7 +29,8 @@ struct LanePass {
 /// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by seat.
 struct LaneSums {
     std::array<double, kGroup> x, y, z, energy;
-    std::uint32_t coincident = 0;  ///< a bit each: shares its position with another, as far as the kernel knows
+    /// A bit each: shares its position with another, as its record tells; in double also who is so near that P.P is 0.
+    std::uint32_t coincident = 0;
 };
 
 void addUpGroup(const LanePass& pass, std::size_t group, LaneSums& sums);

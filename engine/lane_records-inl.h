@@ -116,7 +116,7 @@ struct Doubles {
         return row;
     }
 
-    /// Of pairs of a row without separation those that share their position.
+    /// Of pairs of a row without separation those that share their position: all, or nearly.
     hn::Mask<Tag<double>> sharePlace(const std::int32_t* /*places*/, hn::Mask<Tag<double>> pairs) const {
         return pairs;
     }

@@ -41,8 +41,9 @@ struct FoundPart {
     std::array<std::uint32_t, kSeatsPerPart> lengths;
 };
 
-/// Chosen: what is around some cells is looked at once for so many particles, if they are no further apart than float
-/// sees well.
+/// What is around some cells is looked at once for so many particles, if they are no further apart than float sees
+/// well. Measured with `globular bench --filter list`: a quarter less time for powder than cell by cell; 6 to 32 are
+/// alike.
 constexpr std::uint32_t kRunParticles = 12;
 constexpr auto kRunCells = static_cast<std::uint32_t>(kClearSight);
 

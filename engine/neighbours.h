@@ -19,7 +19,7 @@ struct CellRange {
     std::uint32_t end = 0;
 };
 
-/// The ranges that hold a cell's neighbourhood; each particle occurs in at most one.
+/// The ranges that hold what is in and around some cells; each particle occurs in at most one.
 struct Neighbourhood {
     std::array<CellRange, 27> ranges;
     int count = 0;
@@ -38,10 +38,10 @@ struct CellGrid {
 /// Holds:  the order within a cell is that of the indices, so that it depends on the positions alone.
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth);
 
-/// Cells side by side along x, none at the end of a row but for one alone.
+/// Cells side by side along x; a cell at either end of a row is a run of its own.
 struct CellRun {
     std::uint32_t first = 0;
-    std::uint32_t last = 0;
+    std::uint32_t last = 0;  ///< is one of them
 };
 
 /// The longest run from a cell on without more particles or cells than that, or the cell itself.

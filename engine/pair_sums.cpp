@@ -3,7 +3,6 @@
 #include "engine/pair_sums.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "engine/lane_forces.h"
@@ -132,7 +131,7 @@ void overGroups(const PairTraversal& pairs, const AddUp& addUp) {
     });
 }
 
-/// The same for what adds up energies: of a group, J, which addUp returns.
+/// The sum of addUp(group), a group's energy, J.
 template <class AddUp>
 double energyOverGroups(const PairTraversal& pairs, const AddUp& addUp) {
     std::vector<double> energies((pairs.list.count() + kGroup - 1) / kGroup);
@@ -202,9 +201,23 @@ void keep(const Sums& sums, std::size_t lane, LaneSums& of) {
     of.energy[lane] = sums.energy;
 }
 
-/// What is wanted of uniform particles, a particle a lane. In double coincident ones are done again by the scalar
-/// kernel, which knows how to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair
-/// would be rounded differently.
+/// What lanes do not know of coincident particles. In double they are done again by the scalar kernel, which knows how
+/// to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be rounded
+/// differently.
+template <PairTerms terms>
+void partCoincident(const PairTraversal& pairs, const PairSums& wanted, const Group& group, LaneSums& of) {
+    const Kernel<Variant{terms, true, true, false}> scalar{pairs, wanted};
+    for (std::size_t seat = group.first; seat < group.end; ++seat) {
+        const std::size_t lane = seat - group.first;
+        if ((of.coincident >> lane & 1U) == 0) continue;
+        if (!pairs.singles.empty())
+            keep(sumsOf(of, lane) + partingSums<terms>(pairs, seat), lane, of);
+        else if (isCoincident(pairs, seat))
+            keep(scalar(seat), lane, of);
+    }
+}
+
+/// What is wanted of uniform particles, a particle a lane.
 template <PairTerms terms>
 double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
     const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
@@ -218,22 +231,14 @@ double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
                         .energy = hasEnergy,
                         .matrix = wanted.matrix,
                         .weights = wanted.weights};
-    const Kernel<Variant{terms, true, true, false}> scalar{pairs, wanted};
     const auto addUp = [&](const Group& group, LaneSums& of) {
         addUpGroup(pass, group.first / kGroup, of);
-        for (std::uint32_t left = of.coincident; left != 0; left &= left - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-            const std::size_t seat = group.first + lane;
-            if (seat >= group.end) break;
-            if (isSingle)
-                keep(sumsOf(of, lane) + partingSums<terms>(pairs, seat), lane, of);
-            else if (isCoincident(pairs, seat))
-                keep(scalar(seat), lane, of);
-        }
+        if (of.coincident != 0) partCoincident<terms>(pairs, wanted, group, of);
         for (std::size_t seat = group.first; seat < group.end; ++seat)
             forceOn(pairs, seat, wanted) = sumsOf(of, seat - group.first).force;
     };
-    // A sum in order takes a fifth of the time of a pass over few neighbours: where nobody asks, there is none.
+    // A sum in order takes a fifth of a pass over few neighbours (`globular bench --filter "forces powder"`): where
+    // nobody asks, there is none.
     if (!hasEnergy) {
         overGroups(pairs, [&](const Group& group) {
             LaneSums of;

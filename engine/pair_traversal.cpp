@@ -13,8 +13,9 @@ namespace {
 /// Units in the reach of a list: differences within it stay below 2^24, which float holds exactly.
 constexpr double kUnits = 8388608.0;
 
-/// Rounded to a whole number, modulo 2^32; some number for what is no number. A sum with 1.5 x 2^52 is rounded to a
-/// whole number that stands in its last bits: no conversion, which would need a branch for what does not fit.
+/// Rounded to a whole number, modulo 2^32; some number for what is no number or beyond all worlds. A sum with 1.5 x
+/// 2^52 is rounded to a whole number that stands in its last bits: no conversion, which would need a branch for what
+/// does not fit.
 std::int32_t wrapped(double units) {
     constexpr double kRounding = 0x1.8p52;
     constexpr double kTurn = 0x1p32;

@@ -114,6 +114,26 @@ TEST_CASE("Rows hold coincident particles, those on cell faces and far outliers"
     checkRows(hardPositions());
 }
 
+TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbour-list]") {
+    std::vector<Vec3>
+        positions;  // in pairs, thinly: cells are searched together, up to 8 reaches from where they begin
+    for (std::size_t pair = 0; pair < 400; ++pair) {
+        const Vec3 middle = clouds::randomVector(31, pair).cwiseProduct(Vec3(6.0, 3.0, 3.0));
+        const Vec3 half = 0.5 * (kCutoff + kSkin) * (1 - 1e-9) * clouds::randomVector(32, pair).normalized();
+        positions.push_back(middle - half);
+        positions.push_back(middle + half);
+    }
+    for (const std::string& name : instructionSets()) {
+        const OnInstructionSet only(name);
+        NeighbourList list;
+        build(list, positions, kCutoff, kSkin);
+        for (std::uint32_t p = 0; p < positions.size(); ++p) {
+            INFO("particle " << p << " with " << name);
+            CHECK(rowOf(list, list.seatOf[p]).count(p ^ 1U) == 1);
+        }
+    }
+}
+
 TEST_CASE("Positions that are no numbers leave the rows of the others as they are", "[neighbour-list]") {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3> sound = clouds::strewn(300, 0.3).position;
@@ -212,7 +232,8 @@ TEST_CASE("The same rows for any number of threads", "[neighbour-list]") {
 TEST_CASE("The same rows with every kind of vectors", "[neighbour-list]") {
     for (const std::vector<Vec3>& positions :
          {clouds::strewn(1000, 1.5).position, clouds::strewn(1, 1.0).position, clouds::strewn(37, 0.1).position,
-          clouds::strewn(100, 40.0).position, hardPositions()}) {
+          clouds::strewn(1200, 0.5).position, clouds::strewn(2000, 4.0).position, clouds::strewn(100, 40.0).position,
+          hardPositions()}) {
         NeighbourList expected;
         build(expected, positions, kCutoff, kSkin);
         for (const std::string& name : instructionSets()) {

@@ -45,6 +45,7 @@ void checkComplete(const std::vector<Vec3>& positions, double width) {
         const CellRun run = runFrom(grid, cell, kMostParticles, kMostCells);
         CHECK(run.first == cell);
         CHECK(run.last < cell + kMostCells);
+        if (run.last > cell) CHECK(grid.start[run.last + 1] - grid.start[cell] <= kMostParticles);
         const auto found = candidates(grid, run);
         for (std::uint32_t slot = grid.start[cell]; slot < grid.start[run.last + 1]; ++slot)
             checkOffered(positions, width, grid.order[slot], found);
