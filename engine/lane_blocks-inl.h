@@ -10,6 +10,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,6 +28,14 @@ template <class T>
 using Lanes = hn::Vec<Tag<T>>;
 template <class T>
 using Places = hn::Vec<hn::Rebind<std::int32_t, Tag<T>>>;  ///< as many as Lanes<T>
+
+/// A bit a lane.
+template <class T>
+std::uint32_t bitsOf(hn::Mask<Tag<T>> mask) {
+    std::array<std::uint8_t, 8> bytes = {};
+    hn::StoreMaskBits(Tag<T>(), mask, bytes.data());
+    return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+}
 
 /// Fetches what stands some rows of a group ahead into the cache. A part's rows are read once a pass, and those of many
 /// particles come from memory: processors that fetch ahead by themselves do so too late. Measured with `globular bench

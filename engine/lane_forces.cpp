@@ -22,14 +22,6 @@ Singles sourceOf(const LanePass& pass, const std::int32_t* places, Singles* /*ki
     return Singles(pass.singles.data(), places);
 }
 
-/// A bit a lane.
-template <class T>
-std::uint32_t bitsOf(hn::Mask<Tag<T>> mask) {
-    std::array<std::uint8_t, 8> bytes = {};
-    hn::StoreMaskBits(Tag<T>(), mask, bytes.data());
-    return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
-}
-
 /// The matrix's rows of a block of lanes as they fill up: every pair is written, and the place to write moves on where
 /// it has an entry.
 template <class T>

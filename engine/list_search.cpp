@@ -15,16 +15,17 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "engine/lane_blocks-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 constexpr hn::CappedTag<double, kSearchOverhang> kWide{};
 constexpr hn::Rebind<float, decltype(kWide)> kNarrow{};       // as many
 constexpr hn::Rebind<std::uint32_t, decltype(kWide)> kFew{};  // as many
-constexpr hn::CappedTag<float, 2 * kSearchOverhang> kTag{};
+constexpr Tag<float> kTag{};
+static_assert(hn::MaxLanes(kTag) <= 2 * kSearchOverhang && hn::MaxLanes(kTag) <= 16);  // bits of a number of 16
 constexpr hn::RebindToUnsigned<decltype(kTag)> kPlaces{};
 constexpr hn::CappedTag<std::uint16_t, 64> kNear{};
 
@@ -33,14 +34,6 @@ std::uint32_t countOf(const Neighbourhood& around) {
     for (int r = 0; r < around.count; ++r)
         sum += around.ranges[static_cast<std::size_t>(r)].end - around.ranges[static_cast<std::size_t>(r)].begin;
     return sum;
-}
-
-/// A bit a lane.
-std::uint16_t bitsOf(hn::Mask<decltype(kTag)> mask) {
-    static_assert(hn::MaxLanes(kTag) <= 16);
-    std::array<std::uint8_t, 8> bytes = {};
-    hn::StoreMaskBits(kTag, mask, bytes.data());
-    return static_cast<std::uint16_t>(bytes[0] | static_cast<unsigned>(bytes[1]) << 8U);
 }
 
 /// As CompressStore, whose table gcc copies to the stack whenever it looks something up, and with which lists take four
@@ -138,7 +131,7 @@ struct Search {
                 const auto dy = hn::Sub(hn::Set(kTag, ys[candidate]), y);
                 const auto dz = hn::Sub(hn::Set(kTag, zs[candidate]), z);
                 const auto distanceSq = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-                *near = bitsOf(hn::Lt(distanceSq, limit));
+                *near = static_cast<std::uint16_t>(bitsOf<float>(hn::Lt(distanceSq, limit)));
             }
         }
         // Nobody is near to himself.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/lane_forces.h"
 
@@ -121,21 +122,18 @@ struct Group {
     std::size_t first, end;
 };
 
-/// Calls addUp(group) for every group, shared out over the threads.
+/// Calls addUp(group) for every group, shared out over the threads; returns the sum of the energies that it returns, J.
+/// Where nobody asks for them there is none.
 template <class AddUp>
-void overGroups(const PairTraversal& pairs, const AddUp& addUp) {
+double overGroups(const PairTraversal& pairs, bool hasEnergy, const AddUp& addUp) {
     const std::size_t count = pairs.list.count();
+    const std::size_t groups = (count + kGroup - 1) / kGroup;
+    std::vector<double> energies(hasEnergy ? groups : 0);
     constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
-    inParallel((count + kGroup - 1) / kGroup, kGrain, [&](std::size_t number) {
-        addUp(Group{number * kGroup, std::min((number + 1) * kGroup, count)});
+    inParallel(groups, kGrain, [&](std::size_t number) {
+        const double energy = addUp(Group{number * kGroup, std::min((number + 1) * kGroup, count)});
+        if (hasEnergy) energies[number] = energy;
     });
-}
-
-/// The sum of addUp(group), a group's energy, J.
-template <class AddUp>
-double energyOverGroups(const PairTraversal& pairs, const AddUp& addUp) {
-    std::vector<double> energies((pairs.list.count() + kGroup - 1) / kGroup);
-    overGroups(pairs, [&](const Group& group) { energies[group.first / kGroup] = addUp(group); });
     return sumOver(energies.size(), [&](std::size_t group) { return energies[group]; });
 }
 
@@ -147,7 +145,7 @@ Vec3& forceOn(const PairTraversal& pairs, std::size_t seat, const PairSums& want
 template <Variant variant>
 double run(const PairTraversal& pairs, const PairSums& wanted) {
     const Kernel<variant> kernel{pairs, wanted};
-    return energyOverGroups(pairs, [&](const Group& group) {
+    return overGroups(pairs, variant.energy, [&](const Group& group) {
         double energy = 0.0;
         for (std::size_t seat = group.first; seat < group.end; ++seat) {
             const Sums sums = kernel(seat);
@@ -231,27 +229,15 @@ double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
                         .energy = hasEnergy,
                         .matrix = wanted.matrix,
                         .weights = wanted.weights};
-    const auto addUp = [&](const Group& group, LaneSums& of) {
+    return overGroups(pairs, hasEnergy, [&](const Group& group) {
+        LaneSums of;
         addUpGroup(pass, group.first / kGroup, of);
         if (of.coincident != 0) partCoincident<terms>(pairs, wanted, group, of);
         for (std::size_t seat = group.first; seat < group.end; ++seat)
             forceOn(pairs, seat, wanted) = sumsOf(of, seat - group.first).force;
-    };
-    // A sum in order takes a fifth of a pass over few neighbours (`globular bench --filter "forces powder"`): where
-    // nobody asks, there is none.
-    if (!hasEnergy) {
-        overGroups(pairs, [&](const Group& group) {
-            LaneSums of;
-            addUp(group, of);
-        });
-        return 0.0;
-    }
-    return energyOverGroups(pairs, [&](const Group& group) {
-        LaneSums of;
-        addUp(group, of);
-        double energy = 0.0;
-        for (std::size_t seat = group.first; seat < group.end; ++seat) energy += of.energy[seat - group.first];
-        return energy;
+        // A sum in order takes a fifth of a pass over few neighbours (`globular bench --filter "forces powder"`).
+        const auto* const energies = of.energy.data();
+        return hasEnergy ? std::accumulate(energies, energies + (group.end - group.first), 0.0) : 0.0;
     });
 }
 

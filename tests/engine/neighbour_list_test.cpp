@@ -115,8 +115,8 @@ TEST_CASE("Rows hold coincident particles, those on cell faces and far outliers"
 }
 
 TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbour-list]") {
-    std::vector<Vec3>
-        positions;  // in pairs, thinly: cells are searched together, up to 8 reaches from where they begin
+    // In pairs, thinly: cells are searched together, up to 8 reaches from where they begin.
+    std::vector<Vec3> positions;
     for (std::size_t pair = 0; pair < 400; ++pair) {
         const Vec3 middle = clouds::randomVector(31, pair).cwiseProduct(Vec3(6.0, 3.0, 3.0));
         const Vec3 half = 0.5 * (kCutoff + kSkin) * (1 - 1e-9) * clouds::randomVector(32, pair).normalized();
