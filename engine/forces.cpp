@@ -65,7 +65,7 @@ bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, 
     const double cutoffSq = cutoff * cutoff;
     const std::uint32_t seat = list.seatOf[p];
     for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k) {
-        const std::uint32_t other = list.order[static_cast<std::size_t>(*list.rows.entry(seat, k))];
+        const std::uint32_t other = list.order[list.rows.placeAt(seat, k)];
         if (other < positions.size() && squaredLength(positions[p] - positions[other]) < cutoffSq) return false;
     }
     return true;

@@ -14,12 +14,12 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-Doubles sourceOf(const LanePass& pass, const std::int32_t* places, Doubles* /*kind*/) {
-    return Doubles(pass.records.data(), places);
+Doubles sourceOf(const LanePass& pass, const std::int32_t* selves, std::uint32_t from, Doubles* /*kind*/) {
+    return Doubles(pass.records.data(), selves, from);
 }
 
-Singles sourceOf(const LanePass& pass, const std::int32_t* places, Singles* /*kind*/) {
-    return Singles(pass.singles.data(), places);
+Singles sourceOf(const LanePass& pass, const std::int32_t* selves, std::uint32_t from, Singles* /*kind*/) {
+    return Singles(pass.singles.data(), selves, from);
 }
 
 /// The matrix's rows of a block of lanes as they fill up: every pair is written, and the place to write moves on where
@@ -30,8 +30,8 @@ struct MatrixRows {
     std::size_t first;  ///< seat of the first lane
     std::array<std::uint32_t, kGroup> length = {};
 
-    template <bool hasFriction>
-    void add(const std::int32_t* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
+    template <bool hasFriction, class Entry>
+    void add(const Entry* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
         constexpr Tag<T> kTag{};
         std::array<T, kGroup> alongOf, acrossOf;
         hn::StoreU(along, kTag, alongOf.data());
@@ -44,7 +44,7 @@ struct MatrixRows {
         const std::size_t part = LaneRows::partOf(first);
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane) {
             const std::size_t at = matrix->rows.at(first + lane, length[lane]);
-            matrix->rows.parts[part].places[at] = others[lane];
+            entriesOf<Entry>(matrix->rows.parts[part])[at] = others[lane];
             matrix->along[part][at] = static_cast<double>(alongOf[lane]);
             if constexpr (hasFriction) matrix->across[part][at] = static_cast<double>(acrossOf[lane]);
             length[lane] += (bits >> lane) & 1U;
@@ -68,19 +68,20 @@ void add(Vector3<V>& sum, V factor, const Vector3<V>& vector) {
 
 /// A block of lanes of a group, from one of its lanes on. Flattened: where anything in the loop is a call, every vector
 /// goes through memory and it takes twice as long under AVX-512.
-template <class Source, class Kind>
+template <class Source, class Kind, class Entry>
 HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t lane, LaneSums& sums) {
     using T = typename Source::T;
     constexpr Tag<T> kTag{};
     const std::size_t first = group * kGroup + lane;
     const std::uint32_t longest = longestRow<T>(pass.rows, first);
-    const Source source = sourceOf(pass, &pass.rows.selves[first], static_cast<Source*>(nullptr));
+    const RowPart& part = pass.rows.parts[LaneRows::partOf(first)];
+    const Source source = sourceOf(pass, &pass.rows.selves[first], part.base, static_cast<Source*>(nullptr));
     const Law<T, Kind> law(pass.constants, pass.weights, pass.unit);
     Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     Lanes<T> energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     [[maybe_unused]] MatrixRows<T> matrixRows{pass.matrix, first};
-    const std::int32_t* entry = pass.rows.entry(first, 0);
+    const Entry* entry = &entriesOf<Entry>(part)[pass.rows.at(first, 0)];
     constexpr bool kVelocity = Kind::kPair.damping;
     auto ahead = source.template load<kVelocity>(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
@@ -138,7 +139,10 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
 template <class Source, class Kind>
 void addUpLanes(const LanePass& pass, std::size_t group, LaneSums& sums) {
     const std::size_t step = hn::Lanes(Tag<typename Source::T>());
-    for (std::size_t lane = 0; lane < kGroup; lane += step) addUpBlock<Source, Kind>(pass, group, lane, sums);
+    const bool isWide = pass.rows.parts[LaneRows::partOf(group * kGroup)].isWide();
+    for (std::size_t lane = 0; lane < kGroup; lane += step)
+        isWide ? addUpBlock<Source, Kind, std::int32_t>(pass, group, lane, sums)
+               : addUpBlock<Source, Kind, std::uint16_t>(pass, group, lane, sums);
 }
 
 template <class Source, PairTerms terms>

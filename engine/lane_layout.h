@@ -16,10 +16,13 @@ inline constexpr std::size_t kRowPadding = 16;
 struct GroupRows {
     std::array<const std::uint32_t*, kGroup> row = {};
     std::array<std::uint32_t, kGroup> length = {};
+    std::uint32_t longest = 0;
 };
 
-/// Writes the first entries of all lanes, then the second ones, and so on.
-/// Shape:  longest: entries of the longest row; to: room for as many times kGroup.
-void interleave(const GroupRows& rows, std::uint32_t longest, std::int32_t* to);
+/// Writes the first entries of all lanes, then the second ones, and so on, each counted from a base: none is less, nor
+/// more than it by what an entry cannot hold.
+/// Shape:  to: room for as many times kGroup as the longest row has.
+void interleave(const GroupRows& rows, std::uint32_t base, std::uint16_t* to);
+void interleave(const GroupRows& rows, std::uint32_t base, std::int32_t* to);
 
 }  // namespace engine

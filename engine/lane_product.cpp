@@ -13,17 +13,18 @@ namespace engine {
 namespace HWY_NAMESPACE {
 
 /// Flattened, as the forces' kernel is.
-template <bool hasFriction>
+template <bool hasFriction, class Entry>
 HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std::size_t lane, LaneProduct& product) {
     constexpr Tag<double> kTag{};
     const std::size_t first = group * kGroup + lane;
-    const Doubles source(matrix.records.data(), &matrix.rows.selves[first]);
+    const std::size_t part = LaneRows::partOf(first);
+    const RowPart& rows = matrix.rows.parts[part];
+    const Doubles source(matrix.records.data(), &matrix.rows.selves[first], rows.base);
     const std::uint32_t longest = longestRow<double>(matrix.rows, first);
     Vector3<Lanes<double>> sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
-    const std::size_t part = LaneRows::partOf(first);
     std::size_t entry = matrix.rows.at(first, 0);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
-        const std::int32_t* places = &matrix.rows.parts[part].places[entry];
+        const Entry* places = &entriesOf<Entry>(rows)[entry];
         fetchAhead(places);
         fetchAhead(&matrix.along[part][entry]);
         const Row<double> row = source.row<true>(places, source.load<true>(places));
@@ -44,11 +45,17 @@ HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std:
     hn::StoreU(sum.z, kTag, &product.z[lane]);
 }
 
-void multiplyGroupHere(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
+template <class Entry>
+void multiplyLanes(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
     const bool hasFriction = !matrix.across.empty();
     for (std::size_t lane = 0; lane < kGroup; lane += hn::Lanes(Tag<double>()))
-        hasFriction ? multiplyBlock<true>(matrix, group, lane, product)
-                    : multiplyBlock<false>(matrix, group, lane, product);
+        hasFriction ? multiplyBlock<true, Entry>(matrix, group, lane, product)
+                    : multiplyBlock<false, Entry>(matrix, group, lane, product);
+}
+
+void multiplyGroupHere(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
+    matrix.rows.parts[LaneRows::partOf(group * kGroup)].isWide() ? multiplyLanes<std::int32_t>(matrix, group, product)
+                                                                 : multiplyLanes<std::uint16_t>(matrix, group, product);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -51,6 +51,22 @@ std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {
     return longest;
 }
 
+/// Entries of a row as numbers of 32 bits.
+template <class T, class Entry>
+Places<T> placesFrom(const Entry* entries) {
+    constexpr hn::Rebind<std::int32_t, Tag<T>> kPlaces;
+    const auto read = hn::LoadU(hn::Rebind<Entry, Tag<T>>(), entries);
+    if constexpr (sizeof(Entry) < sizeof(std::int32_t))
+        return hn::PromoteTo(kPlaces, read);
+    else
+        return read;
+}
+
+template <class V>
+V countedFrom(std::uint32_t base, V places) {
+    return hn::Sub(places, hn::Set(hn::DFromV<V>(), static_cast<std::int32_t>(base)));
+}
+
 /// The particles of a block of lanes in double: positions as they are.
 struct Doubles {
     using T = double;
@@ -58,17 +74,19 @@ struct Doubles {
     static constexpr Tag<double> kTag{};
     static constexpr std::int64_t kStride = sizeof(PairRecord) / sizeof(double);
 
-    const double* base;  ///< of the first record
-    Places<double> self;
+    const double* base;   ///< of the first record that a place of a row can mean
+    Places<double> self;  ///< places as rows have them
     Others<V, V> own;
 
-    Doubles(const PairRecord* records, const std::int32_t* places)
-        : base(&records[0].x), self(hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), places)) {
-        own = load<true>(places);
+    /// Shape:  where the particles are among the records; the record that places of rows count from.
+    Doubles(const PairRecord* records, const std::int32_t* selves, std::uint32_t from) : base(&records[0].x) {
+        own = load<true>(selves);
+        base = &records[from].x;
+        self = countedFrom(from, hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), selves));
     }
 
-    template <bool needsVelocity>
-    Others<V, V> load(const std::int32_t* places) const {
+    template <bool needsVelocity, class Entry>
+    Others<V, V> load(const Entry* places) const {
         Vector3<V> x;
         Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
 #if HWY_TARGET == HWY_SCALAR
@@ -88,7 +106,7 @@ struct Doubles {
         }
 #else
         // Numbers two by two, of every other record from one on.
-        const auto pairs = [](const double* field, const std::int32_t* from) {
+        const auto pairs = [](const double* field, const Entry* from) {
             return blocksFrom(kTag, field, kStride, from, 2);
         };
         const V xy0 = pairs(base, places), xy1 = pairs(base, places + 1);
@@ -104,20 +122,20 @@ struct Doubles {
         return {x, v};
     }
 
-    template <bool needsVelocity>
-    Row<double> row(const std::int32_t* places, const Others<V, V>& others) const {
-        const hn::Rebind<std::int64_t, Tag<double>> wide;
-        const hn::Rebind<std::int32_t, Tag<double>> narrow;
+    template <bool needsVelocity, class Entry>
+    Row<double> row(const Entry* places, const Others<V, V>& others) const {
+        const hn::Rebind<std::int64_t, Tag<double>> kWide;
         Row<double> row;
         row.isPair =
-            hn::RebindMask(kTag, hn::Ne(hn::PromoteTo(wide, hn::LoadU(narrow, places)), hn::PromoteTo(wide, self)));
+            hn::RebindMask(kTag, hn::Ne(hn::PromoteTo(kWide, placesFrom<double>(places)), hn::PromoteTo(kWide, self)));
         row.separation = difference(own.position, others.position);
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
         return row;
     }
 
     /// Of pairs of a row without separation those that share their position: all, or nearly.
-    hn::Mask<Tag<double>> sharePlace(const std::int32_t* /*places*/, hn::Mask<Tag<double>> pairs) const {
+    template <class Entry>
+    hn::Mask<Tag<double>> sharePlace(const Entry* /*places*/, hn::Mask<Tag<double>> pairs) const {
         return pairs;
     }
 };
@@ -132,19 +150,21 @@ struct Singles {
     static constexpr hn::Rebind<std::int32_t, Tag<float>> kWhole{};
     static constexpr std::int64_t kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
 
-    const SinglePrecisionRecord* records;
-    const std::int32_t* selves;
-    const float* base;  ///< of the first record; its positions are bits of integers
-    I self;
+    const SinglePrecisionRecord* records;  ///< the first that a place of a row can mean
+    const float* base;                     ///< the same; positions are bits of integers
+    I self;                                ///< places as rows have them
     Others<I, V> own;
 
-    Singles(const SinglePrecisionRecord* all, const std::int32_t* places)
-        : records(all), selves(places), base(reinterpret_cast<const float*>(all)), self(hn::LoadU(kWhole, places)) {
-        own = load<true>(places);
+    /// Shape:  as Doubles has it.
+    Singles(const SinglePrecisionRecord* all, const std::int32_t* selves, std::uint32_t from)
+        : records(all + from), base(reinterpret_cast<const float*>(all)) {
+        own = load<true>(selves);
+        base = reinterpret_cast<const float*>(records);
+        self = countedFrom(from, hn::LoadU(kWhole, selves));
     }
 
-    template <bool needsVelocity>
-    Others<I, V> load(const std::int32_t* places) const {
+    template <bool needsVelocity, class Entry>
+    Others<I, V> load(const Entry* places) const {
         Vector3<I> x;
         Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
         const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
@@ -175,7 +195,7 @@ struct Singles {
         if constexpr (needsVelocity) v = {oddBlocks(a.xu, b.xu), oddBlocks(a.yv, b.yv), oddBlocks(a.zw, b.zw)};
 #else
         // Numbers four by four, of every fourth record from one on.
-        const auto fours = [](const float* field, const std::int32_t* from) {
+        const auto fours = [](const float* field, const Entry* from) {
             return blocksFrom(kTag, field, kStride, from, 4);
         };
         const auto fields = [&](const float* field) {
@@ -192,10 +212,10 @@ struct Singles {
         return {x, v};
     }
 
-    template <bool needsVelocity>
-    Row<float> row(const std::int32_t* places, const Others<I, V>& others) const {
+    template <bool needsVelocity, class Entry>
+    Row<float> row(const Entry* places, const Others<I, V>& others) const {
         Row<float> row;
-        row.isPair = hn::RebindMask(kTag, hn::Ne(hn::LoadU(kWhole, places), self));
+        row.isPair = hn::RebindMask(kTag, hn::Ne(placesFrom<float>(places), self));
         const Vector3<I> units = difference(own.position, others.position);
         row.separation = {hn::ConvertTo(kTag, units.x), hn::ConvertTo(kTag, units.y), hn::ConvertTo(kTag, units.z)};
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
@@ -203,8 +223,11 @@ struct Singles {
     }
 
     /// Of pairs of a row without separation those that share their position: others are only nearer than a unit.
-    hn::Mask<Tag<float>> sharePlace(const std::int32_t* places, hn::Mask<Tag<float>> pairs) const {
+    template <class Entry>
+    hn::Mask<Tag<float>> sharePlace(const Entry* places, hn::Mask<Tag<float>> pairs) const {
         std::array<std::uint8_t, 8> bits = {};
+        std::array<std::int32_t, kGroup> selves;
+        hn::StoreU(self, kWhole, selves.data());
         hn::StoreMaskBits(kTag, pairs, bits.data());
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane)
             if (!coincide(records[selves[lane]], records[places[lane]]))

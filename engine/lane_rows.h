@@ -20,11 +20,39 @@ inline constexpr std::size_t kGroupsPerPart = 8;
 /// Seats of a part.
 inline constexpr std::size_t kSeatsPerPart = kGroupsPerPart * kGroup;
 
-/// The rows of some groups.
+/// The rows of some groups: places counted from a base, in half a word each, unless what is around the groups spans too
+/// many of them. Kernels read one row beyond the last.
 struct RowPart {
     std::array<std::uint32_t, kGroupsPerPart + 1> start = {};  ///< of each group, in rows of kGroup entries
-    std::vector<std::int32_t> places;                          ///< kernels read one row beyond the last
+    std::uint32_t base = 0;
+    std::vector<std::uint16_t> narrow;
+    std::vector<std::int32_t> wide;  ///< empty where narrow ones suffice
+
+    bool isWide() const { return !wide.empty(); }
+
+    /// The place that an entry stands for.
+    std::uint32_t placeAt(std::size_t at) const {
+        return base + (isWide() ? static_cast<std::uint32_t>(wide[at]) : narrow[at]);
+    }
+
+    std::size_t bytes() const { return narrow.capacity() * sizeof(narrow[0]) + wide.capacity() * sizeof(wide[0]); }
+
+    void setPlace(std::size_t at, std::uint32_t place) {
+        if (isWide())
+            wide[at] = static_cast<std::int32_t>(place - base);
+        else
+            narrow[at] = static_cast<std::uint16_t>(place - base);
+    }
 };
+
+/// A part's entries of either width.
+template <class Entry, class Part>
+auto& entriesOf(Part& part) {
+    if constexpr (sizeof(Entry) == sizeof(std::uint16_t))
+        return part.narrow;
+    else
+        return part.wide;
+}
 
 /// Each particle has a seat, a lane of a group, beside others with rows of like length. Rows that are shorter than the
 /// longest of their group are filled up with their own particle's place.
@@ -43,10 +71,8 @@ struct LaneRows {
         return (parts[partOf(seat)].start[group] + k) * kGroup + seat % kGroup;
     }
 
-    /// Entry k of a seat's row, those after it kGroup apart.
-    const std::int32_t* entry(std::size_t seat, std::size_t k) const {
-        return &parts[partOf(seat)].places[at(seat, k)];
-    }
+    /// The place that entry k of a seat's row stands for.
+    std::uint32_t placeAt(std::size_t seat, std::size_t k) const { return parts[partOf(seat)].placeAt(at(seat, k)); }
 };
 
 }  // namespace engine

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 #include "engine/extent.h"
@@ -39,6 +40,7 @@ struct FoundPart {
     Surroundings surroundings;
     FoundRows rows;
     std::array<std::uint32_t, kSeatsPerPart> lengths;
+    CellRange around;  ///< from the first place to the last that may occur
 };
 
 /// What is around some cells is looked at once for so many particles, if they are no further apart than float sees
@@ -49,12 +51,18 @@ constexpr auto kRunCells = static_cast<std::uint32_t>(kClearSight);
 
 void search(const NeighbourList& list, const CellRange& range, FoundPart& found) {
     found.rows.used = 0;
+    found.around = range;
     const CellGrid& grid = list.scratch.grid;
     for (std::uint32_t place = range.begin; place < range.end;) {
         const CellRun run = runFrom(grid, grid.cellOf[list.order[place]], kRunParticles, kRunCells);
         const CellRange selves{place, std::min(grid.start[run.last + 1], range.end)};
-        findInReach(list.scratch.candidates, neighbourhood(grid, run), selves, list.reach, found.surroundings,
-                    found.rows, &found.lengths[place - range.begin]);
+        const Neighbourhood around = neighbourhood(grid, run);
+        for (int r = 0; r < around.count; ++r) {
+            found.around.begin = std::min(found.around.begin, around.ranges[static_cast<std::size_t>(r)].begin);
+            found.around.end = std::max(found.around.end, around.ranges[static_cast<std::size_t>(r)].end);
+        }
+        findInReach(list.scratch.candidates, around, selves, list.reach, found.surroundings, found.rows,
+                    &found.lengths[place - range.begin]);
         place = selves.end;
     }
 }
@@ -83,12 +91,28 @@ Seated seatParticles(NeighbourList& list, const CellRange& range, const FoundPar
 }
 
 /// Room for so many entries, and not much more: rows of a part change little from list to list.
-void makeRoom(std::vector<std::int32_t>& places, std::size_t entries) {
+template <class Entry>
+void makeRoom(std::vector<Entry>& places, std::size_t entries) {
     if (places.capacity() < entries) {
-        places = {};
+        places = std::vector<Entry>();
         places.reserve(entries + entries / 8);
     }
     places.resize(entries);
+}
+
+/// Lays out the rows of the groups of a part. Shape: length: of each seat's row.
+template <class Entry>
+void layOut(const Seated& seated, const std::uint32_t* length, std::size_t groups, RowPart& part) {
+    std::vector<Entry>& entries = entriesOf<Entry>(part);
+    makeRoom(entries, (part.start[groups] + 1) * kGroup);
+    std::fill(entries.end() - kGroup, entries.end(), Entry(0));
+    for (std::size_t group = 0; group < groups; ++group) {
+        GroupRows rows;
+        std::copy_n(&seated[group * kGroup], kGroup, rows.row.begin());
+        std::copy_n(length + group * kGroup, kGroup, rows.length.begin());
+        rows.longest = part.start[group + 1] - part.start[group];
+        interleave(rows, part.base, &entries[part.start[group] * kGroup]);
+    }
 }
 
 /// Finds the rows of a part and lays them out.
@@ -96,21 +120,26 @@ void fill(NeighbourList& list, std::size_t number) {
     thread_local FoundPart found;
     const CellRange range = rangeOf(list, number);
     search(list, range, found);
+    const CellGrid& grid = list.scratch.grid;
+    const auto cellAt = [&](std::uint32_t place) { return grid.cellOf[list.order[place]]; };
+    list.fronts[number] = frontOf(grid, cellAt(range.begin), cellAt(range.end - 1));
     const Seated seated = seatParticles(list, range, found);
     RowPart& part = list.rows.parts[number];
     const std::uint32_t* const length = &list.rows.length[range.begin];
     const std::size_t groups = (range.end - range.begin + kGroup - 1) / kGroup;
-    part.start.fill(0);
-    for (std::size_t group = 0; group < groups; ++group)
-        part.start[group + 1] =
-            part.start[group] + *std::max_element(length + group * kGroup, length + (group + 1) * kGroup);
-    makeRoom(part.places, (part.start[groups] + 1) * kGroup);
-    std::fill(part.places.end() - kGroup, part.places.end(), 0);
-    for (std::size_t group = 0; group < groups; ++group) {
-        GroupRows rows;
-        std::copy_n(&seated[group * kGroup], kGroup, rows.row.begin());
-        std::copy_n(length + group * kGroup, kGroup, rows.length.begin());
-        interleave(rows, part.start[group + 1] - part.start[group], &part.places[part.start[group] * kGroup]);
+    part.start[0] = 0;
+    for (std::size_t group = 0; group < kGroupsPerPart; ++group) {
+        const std::uint32_t* const first = length + group * kGroup;
+        part.start[group + 1] = part.start[group] + (group < groups ? *std::max_element(first, first + kGroup) : 0);
+    }
+    part.base = found.around.begin;
+    constexpr std::uint32_t kNarrow = std::numeric_limits<std::uint16_t>::max();
+    if (found.around.end - 1 - part.base <= kNarrow) {
+        part.wide = std::vector<std::int32_t>();
+        layOut<std::uint16_t>(seated, length, groups, part);
+    } else {
+        part.narrow = std::vector<std::uint16_t>();
+        layOut<std::int32_t>(seated, length, groups, part);
     }
 }
 
@@ -146,6 +175,7 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     list.rows.selves.assign(groups * kGroup, static_cast<std::int32_t>(list.count()) - 1);
     list.rows.length.assign(groups * kGroup, 0);
     list.rows.parts.resize(parts);
+    list.fronts.resize(parts);
     inParallel(parts, 1, [&](std::size_t part) { fill(list, part); });
     list.entryCount = std::accumulate(list.rows.length.begin(), list.rows.length.end(), std::size_t{0});
 }
@@ -163,19 +193,21 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
 
 std::size_t roomOf(const LaneRows& rows) {
     std::size_t sum = 0;
-    for (const RowPart& part : rows.parts) sum += part.places.capacity();
+    for (const RowPart& part : rows.parts) sum += part.isWide() ? part.wide.capacity() : part.narrow.capacity();
     return sum;
 }
 
 std::size_t bytesOf(const LaneRows& rows) {
-    return bytesHeld(rows.selves, rows.length, rows.parts) + roomOf(rows) * sizeof(std::int32_t);
+    std::size_t sum = bytesHeld(rows.selves, rows.length, rows.parts);
+    for (const RowPart& part : rows.parts) sum += part.bytes();
+    return sum;
 }
 
 std::size_t bytesOf(const NeighbourList& list) {
     const BuildScratch& scratch = list.scratch;
-    return bytesOf(list.rows) + bytesHeld(list.order, list.seatOf, list.builtAt, scratch.grid.start, scratch.grid.order,
-                                          scratch.grid.cellOf, scratch.candidates.x, scratch.candidates.y,
-                                          scratch.candidates.z);
+    return bytesOf(list.rows) + bytesHeld(list.order, list.seatOf, list.fronts, list.builtAt, scratch.grid.start,
+                                          scratch.grid.order, scratch.grid.cellOf, scratch.candidates.x,
+                                          scratch.candidates.y, scratch.candidates.z);
 }
 
 }  // namespace engine

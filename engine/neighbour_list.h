@@ -25,6 +25,7 @@ struct NeighbourList {
     std::vector<std::uint32_t> order;   ///< particle index at each place
     std::vector<std::uint32_t> seatOf;  ///< of each particle index
     LaneRows rows;                      ///< neighbours of each seat
+    std::vector<Front> fronts;          ///< of each part of the rows: neighbours that those before it do not have
     std::size_t entryCount = 0;         ///< of all rows
     std::vector<Vec3> builtAt;          ///< positions by particle index when the list was built, m
     double reach = 0.0;                 ///< cutoff and skin together, m

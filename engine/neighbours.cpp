@@ -68,6 +68,14 @@ struct Axis {
     }
 };
 
+/// Along x, y, z.
+std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) {
+    // In 32 bits, which hold any cell's number, divisions take half as long.
+    const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
+    const auto ny = static_cast<std::uint32_t>(grid.dimensions[1]);
+    return {cell % nx, cell / nx % ny, cell / nx / ny};
+}
+
 }  // namespace
 
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth) {
@@ -111,12 +119,8 @@ CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostPart
 
 Neighbourhood neighbourhood(const CellGrid& grid, const CellRun& run) {
     const auto [nx, ny, nz] = grid.dimensions;
-    // In 32 bits, which hold any cell's number, divisions take half as long.
-    const std::uint32_t row = run.first / static_cast<std::uint32_t>(nx);
-    const std::int64_t x = run.first % static_cast<std::uint32_t>(nx);
+    const auto [x, y, z] = indicesOf(grid, run.first);
     const std::int64_t lastX = x + run.last - run.first;
-    const std::int64_t y = row % static_cast<std::uint32_t>(ny);
-    const std::int64_t z = row / static_cast<std::uint32_t>(ny);
     // With one or two cells along an axis, steps of -1 and +1 meet: visit each cell once.
     const auto firstStep = [](std::int64_t size) { return size >= 3 ? -1 : 0; };
     const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
@@ -147,6 +151,22 @@ Neighbourhood neighbourhood(const CellGrid& grid, const CellRun& run) {
         }
     }
     return found;
+}
+
+Front frontOf(const CellGrid& grid, std::uint32_t first, std::uint32_t last) {
+    const auto [nx, ny, nz] = grid.dimensions;
+    // The first place of a cell in the row next to that of another, some cells further along.
+    const auto startAt = [&, nx = nx, ny = ny, nz = nz](std::uint32_t cell, std::int64_t dx, std::int64_t dz) {
+        const auto [x, y, z] = indicesOf(grid, cell);
+        const std::int64_t row = wrappedStep(z + dz, nz) * ny + wrappedStep(y + 1, ny);
+        return grid.start[static_cast<std::size_t>(row * nx + std::clamp<std::int64_t>(x + dx, 0, nx))];
+    };
+    Front front;
+    for (std::int64_t dz = -1; dz <= 1; ++dz) {
+        const CellRange range{startAt(first, -1, dz), startAt(last, 2, dz)};
+        if (range.begin < range.end) front[static_cast<std::size_t>(dz + 1)] = range;
+    }
+    return front;
 }
 
 }  // namespace engine

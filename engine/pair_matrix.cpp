@@ -8,10 +8,10 @@
 
 namespace engine {
 
-void PairMatrix::add(std::size_t seat, std::int32_t other, double alongOf, double acrossOf) {
+void PairMatrix::add(std::size_t seat, std::uint32_t other, double alongOf, double acrossOf) {
     const std::size_t part = LaneRows::partOf(seat);
     const std::size_t at = rows.at(seat, rows.length[seat]++);
-    rows.parts[part].places[at] = other;
+    rows.parts[part].setPlace(at, other);
     along[part][at] = alongOf;
     if (!across.empty()) across[part][at] = acrossOf;
 }
@@ -24,9 +24,13 @@ void makeRoom(PairMatrix& matrix, const NeighbourList& list, bool hasFriction) {
     matrix.along.resize(parts);
     matrix.across.resize(hasFriction ? parts : 0);
     inParallel(parts, 1, [&](std::size_t part) {
-        const std::size_t room = list.rows.parts[part].places.size();
-        matrix.rows.parts[part].start = list.rows.parts[part].start;
-        matrix.rows.parts[part].places.resize(room);
+        const RowPart& like = list.rows.parts[part];
+        RowPart& rows = matrix.rows.parts[part];
+        rows.start = like.start;
+        rows.base = like.base;
+        rows.narrow.resize(like.narrow.size());
+        rows.wide.resize(like.wide.size());
+        const std::size_t room = std::max(like.narrow.size(), like.wide.size());
         matrix.along[part].resize(room);
         if (hasFriction) matrix.across[part].resize(room);
     });
@@ -42,7 +46,7 @@ void close(PairMatrix& matrix) {
         for (std::size_t seat = group * kGroup; seat < end; ++seat) {
             for (std::uint32_t k = matrix.rows.length[seat]; k < longest; ++k) {
                 const std::size_t at = matrix.rows.at(seat, k);
-                matrix.rows.parts[part].places[at] = matrix.rows.selves[seat];
+                matrix.rows.parts[part].setPlace(at, static_cast<std::uint32_t>(matrix.rows.selves[seat]));
                 matrix.along[part][at] = 0.0;
                 if (!matrix.across.empty()) matrix.across[part][at] = 0.0;
             }

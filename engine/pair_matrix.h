@@ -36,7 +36,7 @@ struct PairMatrix {
     std::size_t count() const { return mass.size(); }
 
     /// Appends an entry to the row of a seat; the seat's own thread alone may.
-    void add(std::size_t seat, std::int32_t other, double alongOf, double acrossOf);
+    void add(std::size_t seat, std::uint32_t other, double alongOf, double acrossOf);
 };
 
 /// Empties the matrix and gives it room for the pairs of a list.

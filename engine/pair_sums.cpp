@@ -113,7 +113,7 @@ struct Kernel {
         const PairRecord& i = pairs.records[other];
         if ((along == 0.0 && across == 0.0) || coincide(p, i)) return;
         // across (1 - n n^T) = across 1 - (across / D^2) P P^T
-        wanted.matrix->add(seat, static_cast<std::int32_t>(other), along - across / distanceSq, across);
+        wanted.matrix->add(seat, other, along - across / distanceSq, across);
     }
 };
 
@@ -161,7 +161,7 @@ bool isCoincident(const PairTraversal& pairs, std::size_t seat) {
     const PairRecord& p = pairs.records[pairs.placeAt(seat)];
     const LaneRows& rows = pairs.list.rows;
     for (std::uint32_t k = 0; k < rows.length[seat]; ++k)
-        if (coincide(p, pairs.records[static_cast<std::size_t>(*rows.entry(seat, k))])) return true;
+        if (coincide(p, pairs.records[rows.placeAt(seat, k)])) return true;
     return false;
 }
 
@@ -176,7 +176,7 @@ Sums partingSums(const PairTraversal& pairs, std::size_t seat) {
     const LaneRows& rows = pairs.list.rows;
     Sums sums;
     for (std::uint32_t k = 0; k < rows.length[seat]; ++k) {
-        const SinglePrecisionRecord& other = pairs.singles[static_cast<std::size_t>(*rows.entry(seat, k))];
+        const SinglePrecisionRecord& other = pairs.singles[rows.placeAt(seat, k)];
         if (!coincide(own, other)) continue;
         const PairRecord p = record(own);
         const PairRecord i = record(other);
@@ -215,6 +215,26 @@ void partCoincident(const PairTraversal& pairs, const PairSums& wanted, const Gr
     }
 }
 
+/// Fetches a group's share of the records that the next part comes upon into the cache. Measured with `globular bench
+/// --filter forces` on Zen 5: a fifth less time at a million particles, the same at 32,000.
+/// Always inline: gcc takes a call that does nothing but this for one that does nothing.
+template <class Record>
+[[gnu::always_inline]] inline void fetchFront(const PairTraversal& pairs, const std::vector<Record>& records,
+                                              std::size_t group) {
+    const std::size_t next = group / kGroupsPerPart + 1;
+    if (next >= pairs.list.fronts.size()) return;
+    const std::size_t share = group % kGroupsPerPart;
+    for (const CellRange& range : pairs.list.fronts[next]) {
+        // At its turn into the next layer a front is long, and soon forgotten. Chosen: others are little above a part.
+        constexpr std::size_t kMost = 4 * kSeatsPerPart;
+        const std::size_t count = std::min<std::size_t>(range.end - range.begin, kMost);
+        const std::size_t end = range.begin + count * (share + 1) / kGroupsPerPart;
+        constexpr std::size_t kPerLine = 64 / sizeof(Record);
+        for (std::size_t place = range.begin + count * share / kGroupsPerPart; place < end; place += kPerLine)
+            __builtin_prefetch(&records[place]);
+    }
+}
+
 /// What is wanted of uniform particles, a particle a lane.
 template <PairTerms terms>
 double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
@@ -231,6 +251,8 @@ double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
                         .weights = wanted.weights};
     return overGroups(pairs, hasEnergy, [&](const Group& group) {
         LaneSums of;
+        isSingle ? fetchFront(pairs, pairs.singles, group.first / kGroup)
+                 : fetchFront(pairs, pairs.records, group.first / kGroup);
         addUpGroup(pass, group.first / kGroup, of);
         if (of.coincident != 0) partCoincident<terms>(pairs, wanted, group, of);
         for (std::size_t seat = group.first; seat < group.end; ++seat)

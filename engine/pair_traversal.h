@@ -64,13 +64,14 @@ struct PairTraversal {
         const double cutoffSq = terms.cutoff * terms.cutoff;
         constexpr std::uint32_t kSieve = 128;  // chosen: longer than most rows
         std::array<std::uint32_t, kSieve> within;
-        const std::int32_t* row = list.rows.entry(seat, 0);
+        const RowPart& part = list.rows.parts[LaneRows::partOf(seat)];
+        const std::size_t first = list.rows.at(seat, 0);
         const std::uint32_t length = list.rows.length[seat];
         for (std::uint32_t begin = 0; begin < length; begin += kSieve) {
             const std::uint32_t end = std::min(begin + kSieve, length);
             std::size_t found = 0;
             for (std::uint32_t k = begin; k < end; ++k) {
-                const auto other = static_cast<std::uint32_t>(row[k * kGroup]);
+                const std::uint32_t other = part.placeAt(first + k * kGroup);
                 within[found] = other;
                 found += squaredLength(separationOf(p, records[other])) < cutoffSq ? 1U : 0U;
             }

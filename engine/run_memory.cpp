@@ -25,10 +25,11 @@ std::size_t bytesBefore(const Simulation& simulation) {
 std::size_t bytesOfMatrix(const Simulation& simulation) {
     const bool hasFriction = termsFor(simulation.evaluator.law(), simulation.particles).pair.friction;
     const bool hasObstacles = !simulation.setup.scenery.colliders.empty();
-    const std::size_t entry = sizeof(std::int32_t) + (hasFriction ? 2 : 1) * sizeof(double);
+    const LaneRows& rows = simulation.evaluator.list().rows;
+    const std::size_t entries = (hasFriction ? 2 : 1) * sizeof(double) * roomOf(rows);
     const std::size_t own = hasObstacles ? sizeof(Matrix3) : 0;
     constexpr std::size_t kVectors = 5 * sizeof(Vec3);
-    return entry * roomOf(simulation.evaluator.list().rows) +
+    return bytesOf(rows) + entries +
            simulation.particles.count() * (sizeof(double) + own + sizeof(PairRecord) + kVectors);
 }
 

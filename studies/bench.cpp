@@ -143,7 +143,8 @@ class Bench {
         row.seconds = measured(work, settings_);
         std::uint64_t hash = engine::fnv1a("");
         for (const engine::RowPart& part : list.rows.parts)
-            for (const std::int32_t place : part.places) hash = engine::fnv1a(static_cast<std::uint64_t>(place), hash);
+            for (std::size_t at = 0; at < part.start.back() * engine::kGroup; ++at)
+                hash = engine::fnv1a(std::uint64_t{part.placeAt(at)}, hash);
         row.stateHash = engine::hexadecimal(hash);
         add(row);
     }

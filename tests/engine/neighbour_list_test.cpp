@@ -25,7 +25,7 @@ std::uint32_t particleIn(const NeighbourList& list, std::size_t seat) {
 std::set<std::uint32_t> rowOf(const NeighbourList& list, std::size_t seat) {
     std::set<std::uint32_t> row;
     for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k)
-        CHECK(row.insert(list.order[static_cast<std::size_t>(*list.rows.entry(seat, k))]).second);
+        CHECK(row.insert(list.order[list.rows.placeAt(seat, k)]).second);
     return row;
 }
 
@@ -38,7 +38,9 @@ void checkSame(const NeighbourList& list, const NeighbourList& expected) {
     REQUIRE(list.rows.parts.size() == expected.rows.parts.size());
     for (std::size_t part = 0; part < list.rows.parts.size(); ++part) {
         CHECK(list.rows.parts[part].start == expected.rows.parts[part].start);
-        CHECK(list.rows.parts[part].places == expected.rows.parts[part].places);
+        CHECK(list.rows.parts[part].base == expected.rows.parts[part].base);
+        CHECK(list.rows.parts[part].narrow == expected.rows.parts[part].narrow);
+        CHECK(list.rows.parts[part].wide == expected.rows.parts[part].wide);
     }
 }
 
@@ -202,9 +204,64 @@ TEST_CASE("Rows are filled up to the longest of their group with their own parti
                 *std::max_element(&list.rows.length[first], &list.rows.length[first] + kGroup);
             if (seat >= count) CHECK(list.rows.length[seat] == 0);
             for (std::uint32_t k = list.rows.length[seat]; k < longest; ++k)
-                CHECK(*list.rows.entry(seat, k) == list.rows.selves[seat]);
+                CHECK(list.rows.placeAt(seat, k) == static_cast<std::uint32_t>(list.rows.selves[seat]));
         }
     }
+}
+
+namespace {
+
+/// A slab of about one particle a cell: the layer in the middle has 2^16 places and more between those beside it.
+std::vector<Vec3> slab() {
+    constexpr std::uint64_t kCount = 110000;
+    const Vec3 half = Vec3(95.0, 95.0, 1.4) * (kCutoff + kSkin);
+    std::vector<Vec3> positions;
+    for (std::uint64_t p = 0; p < kCount; ++p) positions.push_back(clouds::randomVector(41, p).cwiseProduct(half));
+    return positions;
+}
+
+}  // namespace
+
+TEST_CASE("Rows hold neighbours whose places are too far apart for half words", "[neighbour-list]") {
+    const std::vector<Vec3> positions = slab();
+    std::vector<NeighbourList> lists;
+    for (const std::string& name : instructionSets()) {
+        const OnInstructionSet only(name);
+        lists.emplace_back();
+        build(lists.back(), positions, kCutoff, kSkin);
+        checkSame(lists.back(), lists.front());
+    }
+    const NeighbourList& list = lists.front();
+    std::size_t wide = 0;
+    for (const RowPart& part : list.rows.parts) {
+        wide += part.isWide() ? 1U : 0U;
+        CHECK(part.narrow.empty() == part.isWide());
+    }
+    CHECK(wide > 0);
+    CHECK(wide < list.rows.parts.size());
+    CHECK(list.fronts.size() == list.rows.parts.size());
+    for (std::size_t seat = 0; seat < list.count(); seat += 1999) {
+        const std::uint32_t p = particleIn(list, seat);
+        INFO("particle " << p);
+        CHECK(isWithin(neighboursOf(positions, p, kCutoff + kSkin), rowOf(list, seat)));
+        CHECK(isWithin(rowOf(list, seat), neighboursOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
+    }
+}
+
+TEST_CASE("Rows of either width take the place of the other's", "[neighbour-list]") {
+    const std::vector<Vec3> cloud = clouds::strewn(110000, 8.0).position;
+    const std::vector<Vec3> flat = slab();
+    NeighbourList expected[2];
+    build(expected[0], flat, kCutoff, kSkin);
+    build(expected[1], cloud, 0.1 * kCutoff, 0.1 * kSkin);
+    NeighbourList list;
+    for (int round = 0; round < 2; ++round) {
+        build(list, flat, kCutoff, kSkin);
+        checkSame(list, expected[0]);
+        build(list, cloud, 0.1 * kCutoff, 0.1 * kSkin);
+        checkSame(list, expected[1]);
+    }
+    for (const RowPart& part : list.rows.parts) CHECK((part.isWide() ? part.narrow.capacity() : part.wide.capacity()) == 0);
 }
 
 TEST_CASE("A list built again is that of the new positions", "[neighbour-list]") {

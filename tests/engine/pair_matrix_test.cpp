@@ -171,10 +171,11 @@ TEST_CASE("The two entries of a pair are equal bit for bit", "[pair-matrix]") {
         std::size_t pairs = 0;
         for (std::size_t p = 0; p < c.count(); ++p)
             for (std::uint32_t k = 0; k < rows.length[p]; ++k) {
-                const std::size_t i = seatOf[static_cast<std::size_t>(*rows.entry(p, k))];
+                const std::size_t i = seatOf[rows.placeAt(p, k)];
                 std::uint32_t twin = 0;
                 REQUIRE(rows.length[i] > 0);
-                while (*rows.entry(i, twin) != rows.selves[p]) REQUIRE(++twin < rows.length[i]);
+                while (rows.placeAt(i, twin) != static_cast<std::uint32_t>(rows.selves[p]))
+                    REQUIRE(++twin < rows.length[i]);
                 CHECK(entry(c.matrix.along, i, twin) == entry(c.matrix.along, p, k));
                 if (!c.matrix.across.empty()) CHECK(entry(c.matrix.across, i, twin) == entry(c.matrix.across, p, k));
                 ++pairs;
