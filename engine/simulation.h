@@ -138,7 +138,7 @@ struct Simulation {
     std::uint64_t mostBeforeDeaths = 0;                 ///< particles that there were at most when some left
     double time = 0.0;                                  ///< s
     StepperKind stepper = StepperKind::velocityVerlet;  ///< in use; the automatic one is never
-    std::vector<Vec3> forces;  ///< pairs and gravity, N; while forcesCurrent those that the next step starts with
+    std::vector<Vec3> forces;  ///< N; while forcesCurrent those of pairs and gravity that the next step starts with
     std::vector<std::uint8_t> swept;  ///< whether obstacles meet a particle along its way in this step, 0 or 1
     /// Scratch of the drift: no obstacle's surface is nearer to a particle's than this, m, as long as steps alone move
     /// it; empty where nothing is known.

@@ -6,8 +6,8 @@
 
 #include "engine/decay.h"
 #include "engine/implicit_step.h"
+#include "engine/kick_drift.h"
 #include "engine/parallel.h"
-#include "engine/soundness.h"
 #include "engine/velocity_verlet.h"
 
 namespace engine {
@@ -19,20 +19,19 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
     ++simulation.steps.forceEvaluations;
     const double decay = decayFactor(simulation.setup.drag, h);
     simulation.clearance.clear();
-    // What acts on a particle from outside, what it does then, and whether that is sound: one loop for all.
+    const bool hasObstacles = !evaluator.law().scenery.colliders.empty();
+    const KickDrift step{.h = h,
+                         .decay = decay,
+                         .gravity = evaluator.law().gravity,
+                         .forces = simulation.forces,
+                         .hasWeight = hasObstacles};
     std::atomic<bool> areAllSound = true;
     inRanges(particles.count(), evaluator.outerGrain(), [&](std::size_t begin, std::size_t end) {
-        bool areSound = true;
-        for (std::size_t p = begin; p < end; ++p) {
-            Vec3& position = particles.position[p];
-            Vec3& velocity = particles.velocity[p];
-            Vec3 force = simulation.forces[p];
-            evaluator.addOuter(particles, p, velocity, force);
-            velocity = decay * (velocity + h / particles.mass[p] * force);
-            position += h * velocity;
-            areSound &= isSound(position, velocity);
-        }
-        if (!areSound) areAllSound = false;
+        // Pairs, weight, obstacles: the order is part of the bits.
+        if (hasObstacles)
+            for (std::size_t p = begin; p < end; ++p)
+                evaluator.addOuter(particles, p, particles.velocity[p], simulation.forces[p]);
+        if (!kickAndDrift(step, begin, end, particles)) areAllSound = false;
     });
     return areAllSound;
 }

@@ -1,12 +1,17 @@
 // The kernels on vector units: the same bits whatever vectors the machine has, and what float loses.
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 #include "tests/catch.h"
 
 #include "engine/diagnostics.h"
 #include "engine/instruction_sets.h"
+#include "engine/kick_drift.h"
 #include "engine/lane_forces.h"
 #include "engine/pair_sums.h"
+#include "engine/single_records.h"
+#include "engine/soundness.h"
 #include "engine/steppers.h"
 #include "tests/engine/runs.h"
 
@@ -51,6 +56,33 @@ std::string hashOfRun(const char* preset, StepperKind stepper, Precision precisi
     return stateHash(simulation.particles);
 }
 
+/// Forces, N, and what a matrix makes of the velocities, over rows as they are.
+struct OverRows {
+    std::vector<Vec3> forces, product;
+    bool operator==(const OverRows& other) const { return forces == other.forces && product == other.product; }
+};
+
+OverRows overRows(const PairTraversal& pairs, const Particles& particles) {
+    OverRows of;
+    of.forces.resize(particles.count());
+    addUpPairs(pairs, {.forces = of.forces});
+    PairMatrix matrix;
+    matrix.mass = particles.mass;
+    std::vector<Vec3> forces(particles.count());
+    addUpPairs(pairs, {.forces = forces, .matrix = &matrix, .weights = {.damping = 0.01, .stiffness = 0.0001}});
+    multiply(matrix, particles.velocity, of.product);
+    return of;
+}
+
+/// The same rows in whole words.
+void widen(LaneRows& rows) {
+    for (RowPart& part : rows.parts) {
+        REQUIRE_FALSE(part.isWide());
+        part.wide.assign(part.narrow.begin(), part.narrow.end());
+        part.narrow.clear();
+    }
+}
+
 }  // namespace
 
 TEST_CASE("A run has the same bits with every kind of vectors", "[lanes]") {
@@ -66,6 +98,122 @@ TEST_CASE("A run has the same bits with every kind of vectors", "[lanes]") {
                     CHECK(hashOfRun(preset, stepper, precision) == expected);
                 }
             }
+}
+
+TEST_CASE("Rows give the same bits in words as in half words", "[lanes]") {
+    for (const char* preset : {"liquid", "solid", "powder", "sand"})
+        for (const Precision precision : {Precision::doubles, Precision::singles})
+            for (const std::string& name : instructionSets()) {
+                const OnInstructionSet only(name);
+                INFO(preset << " with " << name);
+                const ForceLaw law = clouds::lawOf(preset);
+                Particles particles = block(law.materials.front(), Vec3(1.0, 2.0, 3.0));
+                particles.position[17] = particles.position[16];
+                PairTraversal pairs(law, precision);
+                pairs.prepare(law, particles, particles.velocity);
+                pairs.makeRecords(particles, particles.velocity);
+                const OverRows expected = overRows(pairs, particles);
+                widen(pairs.list.rows);
+                CHECK(overRows(pairs, particles) == expected);
+            }
+}
+
+TEST_CASE("Records in float are those of the plain twin with every kind of vectors", "[lanes]") {
+    // Coordinates of which 32 bits hold all units, and such as go round many times.
+    for (const double size : {1.0, 1e4, 1e8}) {
+        Particles particles = clouds::strewn(1003, size);
+        for (Vec3& velocity : particles.velocity) velocity *= size;
+        particles.position[5] = Vec3(0.0, -0.0, 0.5);
+        NeighbourList list;
+        for (std::uint32_t place = 0; place < 1003; ++place) list.order.push_back(place * 7 % 1003);
+        constexpr double kPerMetre = 8388608.0 / 0.66;
+        for (const std::string& name : instructionSets()) {
+            const OnInstructionSet only(name);
+            std::vector<SinglePrecisionRecord> records(list.count());
+            const OrderedParticles from(list, particles, particles.velocity);
+            makeSingles(from, kPerMetre, {0, 500}, records.data());
+            makeSingles(from, kPerMetre, {500, 1003}, records.data());
+            for (std::size_t place = 0; place < list.count(); ++place) {
+                const std::size_t p = list.order[place];
+                const auto expected =
+                    singleRecord(particles.position[p], particles.velocity[p], particles.id[p], kPerMetre);
+                INFO(size << " m, " << name << ", place " << place);
+                CHECK(std::memcmp(&records[place], &expected, sizeof(expected)) == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vectors", "[lanes]") {
+    const Particles before = clouds::strewnUnequal(103, 2.0);
+    std::vector<Vec3> forces;
+    for (std::uint64_t p = 0; p < before.count(); ++p) forces.push_back(10.0 * clouds::randomVector(51, p));
+    for (const bool hasWeight : {false, true}) {
+        const KickDrift step{
+            .h = 0.003, .decay = 0.97, .gravity = Vec3(0.1, -9.8, 0.2), .forces = forces, .hasWeight = hasWeight};
+        Particles expected = before;
+        for (std::size_t p = 0; p < before.count(); ++p) {
+            Vec3 force = forces[p];
+            if (!hasWeight) force += before.mass[p] * step.gravity;
+            expected.velocity[p] = step.decay * (before.velocity[p] + step.h / before.mass[p] * force);
+            expected.position[p] = before.position[p] + step.h * expected.velocity[p];
+        }
+        for (const std::string& name : instructionSets()) {
+            const OnInstructionSet only(name);
+            for (const std::size_t split : {0U, 1U, 50U, 102U}) {
+                Particles actual = before;
+                CHECK(kickAndDrift(step, 0, split, actual));
+                CHECK(kickAndDrift(step, split, before.count(), actual));
+                INFO(name << ", split at " << split);
+                CHECK(actual.velocity == expected.velocity);
+                CHECK(actual.position == expected.position);
+            }
+        }
+    }
+}
+
+TEST_CASE("Kick and drift tell of whoever is not sound", "[lanes]") {
+    constexpr std::size_t kCount = 11;  // some in vectors, some not
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<Vec3> none(kCount, Vec3::Zero());
+    const auto areSound = [&](double h, const std::vector<Vec3>& forces, Particles particles) {
+        return kickAndDrift({.h = h, .forces = forces}, 0, kCount, particles);
+    };
+    const Particles sound = clouds::strewn(kCount, 1.0);
+    for (const std::string& name : instructionSets()) {
+        const OnInstructionSet only(name);
+        CHECK(areSound(1e-3, none, sound));
+        for (std::size_t p = 0; p < kCount; ++p)
+            for (Eigen::Index axis = 0; axis < 3; ++axis) {
+                INFO(name << ", particle " << p << ", axis " << axis);
+                std::vector<Vec3> forces = none;
+                forces[p][axis] = kNan;
+                CHECK_FALSE(areSound(1e-3, forces, sound));
+                Particles far = sound;
+                far.position[p][axis] = -1.1 * kWorldLimit;
+                CHECK_FALSE(areSound(1e-3, none, far));
+                Particles fast = sound;
+                fast.velocity[p][axis] = 2.0 * kFastest;
+                CHECK_FALSE(areSound(1e-160, none, fast));  // so short that it gets nowhere
+            }
+    }
+}
+
+TEST_CASE("A step has the same bits with an obstacle out of reach as with none", "[lanes]") {
+    for (const char* preset : {"liquid", "solid"}) {
+        std::string hashes[2];
+        for (const bool hasPlane : {false, true}) {
+            Setup setup = runs::freeSetup(*materialPreset(preset), StepperKind::symplecticEuler, 0.002);
+            setup.gravity = Vec3(0.3, -9.8, 0);
+            setup.drag = 0.5;
+            if (hasPlane) setup.scenery.colliders = {Plane{Vec3(0, -1000, 0), Vec3::UnitY()}};
+            runs::addPacking(setup, {7, 6, 9});
+            Simulation simulation = start(setup);
+            advance(simulation, 0.06);
+            hashes[hasPlane ? 1 : 0] = stateHash(simulation.particles);
+        }
+        CHECK(hashes[0] == hashes[1]);
+    }
 }
 
 TEST_CASE("In double, forces have the bits of the scalar kernel", "[lanes]") {
