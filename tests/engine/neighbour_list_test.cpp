@@ -261,7 +261,8 @@ TEST_CASE("Rows of either width take the place of the other's", "[neighbour-list
         build(list, cloud, 0.1 * kCutoff, 0.1 * kSkin);
         checkSame(list, expected[1]);
     }
-    for (const RowPart& part : list.rows.parts) CHECK((part.isWide() ? part.narrow.capacity() : part.wide.capacity()) == 0);
+    for (const RowPart& part : list.rows.parts)
+        CHECK((part.isWide() ? part.narrow.capacity() : part.wide.capacity()) == 0);
 }
 
 TEST_CASE("A list built again is that of the new positions", "[neighbour-list]") {
