@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/cell_number.h"
+#include "engine/cell_axes.h"
 #include "engine/extent.h"
 #include "engine/parallel.h"
 
@@ -37,37 +37,6 @@ std::array<std::int64_t, 3> chooseDimensions(const Extent& extent, std::size_t p
     return dimensions;
 }
 
-std::int64_t wrapped(std::int64_t index, std::int64_t size) {
-    const std::int64_t rest = index % size;
-    return rest < 0 ? rest + size : rest;
-}
-
-/// The same of an index that is at most one outside: divisions would take as long as the search of a cell.
-std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
-    if (index < 0) return index + size;
-    return index < size ? index : index - size;
-}
-
-/// Cells along one axis. What has left every world, or is no number, shares a cell with others: the audit after the
-/// step says what happened.
-struct Axis {
-    double width;         ///< m
-    std::int64_t size;    ///< cells
-    std::int64_t first;   ///< number of the first that is used
-    std::int64_t stored;  ///< where that one is kept
-
-    Axis(double cellWidth, std::int64_t cells, double lowest)
-        : width(cellWidth), size(cells), first(cellNumber(lowest, width)), stored(wrapped(first, size)) {}
-
-    std::int64_t cellOf(double coordinate) const {
-        const std::int64_t number = cellNumber(coordinate, width);
-        const std::int64_t steps = number - first;
-        // Mostly there are as many cells as are needed, and a division takes as long as all the rest.
-        if (steps < 0 || steps >= size) return wrapped(number, size);
-        return wrappedStep(stored + steps, size);
-    }
-};
-
 /// Along x, y, z.
 std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) {
     // In 32 bits, which hold any cell's number, divisions take half as long.
@@ -91,14 +60,10 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     const std::array<std::int64_t, 3>& size = grid.dimensions;
     // One more than there are, and counts two places further on: filling leaves each start where it belongs.
     grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 2, 0);
-    const Axis alongX(width, size[0], extent.low.x());
-    const Axis alongY(width, size[1], extent.low.y());
-    const Axis alongZ(width, size[2], extent.low.z());
-    inParallel(positions.size(), kParticleGrain, [&](std::size_t p) {
-        const std::int64_t x = alongX.cellOf(positions[p].x());
-        const std::int64_t y = alongY.cellOf(positions[p].y());
-        const std::int64_t z = alongZ.cellOf(positions[p].z());
-        grid.cellOf[p] = static_cast<std::uint32_t>((z * size[1] + y) * size[0] + x);
+    const CellAxes axes{CellAxis(width, size[0], extent.low.x()), CellAxis(width, size[1], extent.low.y()),
+                        CellAxis(width, size[2], extent.low.z())};
+    inRanges(positions.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        findCells(axes, &positions[begin], end - begin, &grid.cellOf[begin]);
     });
     for (const std::uint32_t cell : grid.cellOf) ++grid.start[cell + 2];
     for (std::size_t at = 2; at < grid.start.size(); ++at) grid.start[at] += grid.start[at - 1];
