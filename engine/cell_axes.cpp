@@ -48,7 +48,7 @@ class Axis {
 void findCellsHere(const CellAxes& axes, const Vec3* positions, std::size_t count, std::uint32_t* cells) {
     const Axis alongX(axes[0]), alongY(axes[1]), alongZ(axes[2]);
     const std::size_t lanes = hn::Lanes(kTag);
-    const V toBits = hn::Set(kTag, 0x1p52);  // a sum with it has a whole number of 32 bits in its last toBits
+    const V whole = hn::Set(kTag, 0x1p52);  // a sum with it ends in the 32 bits of a whole number
     std::size_t p = 0;
     for (; p + lanes <= count; p += lanes) {
         V x, y, z;
@@ -62,7 +62,7 @@ void findCellsHere(const CellAxes& axes, const Vec3* positions, std::size_t coun
         }
         const V row = hn::Add(hn::Mul(alongZ.cellAfter(z), alongY.size()), alongY.cellAfter(y));
         const V cell = hn::Add(hn::Mul(row, alongX.size()), alongX.cellAfter(x));
-        hn::StoreU(hn::TruncateTo(kCells, hn::BitCast(kBits, hn::Add(cell, toBits))), kCells, cells + p);
+        hn::StoreU(hn::TruncateTo(kCells, hn::BitCast(kBits, hn::Add(cell, whole))), kCells, cells + p);
     }
     for (; p < count; ++p) cells[p] = cellAt(axes, positions[p]);
 }
