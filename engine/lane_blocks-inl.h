@@ -39,7 +39,7 @@ std::uint32_t bitsOf(hn::Mask<Tag<T>> mask) {
 
 /// Fetches what stands some rows of a group ahead into the cache. A part's rows are read once a pass, and those of many
 /// particles come from memory: processors that fetch ahead by themselves do so too late. Measured with `globular bench
-/// --filter forces` on Zen 5: a tenth less time at 256,000 particles, the same at 32,000.
+/// --filter forces` on Zen 5: a tenth less time at 256,000 particles, less at 32,000.
 template <class Entry>
 HWY_INLINE void fetchAhead(const Entry* row) {
     constexpr std::size_t kRows = 96;

@@ -216,7 +216,7 @@ void partCoincident(const PairTraversal& pairs, const PairSums& wanted, const Gr
 }
 
 /// Fetches a group's share of the records that the next part comes upon into the cache. Measured with `globular bench
-/// --filter forces` on Zen 5: a fifth less time at a million particles, the same at 32,000.
+/// --filter forces` on Zen 5: a fifth less time at a million particles, little at 32,000.
 /// Always inline: gcc takes a call that does nothing but this for one that does nothing.
 template <class Record>
 [[gnu::always_inline]] inline void fetchFront(const PairTraversal& pairs, const std::vector<Record>& records,
