@@ -56,14 +56,14 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
 
 void ForceEvaluator::forgetList() {
     pairs_.list.builtAt.clear();
-    pairs_.list.seatOf.clear();
+    pairs_.list.placeOf.clear();
 }
 
 bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p) const {
     const NeighbourList& list = pairs_.list;
-    if (p >= list.seatOf.size()) return false;
+    if (p >= list.placeOf.size()) return false;
     const double cutoffSq = cutoff * cutoff;
-    const std::uint32_t seat = list.seatOf[p];
+    const std::size_t seat = list.seatOf(p);
     for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k) {
         const std::uint32_t other = list.order[list.rows.placeAt(seat, k)];
         if (other < positions.size() && squaredLength(positions[p] - positions[other]) < cutoffSq) return false;

@@ -7,8 +7,10 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/cell_number.h"
 #include "engine/extent.h"
 #include "engine/lane_layout.h"
+#include "engine/make_records.h"
 #include "engine/parallel.h"
 
 namespace engine {
@@ -53,8 +55,10 @@ void search(const NeighbourList& list, const CellRange& range, FoundPart& found)
     found.rows.used = 0;
     found.around = range;
     const CellGrid& grid = list.scratch.grid;
+    std::uint32_t cell = cellOfPlace(grid, range.begin);
     for (std::uint32_t place = range.begin; place < range.end;) {
-        const CellRun run = runFrom(grid, grid.cellOf[list.order[place]], kRunParticles, kRunCells);
+        while (grid.start[cell + 1] <= place) ++cell;
+        const CellRun run = runFrom(grid, cell, kRunParticles, kRunCells);
         const CellRange selves{place, std::min(grid.start[run.last + 1], range.end)};
         const Neighbourhood around = neighbourhood(grid, run);
         for (int r = 0; r < around.count; ++r) {
@@ -83,7 +87,6 @@ Seated seatParticles(NeighbourList& list, const CellRange& range, const FoundPar
         next += found.lengths[of] + kRowPadding;
         list.rows.length[seat] = found.lengths[of];
         list.rows.selves[seat] = static_cast<std::int32_t>(place);
-        list.seatOf[list.order[place]] = seat;
     }
     // Where nobody is, the last one's padding.
     std::fill(rows.begin() + count, rows.end(), next - kRowPadding);
@@ -121,8 +124,7 @@ void fill(NeighbourList& list, std::size_t number) {
     const CellRange range = rangeOf(list, number);
     search(list, range, found);
     const CellGrid& grid = list.scratch.grid;
-    const auto cellAt = [&](std::uint32_t place) { return grid.cellOf[list.order[place]]; };
-    list.fronts[number] = frontOf(grid, cellAt(range.begin), cellAt(range.end - 1));
+    list.fronts[number] = frontOf(grid, cellOfPlace(grid, range.begin), cellOfPlace(grid, range.end - 1));
     const Seated seated = seatParticles(list, range, found);
     RowPart& part = list.rows.parts[number];
     const std::uint32_t* const length = &list.rows.length[range.begin];
@@ -146,14 +148,13 @@ void fill(NeighbourList& list, std::size_t number) {
 void sortByCell(NeighbourList& list, const std::vector<Vec3>& positions) {
     list.order.swap(list.scratch.grid.order);
     const std::size_t count = list.order.size();
+    list.placeOf.resize(count);
     list.scratch.candidates.x.resize(count + kSearchOverhang);
     list.scratch.candidates.y.resize(count + kSearchOverhang);
     list.scratch.candidates.z.resize(count + kSearchOverhang);
-    inParallel(count, kParticleGrain, [&](std::size_t place) {
-        const Vec3& position = positions[list.order[place]];
-        list.scratch.candidates.x[place] = position.x();
-        list.scratch.candidates.y[place] = position.y();
-        list.scratch.candidates.z[place] = position.z();
+    forPlaces(count, [&](const CellRange& places, Readers readers) {
+        for (std::uint32_t place = places.begin; place < places.end; ++place) list.placeOf[list.order[place]] = place;
+        makeCandidates(positions, list.order, places, readers, list.scratch.candidates);
     });
 }
 
@@ -171,13 +172,21 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
     sortByCell(list, positions);
     const std::size_t groups = (list.count() + kGroup - 1) / kGroup;
     const std::size_t parts = (groups + kGroupsPerPart - 1) / kGroupsPerPart;
-    list.seatOf.resize(list.count());
     list.rows.selves.assign(groups * kGroup, static_cast<std::int32_t>(list.count()) - 1);
     list.rows.length.assign(groups * kGroup, 0);
     list.rows.parts.resize(parts);
     list.fronts.resize(parts);
     inParallel(parts, 1, [&](std::size_t part) { fill(list, part); });
     list.entryCount = std::accumulate(list.rows.length.begin(), list.rows.length.end(), std::size_t{0});
+}
+
+std::size_t NeighbourList::seatOf(std::size_t p) const {
+    // Few ask: written down for all, seats would take longer than to be looked for.
+    const std::uint32_t place = placeOf[p];
+    const std::size_t first = LaneRows::partOf(place) * kSeatsPerPart;
+    const auto part = rows.selves.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto seat = std::find(part, rows.selves.end(), static_cast<std::int32_t>(place));
+    return static_cast<std::size_t>(seat - rows.selves.begin());
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
@@ -188,6 +197,9 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
     const double slack = 0.5 * (list.reach - cutoff);
     const auto way = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
     if (areWithin(slack, Vec3::Zero(), positions.size(), way)) return true;  // mostly, and soon known
+    // Where some have parted by more than two slacks, there is no way that all are near to.
+    const Extent some = extentOver(std::min(positions.size(), kSumChunk), way);
+    if ((some.high - some.low).maxCoeff() > 2.0 * kRoundingMargin * slack) return false;
     return areWithin(slack, extentOver(positions.size(), way).middle(), positions.size(), way);
 }
 
@@ -205,7 +217,7 @@ std::size_t bytesOf(const LaneRows& rows) {
 
 std::size_t bytesOf(const NeighbourList& list) {
     const BuildScratch& scratch = list.scratch;
-    return bytesOf(list.rows) + bytesHeld(list.order, list.seatOf, list.fronts, list.builtAt, scratch.grid.start,
+    return bytesOf(list.rows) + bytesHeld(list.order, list.placeOf, list.fronts, list.builtAt, scratch.grid.start,
                                           scratch.grid.order, scratch.grid.cellOf, scratch.candidates.x,
                                           scratch.candidates.y, scratch.candidates.z);
 }

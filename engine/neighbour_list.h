@@ -22,16 +22,19 @@ struct BuildScratch {
 /// Particles have places, which follow the cells of the grid that the list was built with, and seats, in the same part,
 /// of which the longest rows come first.
 struct NeighbourList {
-    std::vector<std::uint32_t> order;   ///< particle index at each place
-    std::vector<std::uint32_t> seatOf;  ///< of each particle index
-    LaneRows rows;                      ///< neighbours of each seat
-    std::vector<Front> fronts;          ///< of each part of the rows: neighbours that those before it do not have
-    std::size_t entryCount = 0;         ///< of all rows
-    std::vector<Vec3> builtAt;          ///< positions by particle index when the list was built, m
-    double reach = 0.0;                 ///< cutoff and skin together, m
+    std::vector<std::uint32_t> order;    ///< particle index at each place
+    std::vector<std::uint32_t> placeOf;  ///< of each particle index
+    LaneRows rows;                       ///< neighbours of each seat
+    std::vector<Front> fronts;           ///< of each part of the rows: neighbours that those before it do not have
+    std::size_t entryCount = 0;          ///< of all rows
+    std::vector<Vec3> builtAt;           ///< positions by particle index when the list was built, m
+    double reach = 0.0;                  ///< cutoff and skin together, m
     Scratch<BuildScratch> scratch;
 
     std::size_t count() const { return order.size(); }
+
+    /// Seat of a particle index.
+    std::size_t seatOf(std::size_t p) const;
 };
 
 /// Builds the list for positions in metres. Holds: the same rows for any number of threads and any instruction set.

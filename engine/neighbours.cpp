@@ -72,6 +72,11 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     grid.start.pop_back();
 }
 
+std::uint32_t cellOfPlace(const CellGrid& grid, std::uint32_t place) {
+    const auto next = std::upper_bound(grid.start.begin(), grid.start.end(), place);
+    return static_cast<std::uint32_t>(next - grid.start.begin() - 1);
+}
+
 CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells) {
     const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
     const std::uint32_t x = cell % nx;

@@ -38,6 +38,9 @@ struct CellGrid {
 /// Holds:  the order within a cell is that of the indices, so that it depends on the positions alone.
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth);
 
+/// The cell of a place in the order.
+std::uint32_t cellOfPlace(const CellGrid& grid, std::uint32_t place);
+
 /// Cells side by side along x; a cell at either end of a row is a run of its own.
 struct CellRun {
     std::uint32_t first = 0;

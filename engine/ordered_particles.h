@@ -18,13 +18,17 @@ struct OrderedParticles {
     const std::uint32_t* id;  ///< of each particle index, as what follows
     const Vec3* position;     ///< m
     const Vec3* velocity;     ///< m/s
+    const double* radius;     ///< m
+    const std::uint32_t* material;
 
     OrderedParticles(const NeighbourList& list, const Particles& particles, const std::vector<Vec3>& velocities)
         : order(list.order.data()),
           count(list.count()),
           id(particles.id.data()),
           position(particles.position.data()),
-          velocity(velocities.data()) {}
+          velocity(velocities.data()),
+          radius(particles.radius.data()),
+          material(particles.material.data()) {}
 
     /// Fetches a particle some places ahead into the cache: the list's order is not that of the particles, so that no
     /// processor does it by itself. Measured with `globular bench --filter forces` on Zen 5: a tenth less time at

@@ -5,7 +5,7 @@
 
 #include "engine/extent.h"
 #include "engine/list_skin.h"
-#include "engine/single_records.h"
+#include "engine/make_records.h"
 
 namespace engine {
 namespace {
@@ -50,9 +50,8 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     singles.resize(hasSingles ? particles.count() : 0);
     unit = list.reach / kUnits;
     const OrderedParticles from(list, particles, velocities);
-    inRanges(singles.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-        const CellRange places{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
-        makeSingles(from, 1.0 / unit, places, singles.data());
+    forPlaces(singles.size(), [&](const CellRange& places, Readers readers) {
+        makeSingles(from, 1.0 / unit, places, readers, singles.data());
     });
 }
 
@@ -61,14 +60,8 @@ void PairTraversal::makeRecords(const Particles& particles, const std::vector<Ve
     hasRecords = true;
     records.resize(particles.count());
     const OrderedParticles from(list, particles, velocities);
-    inParallel(records.size(), kParticleGrain, [&](std::size_t place) {
-        from.fetchAhead(place);
-        const std::size_t p = from.order[place];
-        const Vec3& x = from.position[p];
-        const Vec3& v = from.velocity[p];
-        records[place] = {x.x(),     x.y(), x.z(), v.x(), v.y(), v.z(), particles.radius[p], particles.material[p],
-                          from.id[p]};
-    });
+    forPlaces(records.size(),
+              [&](const CellRange& places, Readers readers) { makeDoubles(from, places, readers, records.data()); });
 }
 
 }  // namespace engine

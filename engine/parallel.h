@@ -16,12 +16,16 @@
 
 namespace engine {
 
+/// How many threads loops are shared out over, at most.
+inline std::size_t threadCount() {
+    return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+}
+
 #ifdef GLOBULAR_SANITIZES_THREADS
 /// ThreadSanitizer does not see how oneTBB, which is not compiled with it, hands work from thread to thread.
 template <class Ranges>
 void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
-    const auto most = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    const std::size_t parts = std::min(most, (count + grain - 1) / grain);
+    const std::size_t parts = std::min(threadCount(), (count + grain - 1) / grain);
     std::vector<std::thread> threads;
     for (std::size_t part = 1; part < parts; ++part)
         threads.emplace_back([=, &body] { body(count * part / parts, count * (part + 1) / parts); });

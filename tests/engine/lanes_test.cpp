@@ -9,8 +9,8 @@
 #include "engine/instruction_sets.h"
 #include "engine/kick_drift.h"
 #include "engine/lane_forces.h"
+#include "engine/make_records.h"
 #include "engine/pair_sums.h"
-#include "engine/single_records.h"
 #include "engine/soundness.h"
 #include "engine/steppers.h"
 #include "tests/engine/runs.h"
@@ -118,27 +118,38 @@ TEST_CASE("Rows give the same bits in words as in half words", "[lanes]") {
             }
 }
 
-TEST_CASE("Records in float are those of the plain twin with every kind of vectors", "[lanes]") {
+TEST_CASE("Records are those of the plain twins with every kind of vectors, whoever reads them", "[lanes]") {
     // Coordinates of which 32 bits hold all units, and such as go round many times.
     for (const double size : {1.0, 1e4, 1e8}) {
-        Particles particles = clouds::strewn(1003, size);
+        Particles particles = clouds::strewnUnequal(1003, size);
         for (Vec3& velocity : particles.velocity) velocity *= size;
         particles.position[5] = Vec3(0.0, -0.0, 0.5);
+        for (std::uint32_t p = 0; p < 1003; ++p) particles.material[p] = p % 5;
         NeighbourList list;
         for (std::uint32_t place = 0; place < 1003; ++place) list.order.push_back(place * 7 % 1003);
         constexpr double kPerMetre = 8388608.0 / 0.66;
         for (const std::string& name : instructionSets()) {
             const OnInstructionSet only(name);
-            std::vector<SinglePrecisionRecord> records(list.count());
+            std::vector<SinglePrecisionRecord> singles(list.count());
+            std::vector<PairRecord> doubles(list.count());
+            Candidates candidates;
+            for (std::vector<double>* of : {&candidates.x, &candidates.y, &candidates.z}) of->resize(list.count());
             const OrderedParticles from(list, particles, particles.velocity);
-            makeSingles(from, kPerMetre, {0, 500}, records.data());
-            makeSingles(from, kPerMetre, {500, 1003}, records.data());
+            for (const auto& [places, readers] :
+                 {std::pair(CellRange{0, 501}, Readers::writer), std::pair(CellRange{501, 1003}, Readers::all)}) {
+                makeSingles(from, kPerMetre, places, readers, singles.data());
+                makeDoubles(from, places, readers, doubles.data());
+                makeCandidates(particles.position, list.order, places, readers, candidates);
+            }
             for (std::size_t place = 0; place < list.count(); ++place) {
                 const std::size_t p = list.order[place];
                 const auto expected =
                     singleRecord(particles.position[p], particles.velocity[p], particles.id[p], kPerMetre);
+                const PairRecord wide = doubleRecord(from, p);
                 INFO(size << " m, " << name << ", place " << place);
-                CHECK(std::memcmp(&records[place], &expected, sizeof(expected)) == 0);
+                CHECK(std::memcmp(&singles[place], &expected, sizeof(expected)) == 0);
+                CHECK(std::memcmp(&doubles[place], &wide, sizeof(wide)) == 0);
+                CHECK(Vec3(candidates.x[place], candidates.y[place], candidates.z[place]) == particles.position[p]);
             }
         }
     }

@@ -32,7 +32,7 @@ std::set<std::uint32_t> rowOf(const NeighbourList& list, std::size_t seat) {
 /// Entry by entry, with what fills the rows up.
 void checkSame(const NeighbourList& list, const NeighbourList& expected) {
     CHECK(list.order == expected.order);
-    CHECK(list.seatOf == expected.seatOf);
+    CHECK(list.placeOf == expected.placeOf);
     CHECK(list.rows.selves == expected.rows.selves);
     CHECK(list.rows.length == expected.rows.length);
     REQUIRE(list.rows.parts.size() == expected.rows.parts.size());
@@ -131,7 +131,7 @@ TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbo
         build(list, positions, kCutoff, kSkin);
         for (std::uint32_t p = 0; p < positions.size(); ++p) {
             INFO("particle " << p << " with " << name);
-            CHECK(rowOf(list, list.seatOf[p]).count(p ^ 1U) == 1);
+            CHECK(rowOf(list, list.seatOf(p)).count(p ^ 1U) == 1);
         }
     }
 }
@@ -145,8 +145,8 @@ TEST_CASE("Positions that are no numbers leave the rows of the others as they ar
         NeighbourList list;
         build(list, positions, kCutoff, kSkin);
         for (std::size_t p = 1; p < positions.size(); ++p)
-            CHECK(isWithin(neighboursOf(positions, p, kCutoff + kSkin), rowOf(list, list.seatOf[p])));
-        CHECK(rowOf(list, list.seatOf[0]).empty());
+            CHECK(isWithin(neighboursOf(positions, p, kCutoff + kSkin), rowOf(list, list.seatOf(p))));
+        CHECK(rowOf(list, list.seatOf(0)).empty());
     }
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("Rows that wait for each other are of like length", "[neighbour-list]"
     build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
     for (std::size_t seat = 1; seat < list.count(); ++seat)
         if (seat % kSeatsPerPart != 0) CHECK(list.rows.length[seat] <= list.rows.length[seat - 1]);
-    for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.seatOf[p]) == p);
+    for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.seatOf(p)) == p);
 }
 
 TEST_CASE("Rows are filled up to the longest of their group with their own particle", "[neighbour-list]") {
@@ -313,6 +313,6 @@ TEST_CASE("Rows are as complete in worlds of any size", "[neighbour-list]") {
         NeighbourList list;
         build(list, positions, kCutoff * unit, kSkin * unit);
         for (std::size_t seat = 0; seat < list.count(); ++seat)
-            CHECK(rowOf(list, seat) == rowOf(expected, expected.seatOf[particleIn(list, seat)]));
+            CHECK(rowOf(list, seat) == rowOf(expected, expected.seatOf(particleIn(list, seat))));
     }
 }

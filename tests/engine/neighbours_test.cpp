@@ -43,6 +43,8 @@ void checkComplete(const std::vector<Vec3>& positions, double width) {
     CHECK(grid.cellCount() <= std::max<std::size_t>(64, 2 * positions.size()));
     for (std::size_t p = 0; p < positions.size(); ++p)
         checkOffered(positions, width, p, candidates(grid, {grid.cellOf[p], grid.cellOf[p]}));
+    for (std::uint32_t place = 0; place < positions.size(); ++place)
+        CHECK(cellOfPlace(grid, place) == grid.cellOf[grid.order[place]]);
     for (std::uint32_t cell = 0; cell < grid.cellCount(); ++cell) {
         const CellRun run = runFrom(grid, cell, kMostParticles, kMostCells);
         CHECK(run.first == cell);
