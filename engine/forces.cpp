@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "engine/outer_forces.h"
 #include "engine/pair_sums.h"
 
 namespace engine {
@@ -13,8 +14,10 @@ ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision preci
 void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
                               std::vector<Vec3>& forces, double step) {
     evaluatePairs(particles, velocities, forces, step);
-    inParallel(particles.count(), outerGrain(),
-               [&](std::size_t p) { addOuter(particles, p, velocities[p], forces[p]); });
+    if (law_.scenery.colliders.empty()) return addGravity(particles, forces);
+    inRanges(particles.count(), outerGrain(), [&](std::size_t begin, std::size_t end) {
+        addOuterForces(law_, particles, velocities, begin, end, forces);
+    });
 }
 
 void ForceEvaluator::evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities,
@@ -74,12 +77,6 @@ bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, 
 void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
     inParallel(particles.count(), kParticleGrain,
                [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
-}
-
-void ForceEvaluator::addContact(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const {
-    const Material& material = law_.materials[particles.material[p]];
-    force += contactForce(
-        law_.scenery, {particles.position[p], velocity, particles.radius[p], material.dampingReach, material.friction});
 }
 
 std::size_t ForceEvaluator::outerGrain() const {

@@ -41,17 +41,11 @@ class ForceEvaluator {
     void evaluate(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                   double step = 0.0);
 
-    /// The pair forces of equation 1 alone; what evaluate adds to them is addOuter.
+    /// The pair forces of equation 1 alone; what evaluate adds to them are outer forces (outer_forces.h).
     void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                        double step = 0.0);
 
-    /// Gravity's and the obstacles' force on a particle at its position, in newtons, added to that of its pairs.
-    void addOuter(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const {
-        force += particles.mass[p] * law_.gravity;
-        if (!law_.scenery.colliders.empty()) addContact(particles, p, velocity, force);
-    }
-
-    /// For loops over the particles that call addOuter.
+    /// Particles that a thread adds outer forces to at a time, at least.
     std::size_t outerGrain() const;
 
     /// The same as evaluate without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
@@ -90,7 +84,6 @@ class ForceEvaluator {
  private:
     void addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums, double step);
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
-    void addContact(const Particles& particles, std::size_t p, const Vec3& velocity, Vec3& force) const;
 
     ForceLaw law_;
     ForceMethod method_ = ForceMethod::grid;

@@ -12,21 +12,12 @@
 
 #include "engine/lane_blocks-inl.h"
 #include "engine/lane_rows.h"
+#include "engine/lane_vectors-inl.h"
 #include "engine/pair_record.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
-
-template <class V>
-struct Vector3 {
-    V x, y, z;
-};
-
-template <class V>
-Vector3<V> difference(const Vector3<V>& a, const Vector3<V>& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
 
 /// What a row of places refers to, as it was read.
 template <class Position, class Velocity>
@@ -235,11 +226,6 @@ struct Singles {
         return hn::LoadMaskBits(kTag, bits.data());
     }
 };
-
-template <class V>
-V dot(const Vector3<V>& a, const Vector3<V>& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace engine

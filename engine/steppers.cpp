@@ -7,6 +7,7 @@
 #include "engine/decay.h"
 #include "engine/implicit_step.h"
 #include "engine/kick_drift.h"
+#include "engine/outer_forces.h"
 #include "engine/parallel.h"
 #include "engine/velocity_verlet.h"
 
@@ -28,9 +29,7 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
     std::atomic<bool> areAllSound = true;
     inRanges(particles.count(), evaluator.outerGrain(), [&](std::size_t begin, std::size_t end) {
         // Pairs, weight, obstacles: the order is part of the bits.
-        if (hasObstacles)
-            for (std::size_t p = begin; p < end; ++p)
-                evaluator.addOuter(particles, p, particles.velocity[p], simulation.forces[p]);
+        if (hasObstacles) addOuterForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.forces);
         if (!kickAndDrift(step, begin, end, particles)) areAllSound = false;
     });
     return areAllSound;

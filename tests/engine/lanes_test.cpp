@@ -10,6 +10,7 @@
 #include "engine/kick_drift.h"
 #include "engine/lane_forces.h"
 #include "engine/make_records.h"
+#include "engine/outer_forces.h"
 #include "engine/pair_sums.h"
 #include "engine/soundness.h"
 #include "engine/steppers.h"
@@ -207,6 +208,57 @@ TEST_CASE("Kick and drift tell of whoever is not sound", "[lanes]") {
                 fast.velocity[p][axis] = 2.0 * kFastest;
                 CHECK_FALSE(areSound(1e-160, none, fast));  // so short that it gets nowhere
             }
+    }
+}
+
+TEST_CASE("Outer forces have the bits of weight and contacts one by one with every kind of vectors", "[lanes]") {
+    Particles particles = clouds::strewnUnequal(1003, 1.0);
+    ForceLaw law;
+    law.gravity = Vec3(0.3, -9.8, 0.1);
+    law.scenery.law = {.radius = 0.4, .repulsion = 9.0, .dampingFactor = 4.0, .coreFraction = 0.3};
+    const Sphere sphere{Vec3(0.1, -0.2, 0.3), 0.4};
+    particles.position[4] = sphere.center;
+    // A wall as far as the first particle's radius, and one just nearer.
+    const double away = particles.position[0].x() - particles.radius[0];
+    const std::vector<Collider> shapes = {Plane{Vec3(0.2, -0.5, 0), Vec3(1, 2, -3).normalized()},
+                                          Plane{Vec3(away, 0, 0), Vec3::UnitX()},
+                                          Plane{Vec3(std::nextafter(away, 1.0), 0, 0), Vec3::UnitX()},
+                                          Container{Vec3(-0.9, -0.8, -0.7), Vec3(0.9, 1.1, 0.6)},
+                                          Box{Vec3(-0.6, -0.5, -0.4), Vec3(-0.1, 0.3, 0.5)},
+                                          sphere,
+                                          Sphere{Vec3(-0.7, 0.7, 0), 0.3, true},
+                                          Sphere{Vec3(50, 0, 0), 1.0}};
+    constexpr std::size_t kFar = 7;                  // the last
+    for (const char* second : {"powder", "sand"}) {  // without friction, and with
+        law.materials = {*materialPreset("liquid"), *materialPreset(second)};
+        for (std::uint32_t p = 0; p < particles.count(); ++p) particles.material[p] = p % 3 == 0 ? 1 : 0;
+        for (std::size_t shape = 0; shape <= shapes.size(); ++shape) {  // each alone, then all
+            law.scenery.colliders = shape < shapes.size() ? std::vector{shapes[shape]} : shapes;
+            std::vector<Vec3> before;
+            for (std::uint64_t p = 0; p < particles.count(); ++p) before.push_back(clouds::randomVector(53, p));
+            std::vector<Vec3> expected = before;
+            std::size_t touched = 0;
+            for (std::size_t p = 0; p < particles.count(); ++p) {
+                const Material& material = law.materials[particles.material[p]];
+                const Vec3 contact =
+                    contactForce(law.scenery, {particles.position[p], particles.velocity[p], particles.radius[p],
+                                               material.dampingReach, material.friction});
+                expected[p] += particles.mass[p] * law.gravity;
+                expected[p] += contact;
+                if (contact != Vec3::Zero()) ++touched;
+            }
+            CHECK((shape == kFar ? touched == 0 : touched > 20));
+            for (const std::string& name : instructionSets()) {
+                const OnInstructionSet only(name);
+                for (const std::size_t split : {0U, 501U}) {
+                    std::vector<Vec3> actual = before;
+                    addOuterForces(law, particles, particles.velocity, 0, split, actual);
+                    addOuterForces(law, particles, particles.velocity, split, particles.count(), actual);
+                    INFO(second << ", shape " << shape << ", " << name << ", split at " << split);
+                    CHECK(actual == expected);
+                }
+            }
+        }
     }
 }
 
