@@ -80,7 +80,7 @@ void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& f
 }
 
 std::size_t ForceEvaluator::outerGrain() const {
-    constexpr std::size_t kContactGrain = 128;  // chosen: a contact takes some microseconds
+    constexpr std::size_t kContactGrain = 256;  // chosen: they take some microseconds
     return law_.scenery.colliders.empty() ? kParticleGrain : kContactGrain;
 }
 

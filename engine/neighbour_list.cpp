@@ -197,9 +197,11 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
     const double slack = 0.5 * (list.reach - cutoff);
     const auto way = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
     if (areWithin(slack, Vec3::Zero(), positions.size(), way)) return true;  // mostly, and soon known
-    // Where some have parted by more than two slacks, there is no way that all are near to.
-    const Extent some = extentOver(std::min(positions.size(), kSumChunk), way);
-    if ((some.high - some.low).maxCoeff() > 2.0 * kRoundingMargin * slack) return false;
+    // Where some have parted by more than two slacks, there is no way that all are near to. The youngest come last, and
+    // are the liveliest.
+    const std::size_t some = std::min(positions.size(), kSumChunk);
+    const Extent young = extentOver(some, [&](std::size_t p) { return way(positions.size() - some + p); });
+    if ((young.high - young.low).maxCoeff() > 2.0 * kRoundingMargin * slack) return false;
     return areWithin(slack, extentOver(positions.size(), way).middle(), positions.size(), way);
 }
 
