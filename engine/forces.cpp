@@ -80,8 +80,8 @@ void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& f
 }
 
 std::size_t ForceEvaluator::outerGrain() const {
-    constexpr std::size_t kContactGrain = 256;  // chosen: they take some microseconds
-    return law_.scenery.colliders.empty() ? kParticleGrain : kContactGrain;
+    constexpr std::size_t kGrain = 256;  // chosen: their obstacles take some microseconds
+    return law_.scenery.colliders.empty() ? kParticleGrain : kGrain;
 }
 
 void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,

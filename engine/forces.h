@@ -45,7 +45,7 @@ class ForceEvaluator {
     void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                        double step = 0.0);
 
-    /// Particles that a thread adds outer forces to at a time, at least.
+    /// Particles whose outer forces are worth a thread.
     std::size_t outerGrain() const;
 
     /// The same as evaluate without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.

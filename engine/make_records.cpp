@@ -2,6 +2,8 @@
 // fewer, they are taken one by one.
 #include "engine/make_records.h"
 
+#include <bit>
+#include <cstddef>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
@@ -40,6 +42,7 @@ HWY_INLINE hn::Vec<decltype(kTwo)> two(double first, double second) {
 template <Readers readers>
 HWY_INLINE void writeDouble(const OrderedParticles& from, std::size_t p, PairRecord& record) {
     static_assert(offsetof(PairRecord, radius) == 6 * sizeof(double) && sizeof(PairRecord) == 8 * sizeof(double));
+    static_assert(std::endian::native == std::endian::little && offsetof(PairRecord, id) == 60);
     constexpr hn::RebindToUnsigned<decltype(kTwo)> kBits;
     const double* const x = from.position[p].data();
     const double* const v = from.velocity[p].data();
@@ -57,6 +60,7 @@ HWY_INLINE void writeDouble(const OrderedParticles& from, std::size_t p, PairRec
 #if HWY_MAX_BYTES >= 32
 /// singleRecord() over lanes.
 class SingleWriter {
+    static_assert(offsetof(SinglePrecisionRecord, id) == 12 && offsetof(SinglePrecisionRecord, rest) == 28);
     static constexpr hn::CappedTag<double, 4> kTag{};
     static constexpr hn::RebindToUnsigned<decltype(kTag)> kBits{};
     static constexpr hn::Rebind<std::uint32_t, decltype(kTag)> kWhole{};
@@ -113,7 +117,8 @@ void writeAll(const OrderedParticles& of, const CellRange& places, Record* all, 
     }
 }
 
-/// Calls body with the readers as a constant; all of them can read when it returns.
+/// Calls body with the readers as a constant. What it wrote is on its way before anything that is written later, such
+/// as what tells other threads to go on.
 template <class Body>
 void forReaders(Readers readers, const Body& body) {
     if (readers == Readers::writer) return body(std::integral_constant<Readers, Readers::writer>());
@@ -154,6 +159,7 @@ void makeCandidatesHere(const std::vector<Vec3>& positions, const std::vector<st
     };
     std::size_t place = places.begin;
 #if HWY_TARGET != HWY_SCALAR
+    static_assert(__STDCPP_DEFAULT_NEW_ALIGNMENT__ >= 2 * sizeof(double));
     if (readers == Readers::all) {
         for (; place < places.end && place % 2 != 0; ++place) makeOne(place);
         for (; place + 2 <= places.end; place += 2) {

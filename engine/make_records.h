@@ -3,7 +3,10 @@
 
 #include <bit>
 #include <cstdint>
+#include <vector>
 
+#include "engine/lane_rows.h"
+#include "engine/list_search.h"
 #include "engine/ordered_particles.h"
 #include "engine/pair_record.h"
 #include "engine/parallel.h"
@@ -45,7 +48,7 @@ inline SinglePrecisionRecord singleRecord(const Vec3& position, const Vec3& velo
 /// For whom something is written.
 enum class Readers {
     writer,  ///< mostly who writes it
-    all,     ///< all threads: to memory, past the caches
+    all,     ///< all threads, once they are told of it: to memory, past the caches
 };
 
 /// Calls write(places, readers) for 0 ... count - 1, shared out over the threads.
@@ -54,8 +57,8 @@ enum class Readers {
 /// powder's.
 template <class Write>
 void forPlaces(std::size_t count, const Write& write) {
-    const bool hasOneWriter = count <= kParticleGrain && threadCount() > 1;
-    const bool hasReaders = count > kSeatsPerPart;  // few particles are not shared out
+    const bool hasOneWriter = count <= kParticleGrain;                   // inRanges makes one range of them
+    const bool hasReaders = count > kSeatsPerPart && threadCount() > 1;  // chosen: below, there is little to wait for
     const Readers readers = hasOneWriter && hasReaders ? Readers::all : Readers::writer;
     inRanges(count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
         write(CellRange{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)}, readers);
@@ -70,7 +73,8 @@ void makeDoubles(const OrderedParticles& from, const CellRange& places, Readers 
 void makeSingles(const OrderedParticles& from, double perMetre, const CellRange& places, Readers readers,
                  SinglePrecisionRecord* all);
 
-/// The same of their positions (m) by particle index, for a search. Shape: order: particle index at each place.
+/// Writes the positions (m) of the particles in some places for a search; leaves the overhang alone. Shape: positions
+/// by particle index; order: particle index at each place. Holds:  the positions themselves, on any instruction set.
 void makeCandidates(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& order,
                     const CellRange& places, Readers readers, Candidates& all);
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "engine/cell_number.h"
 #include "engine/extent.h"
 #include "engine/lane_layout.h"
 #include "engine/make_records.h"
@@ -184,9 +183,9 @@ std::size_t NeighbourList::seatOf(std::size_t p) const {
     // Few ask: written down for all, seats would take longer than to be looked for.
     const std::uint32_t place = placeOf[p];
     const std::size_t first = LaneRows::partOf(place) * kSeatsPerPart;
-    const auto part = rows.selves.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto seat = std::find(part, rows.selves.end(), static_cast<std::int32_t>(place));
-    return static_cast<std::size_t>(seat - rows.selves.begin());
+    std::size_t seat = first;
+    while (rows.selves.at(seat) != static_cast<std::int32_t>(place)) ++seat;
+    return seat;
 }
 
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
@@ -201,7 +200,8 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
     // are the liveliest.
     const std::size_t some = std::min(positions.size(), kSumChunk);
     const Extent young = extentOver(some, [&](std::size_t p) { return way(positions.size() - some + p); });
-    if ((young.high - young.low).maxCoeff() > 2.0 * kRoundingMargin * slack) return false;
+    constexpr double kMargin = 1.0 + 1e-6;  // far above what the look at each of them rounds
+    if ((young.high - young.low).maxCoeff() > 2.0 * kMargin * slack) return false;
     return areWithin(slack, extentOver(positions.size(), way).middle(), positions.size(), way);
 }
 

@@ -38,7 +38,7 @@ struct CellGrid {
 /// Holds:  the order within a cell is that of the indices, so that it depends on the positions alone.
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth);
 
-/// The cell of a place in the order.
+/// The cell of a place in the order, where somebody is.
 std::uint32_t cellOfPlace(const CellGrid& grid, std::uint32_t place);
 
 /// Cells side by side along x; a cell at either end of a row is a run of its own.

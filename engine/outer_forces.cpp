@@ -1,9 +1,9 @@
 // Compiled once per instruction set: as many particles at a time as a vector has lanes, and one face of an obstacle
-// after the other. Most are touched by nobody, which takes a comparison.
+// after the other. Most faces are touched by nobody, which is soon known.
 #include "engine/outer_forces.h"
 
 #include <array>
-#include <cmath>
+#include <variant>
 
 #include "engine/surfaces.h"
 
@@ -18,16 +18,19 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-/// contactForce() on particles side by side, as many as D has lanes: as surfaces.h has it, with the same order of
-/// products and sums.
+/// contactForce() on particles side by side, as many as D has lanes: as surfaces.h and pair_law.h have it, with the
+/// same order of products and sums. Of planes, containers and spheres heights alone tell who touches them: mayReach()
+/// spares a single particle work, and changes nothing.
 template <class D>
-class Contacts {
+class LaneContacts {
     using V = hn::Vec<D>;
     static constexpr D kTag{};
     static constexpr std::size_t kMost = hn::MaxLanes(D());
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
  public:
-    Contacts(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities, std::size_t first)
+    LaneContacts(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                 std::size_t first)
         : law_(law.scenery.law),
           particles_(particles),
           velocities_(velocities),
@@ -87,6 +90,13 @@ class Contacts {
 
     /// A box has faces, edges and corners: whoever is near meets it alone.
     void meet(const Box& box) {
+        const auto isAway = [&](V along, double minimum, double maximum) {
+            return hn::Or(hn::Gt(along, hn::Add(set(maximum), radius_)), hn::Lt(along, hn::Sub(set(minimum), radius_)));
+        };
+        const auto areAway = hn::Or(isAway(point_.x, box.minimum.x(), box.maximum.x()),
+                                    hn::Or(isAway(point_.y, box.minimum.y(), box.maximum.y()),
+                                           isAway(point_.z, box.minimum.z(), box.maximum.z())));
+        if (hn::AllTrue(kTag, areAway)) return;
         std::array<Vec3, kMost> force;
         hn::StoreInterleaved3(force_.x, force_.y, force_.z, kTag, force.front().data());
         for (std::size_t lane = 0; lane < lanes(); ++lane) {
@@ -139,7 +149,7 @@ class Contacts {
             difference(velocity_, {hn::Mul(speed, normal.x), hn::Mul(speed, normal.y), hn::Mul(speed, normal.z)});
         const V slipSpeed = hn::Max(hn::Sqrt(dot(slip, slip)), set(kStickingSpeed));
         const V damping = hn::Div(hn::Mul(friction_, aboveZero(pressure)), slipSpeed);
-        push(hn::And(isTouched, hn::Gt(friction_, hn::Zero(kTag))), hn::Neg(damping), slip);
+        push(hn::And(isTouched, hn::Ne(friction_, hn::Zero(kTag))), hn::Neg(damping), slip);
     }
 
     /// Adds factor times direction where it applies.
@@ -164,20 +174,20 @@ class Contacts {
 
 template <class D>
 void addTo(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities, std::size_t first,
-           Vec3& forces) {
+           Vec3& firstForce) {
     constexpr D kTag{};
-    Contacts<D> contacts(law, particles, velocities, first);
+    LaneContacts<D> contacts(law, particles, velocities, first);
     for (const Collider& collider : law.scenery.colliders)
         std::visit([&](const auto& shape) { contacts.meet(shape); }, collider);
     const auto mass = hn::LoadU(kTag, &particles.mass[first]);
-    auto sum = contacts.read(forces);
+    auto sum = contacts.read(firstForce);
     const auto add = [&](auto& force, double gravity, auto contact) {
         force = hn::Add(hn::Add(force, hn::Mul(mass, hn::Set(kTag, gravity))), contact);
     };
     add(sum.x, law.gravity.x(), contacts.force().x);
     add(sum.y, law.gravity.y(), contacts.force().y);
     add(sum.z, law.gravity.z(), contacts.force().z);
-    hn::StoreInterleaved3(sum.x, sum.y, sum.z, kTag, forces.data());
+    hn::StoreInterleaved3(sum.x, sum.y, sum.z, kTag, firstForce.data());
 }
 
 void addOuterForcesHere(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,

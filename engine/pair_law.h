@@ -1,5 +1,6 @@
 // The force between two particles: equations 2, 5 and 6 of the paper, with the pair energy and stiffness that follow
-// from them. This is the only place where they are written; every path over pairs and every obstacle calls it.
+// from them. Every path over pairs and every obstacle calls it, but for their twins on vectors (lane_law-inl.h,
+// outer_forces.cpp), which tests hold to the same bits.
 //
 // With D0 = r_i + r_p, R = c_r D0 and S = c_d D0, m = 5, n = 3 and b2 = b1/D0^2, equation 2 is P times the coefficient
 //     s_r (b1/D^5 - b2/D^3) - s_d b_d (V.P)/D^2

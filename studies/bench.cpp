@@ -173,7 +173,7 @@ class Bench {
 
     void addMultiplyAdds() {
         constexpr std::size_t kRounds = 1U << 22;
-        const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+        const std::size_t threads = engine::threadCount();
         BenchRow row;
         row.name = "multiply-add";
         row.precision = Precision::singles;

@@ -169,6 +169,22 @@ TEST_CASE("A list covers neither a wider cutoff nor another number of particles"
     CHECK_FALSE(covers(list, positions, kCutoff));
 }
 
+TEST_CASE("A list covers a crowd until any of it parts from the others", "[neighbour-list]") {
+    const std::vector<Vec3> before = clouds::strewn(3000, 2.5).position;
+    NeighbourList list;
+    build(list, before, kCutoff, kSkin);
+    std::vector<Vec3> fallen = before;
+    for (Vec3& position : fallen) position.y() -= 1.0;
+    CHECK(covers(list, fallen, kCutoff));
+    for (const std::size_t p : {0U, 1975U, 1976U, 2999U}) {
+        std::vector<Vec3> parted = fallen;
+        parted[p].x() += 0.9 * kSkin;  // half the skin each from the middle of all ways
+        CHECK(covers(list, parted, kCutoff));
+        parted[p].x() += 0.2 * kSkin;
+        CHECK_FALSE(covers(list, parted, kCutoff));
+    }
+}
+
 TEST_CASE("A list that covers holds every pair that has come within the cutoff", "[neighbour-list]") {
     std::vector<Vec3> positions = clouds::strewn(300, 1.2).position;
     NeighbourList list;
