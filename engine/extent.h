@@ -21,8 +21,10 @@ struct Extent {
     Vec3 middle() const { return 0.5 * (low + high); }
 
     void include(const Extent& other) {
-        low = low.cwiseMin(other.low);
-        high = high.cwiseMax(other.high);
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], other.low[axis]);
+            high[axis] = std::max(high[axis], other.high[axis]);
+        }
     }
 };
 
@@ -34,14 +36,13 @@ Extent extentOver(std::size_t count, const VectorOf& vectorOf) {
     inParallel(chunks, kParticleGrain / kSumChunk, [&](std::size_t chunk) {
         const std::size_t begin = chunk * kSumChunk;
         const std::size_t end = std::min(count, begin + kSumChunk);
-        Vec3 low = vectorOf(begin);
-        Vec3 high = low;
+        const Vec3 first = vectorOf(begin);
+        Extent extent{first, first};
         for (std::size_t index = begin + 1; index < end; ++index) {
             const Vec3 vector = vectorOf(index);
-            low = low.cwiseMin(vector);
-            high = high.cwiseMax(vector);
+            extent.include({vector, vector});
         }
-        partial[chunk] = {low, high};
+        partial[chunk] = extent;
     });
     Extent extent = partial.front();
     for (const Extent& part : partial) extent.include(part);

@@ -182,8 +182,7 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
 std::size_t NeighbourList::seatOf(std::size_t p) const {
     // Few ask: written down for all, seats would take longer than to be looked for.
     const std::uint32_t place = placeOf[p];
-    const std::size_t first = LaneRows::partOf(place) * kSeatsPerPart;
-    std::size_t seat = first;
+    std::size_t seat = LaneRows::partOf(place) * kSeatsPerPart;
     while (rows.selves.at(seat) != static_cast<std::int32_t>(place)) ++seat;
     return seat;
 }

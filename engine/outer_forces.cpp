@@ -31,7 +31,8 @@ class LaneContacts {
  public:
     LaneContacts(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  std::size_t first)
-        : law_(law.scenery.law),
+        : materials_(law.materials),
+          law_(law.scenery.law),
           particles_(particles),
           velocities_(velocities),
           first_(first),
@@ -90,20 +91,14 @@ class LaneContacts {
 
     /// A box has faces, edges and corners: whoever is near meets it alone.
     void meet(const Box& box) {
-        const auto isAway = [&](V along, double minimum, double maximum) {
-            return hn::Or(hn::Gt(along, hn::Add(set(maximum), radius_)), hn::Lt(along, hn::Sub(set(minimum), radius_)));
-        };
-        const auto areAway = hn::Or(isAway(point_.x, box.minimum.x(), box.maximum.x()),
-                                    hn::Or(isAway(point_.y, box.minimum.y(), box.maximum.y()),
-                                           isAway(point_.z, box.minimum.z(), box.maximum.z())));
-        if (hn::AllTrue(kTag, areAway)) return;
         std::array<Vec3, kMost> force;
         hn::StoreInterleaved3(force_.x, force_.y, force_.z, kTag, force.front().data());
         for (std::size_t lane = 0; lane < lanes(); ++lane) {
             const std::size_t p = first_ + lane;
             if (!mayReach(box, particles_.position[p], particles_.radius[p])) continue;
-            const Probe probe{particles_.position[p], velocities_[p], particles_.radius[p], at(dampingReach_, lane),
-                              at(friction_, lane)};
+            const Material& material = materials_[particles_.material[p]];
+            const Probe probe{particles_.position[p], velocities_[p], particles_.radius[p], material.dampingReach,
+                              material.friction};
             forEachSurface(box, probe.position, law_.radius, [&](const Surface& surface) {
                 if (surface.height < probe.radius)
                     addForce(surface, contactWith(surface, law_, probe), probe, force[lane]);
@@ -115,12 +110,6 @@ class LaneContacts {
  private:
     static V set(double number) { return hn::Set(kTag, number); }
     static Vector3<V> all(const Vec3& vector) { return {set(vector.x()), set(vector.y()), set(vector.z())}; }
-
-    static double at(V vector, std::size_t lane) {
-        std::array<double, kMost> numbers;
-        hn::StoreU(vector, kTag, numbers.data());
-        return numbers[lane];
-    }
 
     static V aboveZero(V number) { return hn::IfThenElseZero(hn::Gt(number, hn::Zero(kTag)), number); }
 
@@ -162,6 +151,7 @@ class LaneContacts {
         add(force_.z, direction.z);
     }
 
+    const std::vector<Material>& materials_;
     const RepulsorLaw& law_;
     const Particles& particles_;
     const std::vector<Vec3>& velocities_;
