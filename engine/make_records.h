@@ -53,8 +53,8 @@ enum class Readers {
 
 /// Calls write(places, readers) for 0 ... count - 1, shared out over the threads.
 /// Where one thread writes again what others have read, it waits, line by line, for their caches to give it up.
-/// Measured with `globular bench --filter symplectic` on Zen 5: a tenth of a step of 1000 solid particles, a sixth of
-/// powder's.
+/// Measured with `globular bench --filter symplectic` on Zen 5: a tenth of a step of 1000 settled particles, an eighth
+/// of one of 2000, a sixth of one of 2000 grains of powder.
 template <class Write>
 void forPlaces(std::size_t count, const Write& write) {
     const bool hasOneWriter = count <= kParticleGrain;                   // inRanges makes one range of them
