@@ -111,9 +111,9 @@ void applyOne(Value& root, const std::string& text, Position at, ProblemList& pr
 
 }  // namespace
 
-void applyOverrides(Value& root, const std::vector<std::string>& overrides, ProblemList& problems) {
+void applyOverrides(Value& root, const Overrides& overrides, ProblemList& problems) {
     for (std::size_t index = 0; index < overrides.size(); ++index)
-        applyOne(root, overrides[index], {0, 0, static_cast<int>(index)}, problems);
+        applyOne(root, overrides[index].change, {0, 0, static_cast<int>(index)}, problems);
 }
 
 }  // namespace scenes

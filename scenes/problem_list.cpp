@@ -13,7 +13,7 @@ constexpr std::size_t kMostProblems = 200;
 
 }  // namespace
 
-ProblemList::ProblemList(std::string file, std::vector<std::string> overrides)
+ProblemList::ProblemList(std::string file, Overrides overrides)
     : file_(std::move(file)), overrides_(std::move(overrides)) {}
 
 void ProblemList::add(const Position& at, std::string message) {
@@ -46,7 +46,7 @@ void ProblemList::throwIfAny() const {
             problems.push_back({file_, entry.at.line, entry.at.column, entry.message});
         else
             problems.push_back(
-                {"--set " + overrides_.at(static_cast<std::size_t>(entry.at.overrideIndex)), 0, 0, entry.message});
+                {overrides_.at(static_cast<std::size_t>(entry.at.overrideIndex)).flag, 0, 0, entry.message});
     }
     if (more_) problems.push_back({file_, 0, 0, "there are more problems than are shown here"});
     throw InputError(std::move(problems));

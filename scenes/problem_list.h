@@ -7,13 +7,14 @@
 
 #include "scenes/input_error.h"
 #include "scenes/located.h"
+#include "scenes/override.h"
 
 namespace scenes {
 
 class ProblemList {
  public:
-    /// Problems will name this file, or the override they are in.
-    ProblemList(std::string file, std::vector<std::string> overrides);
+    /// Problems will name this file, or the flag of the override they are in.
+    ProblemList(std::string file, Overrides overrides);
 
     /// Records a problem; one already recorded at the same place in the same words is not repeated.
     void add(const Position& at, std::string message);
@@ -34,7 +35,7 @@ class ProblemList {
     };
 
     std::string file_;
-    std::vector<std::string> overrides_;
+    Overrides overrides_;
     std::vector<Located> entries_;
     bool more_ = false;
 };

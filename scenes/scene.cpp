@@ -207,8 +207,7 @@ double frameTime(const Scene& scene, int frame) {
     return static_cast<double>(frame) / scene.fps;
 }
 
-Scene readScene(std::string_view text, const std::string& fileName, const std::vector<std::string>& overrides,
-                const Limits& limits) {
+Scene readScene(std::string_view text, const std::string& fileName, const Overrides& overrides, const Limits& limits) {
     ProblemList problems(fileName, overrides);
     Document document = parseDocument(text, problems);
     applyOverrides(document.root, overrides, problems);
@@ -231,7 +230,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const std::v
     return scene;
 }
 
-Scene loadScene(const std::string& path, const std::vector<std::string>& overrides, const Limits& limits) {
+Scene loadScene(const std::string& path, const Overrides& overrides, const Limits& limits) {
     return readScene(readFile(path, kLargestSceneFile), path, overrides, limits);
 }
 

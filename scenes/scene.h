@@ -13,6 +13,7 @@
 #include "scenes/input_error.h"
 #include "scenes/limits.h"
 #include "scenes/look.h"
+#include "scenes/override.h"
 #include "scenes/section.h"
 #include "scenes/study.h"
 
@@ -61,10 +62,10 @@ std::vector<int> stripFrames(const Scene& scene);
 
 /// The scene that a text describes. Files it names are sought in the folder of fileName, which also opens each message.
 /// Throws: InputError with all mistakes, by position, then those of the overrides ("physics.step=0.005").
-Scene readScene(std::string_view text, const std::string& fileName, const std::vector<std::string>& overrides,
+Scene readScene(std::string_view text, const std::string& fileName, const Overrides& overrides,
                 const Limits& limits = {});
 
 /// The scene in a file. Throws: InputError, also for a file that cannot be read.
-Scene loadScene(const std::string& path, const std::vector<std::string>& overrides, const Limits& limits = {});
+Scene loadScene(const std::string& path, const Overrides& overrides, const Limits& limits = {});
 
 }  // namespace scenes

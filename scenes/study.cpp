@@ -48,13 +48,13 @@ const ObservableInfo& infoOf(Observable observable) {
     return observables().at(static_cast<std::size_t>(observable));
 }
 
-std::vector<std::string> overridesOf(std::string_view variant) {
-    std::vector<std::string> overrides;
+Overrides overridesOf(std::string_view variant) {
+    Overrides overrides;
     while (!variant.empty()) {
         const std::size_t end = variant.find(';');
         std::string_view part = variant.substr(0, end);
         part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
-        if (!part.empty()) overrides.emplace_back(part);
+        if (!part.empty()) overrides.emplace_back(std::string(part));
         variant = end == std::string_view::npos ? std::string_view{} : variant.substr(end + 1);
     }
     return overrides;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/simulation.h"
+#include "scenes/override.h"
 
 namespace scenes {
 
@@ -61,7 +62,7 @@ struct Study {
 };
 
 /// "a=1; b=2" as overrides.
-std::vector<std::string> overridesOf(std::string_view variant);
+Overrides overridesOf(std::string_view variant);
 
 /// The variants that a run of the study takes; one without changes where the study lists none.
 std::vector<std::string> variantsOf(const Study& study, bool quick);

@@ -39,7 +39,7 @@ void printSummary(const RenderOptions& options, const fs::path& folder, const Js
 }
 
 void render(const RenderOptions& options) {
-    const scenes::Scene scene = load(options.scene, options.draw);
+    const scenes::Scene scene = load(options.scene, overridesOf(options.draw));
 
     RenderJob job;
     job.scene = &scene;

@@ -41,20 +41,6 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
     return limits;
 }
 
-/// Size and style as overrides of the scene's look.
-std::vector<std::string> overridesOf(const DrawOptions& options) {
-    std::vector<std::string> overrides;
-    if (!options.style.empty()) overrides.push_back("look.style=" + options.style);
-    if (options.size.empty()) return overrides;
-    const std::size_t cross = options.size.find('x');
-    const auto width = numberIn(std::string_view(options.size).substr(0, cross));
-    const auto height =
-        cross == std::string::npos ? std::nullopt : numberIn(std::string_view(options.size).substr(cross + 1));
-    if (!width || !height) failFlag("--size " + options.size, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
-    overrides.push_back(fmt::format("look.size=[{}, {}]", *width, *height));
-    return overrides;
-}
-
 }  // namespace
 
 void addTo(const Command& command, RunOptions& options) {
@@ -67,7 +53,7 @@ void addTo(const Command& command, RunOptions& options) {
 void addTo(const Command& command, SceneOptions& options) {
     command.option("SCENE", options.scene, "a scene file, or the name of a built-in scene (see globular scenes)")
         .required();
-    command.option("--set", options.overrides, "change a key of the scene, e.g. --set physics.step=0.005")
+    command.option("--set", options.changes, "change a key of the scene, e.g. --set physics.step=0.005")
         .of("KEY=VALUE")
         .oneAtATime();
     command.option("--limit", options.limits, "allow a larger scene: particles=N, frames=N or pixels=N (of a picture)")
@@ -110,14 +96,24 @@ int threadCount(const RunOptions& options) {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-scenes::Scene load(const SceneOptions& options) {
-    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), options.overrides,
-                             limitsOf(options.limits));
+scenes::Scene load(const SceneOptions& options, const scenes::Overrides& others) {
+    scenes::Overrides overrides(options.changes.begin(), options.changes.end());
+    overrides.insert(overrides.end(), others.begin(), others.end());
+    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), overrides, limitsOf(options.limits));
 }
 
-scenes::Scene load(SceneOptions options, const DrawOptions& draw) {
-    for (const std::string& change : overridesOf(draw)) options.overrides.push_back(change);
-    return load(options);
+scenes::Overrides overridesOf(const DrawOptions& options) {
+    scenes::Overrides overrides;
+    if (!options.style.empty()) overrides.emplace_back("look.style=" + options.style, "--style " + options.style);
+    if (options.size.empty()) return overrides;
+    const std::string flag = "--size " + options.size;
+    const std::size_t cross = options.size.find('x');
+    const auto width = numberIn(std::string_view(options.size).substr(0, cross));
+    const auto height =
+        cross == std::string::npos ? std::nullopt : numberIn(std::string_view(options.size).substr(cross + 1));
+    if (!width || !height) failFlag(flag, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
+    overrides.emplace_back(fmt::format("look.size=[{}, {}]", *width, *height), flag);
+    return overrides;
 }
 
 render::Quality qualityOf(const DrawOptions& options) {

@@ -25,9 +25,9 @@ struct RunOptions {
 
 /// Which scene, with what changed.
 struct SceneOptions {
-    std::string scene;                   ///< path or built-in name
-    std::vector<std::string> overrides;  ///< key=value
-    std::vector<std::string> limits;     ///< name=number
+    std::string scene;                 ///< path or built-in name
+    std::vector<std::string> changes;  ///< key=value
+    std::vector<std::string> limits;   ///< name=number
 };
 
 /// How frames are drawn.
@@ -57,11 +57,11 @@ int threadCount(const RunOptions& options);
 /// The folder of a run called `name`; what is damaged in it is said on stderr.
 FolderOptions folderOf(const FolderFlags& flags, const std::string& name);
 
-/// The scene with its overrides. Throws scenes::InputError.
-scenes::Scene load(const SceneOptions& options);
+/// The scene with its changes, and with those that other flags ask for. Throws scenes::InputError.
+scenes::Scene load(const SceneOptions& options, const scenes::Overrides& others = {});
 
-/// The scene with its overrides, and the size and style of how it is drawn.
-scenes::Scene load(SceneOptions options, const DrawOptions& draw);
+/// Size and style of how a scene is drawn as changes to it. Throws scenes::InputError.
+scenes::Overrides overridesOf(const DrawOptions& options);
 
 render::Quality qualityOf(const DrawOptions& options);
 

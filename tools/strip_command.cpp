@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "render/png.h"
 #include "tools/commands.h"
@@ -27,9 +26,10 @@ struct StripOptions {
 };
 
 scenes::Scene loadFor(const StripOptions& options) {
-    SceneOptions sceneOptions = options.scene;
-    if (!options.times.empty()) sceneOptions.overrides.push_back(fmt::format("still.strip=[{}]", options.times));
-    return load(std::move(sceneOptions), options.draw);
+    scenes::Overrides overrides = overridesOf(options.draw);
+    if (!options.times.empty())
+        overrides.emplace_back(fmt::format("still.strip=[{}]", options.times), "--times " + options.times);
+    return load(options.scene, overrides);
 }
 
 void printResult(const StripOptions& options, const fs::path& path, const Json& json) {

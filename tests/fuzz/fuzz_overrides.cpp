@@ -30,8 +30,8 @@ style = "metaballs"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::istringstream text(std::string(reinterpret_cast<const char*>(data), size));
-    std::vector<std::string> overrides;
-    for (std::string line; std::getline(text, line);) overrides.push_back(line);
+    scenes::Overrides overrides;
+    for (std::string line; std::getline(text, line);) overrides.emplace_back(line);
     try {
         scenes::readScene(kScene, GLOBULAR_SOURCE "/tests/fuzz/fuzzed.toml", overrides,
                           {.particles = 1000, .frames = 1000, .pixels = 1e6});

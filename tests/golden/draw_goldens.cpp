@@ -24,9 +24,9 @@ constexpr render::PictureSize kSize = {320, 180};
 constexpr std::array kStyles = {"spheres", "metaballs"};
 
 scenes::Scene sceneIn(const GoldenScene& golden, const std::string& style) {
-    std::vector<std::string> overrides = golden.overrides;
-    overrides.push_back("look.style=" + style);
-    overrides.push_back(fmt::format("look.size=[{}, {}]", kSize.width, kSize.height));
+    scenes::Overrides overrides(golden.overrides.begin(), golden.overrides.end());
+    overrides.emplace_back("look.style=" + style);
+    overrides.emplace_back(fmt::format("look.size=[{}, {}]", kSize.width, kSize.height));
     return scenes::loadScene(fmt::format("{}/scenes/{}.toml", GLOBULAR_SOURCE, golden.name), overrides);
 }
 

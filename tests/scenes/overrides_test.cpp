@@ -48,6 +48,9 @@ TEST_CASE("problems of overrides name the option, after those of the file and in
                 "--set fps=0: fps is 0, must be 1 to 240 (per second)"});
     CHECK(problemsOf(kBall, {"look.size=[640, 4.5]"}) ==
           Lines{"--set look.size=[640, 4.5]: size[1] is 4.5, must be a whole number (pixels)"});
+    CHECK(problemsOf(kBall, {scenes::Override("look.size=[8, 64]", "--size 8x64"), "fps=0"}) ==
+          Lines{"--size 8x64: size[0] is 8, must be 16 to 8192 (pixels)",
+                "--set fps=0: fps is 0, must be 1 to 240 (per second)"});
 }
 
 TEST_CASE("an override mends what the file has wrong") {

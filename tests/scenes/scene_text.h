@@ -21,7 +21,7 @@ inline const std::string kBall = "title = \"t\"\nduration = 2\n[[body]]\nshape =
 inline const std::string kTop = "title = \"t\"\nduration = 2\n";
 
 /// The problems of a scene called pile.toml, one line each; empty if there are none.
-inline Lines problemsOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
+inline Lines problemsOf(const std::string& text, const scenes::Overrides& overrides = {}) {
     try {
         scenes::readScene(text, "pile.toml", overrides);
     } catch (const scenes::InputError& error) {
@@ -32,7 +32,7 @@ inline Lines problemsOf(const std::string& text, const std::vector<std::string>&
     return {};
 }
 
-inline scenes::Scene sceneOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
+inline scenes::Scene sceneOf(const std::string& text, const scenes::Overrides& overrides = {}) {
     return scenes::readScene(text, "pile.toml", overrides);
 }
 

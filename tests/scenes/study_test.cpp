@@ -54,7 +54,7 @@ TEST_CASE("what is wrong with a study is reported at its place") {
 TEST_CASE("a variant is a list of overrides") {
     CHECK(scenes::overridesOf("").empty());
     CHECK(scenes::overridesOf("fps=20; body[0].center=[1, 2, 3];duration=4") ==
-          std::vector<std::string>{"fps=20", "body[0].center=[1, 2, 3]", "duration=4"});
+          scenes::Overrides{"fps=20", "body[0].center=[1, 2, 3]", "duration=4"});
     CHECK(problemsOf(kBall, scenes::overridesOf("fps")).size() == 1);
 }
 

@@ -34,7 +34,7 @@ spacing = 0.2
 jitter = 0.2
 )";
 
-scenes::Scene dozen(const std::vector<std::string>& overrides = {}) {
+scenes::Scene dozen(const scenes::Overrides& overrides = {}) {
     return scenes::readScene(kDozen, "dozen.toml", overrides);
 }
 

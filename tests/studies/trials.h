@@ -35,7 +35,7 @@ inline studies::Run runOf(const std::vector<engine::Particles>& frames) {
 }
 
 /// A scene of one ball in empty space without gravity, and what is appended to its text.
-inline scenes::Scene sceneWith(const std::string& more, const std::vector<std::string>& overrides = {}) {
+inline scenes::Scene sceneWith(const std::string& more, const scenes::Overrides& overrides = {}) {
     const std::string text =
         "title = \"t\"\nduration = 0.5\nfps = 60\n[physics]\ngravity = [0, 0, 0]\n[[body]]\nshape = \"ball\"\nradius = "
         "0.6\n";

@@ -126,7 +126,8 @@ TEST_CASE("The moments of a strip are checked like the scene's own", "[tools]") 
     const std::string strip = "strip figure-2 --size 64x48 -o " + (folder / "strip.png").string();
     const auto late = run(strip + " --times 0.2,99");
     CHECK(late.code == 2);
-    CHECK(late.err.find("strip[1] is 99, must be at most the duration, 16 (seconds)") != std::string::npos);
+    CHECK(late.err ==
+          "error: --times 0.2,99: strip[1] is 99, must be at most the duration, 16 (seconds)\n");  // not --set
     CHECK(run(strip + " --times 1,0.5").code == 2);
     CHECK(run(strip + " --times soon").code == 2);
     CHECK(!fs::exists(folder / "strip.png"));
