@@ -112,7 +112,7 @@ template <class Record, class Write>
 void writeAll(const OrderedParticles& of, const CellRange& places, Record* all, const Write& writeOne) {
     const OrderedParticles from = of;  // nothing that is written is part of it
     for (std::size_t place = places.begin; place < places.end; ++place) {
-        from.fetchAhead(place);
+        from.fetchAhead<Record>(place);
         writeOne(from, from.order[place], all[place]);
     }
 }
