@@ -27,8 +27,9 @@ constexpr double kStep = 0.01;
 /// Of the packed blocks, s: the solid pulls itself together, which at the paper's step would throw it about.
 constexpr double kBlockStep = 0.002;
 
-/// Steps of a run from the same state. Chosen: a block's list is built twice on the way.
-constexpr std::uint64_t kSteps = 20;
+/// Steps of a run from the same state. Chosen: a block's list is built twice on the way, whatever its size; after 20
+/// some have had one only.
+constexpr std::uint64_t kSteps = 22;
 constexpr std::uint64_t kStepsOfEveryPair = 2;
 
 /// The same state with nobody to be born, its forces summed another way.
