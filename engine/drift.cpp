@@ -42,6 +42,7 @@ bool isClear(const Simulation& simulation, std::size_t p) {
 }
 
 void prepareDrift(Simulation& simulation) {
+    simulation.evaluator.forgetMoves();
     if (simulation.setup.scenery.colliders.empty()) return;
     simulation.swept.resize(simulation.particles.count());
     simulation.clearance.resize(simulation.particles.count(), kUnknown);

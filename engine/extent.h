@@ -18,7 +18,16 @@ struct Extent {
     Vec3 low;
     Vec3 high;
 
+    /// Of nobody.
+    static Extent empty() {
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        return {Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+    }
+
     Vec3 middle() const { return 0.5 * (low + high); }
+
+    /// From the middle to a corner.
+    double halfDiagonal() const { return 0.5 * std::sqrt(squaredLength(high - low)); }
 
     void include(const Extent& other) {
         for (int axis = 0; axis < 3; ++axis) {

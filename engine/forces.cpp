@@ -57,11 +57,6 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     return energy;
 }
 
-void ForceEvaluator::forgetList() {
-    pairs_.list.builtAt.clear();
-    pairs_.list.placeOf.clear();
-}
-
 bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p) const {
     const NeighbourList& list = pairs_.list;
     if (p >= list.placeOf.size()) return false;

@@ -45,6 +45,12 @@ class ForceEvaluator {
     void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                        double step = 0.0);
 
+    /// Since the last call or evaluation over the list every particle has moved by some vector in a box (m) and kept
+    /// its index: spares the next evaluation a look at all of them. Births may follow; whoever else moves particles
+    /// afterwards notes that, too, or has the moves forgotten.
+    void noteMoves(const Extent& moves) { pairs_.noteMoves(moves); }
+    void forgetMoves() { pairs_.forgetMoves(); }
+
     /// Particles whose outer forces are worth a thread.
     std::size_t outerGrain() const;
 
@@ -63,7 +69,7 @@ class ForceEvaluator {
     const NeighbourList& list() const { return pairs_.list; }
 
     /// Particles have other indices now: the list serves nobody any more.
-    void forgetList();
+    void forgetList() { pairs_.forgetList(); }
 
     /// Brings back a list by what it was built for, as of a run that is gone on with.
     void restoreList(const std::vector<Vec3>& builtAt, double reach) { pairs_.restoreList(builtAt, reach); }

@@ -2,7 +2,9 @@
 // those of as many particles as one has lanes.
 #include "engine/kick_drift.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "engine/soundness.h"
 
@@ -43,8 +45,33 @@ class Kicker {
 
     static std::size_t lanes() { return hn::Lanes(kTag); }
 
+    /// The smallest and the largest velocity in each lane of the three vectors, m/s.
+    struct Range {
+        std::array<V, kAxes> low, high;
+
+        Range() {
+            low.fill(hn::Set(kTag, std::numeric_limits<double>::infinity()));
+            high.fill(hn::Set(kTag, -std::numeric_limits<double>::infinity()));
+        }
+
+        Extent extent() const {
+            Extent extent = Extent::empty();
+            std::array<double, kMost> lows, highs;
+            for (std::size_t k = 0; k < kAxes; ++k) {
+                hn::StoreU(low[k], kTag, lows.data());
+                hn::StoreU(high[k], kTag, highs.data());
+                for (std::size_t lane = 0; lane < lanes(); ++lane) {
+                    const auto axis = static_cast<Eigen::Index>((k * lanes() + lane) % kAxes);
+                    extent.low[axis] = std::min(extent.low[axis], lows[lane]);
+                    extent.high[axis] = std::max(extent.high[axis], highs[lane]);
+                }
+            }
+            return extent;
+        }
+    };
+
     /// Returns whether the particles from one on are sound.
-    bool move(const Numbers& all, std::size_t first) const {
+    bool move(const Numbers& all, std::size_t first, Range& range) const {
         const V mass = hn::LoadU(kTag, all.mass + first);
         const V perMass = hn::Div(h_, mass);
         auto areSound = hn::FirstN(kTag, lanes());
@@ -60,6 +87,8 @@ class Kicker {
             hn::StoreU(position, kTag, all.position + at);
             areSound = hn::And(areSound, isBelow(position, kWorldLimit));
             areSound = hn::And(areSound, isBelow(velocity, kFastest));
+            range.low[k] = hn::Min(range.low[k], velocity);
+            range.high[k] = hn::Max(range.high[k], velocity);
         }
         return hn::AllTrue(kTag, areSound);
     }
@@ -88,18 +117,25 @@ class Kicker {
     std::array<V, kAxes> gravity_;
 };
 
-template <bool addsWeight>
-bool moveAll(const KickDrift& step, const Numbers& all, std::size_t begin, std::size_t end) {
-    const Kicker<hn::ScalableTag<double>, addsWeight> many(step);
+/// Moves as many as fill vectors of D from one on; that one is then the first of those that are left.
+template <class D, bool addsWeight>
+Moved moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, std::size_t end) {
+    const Kicker<D, addsWeight> kicker(step);
+    typename Kicker<D, addsWeight>::Range range;
     bool areSound = true;
-    std::size_t p = begin;
-    for (; p + many.lanes() <= end; p += many.lanes()) areSound &= many.move(all, p);
-    const Kicker<hn::CappedTag<double, 1>, addsWeight> one(step);
-    for (; p < end; ++p) areSound &= one.move(all, p);
-    return areSound;
+    for (; first + kicker.lanes() <= end; first += kicker.lanes()) areSound &= kicker.move(all, first, range);
+    return {areSound, range.extent()};
 }
 
-bool kickAndDriftHere(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+template <bool addsWeight>
+Moved moveAll(const KickDrift& step, const Numbers& all, std::size_t begin, std::size_t end) {
+    std::size_t first = begin;
+    Moved moved = moveMany<hn::ScalableTag<double>, addsWeight>(step, all, first, end);
+    moved.include(moveMany<hn::CappedTag<double, 1>, addsWeight>(step, all, first, end));
+    return moved;
+}
+
+Moved kickAndDriftHere(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     const Numbers all{particles.mass.data(), step.forces.data()->data(), particles.position.data()->data(),
                       particles.velocity.data()->data()};
@@ -116,8 +152,8 @@ namespace engine {
 
 HWY_EXPORT(kickAndDriftHere);
 
-bool kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
-    if (begin == end) return true;
+Moved kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+    if (begin == end) return {};
     return HWY_DYNAMIC_DISPATCH(kickAndDriftHere)(step, begin, end, particles);
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/extent.h"
 #include "engine/particles.h"
 
 namespace engine {
@@ -17,9 +18,20 @@ struct KickDrift {
     bool hasWeight = false;           ///< is among the forces already
 };
 
-/// Kicks particles begin to end - 1 and lets them drift: v becomes decay (v + h/m F), where F is their force and
-/// weight, x becomes x + h v. Returns whether all of them are sound (soundness.h). Holds:  the same bits on any
-/// instruction set, and however particles are split up into ranges.
-bool kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles);
+/// What is known of particles that have been moved.
+struct Moved {
+    bool areSound = true;                 ///< all of them (soundness.h)
+    Extent velocities = Extent::empty();  ///< the box around theirs, m/s, if they are sound
+
+    void include(const Moved& others) {
+        areSound &= others.areSound;
+        velocities.include(others.velocities);
+    }
+};
+
+/// Kicks particles begin to end - 1 and lets them drift: v becomes decay (v + h/m F), where F is their
+/// force and weight, x becomes x + h v. Holds:  the same bits on any instruction set, and however particles are split
+/// up into ranges.
+Moved kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles);
 
 }  // namespace engine

@@ -157,6 +157,16 @@ void sortByCell(NeighbourList& list, const std::vector<Vec3>& positions) {
     });
 }
 
+/// Whether a list is of so many particles and reaches so far (m). One that is forgotten has its order still.
+bool isOf(const NeighbourList& list, std::size_t count, double cutoff) {
+    return count == list.builtAt.size() && count == list.count() && cutoff <= list.reach;
+}
+
+/// How far each particle may go, m.
+double slackOf(const NeighbourList& list, double cutoff) {
+    return 0.5 * (list.reach - cutoff);
+}
+
 template <class... Vectors>
 std::size_t bytesHeld(const Vectors&... vectors) {
     return (std::size_t{0} + ... + (vectors.capacity() * sizeof(vectors[0])));
@@ -187,12 +197,15 @@ std::size_t NeighbourList::seatOf(std::size_t p) const {
     return seat;
 }
 
+bool coversWithin(const NeighbourList& list, const Extent& displacements, std::size_t count, double cutoff) {
+    constexpr double kMargin = 1.0 - 1e-9;  // for the roundings of lengths and their squares, in either look
+    return isOf(list, count, cutoff) && displacements.halfDiagonal() <= kMargin * slackOf(list, cutoff);
+}
+
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff) {
-    // A list that is forgotten has its order still.
-    if (positions.size() != list.builtAt.size() || positions.size() != list.count() || cutoff > list.reach)
-        return false;
+    if (!isOf(list, positions.size(), cutoff)) return false;
     if (positions.empty()) return true;
-    const double slack = 0.5 * (list.reach - cutoff);
+    const double slack = slackOf(list, cutoff);
     const auto way = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
     if (areWithin(slack, Vec3::Zero(), positions.size(), way)) return true;  // mostly, and soon known
     // Where some have parted by more than two slacks, there is no way that all are near to. The youngest come last, and

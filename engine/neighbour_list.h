@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/extent.h"
 #include "engine/lane_rows.h"
 #include "engine/list_search.h"
 #include "engine/neighbours.h"
@@ -43,6 +44,15 @@ void build(NeighbourList& list, const std::vector<Vec3>& positions, double cutof
 
 /// Whether every pair closer than the cutoff (m) is certainly in the list.
 bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, double cutoff);
+
+/// The same for so many particles whose displacements since the list was built lie in a box (m), wherever in it.
+/// Holds:  where covers() says no, so does this, if the box leaves kDisplacementMargin a step for rounding.
+bool coversWithin(const NeighbourList& list, const Extent& displacements, std::size_t count, double cutoff);
+
+/// What roundings may add to or take off a displacement along an axis in a step, m: twice what they do in a world that
+/// reaches to kWorldLimit. With u = 2^-53, of places up to 1e8 m: the new place is rounded by u 1e8, the sum of the
+/// steps' boxes by 2 u 1e8, and what covers() subtracts twice by 6 u 1e8.
+inline constexpr double kDisplacementMargin = 2e-7;
 
 /// Entries for which the rows have room, with those that fill them up.
 std::size_t roomOf(const LaneRows& rows);

@@ -2,8 +2,8 @@
 #include "engine/pair_traversal.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "engine/extent.h"
 #include "engine/list_skin.h"
 #include "engine/make_records.h"
 
@@ -37,12 +37,16 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
         uniformRadius = particles.radius.front();
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);
     }
-    if (!covers(list, particles.position, terms.cutoff)) {
+    if (!std::exchange(areMovesNoted, false)) forgetMoves();
+    const bool isCovered = (displacements && coversWithin(list, *displacements, particles.count(), terms.cutoff)) ||
+                           covers(list, particles.position, terms.cutoff);
+    if (!isCovered) {
         const bool isForeseen = step > 0.0 && list.count() > 0 && particles.count() > 0;
         const double skin =
             isForeseen ? cheapestSkin(neighboursWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
                        : kListSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
+        displacements = Extent{Vec3::Zero(), Vec3::Zero()};
     }
     const bool hasSingles = terms.uniform && precision == Precision::singles;
     hasRecords = false;
@@ -53,6 +57,24 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     forPlaces(singles.size(), [&](const CellRange& places, Readers readers) {
         makeSingles(from, 1.0 / unit, places, readers, singles.data());
     });
+}
+
+void PairTraversal::forgetList() {
+    list.builtAt.clear();
+    list.placeOf.clear();
+    forgetMoves();
+}
+
+void PairTraversal::noteMoves(const Extent& moves) {
+    if (!displacements) return;
+    areMovesNoted = true;
+    displacements->low += moves.low;
+    displacements->high += moves.high;
+}
+
+void PairTraversal::forgetMoves() {
+    areMovesNoted = false;
+    displacements.reset();
 }
 
 void PairTraversal::makeRecords(const Particles& particles, const std::vector<Vec3>& velocities) {

@@ -3,8 +3,10 @@
 // thread waits for another, and no sum depends on how the work is shared out.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "engine/extent.h"
 #include "engine/force_law.h"
 #include "engine/lane_rows.h"
 #include "engine/neighbour_list.h"
@@ -31,7 +33,10 @@ struct PairTraversal {
     Scratch<std::vector<PairRecord>> records;             ///< in the list's order, where there are any
     Scratch<std::vector<SinglePrecisionRecord>> singles;  ///< in the list's order; empty in double
     double unit = 0.0;                                    ///< of the singles' positions, m
-    bool hasRecords = false;                              ///< not in float, unless they are asked for
+    /// Since the list was built, m; none where somebody has prepared without saying how far particles have moved.
+    std::optional<Extent> displacements;
+    bool areMovesNoted = false;  ///< since the last prepare(), in the displacements
+    bool hasRecords = false;     ///< not in float, unless they are asked for
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
@@ -41,11 +46,24 @@ struct PairTraversal {
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
 
+    /// Since the last call, or else prepare(), every particle has moved by some vector in a box (m) and kept its index.
+    /// Spares the next prepare() a look at how far each of them is from where the list was built.
+    void noteMoves(const Extent& moves);
+
+    /// Particles are moved in ways that nobody notes.
+    void forgetMoves();
+
+    /// Particles have other indices now: the list serves nobody any more.
+    void forgetList();
+
     /// After prepare(), for the same: the records, where there are none yet, for whatever float is not enough for.
     void makeRecords(const Particles& particles, const std::vector<Vec3>& velocities);
 
     /// Brings back the list that was built for these positions (m) with this reach (m).
-    void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(list, builtAt, reach, 0.0); }
+    void restoreList(const std::vector<Vec3>& builtAt, double reach) {
+        build(list, builtAt, reach, 0.0);
+        forgetMoves();
+    }
 
     template <bool isUniform>
     PairConstants<double> constants(const PairRecord& p, const PairRecord& i) const {

@@ -104,6 +104,7 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
     simulation.particles.position = kept.position;
     simulation.particles.velocity = kept.velocity;
     simulation.clearance.clear();
+    simulation.evaluator.forgetMoves();
     simulation.forcesCurrent = kept.forcesCurrent;
     if (kept.forcesCurrent) simulation.forces = kept.forces;
     simulation.energy = kept.energy;

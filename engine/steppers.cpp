@@ -1,8 +1,8 @@
 // The steppers by name, and the paper's own.
 #include "engine/steppers.h"
 
-#include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include "engine/decay.h"
 #include "engine/implicit_step.h"
@@ -26,13 +26,19 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .gravity = evaluator.law().gravity,
                          .forces = simulation.forces,
                          .hasWeight = hasObstacles};
-    std::atomic<bool> areAllSound = true;
+    Moved moved;
+    std::mutex merging;
     inRanges(particles.count(), evaluator.outerGrain(), [&](std::size_t begin, std::size_t end) {
         // Pairs, weight, obstacles: the order is part of the bits.
         if (hasObstacles) addOuterForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.forces);
-        if (!kickAndDrift(step, begin, end, particles)) areAllSound = false;
+        const Moved range = kickAndDrift(step, begin, end, particles);
+        const std::scoped_lock lock(merging);
+        moved.include(range);
     });
-    return areAllSound;
+    if (!moved.areSound) return false;
+    const Vec3 margin = Vec3::Constant(kDisplacementMargin);
+    evaluator.noteMoves({h * moved.velocities.low - margin, h * moved.velocities.high + margin});
+    return true;
 }
 
 void takeStep(Simulation& simulation, double h) {

@@ -187,6 +187,24 @@ TEST_CASE("Only the terms that a scene needs", "[forces]") {
     CHECK_FALSE(termsFor(both, equal).pair.oneReach);
 }
 
+TEST_CASE("One radius that is another is found among any number", "[forces]") {
+    const ForceLaw law = clouds::lawOf("solid");
+    for (const std::size_t count : {1U, 2U, 3U, 200000U}) {
+        Particles particles;
+        particles.radius.assign(count, 0.15);
+        CHECK(termsFor(law, particles).uniform);
+        for (const std::size_t odd : {std::size_t{0}, count / 3, count / 2 - 1, count / 2, count - 1}) {
+            if (count == 1 || odd >= count) continue;
+            particles.radius[odd] = 0.3;
+            INFO(odd << " of " << count);
+            const ForceTerms terms = termsFor(law, particles);
+            CHECK_FALSE(terms.uniform);
+            CHECK(terms.cutoff == reachOf(law.materials) * 0.6);
+            particles.radius[odd] = 0.15;
+        }
+    }
+}
+
 TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") {
     ForceLaw law = clouds::lawOf("liquid");
     law.gravity = Vec3(0, -9.8, 0);
@@ -203,6 +221,58 @@ TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") 
         CHECK(forces[0].y() == Approx(-19.6 + contact.y()).epsilon(4 * kEps));  // two sums
         CHECK(forces[1] == Vec3(0, -19.6, 0));
     }
+}
+
+TEST_CASE("Particles whose moves are noted are not looked at until they may have left the list", "[forces]") {
+    Particles particles = clouds::strewn(300, 1.0);
+    ForceEvaluator evaluator(clouds::lawOf("solid"), ForceMethod::grid);
+    const Extent nothing{Vec3::Zero(), Vec3::Zero()};
+    const auto spread = [&] {
+        for (Vec3& position : particles.position) position *= 2.0;
+    };
+    const auto isListedAnew = [&] {
+        const std::vector<Vec3> before = evaluator.list().builtAt;
+        std::vector<Vec3> forces;
+        evaluator.pairForcesGrid(particles, particles.velocity, forces);
+        return evaluator.list().builtAt != before;
+    };
+    evaluator.noteMoves(nothing);  // of no list
+    REQUIRE(isListedAnew());
+    spread();
+    evaluator.noteMoves(nothing);  // a lie, to see who is believed
+    CHECK_FALSE(isListedAnew());
+    evaluator.noteMoves({Vec3::Zero(), Vec3::Constant(1.0)});
+    CHECK(isListedAnew());
+    spread();
+    CHECK(isListedAnew());  // nobody says anything
+    spread();
+    evaluator.noteMoves(nothing);
+    evaluator.forgetMoves();
+    CHECK(isListedAnew());
+    evaluator.restoreList(particles.position, 1.0);
+    spread();
+    evaluator.noteMoves(nothing);  // of who knows what
+    CHECK(isListedAnew());
+    spread();
+    evaluator.noteMoves(nothing);
+    append(particles, {});
+    CHECK(isListedAnew());
+}
+
+TEST_CASE("Whoever comes in somebody's place is not taken for him, whatever was noted", "[forces]") {
+    const ForceLaw law = clouds::lawOf("solid");
+    Particles particles = clouds::strewn(100, 1.0);
+    ForceEvaluator evaluator(law, ForceMethod::grid);
+    const Extent nothing{Vec3::Zero(), Vec3::Zero()};
+    std::vector<Vec3> forces;
+    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    evaluator.noteMoves(nothing);
+    evaluator.forgetList();
+    particles.radius.back() *= 2.0;
+    std::swap(particles.position.front(), particles.position.back());
+    evaluator.noteMoves(nothing);
+    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    CHECK(forces == onGrid(law, particles));
 }
 
 TEST_CASE("Who is alone is told by positions, however far a list that covers them reaches", "[forces]") {

@@ -6,7 +6,7 @@
 #include "engine/bodies.h"
 #include "engine/diagnostics.h"
 #include "engine/steppers.h"
-#include "tests/engine/clouds.h"
+#include "tests/engine/runs.h"
 
 using namespace engine;
 
@@ -30,6 +30,38 @@ Setup busyScene(StepperKind stepper) {
     emitter.interval = 0.1;
     setup.emitters = {emitter};
     return setup;
+}
+
+/// More particles than one thread takes, among obstacles of all kinds.
+Setup crowdAmongObstacles() {
+    Setup setup;
+    setup.materials = {*materialPreset("sand")};
+    setup.stepper = StepperKind::symplecticEuler;
+    setup.step = 0.002;
+    setup.initial = clouds::strewn(1500, 1.2);
+    setup.scenery.colliders = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}, Sphere{Vec3(0.5, 0, 0), 0.4},
+                               Box{Vec3(-0.8, -0.5, -0.4), Vec3(-0.3, 0.2, 0.4)},
+                               Container{Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)}};
+    return setup;
+}
+
+/// Beside a run another one whose evaluator is told that particles may be anywhere, and looks at them every time.
+void checkLists(const Setup& setup) {
+    Simulation noted = start(setup);
+    Simulation looked = noted;
+    std::size_t lists = 0;
+    for (int step = 1; step <= 100; ++step) {
+        const std::vector<Vec3> before = noted.evaluator.list().builtAt;
+        for (Simulation* simulation : {&noted, &looked}) advance(*simulation, 0.002 * step);
+        looked.evaluator.noteMoves({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
+        lists += noted.evaluator.list().builtAt != before ? 1U : 0U;
+        INFO("step " << step);
+        REQUIRE(noted.evaluator.list().builtAt == looked.evaluator.list().builtAt);
+        REQUIRE(noted.particles.position == looked.particles.position);
+    }
+    CHECK(lists > 5);
+    CHECK(lists < 95);
+    CHECK((noted.deaths > 0) == setup.world.has_value());
 }
 
 std::string hashAfter(const Setup& setup, double time) {
@@ -58,15 +90,8 @@ TEST_CASE("A run has the same hash for 1, 2, 3 and 8 threads", "[simulation]") {
 
 TEST_CASE("Obstacles that threads share out give the same bits for any number of them", "[simulation]") {
     for (const Precision precision : {Precision::doubles, Precision::singles}) {
-        Setup setup;
-        setup.materials = {*materialPreset("sand")};
-        setup.stepper = StepperKind::symplecticEuler;
+        Setup setup = crowdAmongObstacles();
         setup.precision = precision;
-        setup.step = 0.002;
-        setup.initial = clouds::strewn(1500, 1.2);
-        setup.scenery.colliders = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}, Sphere{Vec3(0.5, 0, 0), 0.4},
-                                   Box{Vec3(-0.8, -0.5, -0.4), Vec3(-0.3, 0.2, 0.4)},
-                                   Container{Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)}};
         const std::string expected = hashAfter(setup, 0.02);
         for (const std::size_t threads : {1U, 3U, 8U}) {
             std::string hash;
@@ -74,6 +99,26 @@ TEST_CASE("Obstacles that threads share out give the same bits for any number of
             CHECK(hash == expected);
         }
     }
+}
+
+TEST_CASE("The paper's stepper notes moves", "[simulation]") {
+    Setup setup = runs::freeSetup(*materialPreset("powder"), StepperKind::symplecticEuler, 1e-4);
+    setup.initial = clouds::strewn(1500, 3.0);
+    Simulation simulation = start(setup);
+    advance(simulation, 1e-4);
+    const std::vector<Vec3> builtAt = simulation.evaluator.list().builtAt;
+    REQUIRE(builtAt.size() == 1500);
+    for (Vec3& position : simulation.particles.position) position *= 2.0;  // behind its back
+    advance(simulation, 2e-4);
+    CHECK(simulation.evaluator.list().builtAt == builtAt);
+}
+
+TEST_CASE("Lists are built when they have to be, whether moves are noted or looked at", "[simulation]") {
+    Setup bounded = busyScene(StepperKind::symplecticEuler);
+    bounded.emitters[0].interval = 0.01;
+    bounded.world = Bounds{.minimum = Vec3(-2.0, 0.55, -2.0), .maximum = Vec3(2.2, 3.0, 2.0)};
+    for (const Setup& setup : {busyScene(StepperKind::symplecticEuler), crowdAmongObstacles(), bounded})
+        clouds::onThreads(3, [&] { checkLists(setup); });
 }
 
 TEST_CASE("The bits of a run are the same in every build and on every machine", "[simulation]") {
@@ -108,6 +153,11 @@ TEST_CASE("A scene without particles runs", "[simulation]") {
     Simulation simulation = start(Setup{});
     advance(simulation, 1.0);
     CHECK(simulation.particles.count() == 0);
+    CHECK(simulation.time == 1.0);
+    Setup published;
+    published.stepper = StepperKind::symplecticEuler;
+    simulation = start(published);
+    advance(simulation, 1.0);
     CHECK(simulation.time == 1.0);
 }
 
