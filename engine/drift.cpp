@@ -46,6 +46,7 @@ void prepareDrift(Simulation& simulation) {
     if (simulation.setup.scenery.colliders.empty()) return;
     simulation.swept.resize(simulation.particles.count());
     simulation.clearance.resize(simulation.particles.count(), kUnknown);
+    simulation.companions.resize(simulation.particles.count());
     copy(simulation.particles.position, simulation.startPositions);
     // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
     simulation.startCutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
@@ -67,7 +68,8 @@ Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
     // what the whole heap does.
     const auto isAlone = [&] {
         return simulation.startIsListed &&
-               simulation.evaluator.isAlone(simulation.startPositions, simulation.startCutoff, p);
+               simulation.evaluator.isAlone(simulation.startPositions, simulation.startCutoff, p,
+                                            simulation.companions[p]);
     };
     if (!contacts.needsSweep && !(way > contacts.gap && isAlone())) return contacts.force;
     simulation.swept[p] = 1;

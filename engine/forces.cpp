@@ -1,6 +1,7 @@
 // The total force: pairs, gravity, obstacles.
 #include "engine/forces.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/outer_forces.h"
@@ -57,14 +58,19 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     return energy;
 }
 
-bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p) const {
+bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
+                             std::uint32_t& companion) const {
     const NeighbourList& list = pairs_.list;
     if (p >= list.placeOf.size()) return false;
-    const double cutoffSq = cutoff * cutoff;
+    const std::size_t known = std::min(positions.size(), list.placeOf.size());
+    const auto isNear = [&](std::uint32_t other) {
+        return other < known && squaredLength(positions[p] - positions[other]) < cutoff * cutoff;
+    };
+    if (companion != p && isNear(companion)) return false;
     const std::size_t seat = list.seatOf(p);
     for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k) {
-        const std::uint32_t other = list.order[list.rows.placeAt(seat, k)];
-        if (other < positions.size() && squaredLength(positions[p] - positions[other]) < cutoffSq) return false;
+        companion = list.order[list.rows.placeAt(seat, k)];
+        if (isNear(companion)) return false;
     }
     return true;
 }

@@ -291,12 +291,28 @@ TEST_CASE("Who is alone is told by positions, however far a list that covers the
         evaluator.evaluate(particles, particles.velocity, forces, step);
         reaches.insert(evaluator.list().reach);
         std::vector<Vec3> positions = particles.position;
-        for (std::size_t p = 0; p < 3; ++p) CHECK(evaluator.isAlone(positions, kCutoff, p));
-        positions[1].x() = 0.599;
-        CHECK_FALSE(evaluator.isAlone(positions, kCutoff, 0));
-        CHECK_FALSE(evaluator.isAlone(positions, kCutoff, 1));
-        CHECK(evaluator.isAlone(positions, kCutoff, 2));
-        CHECK_FALSE(evaluator.isAlone(positions, kCutoff, 3));  // a newborn
+        // Whoever is looked at first, the answer is the same.
+        const auto isAlone = [&](std::size_t p, std::uint32_t& companion) {
+            const bool isNow = evaluator.isAlone(positions, kCutoff, p, companion);
+            CHECK(evaluator.isAlone(positions, kCutoff, p, companion) == isNow);
+            return isNow;
+        };
+        for (const std::uint32_t first : {0U, 1U, 2U, 3U, 0xffffffffU}) {
+            INFO("companion " << first);
+            std::uint32_t companion = first;
+            positions[1].x() = particles.position[1].x();
+            for (std::size_t p = 0; p < 3; ++p) CHECK(isAlone(p, companion = first));
+            positions[1].x() = 0.599;
+            CHECK_FALSE(isAlone(0, companion = first));
+            CHECK(companion == 1);
+            CHECK_FALSE(isAlone(1, companion = first));
+            CHECK(companion == 0);
+            CHECK(isAlone(2, companion = first));
+            CHECK_FALSE(isAlone(3, companion = first));  // a newborn
+        }
+        positions.push_back(positions[2]);  // beside whom one has been placed, in nobody's row yet
+        std::uint32_t companion = 3;
+        CHECK(isAlone(2, companion));
     }
     CHECK(reaches.size() == 3);
 }
