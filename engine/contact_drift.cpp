@@ -73,26 +73,29 @@ struct Outlook {
 
 /// way: of the coming step, m. The barrier, which takes longer to tell, is left out where the scale is far above the
 /// way or another surface has a smaller one. Calls visit(surface, contact) for each contact.
+/// Inline by force: most surfaces are far, and a call takes longer than to see that. Measured with `globular simulate
+/// powder --threads 1`: a twentieth less time.
 template <class Visit>
 Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way, const Visit& visit) {
     Outlook ahead;
-    forEachSurface(scenery, flight.position, [&](const Surface& surface) {
-        const double gap = surface.height - flight.radius;
-        ahead.gap = std::min(ahead.gap, gap);
-        // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
-        const double least = 0.5 * std::min(flight.radius + surface.repulsorRadius, surface.halfThickness);
-        const double above = std::min(surface.height, flight.radius);
-        const double shallow = std::max(least, above);
-        const bool isBarrierAsked = way > kResolved * shallow && shallow < ahead.scale;
-        const double depth = isBarrierAsked ? barrierDepth(surface, scenery.law, flight) : 0.0;
-        ahead.scale = std::min(ahead.scale, std::max(least, above + depth));
-        if (gap >= 0.0) return;
-        const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
-        ahead.scale = std::min(ahead.scale, contact.distance);
-        ahead.stiffness = std::max(ahead.stiffness, stiffnessAlong(contact));
-        ahead.damping = std::max(ahead.damping, dampingAlong(contact));
-        visit(surface, contact);
-    });
+    forEachSurface(
+        scenery, flight.position, [&](const Surface& surface) __attribute__((always_inline)) {
+            const double gap = surface.height - flight.radius;
+            ahead.gap = std::min(ahead.gap, gap);
+            // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
+            const double least = 0.5 * std::min(flight.radius + surface.repulsorRadius, surface.halfThickness);
+            const double above = std::min(surface.height, flight.radius);
+            const double shallow = std::max(least, above);
+            const bool isBarrierAsked = way > kResolved * shallow && shallow < ahead.scale;
+            const double depth = isBarrierAsked ? barrierDepth(surface, scenery.law, flight) : 0.0;
+            ahead.scale = std::min(ahead.scale, std::max(least, above + depth));
+            if (gap >= 0.0) return;
+            const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
+            ahead.scale = std::min(ahead.scale, contact.distance);
+            ahead.stiffness = std::max(ahead.stiffness, stiffnessAlong(contact));
+            ahead.damping = std::max(ahead.damping, dampingAlong(contact));
+            visit(surface, contact);
+        });
     return ahead;
 }
 
