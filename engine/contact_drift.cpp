@@ -73,8 +73,8 @@ struct Outlook {
 
 /// way: of the coming step, m. The barrier, which takes longer to tell, is left out where the scale is far above the
 /// way or another surface has a smaller one. Calls visit(surface, contact) for each contact.
-/// Inline by force: most surfaces are far, and a call takes longer than to see that. Measured with `globular simulate
-/// powder --threads 1`: a twentieth less time.
+/// What is done for a surface is inline by force: most are far, and a call takes longer than to see that. Measured with
+/// `globular simulate powder --threads 1`: a twentieth less time.
 template <class Visit>
 Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way, const Visit& visit) {
     Outlook ahead;

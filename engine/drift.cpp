@@ -30,6 +30,8 @@ Flight flightOf(const Simulation& simulation, std::size_t p) {
             materialOf(simulation, p).friction};
 }
 
+constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
+
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
 /// Share of a radius by which a clearance is taken too small: far above what roundings add up to.
@@ -42,15 +44,16 @@ bool isClear(const Simulation& simulation, std::size_t p) {
 }
 
 void prepareDrift(Simulation& simulation) {
-    simulation.evaluator.forgetMoves();
+    simulation.evaluator.forgetMoves();  // each particle goes its own way now, maybe before any evaluation
     if (simulation.setup.scenery.colliders.empty()) return;
     simulation.swept.resize(simulation.particles.count());
     simulation.clearance.resize(simulation.particles.count(), kUnknown);
-    simulation.companions.resize(simulation.particles.count());
+    simulation.companions.resize(simulation.particles.count(), kNobody);
     copy(simulation.particles.position, simulation.startPositions);
     // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
     simulation.startCutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
-    // Verlet has the forces of the start, and with them its list.
+    // Verlet has the forces of the start, and with them its list; after a step that was taken back it is the list of
+    // where that one led, and tells for a step only roughly who is alone.
     simulation.startIsListed = isVerlet(simulation.stepper) ||
                                covers(simulation.evaluator.list(), simulation.startPositions, simulation.startCutoff);
 }

@@ -8,7 +8,8 @@
 
 namespace engine {
 
-/// Makes room for what a step finds out about each particle's way; before any of what follows.
+/// Makes room for what a step finds out about each particle's way, and has noted moves forgotten; before any of what
+/// follows.
 void prepareDrift(Simulation& simulation);
 
 /// Decides whether obstacles are to meet a particle along its way in a step of h seconds; at the step's start, before

@@ -69,8 +69,10 @@ bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, 
     if (companion != p && isNear(companion)) return false;
     const std::size_t seat = list.seatOf(p);
     for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k) {
-        companion = list.order[list.rows.placeAt(seat, k)];
-        if (isNear(companion)) return false;
+        const std::uint32_t other = list.order[list.rows.placeAt(seat, k)];
+        if (!isNear(other)) continue;
+        companion = other;
+        return false;
     }
     return true;
 }

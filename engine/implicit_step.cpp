@@ -64,6 +64,7 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
         drift(simulation, p, 0.5 * h);
     });
     simulation.forcesCurrent = false;
+    simulation.evaluator.forgetMoves();
 }
 
 }  // namespace engine

@@ -29,9 +29,9 @@ struct Moved {
     }
 };
 
-/// Kicks particles begin to end - 1 and lets them drift: v becomes decay (v + h/m F), where F is their
-/// force and weight, x becomes x + h v. Holds:  the same bits on any instruction set, and however particles are split
-/// up into ranges.
+/// Kicks particles begin to end - 1 and lets them drift: v becomes decay (v + h/m F), where F is their force and
+/// weight, x becomes x + h v.
+/// Holds:  the same bits on any instruction set, and however particles are split up into ranges.
 Moved kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles);
 
 }  // namespace engine

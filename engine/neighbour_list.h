@@ -49,9 +49,10 @@ bool covers(const NeighbourList& list, const std::vector<Vec3>& positions, doubl
 /// Holds:  where covers() says no, so does this, if the box leaves kDisplacementMargin a step for rounding.
 bool coversWithin(const NeighbourList& list, const Extent& displacements, std::size_t count, double cutoff);
 
-/// What roundings may add to or take off a displacement along an axis in a step, m: twice what they do in a world that
-/// reaches to kWorldLimit. With u = 2^-53, of places up to 1e8 m: the new place is rounded by u 1e8, the sum of the
-/// steps' boxes by 2 u 1e8, and what covers() subtracts twice by 6 u 1e8.
+/// How much wider a step's box is to be at each end, m, for what roundings do in a world that reaches to kWorldLimit.
+/// With u = 2^-53 and places up to 1e8 m: the new place is rounded by u 1e8, the box and the sum of boxes by 2 u 1e8
+/// each, and what covers() subtracts, once and not in each step, by 6 u 1e8: 1.2e-7 together. (The way itself is
+/// rounded as the ends of its box are: rounding is monotone.)
 inline constexpr double kDisplacementMargin = 2e-7;
 
 /// Entries for which the rows have room, with those that fill them up.

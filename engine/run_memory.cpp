@@ -10,7 +10,7 @@ namespace {
 std::size_t bytesOfState(const Simulation& simulation) {
     constexpr std::size_t kState = 2 * sizeof(Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
     constexpr std::size_t kForces = 3 * sizeof(Vec3);  // with predicted velocities and positions at the start
-    constexpr std::size_t kDrift = sizeof(double) + sizeof(std::uint8_t);
+    constexpr std::size_t kDrift = sizeof(double) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
     const std::size_t initial = simulation.setup.initial.count() * kState;
     return initial + simulation.particles.count() * (kState + kForces + kDrift + sizeof(PairRecord));
 }

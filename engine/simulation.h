@@ -144,9 +144,10 @@ struct Simulation {
     /// it; empty where nothing is known.
     std::vector<double> clearance;
     Scratch<std::vector<Vec3>> startPositions;  ///< of the drift: at the step's start, m, while some have moved already
-    Scratch<std::vector<std::uint32_t>> companions;  ///< likewise: of each particle, who was near it when last asked
-    double startCutoff = 0.0;                        ///< likewise: no pair acts at or beyond it, m
-    bool startIsListed = false;                      ///< likewise: who is within it of whom stands in the list
+    double startCutoff = 0.0;                   ///< likewise: no pair acts at or beyond it, m
+    bool startIsListed = false;                 ///< likewise: who is within it of whom stands in the list
+    /// Of each particle near obstacles, who was found beside it last: whom isAlone() looks at first.
+    Scratch<std::vector<std::uint32_t>> companions;
     bool forcesCurrent = false;
     std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
     double kinetic = 0.0;          ///< the kinetic share of it, J

@@ -105,6 +105,7 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
     simulation.particles.velocity = kept.velocity;
     simulation.clearance.clear();
     simulation.evaluator.forgetMoves();
+    simulation.companions.clear();  // they are from before, and a run that is gone on with does not know them
     simulation.forcesCurrent = kept.forcesCurrent;
     if (kept.forcesCurrent) simulation.forces = kept.forces;
     simulation.energy = kept.energy;

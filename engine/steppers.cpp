@@ -35,7 +35,10 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
         const std::scoped_lock lock(merging);
         moved.include(range);
     });
-    if (!moved.areSound) return false;
+    if (!moved.areSound) {
+        evaluator.forgetMoves();
+        return false;
+    }
     const Vec3 margin = Vec3::Constant(kDisplacementMargin);
     evaluator.noteMoves({h * moved.velocities.low - margin, h * moved.velocities.high + margin});
     return true;

@@ -13,7 +13,7 @@ namespace scenes {
 struct Position {
     int line = 0;  ///< from 1; 0: the file as a whole
     int column = 0;
-    int overrideIndex = -1;  ///< that wrote it; -1: the file
+    int overrideIndex = -1;  ///< of the override that wrote it; -1: the file
 };
 
 enum class Kind {

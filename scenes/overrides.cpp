@@ -58,13 +58,13 @@ Entry& findOrAdd(Value& table, const std::string& key, const Position& at) {
     return table.entries.back();
 }
 
-struct Override {
+struct Change {
     Target target;
     Position at;
 };
 
 /// The table an override writes to; nullptr, with the problem recorded, if the scene has none.
-Value* tableFor(Value& root, const Override& change, ProblemList& problems) {
+Value* tableFor(Value& root, const Change& change, ProblemList& problems) {
     const Target& target = change.target;
     if (target.table.empty()) return &root;
     const TableInfo* info = findTable(target.table);

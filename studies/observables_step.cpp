@@ -59,7 +59,7 @@ bool isStable(const Simulation& state, double h) {
         for (int axis = 0; axis < 3; ++axis)
             other.particles.position[p][axis] +=
                 kApart * engine::symmetricUnit(engine::randomBits(1, static_cast<std::uint64_t>(axis), p));
-    other.evaluator.noteMoves({Vec3::Constant(-kApart), Vec3::Constant(kApart)});
+    other.evaluator.forgetMoves();
     const double before = rmsDistance(one.particles, other.particles);
     for (int step = 0; step < kSteps; ++step) {
         engine::takeStep(one, h);

@@ -60,7 +60,7 @@ FolderOptions folderOf(const FolderFlags& flags, const std::string& name);
 /// The scene with its changes, and with those that other flags ask for. Throws scenes::InputError.
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& others = {});
 
-/// Size and style of how a scene is drawn as changes to it. Throws scenes::InputError.
+/// The size and the style that flags ask for, as changes to the scene. Throws scenes::InputError.
 scenes::Overrides overridesOf(const DrawOptions& options);
 
 render::Quality qualityOf(const DrawOptions& options);

@@ -113,6 +113,22 @@ TEST_CASE("The paper's stepper notes moves", "[simulation]") {
     CHECK(simulation.evaluator.list().builtAt == builtAt);
 }
 
+TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]") {
+    Setup setup = runs::freeSetup(*materialPreset("solid"), StepperKind::symplecticEuler, 1e-4);
+    runs::addPacking(setup, {6, 6, 6});
+    for (const StepperKind stepper : {StepperKind::linearlyImplicit, StepperKind::velocityVerlet}) {
+        Simulation noted = start(setup);
+        advance(noted, 1e-3);
+        noted.stepper = stepper;
+        Simulation forgotten = noted;
+        forgotten.evaluator.forgetMoves();
+        for (Simulation* simulation : {&noted, &forgotten}) takeStep(*simulation, 0.1);
+        INFO(nameOf(stepper));
+        CHECK(noted.evaluator.list().builtAt == forgotten.evaluator.list().builtAt);
+        CHECK(noted.particles.velocity == forgotten.particles.velocity);
+    }
+}
+
 TEST_CASE("Lists are built when they have to be, whether moves are noted or looked at", "[simulation]") {
     Setup bounded = busyScene(StepperKind::symplecticEuler);
     bounded.emitters[0].interval = 0.01;

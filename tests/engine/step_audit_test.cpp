@@ -2,6 +2,7 @@
 // save says so.
 #include "engine/step_audit.h"
 
+#include <algorithm>
 #include "tests/catch.h"
 
 #include "engine/diagnostics.h"
@@ -219,4 +220,22 @@ TEST_CASE("A run that no step can save says which particle, when and what to cha
                 CHECK(std::string(error.what()).find(part) != std::string::npos);
         }
     }
+}
+
+TEST_CASE("After a step is taken back nobody is remembered whom a run that is gone on with would not know", "[audit]") {
+    Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 0.001);
+    runs::addPacking(setup, {4, 4, 4});
+    setup.scenery.colliders = {Container{Vec3::Constant(-0.5), Vec3::Constant(0.5)}};
+    Simulation simulation = start(setup);
+    takeStep(simulation, 0.001);
+    BeforeStep kept;
+    keep(simulation, kept);
+    takeStep(simulation, 0.002);
+    REQUIRE(
+        std::ranges::any_of(simulation.companions, [&](std::uint32_t p) { return p < simulation.particles.count(); }));
+    takeBack(simulation, kept);
+    CHECK(simulation.companions.empty());
+    Simulation resumed = simulation;
+    for (Simulation* either : {&simulation, &resumed}) takeStep(*either, 0.001);
+    CHECK(simulation.particles.position == resumed.particles.position);
 }
