@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -70,14 +69,12 @@ double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorO
 /// Whether none of vectorOf(index) over 0 ... count - 1 is further than a distance from a vector, or no number.
 template <class VectorOf>
 bool areWithin(double distance, const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
-    std::atomic<bool> all = true;
-    inRanges(count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    return holdsInRanges(count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
         bool areNear = true;  // no branch, and nothing that waits for the vector before
         for (std::size_t index = begin; index < end; ++index)
             areNear &= squaredLength(vectorOf(index) - from) <= distance * distance;
-        if (!areNear) all = false;
+        return areNear;
     });
-    return all;
 }
 
 }  // namespace engine

@@ -2,7 +2,6 @@
 #include "engine/force_law.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 
 #include "engine/parallel.h"
@@ -18,13 +17,11 @@ bool sameLaw(const Material& a, const Material& b) {
 /// By their bits, each against the next: a loop over numbers would take as long as a tenth of a powder's forces.
 bool allEqual(const std::vector<double>& numbers) {
     if (numbers.size() < 2) return true;
-    constexpr std::size_t kGrain = 1U << 16;  // chosen: a thread takes some microseconds for them
-    std::atomic<bool> areAll = true;
-    inRanges(numbers.size() - 1, kGrain, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t kGrain = 1U << 16;  // chosen: half a megabyte is worth waking a thread for
+    return holdsInRanges(numbers.size() - 1, kGrain, [&](std::size_t begin, std::size_t end) {
         const double* const first = numbers.data() + begin;
-        if (std::memcmp(first, first + 1, (end - begin) * sizeof(double)) != 0) areAll = false;
+        return std::memcmp(first, first + 1, (end - begin) * sizeof(double)) == 0;
     });
-    return areAll;
 }
 
 }  // namespace

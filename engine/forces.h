@@ -77,9 +77,7 @@ class ForceEvaluator {
     /// Whether nobody in a particle's row of the list is within a cutoff (m), at these positions (m): nobody at all, as
     /// long as the list covers them. False for a newborn, which is in no row and may have been placed beside anyone.
     /// Holds:  as long as the list covers the positions the same answer whoever is looked at first.
-    /// Shape:  companion: who that is, any number; becomes whoever is found, if anybody is: who stays in company is
-    /// told
-    ///         again and again without a search.
+    /// Shape:  companion: who that is, any number; becomes whoever is found: company that stays needs no search.
     bool isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p, std::uint32_t& companion) const;
 
     /// The pair forces of equation 1 alone, over the neighbour list.

@@ -34,7 +34,7 @@ struct OrderedParticles {
 
     /// Fetches what a record has of a particle some places ahead into the cache: the list's order is not that of the
     /// particles, so that no processor does it by itself. Measured with `globular bench --filter forces` on Zen 5: a
-    /// tenth less time at 256,000 particles in float, a few per cent in double, nothing at 32,000.
+    /// tenth less time at 256,000 particles in float, a twentieth in double, nothing at 32,000.
     /// Always inline: gcc takes a call that does nothing but this for one that does nothing.
     template <class Record>
     [[gnu::always_inline]] void fetchAhead(std::size_t place) const {

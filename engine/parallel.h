@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -50,6 +51,16 @@ void inRanges(std::size_t count, std::size_t grain, const Body& body) {
         body(0, count);
     else
         splitUp(count, grain, body);
+}
+
+/// Whether holds(begin, end) of all ranges that inRanges makes.
+template <class Holds>
+bool holdsInRanges(std::size_t count, std::size_t grain, const Holds& holds) {
+    std::atomic<bool> all = true;
+    inRanges(count, grain, [&](std::size_t begin, std::size_t end) {
+        if (!holds(begin, end)) all = false;
+    });
+    return all;
 }
 
 /// Calls body(index) for 0 ... count - 1, at least `grain` of them in a row on one thread.

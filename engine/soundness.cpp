@@ -1,7 +1,6 @@
 // Positions within the world, speeds that are numbers.
 #include "engine/soundness.h"
 
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
@@ -34,13 +33,10 @@ bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t e
 }  // namespace
 
 bool isSound(const Particles& particles) {
-    std::atomic<bool> areAll = true;
-    inRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-        if (!areBelow(particles.position, begin, end, kWorldLimit) ||
-            !areBelow(particles.velocity, begin, end, kFastest))
-            areAll = false;
+    return holdsInRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        return areBelow(particles.position, begin, end, kWorldLimit) &&
+               areBelow(particles.velocity, begin, end, kFastest);
     });
-    return areAll;
 }
 
 void reportInstability(const Simulation& simulation, double h) {
