@@ -52,8 +52,7 @@ void prepareDrift(Simulation& simulation) {
     copy(simulation.particles.position, simulation.startPositions);
     // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
     simulation.startCutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
-    // Verlet has the forces of the start, and with them its list; after a step that was taken back it is the list of
-    // where that one led, and tells for a step only roughly who is alone.
+    // Verlet has the forces of the start, and with them its list.
     simulation.startIsListed = isVerlet(simulation.stepper) ||
                                covers(simulation.evaluator.list(), simulation.startPositions, simulation.startCutoff);
 }

@@ -58,6 +58,10 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     return energy;
 }
 
+void ForceEvaluator::renewList(const Particles& particles) {
+    if (method_ == ForceMethod::grid) pairs_.renewList(law_, particles, particles.velocity);
+}
+
 bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
                              std::uint32_t& companion) const {
     const NeighbourList& list = pairs_.list;

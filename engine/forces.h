@@ -68,6 +68,9 @@ class ForceEvaluator {
     /// The neighbour list as it was built last.
     const NeighbourList& list() const { return pairs_.list; }
 
+    /// Brings the list alone up to date; the reference has none.
+    void renewList(const Particles& particles);
+
     /// Particles have other indices now: the list serves nobody any more.
     void forgetList() { pairs_.forgetList(); }
 

@@ -30,13 +30,9 @@ double neighboursWithin(double cutoff, const NeighbourList& list) {
 PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
     : pairMaterials(mixedPairs(law.materials)), materialCount(law.materials.size()), precision(wanted) {}
 
-void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
-                            double step) {
+void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                              double step) {
     terms = termsFor(law, particles);
-    if (terms.uniform && particles.count() > 0) {
-        uniformRadius = particles.radius.front();
-        uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);
-    }
     if (!std::exchange(areMovesNoted, false)) forgetMoves();
     const bool isCovered = (displacements && coversWithin(list, *displacements, particles.count(), terms.cutoff)) ||
                            covers(list, particles.position, terms.cutoff);
@@ -47,6 +43,15 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
                        : kListSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
         displacements = Extent{Vec3::Zero(), Vec3::Zero()};
+    }
+}
+
+void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                            double step) {
+    renewList(law, particles, velocities, step);
+    if (terms.uniform && particles.count() > 0) {
+        uniformRadius = particles.radius.front();
+        uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);
     }
     const bool hasSingles = terms.uniform && precision == Precision::singles;
     hasRecords = false;

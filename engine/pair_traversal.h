@@ -46,6 +46,10 @@ struct PairTraversal {
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
 
+    /// The list alone: until somebody moves it holds all that act on each other.
+    void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                   double step = 0.0);
+
     /// Since the last call, or else prepare(), every particle has moved by some vector in a box (m) and kept its index.
     /// Spares the next prepare() a look at how far each of them is from where the list was built.
     void noteMoves(const Extent& moves);

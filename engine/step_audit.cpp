@@ -107,7 +107,10 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
     simulation.evaluator.forgetMoves();
     simulation.companions.clear();  // they are from before, and a run that is gone on with does not know them
     simulation.forcesCurrent = kept.forcesCurrent;
-    if (kept.forcesCurrent) simulation.forces = kept.forces;
+    if (kept.forcesCurrent) {
+        simulation.forces = kept.forces;
+        simulation.evaluator.renewList(simulation.particles);  // who has forces has their list; see prepareDrift
+    }
     simulation.energy = kept.energy;
     simulation.kinetic = kept.kinetic;
     const StepStatistics spent = simulation.steps;

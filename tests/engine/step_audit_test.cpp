@@ -239,3 +239,27 @@ TEST_CASE("After a step is taken back nobody is remembered whom a run that is go
     for (Simulation* either : {&simulation, &resumed}) takeStep(*either, 0.001);
     CHECK(simulation.particles.position == resumed.particles.position);
 }
+
+TEST_CASE("Who has company is not swept for a step that was taken back and led away from it", "[step-audit]") {
+    for (const StepperKind stepper : kAudited) {
+        Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 0.01);
+        setup.scenery.colliders = {Plane{Vec3::Zero(), Vec3::UnitY()}};
+        append(setup.initial, {.position = Vec3(0, 0.155, 0), .velocity = Vec3(0, -1, 0)});
+        append(setup.initial, {.position = Vec3(0.3, 0.2, 0), .velocity = Vec3(10, 0, 0)});
+        Simulation simulation = start(setup);
+        takeStep(simulation, 1e-6);
+        BeforeStep kept;
+        keep(simulation, kept);
+        takeStep(simulation, 0.01);
+        const std::string good = stateHash(simulation.particles);
+        REQUIRE(simulation.swept[0] == 0);
+        takeBack(simulation, kept);
+        takeStep(simulation, 0.1);  // they part, and a list is made of that
+        simulation.evaluator.pairEnergyGrid(simulation.particles);
+        takeBack(simulation, kept);
+        takeStep(simulation, 0.01);
+        INFO(nameOf(stepper));
+        CHECK(simulation.swept[0] == 0);
+        if (isVerlet(stepper)) CHECK(stateHash(simulation.particles) == good);
+    }
+}
