@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what globular needs from Debian: compilers, libraries, Mesa's software renderer, ffmpeg. Called by figures.sh and
-# test.sh; does nothing where everything is there.
+# Installs what globular needs from Debian: compilers, libraries, Mesa's software renderer, ffmpeg; and the packages that are
+# named. Called by figures.sh and test.sh; does nothing where everything is there.
 set -euo pipefail
 
 packages=(
@@ -9,6 +9,7 @@ packages=(
     libtomlplusplus-dev catch2 fonts-dejavu-core
     libosmesa6-dev libegl-dev libgl-dev libegl1 libgl1-mesa-dri
     ffmpeg gnuplot-nox clang libclang-rt-dev
+    "$@"
 )
 
 missing=()
