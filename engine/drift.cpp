@@ -108,7 +108,7 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     if (scenery.colliders.empty()) return;
     matrix.own.assign(particles.count(), Matrix3::Zero());
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
-    forEachParticle(simulation, [&](std::size_t place) {
+    inParallel(particles.count(), kParticleGrain, [&](std::size_t place) {
         const std::size_t p = order[place];
         if (simulation.swept[p] || isClear(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);

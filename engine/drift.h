@@ -41,19 +41,4 @@ ContactAnswer slowContact(const Simulation& simulation, std::size_t p, const Vec
 /// Both, whatever the matrix holds of the pairs: a heap's weight makes contacts stiffer than anything else.
 void addContacts(const Simulation& simulation, double h, PairMatrix& matrix);
 
-/// Calls body(p) for every particle, shared out over the threads: one loop for all that a step does to it.
-template <class Body>
-void forEachParticle(const Simulation& simulation, const Body& body) {
-    constexpr std::size_t kContactGrain = 512;  // chosen: most contacts take a tenth of a microsecond, some a hundred
-    const bool hasContacts = !simulation.setup.scenery.colliders.empty();
-    inParallel(simulation.particles.count(), hasContacts ? kContactGrain : kParticleGrain, body);
-}
-
-/// Sum of term(p) over the particles, shared out likewise.
-template <class Sum, class Term>
-Sum sumOverParticles(const Simulation& simulation, const Term& term) {
-    const bool hasContacts = !simulation.setup.scenery.colliders.empty();
-    return sumOver<Sum>(simulation.particles.count(), term, hasContacts ? kSumChunk : kParticleGrain);
-}
-
 }  // namespace engine

@@ -39,21 +39,18 @@ struct Extent {
 /// The box of vectorOf(index) over 0 ... count - 1, at least one.
 template <class VectorOf>
 Extent extentOver(std::size_t count, const VectorOf& vectorOf) {
-    const std::size_t chunks = (count + kSumChunk - 1) / kSumChunk;
-    std::vector<Extent> partial(chunks);
-    inParallel(chunks, kParticleGrain / kSumChunk, [&](std::size_t chunk) {
-        const std::size_t begin = chunk * kSumChunk;
-        const std::size_t end = std::min(count, begin + kSumChunk);
+    const auto extentOf = [&](std::size_t begin, std::size_t end) {
         const Vec3 first = vectorOf(begin);
         Extent extent{first, first};
         for (std::size_t index = begin + 1; index < end; ++index) {
             const Vec3 vector = vectorOf(index);
             extent.include({vector, vector});
         }
-        partial[chunk] = extent;
-    });
-    Extent extent = partial.front();
-    for (const Extent& part : partial) extent.include(part);
+        return extent;
+    };
+    const std::vector<Extent> parts = resultsOfChunks<Extent>(count, extentOf);
+    Extent extent = parts.front();
+    for (const Extent& part : parts) extent.include(part);
     return extent;
 }
 

@@ -16,7 +16,7 @@ void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3
                               std::vector<Vec3>& forces, double step) {
     evaluatePairs(particles, velocities, forces, step);
     if (law_.scenery.colliders.empty()) return addGravity(particles, forces);
-    inRanges(particles.count(), outerGrain(), [&](std::size_t begin, std::size_t end) {
+    inRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
         addOuterForces(law_, particles, velocities, begin, end, forces);
     });
 }
@@ -84,11 +84,6 @@ bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, 
 void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
     inParallel(particles.count(), kParticleGrain,
                [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
-}
-
-std::size_t ForceEvaluator::outerGrain() const {
-    constexpr std::size_t kGrain = 256;  // chosen: their obstacles take some microseconds
-    return law_.scenery.colliders.empty() ? kParticleGrain : kGrain;
 }
 
 void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,

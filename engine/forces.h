@@ -51,9 +51,6 @@ class ForceEvaluator {
     void noteMoves(const Extent& moves) { pairs_.noteMoves(moves); }
     void forgetMoves() { pairs_.forgetMoves(); }
 
-    /// Particles whose outer forces are worth a thread.
-    std::size_t outerGrain() const;
-
     /// The same as evaluate without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
     double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                         double step = 0.0);

@@ -34,9 +34,8 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const double pairEnergy =
         simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
-    forEachParticle(simulation, [&](std::size_t p) {
-        simulation.forces[p] += slowContactForce(simulation, p, particles.velocity[p]);
-    });
+    inParallel(particles.count(), kParticleGrain,
+               [&](std::size_t p) { simulation.forces[p] += slowContactForce(simulation, p, particles.velocity[p]); });
     addContacts(simulation, h, simulation.implicit.matrix);
     solveForChange(simulation, h);
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
@@ -52,14 +51,14 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
     Particles& particles = simulation.particles;
     const double decay = decayFactor(simulation.setup.drag, 0.5 * h);
     prepareDrift(simulation);
-    forEachParticle(simulation, [&](std::size_t p) {
+    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
         chooseSwept(simulation, p, h);  // its force is of the start; the middle's is asked for there
         drift(simulation, p, 0.5 * h);
         particles.velocity[p] *= decay;
     });
     if (!isSound(particles)) return noteUnsound(simulation);
     kick(simulation, h, weights);
-    forEachParticle(simulation, [&](std::size_t p) {
+    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
         particles.velocity[p] *= decay;
         drift(simulation, p, 0.5 * h);
     });

@@ -9,7 +9,6 @@
 
 #include "engine/extent.h"
 #include "engine/lane_layout.h"
-#include "engine/make_records.h"
 #include "engine/parallel.h"
 
 namespace engine {
@@ -148,12 +147,14 @@ void sortByCell(NeighbourList& list, const std::vector<Vec3>& positions) {
     list.order.swap(list.scratch.grid.order);
     const std::size_t count = list.order.size();
     list.placeOf.resize(count);
-    list.scratch.candidates.x.resize(count + kSearchOverhang);
-    list.scratch.candidates.y.resize(count + kSearchOverhang);
-    list.scratch.candidates.z.resize(count + kSearchOverhang);
-    forPlaces(count, [&](const CellRange& places, Readers readers) {
-        for (std::uint32_t place = places.begin; place < places.end; ++place) list.placeOf[list.order[place]] = place;
-        makeCandidates(positions, list.order, places, readers, list.scratch.candidates);
+    Candidates& candidates = list.scratch.candidates;
+    for (std::vector<double>* of : {&candidates.x, &candidates.y, &candidates.z}) of->resize(count + kSearchOverhang);
+    inParallel(count, kParticleGrain, [&](std::size_t place) {
+        const std::uint32_t p = list.order[place];
+        list.placeOf[p] = static_cast<std::uint32_t>(place);
+        candidates.x[place] = positions[p].x();
+        candidates.y[place] = positions[p].y();
+        candidates.z[place] = positions[p].z();
     });
 }
 

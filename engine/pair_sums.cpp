@@ -312,7 +312,7 @@ double pairEnergySum(const PairTraversal& pairs) {
         });
         return energy;
     };
-    return sumOver(pairs.list.count(), energyOfOne, kSumChunk);
+    return sumOver(pairs.list.count(), energyOfOne);
 }
 
 }  // namespace engine

@@ -32,7 +32,8 @@ PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
 
 void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                               double step) {
-    terms = termsFor(law, particles);
+    const bool areTheSame = areMovesNoted && particles.count() == list.count();
+    if (!areTheSame) terms = termsFor(law, particles);
     if (!std::exchange(areMovesNoted, false)) forgetMoves();
     const bool isCovered = (displacements && coversWithin(list, *displacements, particles.count(), terms.cutoff)) ||
                            covers(list, particles.position, terms.cutoff);
@@ -59,9 +60,8 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     singles.resize(hasSingles ? particles.count() : 0);
     unit = list.reach / kUnits;
     const OrderedParticles from(list, particles, velocities);
-    forPlaces(singles.size(), [&](const CellRange& places, Readers readers) {
-        makeSingles(from, 1.0 / unit, places, readers, singles.data());
-    });
+    inRanges(singles.size(), kParticleGrain,
+             [&](std::size_t begin, std::size_t end) { makeSingles(from, 1.0 / unit, begin, end, singles.data()); });
 }
 
 void PairTraversal::forgetList() {
@@ -87,8 +87,8 @@ void PairTraversal::makeRecords(const Particles& particles, const std::vector<Ve
     hasRecords = true;
     records.resize(particles.count());
     const OrderedParticles from(list, particles, velocities);
-    forPlaces(records.size(),
-              [&](const CellRange& places, Readers readers) { makeDoubles(from, places, readers, records.data()); });
+    inRanges(records.size(), kParticleGrain,
+             [&](std::size_t begin, std::size_t end) { makeDoubles(from, begin, end, records.data()); });
 }
 
 }  // namespace engine

@@ -50,8 +50,8 @@ struct PairTraversal {
     void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
-    /// Since the last call, or else prepare(), every particle has moved by some vector in a box (m) and kept its index.
-    /// Spares the next prepare() a look at how far each of them is from where the list was built.
+    /// Since the last call, or else prepare(), every particle has moved by some vector in a box (m), and nothing else
+    /// of it has changed. Spares the next prepare() a look at each of them.
     void noteMoves(const Extent& moves);
 
     /// Particles are moved in ways that nobody notes.

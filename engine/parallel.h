@@ -71,8 +71,10 @@ void inParallel(std::size_t count, std::size_t grain, const Body& body) {
     });
 }
 
-/// Of a particle's cheap work. Measured: a thread takes as long to wake up as another takes for some thousands.
-inline constexpr std::size_t kParticleGrain = 8192;
+/// Of whatever is done to each particle, cheap or not: a thread that does it for all of some thousands takes no longer,
+/// but what it writes then leaves its cache line by line. Measured with `globular bench` on two Zen 5 cores: with 8192
+/// steps and scenes of 500 to 6000 particles take 5 to 20 % longer; 256 and 1024 are nearly as good.
+inline constexpr std::size_t kParticleGrain = 512;
 
 /// to = from.
 template <class T>
@@ -86,34 +88,40 @@ void copy(const std::vector<T>& from, std::vector<T>& to) {
 /// Terms of a partial sum; part of what makes the bits of a sum.
 inline constexpr std::size_t kSumChunk = 1024;
 
-/// Sum of term(index) over 0 ... count - 1, at least `grain` of them, in whole chunks, in a row on one thread.
-template <class Sum = double, class Term>
-Sum sumOver(std::size_t count, const Term& term, std::size_t grain = kParticleGrain) {
-    const std::size_t chunks = (count + kSumChunk - 1) / kSumChunk;
-    std::vector<Sum> partial(chunks, Sum{});
-    inParallel(chunks, std::max<std::size_t>(1, grain / kSumChunk), [&](std::size_t chunk) {
-        const std::size_t end = std::min(count, (chunk + 1) * kSumChunk);
-        Sum sum{};
-        for (std::size_t index = chunk * kSumChunk; index < end; ++index) sum += term(index);
-        partial[chunk] = sum;
+/// Result by chunk of 0 ... count - 1. Shape: ofChunk(begin, end): of some indices, at least one.
+template <class Result, class OfChunk>
+std::vector<Result> resultsOfChunks(std::size_t count, const OfChunk& ofChunk) {
+    std::vector<Result> results((count + kSumChunk - 1) / kSumChunk);
+    inParallel(results.size(), 1, [&](std::size_t chunk) {
+        results[chunk] = ofChunk(chunk * kSumChunk, std::min(count, (chunk + 1) * kSumChunk));
     });
+    return results;
+}
+
+/// Sum of term(index) over 0 ... count - 1.
+template <class Sum = double, class Term>
+Sum sumOver(std::size_t count, const Term& term) {
+    const auto sumOf = [&](std::size_t begin, std::size_t end) {
+        Sum sum{};
+        for (std::size_t index = begin; index < end; ++index) sum += term(index);
+        return sum;
+    };
     Sum sum{};
-    for (const Sum& part : partial) sum += part;
+    for (const Sum& part : resultsOfChunks<Sum>(count, sumOf)) sum += part;
     return sum;
 }
 
 /// The largest term(index), which is no NaN and at least 0, over 0 ... count - 1.
 template <class Term>
 double largestOver(std::size_t count, const Term& term) {
-    const std::size_t chunks = (count + kSumChunk - 1) / kSumChunk;
-    std::vector<double> partial(chunks, 0.0);
-    inParallel(chunks, kParticleGrain / kSumChunk, [&](std::size_t chunk) {
-        const std::size_t end = std::min(count, (chunk + 1) * kSumChunk);
+    const auto largestOf = [&](std::size_t begin, std::size_t end) {
         double largest = 0.0;
-        for (std::size_t index = chunk * kSumChunk; index < end; ++index) largest = std::max(largest, term(index));
-        partial[chunk] = largest;
-    });
-    return chunks == 0 ? 0.0 : *std::max_element(partial.begin(), partial.end());
+        for (std::size_t index = begin; index < end; ++index) largest = std::max(largest, term(index));
+        return largest;
+    };
+    double largest = 0.0;
+    for (const double part : resultsOfChunks<double>(count, largestOf)) largest = std::max(largest, part);
+    return largest;
 }
 
 }  // namespace engine

@@ -66,8 +66,9 @@ void noteEnergy(Simulation& simulation, const OwnEnergy& own, double pairEnergy)
 }
 
 void noteEnergy(Simulation& simulation, double pairEnergy) {
-    const OwnEnergy own = sumOverParticles<OwnEnergy>(
-        simulation, [&](std::size_t p) { return ownEnergy(simulation, p, contactEnergyOf(simulation, p)); });
+    const OwnEnergy own = sumOver<OwnEnergy>(simulation.particles.count(), [&](std::size_t p) {
+        return ownEnergy(simulation, p, contactEnergyOf(simulation, p));
+    });
     noteEnergy(simulation, own, pairEnergy);
 }
 

@@ -31,7 +31,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.predictedVelocities;
     predicted.resize(particles.count());
-    forEachParticle(simulation, [&](std::size_t p) {
+    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
         Vec3& velocity = particles.velocity[p];
         const Vec3 contacts = chooseSwept(simulation, p, h);
         const Vec3 change = halfKick(particles, p, h, simulation.forces[p] + contacts);
@@ -46,7 +46,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     if (!isSound(particles)) return noteUnsound(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);
     // The second half of the kick, and what each particle's energy is after it: one loop for both.
-    const OwnEnergy own = sumOverParticles<OwnEnergy>(simulation, [&](std::size_t p) {
+    const OwnEnergy own = sumOver<OwnEnergy>(particles.count(), [&](std::size_t p) {
         const ContactAnswer contact = slowContact(simulation, p, predicted[p]);
         particles.velocity[p] += halfKick(particles, p, h, simulation.forces[p] + contact.force);
         return ownEnergy(simulation, p, contact.energy);
