@@ -11,10 +11,6 @@ namespace {
 /// Chosen: far beyond what a step that is worth taking needs; the audit judges what comes out.
 constexpr int kMostIterations = 500;
 
-double weightedDot(const PairMatrix& matrix, const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return sumOver(matrix.count(), [&](std::size_t p) { return dot(a[p], b[p]) / matrix.mass[p]; });
-}
-
 }  // namespace
 
 int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& tolerance, std::vector<Vec3>& x,
@@ -23,11 +19,14 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& toler
     std::vector<Vec3>& residual = scratch.residual;
     std::vector<Vec3>& direction = scratch.direction;
     std::vector<Vec3>& product = scratch.product;
-    x.assign(count, Vec3::Zero());
-    residual = b;
-    direction.resize(count);
-    inParallel(count, kParticleGrain, [&](std::size_t p) { direction[p] = residual[p] / matrix.mass[p]; });
-    double norm = weightedDot(matrix, residual, residual);
+    for (std::vector<Vec3>* of : {&x, &residual, &direction}) of->resize(count);
+    const auto termOfNorm = [&](std::size_t p) { return squaredLength(residual[p]) / matrix.mass[p]; };
+    double norm = sumOver(count, [&](std::size_t p) {
+        x[p] = Vec3::Zero();
+        residual[p] = b[p];
+        direction[p] = residual[p] / matrix.mass[p];
+        return termOfNorm(p);
+    });
     const auto squared = [](double value) { return value * value; };
     const double target = std::max(squared(tolerance.relative) * norm,
                                    std::min(squared(tolerance.absolute), squared(kMostLeftOut) * norm));
@@ -38,12 +37,12 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& toler
         const double curvature = sumOver(count, [&](std::size_t p) { return dot(direction[p], product[p]); });
         if (!(curvature > 0.0)) break;  // rounding alone is left, or numbers that are none: the audit decides
         const double length = norm / curvature;
-        inParallel(count, kParticleGrain, [&](std::size_t p) {
+        const double before = norm;
+        norm = sumOver(count, [&](std::size_t p) {
             x[p] += length * direction[p];
             residual[p] -= length * product[p];
+            return termOfNorm(p);
         });
-        const double before = norm;
-        norm = weightedDot(matrix, residual, residual);
         const double share = norm / before;
         inParallel(count, kParticleGrain,
                    [&](std::size_t p) { direction[p] = residual[p] / matrix.mass[p] + share * direction[p]; });

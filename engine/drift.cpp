@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/contact_drift.h"
+#include "engine/parallel.h"
 #include "engine/surfaces.h"
 
 namespace engine {
@@ -104,11 +105,10 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     const Particles& particles = simulation.particles;
     const Scenery& scenery = simulation.setup.scenery;
     const MatrixWeights weights{0.5 * h, 0.25 * h * h};
-    matrix.own.clear();
-    if (scenery.colliders.empty()) return;
-    matrix.own.assign(particles.count(), Matrix3::Zero());
+    matrix.own.resize(scenery.colliders.empty() ? 0 : particles.count());
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
-    inParallel(particles.count(), kParticleGrain, [&](std::size_t place) {
+    inParallel(matrix.own.size(), kParticleGrain, [&](std::size_t place) {
+        matrix.own[place] = Matrix3::Zero();
         const std::size_t p = order[place];
         if (simulation.swept[p] || isClear(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);

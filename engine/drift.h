@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "engine/parallel.h"
 #include "engine/simulation.h"
 
 namespace engine {

@@ -52,8 +52,8 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     // The matrix has no slow twin: products of the reference's pairs would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
     matrix.mass.resize(particles.count());
-    for (std::size_t place = 0; place < matrix.mass.size(); ++place)
-        matrix.mass[place] = particles.mass[pairs_.list.order[place]];
+    inParallel(particles.count(), kParticleGrain,
+               [&](std::size_t place) { matrix.mass[place] = particles.mass[order()[place]]; });
     addGravity(particles, forces);
     return energy;
 }

@@ -5,6 +5,7 @@
 
 #include "engine/decay.h"
 #include "engine/drift.h"
+#include "engine/parallel.h"
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
 
@@ -17,15 +18,15 @@ void solveForChange(Simulation& simulation, double h) {
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
     scratch.rightHandSide.resize(order.size());
     const Vec3 fall = 0.5 * h * simulation.setup.gravity;
-    for (std::size_t place = 0; place < order.size(); ++place) {
+    inParallel(order.size(), kParticleGrain, [&](std::size_t place) {
         scratch.rightHandSide[place] = 0.5 * h * simulation.forces[order[place]] - scratch.matrix.mass[place] * fall;
         if (!scratch.matrix.own.empty()) scratch.rightHandSide[place] -= scratch.matrix.own[place] * fall;
-    }
+    });
     const double mass = sumOver(order.size(), [&](std::size_t place) { return scratch.matrix.mass[place]; });
     const Tolerance tolerance = {simulation.setup.solverTolerance,
                                  0.5 * h * simulation.toleratedAcceleration * std::sqrt(mass)};
     const int products = solve(scratch.matrix, scratch.rightHandSide, tolerance, scratch.change, scratch.solver);
-    for (Vec3& change : scratch.change) change += fall;
+    inParallel(order.size(), kParticleGrain, [&](std::size_t place) { scratch.change[place] += fall; });
     simulation.steps.products += static_cast<std::uint64_t>(products);
 }
 
@@ -40,9 +41,13 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     solveForChange(simulation, h);
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
     const std::vector<Vec3>& change = simulation.implicit.change;
-    for (std::size_t place = 0; place < order.size(); ++place) particles.velocity[order[place]] += change[place];
+    const auto addChange = [&] {
+        inParallel(order.size(), kParticleGrain,
+                   [&](std::size_t place) { particles.velocity[order[place]] += change[place]; });
+    };
+    addChange();
     noteEnergy(simulation, pairEnergy);  // of the middle: these are the mean velocities
-    for (std::size_t place = 0; place < order.size(); ++place) particles.velocity[order[place]] += change[place];
+    addChange();
 }
 
 }  // namespace

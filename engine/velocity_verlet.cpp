@@ -3,6 +3,7 @@
 
 #include "engine/decay.h"
 #include "engine/drift.h"
+#include "engine/parallel.h"
 #include "engine/soundness.h"
 #include "engine/step_audit.h"
 
