@@ -2,6 +2,7 @@
 // rest, seen by that particle alone, hidden behind the closest point of the surface.
 #pragma once
 
+#include <cstddef>
 #include <variant>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct Scenery {
     std::vector<Collider> colliders;
     RepulsorLaw law;
 };
+
+/// How many particles are worth a thread where each of them meets the obstacles, or cheap work if there are none.
+std::size_t grainAmong(const Scenery& scenery);
 
 /// What an obstacle sees of a particle.
 struct Probe {

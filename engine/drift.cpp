@@ -53,8 +53,8 @@ void prepareDrift(Simulation& simulation) {
     copy(simulation.particles.position, simulation.startPositions);
     // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
     simulation.startCutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
-    // Verlet has the forces of the start, and with them its list.
-    simulation.startIsListed = isVerlet(simulation.stepper) ||
+    // Verlet has the forces of the start, and with them its list, where forces need one.
+    simulation.startIsListed = (isVerlet(simulation.stepper) && simulation.evaluator.needsList()) ||
                                covers(simulation.evaluator.list(), simulation.startPositions, simulation.startCutoff);
 }
 
@@ -107,7 +107,7 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     const MatrixWeights weights{0.5 * h, 0.25 * h * h};
     matrix.own.resize(scenery.colliders.empty() ? 0 : particles.count());
     const std::vector<std::uint32_t>& order = simulation.evaluator.order();
-    inParallel(matrix.own.size(), kParticleGrain, [&](std::size_t place) {
+    inParallel(matrix.own.size(), grainAmong(scenery), [&](std::size_t place) {
         matrix.own[place] = Matrix3::Zero();
         const std::size_t p = order[place];
         if (simulation.swept[p] || isClear(simulation, p)) return;

@@ -16,7 +16,7 @@ void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3
                               std::vector<Vec3>& forces, double step) {
     evaluatePairs(particles, velocities, forces, step);
     if (law_.scenery.colliders.empty()) return addGravity(particles, forces);
-    inRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    inRanges(particles.count(), grainAmong(law_.scenery), [&](std::size_t begin, std::size_t end) {
         addOuterForces(law_, particles, velocities, begin, end, forces);
     });
 }
@@ -59,7 +59,7 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
 }
 
 void ForceEvaluator::renewList(const Particles& particles) {
-    if (method_ == ForceMethod::grid) pairs_.renewList(law_, particles, particles.velocity);
+    if (needsList()) pairs_.renewList(law_, particles, particles.velocity);
 }
 
 bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p,

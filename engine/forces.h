@@ -45,9 +45,9 @@ class ForceEvaluator {
     void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                        double step = 0.0);
 
-    /// Since the last call or evaluation over the list every particle has moved by some vector in a box (m) and kept
-    /// its index: spares the next evaluation a look at all of them. Births may follow; whoever else moves particles
-    /// afterwards notes that, too, or has the moves forgotten.
+    /// Since the last call or evaluation over the list every particle has moved by some vector in a box (m), and
+    /// nothing but its velocity has changed besides: spares the next evaluation a look at all of them. Births may
+    /// follow; whoever else moves particles afterwards notes that, too, or has the moves forgotten.
     void noteMoves(const Extent& moves) { pairs_.noteMoves(moves); }
     void forgetMoves() { pairs_.forgetMoves(); }
 
@@ -65,7 +65,10 @@ class ForceEvaluator {
     /// The neighbour list as it was built last.
     const NeighbourList& list() const { return pairs_.list; }
 
-    /// Brings the list alone up to date; the reference has none.
+    /// Whether forces are summed over the list; the reference needs none.
+    bool needsList() const { return method_ == ForceMethod::grid; }
+
+    /// Brings the list up to date without a sum over it, where forces need one.
     void renewList(const Particles& particles);
 
     /// Particles have other indices now: the list serves nobody any more.

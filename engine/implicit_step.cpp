@@ -35,7 +35,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const double pairEnergy =
         simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
-    inParallel(particles.count(), kParticleGrain,
+    inParallel(particles.count(), grainAmong(simulation.setup.scenery),
                [&](std::size_t p) { simulation.forces[p] += slowContactForce(simulation, p, particles.velocity[p]); });
     addContacts(simulation, h, simulation.implicit.matrix);
     solveForChange(simulation, h);
@@ -55,15 +55,16 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
 void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights) {
     Particles& particles = simulation.particles;
     const double decay = decayFactor(simulation.setup.drag, 0.5 * h);
+    const std::size_t grain = grainAmong(simulation.setup.scenery);
     prepareDrift(simulation);
-    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
+    inParallel(particles.count(), grain, [&](std::size_t p) {
         chooseSwept(simulation, p, h);  // its force is of the start; the middle's is asked for there
         drift(simulation, p, 0.5 * h);
         particles.velocity[p] *= decay;
     });
     if (!isSound(particles)) return noteUnsound(simulation);
     kick(simulation, h, weights);
-    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
+    inParallel(particles.count(), grain, [&](std::size_t p) {
         particles.velocity[p] *= decay;
         drift(simulation, p, 0.5 * h);
     });

@@ -1,5 +1,5 @@
-// Compiled once per instruction set. In float a particle's coordinates are three of four lanes; where vectors have
-// fewer, they are taken one by one.
+// Of those in float, compiled once per instruction set, a particle's coordinates are three of four lanes; where vectors
+// have fewer, they are taken one by one.
 #include "engine/make_records.h"
 
 #include <cstddef>
@@ -85,7 +85,7 @@ namespace engine {
 HWY_EXPORT(makeSinglesHere);
 
 void makeDoubles(const OrderedParticles& of, std::size_t begin, std::size_t end, PairRecord* all) {
-    const OrderedParticles from = of;  // as above
+    const OrderedParticles from = of;  // nothing that is written is part of it
     for (std::size_t place = begin; place < end; ++place) {
         from.fetchAhead<PairRecord>(place);
         all[place] = doubleRecord(from, from.order[place]);

@@ -44,6 +44,7 @@ void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, c
                        : kListSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
         displacements = Extent{Vec3::Zero(), Vec3::Zero()};
+        hasRecords = false;  // they are in another order
     }
 }
 

@@ -46,12 +46,12 @@ struct PairTraversal {
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
 
-    /// The list alone: until somebody moves it holds all that act on each other.
+    /// The first part of it: brings the list up to date, but makes no records.
     void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
-    /// Since the last call, or else prepare(), every particle has moved by some vector in a box (m), and nothing else
-    /// of it has changed. Spares the next prepare() a look at each of them.
+    /// Since the last call, or else renewList(), every particle has moved by some vector in a box (m), and nothing but
+    /// its velocity has changed besides. Spares the next renewList() a look at each of them.
     void noteMoves(const Extent& moves);
 
     /// Particles are moved in ways that nobody notes.

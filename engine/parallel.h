@@ -38,7 +38,7 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
 /// done takes more. Isolated, so that a waiting thread does not take up a whole frame's drawing meanwhile.
 template <class Ranges>
 void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
-    constexpr std::size_t kFew = 256;  // chosen: pairs of up to 16,384 particles, anything else of up to 262,144
+    constexpr std::size_t kFew = 256;  // chosen: pairs of up to 16,384 particles, their own work of up to 262,144
     const tbb::blocked_range<std::size_t> all(0, count, grain);
     const auto each = [&](const auto& range) { body(range.begin(), range.end()); };
     tbb::this_task_arena::isolate([&] {
@@ -50,7 +50,7 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
 }
 #endif
 
-/// Calls body(begin, end) for ranges of 0 ... count - 1, which are worth a thread from `grain` on.
+/// Calls body(begin, end) for ranges of 0 ... count - 1, of which those of more than `grain` are worth another thread.
 template <class Body>
 void inRanges(std::size_t count, std::size_t grain, const Body& body) {
     if (count <= grain)
@@ -69,7 +69,7 @@ bool holdsInRanges(std::size_t count, std::size_t grain, const Holds& holds) {
     return all;
 }
 
-/// Calls body(index) for 0 ... count - 1, at least `grain` of them in a row on one thread.
+/// Calls body(index) for 0 ... count - 1, shared out likewise.
 template <class Body>
 void inParallel(std::size_t count, std::size_t grain, const Body& body) {
     inRanges(count, grain, [&](std::size_t begin, std::size_t end) {
@@ -79,7 +79,7 @@ void inParallel(std::size_t count, std::size_t grain, const Body& body) {
 
 /// Of whatever is done to each particle. A thread that does it for all of some thousands takes no longer, but what it
 /// writes leaves its cache line by line when others read it. Measured with `globular bench` on two Zen 5 cores: with
-/// 8192 steps and scenes of 500 to 6000 particles take a tenth longer, 512 is as good but at 1000 particles.
+/// 8192, steps and scenes of 2000 to 6000 particles take a tenth longer; with 512, steps of 1000.
 inline constexpr std::size_t kParticleGrain = 1024;
 
 /// to = from.

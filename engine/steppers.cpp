@@ -28,7 +28,7 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .hasWeight = hasObstacles};
     Moved moved;
     std::mutex merging;
-    inRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    inRanges(particles.count(), grainAmong(evaluator.law().scenery), [&](std::size_t begin, std::size_t end) {
         // Pairs, weight, obstacles: the order is part of the bits.
         if (hasObstacles) addOuterForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.forces);
         const Moved range = kickAndDrift(step, begin, end, particles);

@@ -32,7 +32,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.predictedVelocities;
     predicted.resize(particles.count());
-    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
+    inParallel(particles.count(), grainAmong(simulation.setup.scenery), [&](std::size_t p) {
         Vec3& velocity = particles.velocity[p];
         const Vec3 contacts = chooseSwept(simulation, p, h);
         const Vec3 change = halfKick(particles, p, h, simulation.forces[p] + contacts);

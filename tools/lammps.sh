@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds what `globular study scaling --peer lammps` runs of LAMMPS, from Debian's sources and with Debian's flags: `dpd`,
-# which Debian's package leaves out, too. Then:
+# Builds what `globular study scaling --peer lammps` runs of LAMMPS, from Debian's sources with Debian's flags for
+# the compiler: `dpd`, which Debian's package leaves out, too. Then:
 #   PATH=$PWD/build/lammps:$PATH build/release/tools/globular study scaling --peer lammps
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -18,11 +18,13 @@ if [ ! -d "$build/source/lammps" ]; then
     apt=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$build/apt/parts" -o APT::Sandbox::User=root
         -o "Dir::State::Lists=$build/apt/lists" -o "Dir::Cache=$build/apt/cache")
     apt-get "${apt[@]}" -qq update || true # whoever has no sources is not needed
+    rm -rf "$build"/source/*
     (cd "$build/source" && apt-get "${apt[@]}" -qq source --download-only lammps)
-    dpkg-source --skip-debianization --no-check -x "$build"/source/lammps_*.dsc "$build/source/lammps"
+    dpkg-source --skip-debianization --no-check -x "$build"/source/lammps_*.dsc "$build/source/unpacked"
+    mv "$build/source/unpacked" "$build/source/lammps"
 fi
 
 cmake -S "$build/source/lammps/cmake" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_FLAGS="$(dpkg-buildflags --get CXXFLAGS) $(dpkg-buildflags --get CPPFLAGS) -w" \
-    -DPKG_OPT=ON -DPKG_DPD-BASIC=ON -DBUILD_OMP=OFF -DWITH_{JPEG,PNG,GZIP,FFMPEG}=OFF
+    -DBUILD_MPI=ON -DPKG_OPT=ON -DPKG_DPD-BASIC=ON -DBUILD_OMP=OFF -DWITH_{JPEG,PNG,GZIP,FFMPEG}=OFF
 cmake --build "$build" --target lmp

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what globular needs from Debian: compilers, libraries, Mesa's software renderer, ffmpeg; and the packages that are
-# named. Called by figures.sh and test.sh; does nothing where everything is there.
+# named. Called by the scripts beside it; does nothing where everything is there.
 set -euo pipefail
 
 packages=(

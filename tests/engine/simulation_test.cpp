@@ -45,19 +45,23 @@ Setup crowdAmongObstacles() {
     return setup;
 }
 
-/// Beside a run another one whose evaluator is told that particles may be anywhere, and looks at them every time.
+/// Beside a run one whose evaluator is told that particles may be anywhere, and looks at them every time, and one whose
+/// evaluator is told nothing, and looks at their radii and materials, too.
 void checkLists(const Setup& setup) {
     Simulation noted = start(setup);
     Simulation looked = noted;
+    Simulation forgotten = noted;
     std::size_t lists = 0;
     for (int step = 1; step <= 100; ++step) {
         const std::vector<Vec3> before = noted.evaluator.list().builtAt;
-        for (Simulation* simulation : {&noted, &looked}) advance(*simulation, 0.002 * step);
+        for (Simulation* simulation : {&noted, &looked, &forgotten}) advance(*simulation, 0.002 * step);
         looked.evaluator.noteMoves({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
+        forgotten.evaluator.forgetMoves();
         lists += noted.evaluator.list().builtAt != before ? 1U : 0U;
         INFO("step " << step);
         REQUIRE(noted.evaluator.list().builtAt == looked.evaluator.list().builtAt);
         REQUIRE(noted.particles.position == looked.particles.position);
+        REQUIRE(noted.particles.position == forgotten.particles.position);
     }
     CHECK(lists > 5);
     CHECK(lists < 95);

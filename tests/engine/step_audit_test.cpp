@@ -260,6 +260,20 @@ TEST_CASE("Who has company is not swept for a step that was taken back and led a
         takeStep(simulation, 0.01);
         INFO(nameOf(stepper));
         CHECK(simulation.swept[0] == 0);
-        if (isVerlet(stepper)) CHECK(stateHash(simulation.particles) == good);
+        CHECK(stateHash(simulation.particles) == good);
     }
+}
+
+TEST_CASE("Where forces need no list Verlet trusts none that another stepper has left behind", "[step-audit]") {
+    Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::implicitDamping, 0.1);
+    setup.forces = ForceMethod::reference;
+    setup.scenery.colliders = {Plane{}};
+    append(setup.initial, {.position = Vec3(0, 1, 0)});
+    append(setup.initial, {.position = Vec3(0.3, 1, 0), .velocity = Vec3(10, 0, 0)});
+    Simulation simulation = start(setup);
+    takeStep(simulation, 0.1);
+    REQUIRE(simulation.evaluator.list().count() == 2);
+    simulation.stepper = StepperKind::velocityVerlet;
+    takeStep(simulation, 0.1);
+    CHECK_FALSE(simulation.startIsListed);
 }
