@@ -50,7 +50,7 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
 }
 #endif
 
-/// Calls body(begin, end) for ranges of 0 ... count - 1, of which those of more than `grain` are worth another thread.
+/// Calls body(begin, end) for ranges that make up 0 ... count - 1; more than `grain` of these are worth another thread.
 template <class Body>
 void inRanges(std::size_t count, std::size_t grain, const Body& body) {
     if (count <= grain)
