@@ -1,4 +1,4 @@
-// From view to image: prepare, cast, colour, hand to OpenGL, read back; at final quality casts and colours nine times,
+// From view to image: prepare, cast, color, hand to OpenGL, read back; at final quality casts and colors nine times,
 // with the rays moved within the pixel.
 #include "render/renderer.h"
 
@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 #include <tbb/task_group.h>
 
-#include "render/draw_overlay.h"
-#include "render/gl_objects.h"
-#include "render/picture_pass.h"
-#include "render/system_error.h"
+#include "render/cpu/picture_pass.h"
+#include "render/opengl/gl_objects.h"
+#include "render/overlay/draw_overlay.h"
+#include "render/picture/system_error.h"
 
 namespace render {
 
@@ -40,7 +40,7 @@ void requireFinite(const View& view) {
         const Sphere& s = view.particles[k];
         if (finite(s.center) && std::isfinite(s.radius) && finite(s.color)) continue;
         throw std::logic_error(fmt::format(
-            "render: particle {} of {} is at ({}, {}, {}) with radius {} and colour ({}, {}, {})", k,
+            "render: particle {} of {} is at ({}, {}, {}) with radius {} and color ({}, {}, {})", k,
             view.particles.size(), s.center.x, s.center.y, s.center.z, s.radius, s.color.x, s.color.y, s.color.z));
     }
     if (!finite(view.camera.eye) || !finite(view.camera.target) || !finite(view.light.toLight)) {

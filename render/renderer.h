@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "render/context.h"
-#include "render/draw_times.h"
-#include "render/image.h"
-#include "render/surface_point.h"
-#include "render/view.h"
+#include "render/cpu/draw_times.h"
+#include "render/opengl/context.h"
+#include "render/picture/image.h"
+#include "render/picture/view.h"
+#include "render/picture/visible_point.h"
 
 namespace render {
 

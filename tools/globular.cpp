@@ -9,12 +9,12 @@
 #include <malloc.h>
 #endif
 
-#include "engine/simulation.h"
-#include "render/system_error.h"
-#include "scenes/input_error.h"
-#include "tools/commands.h"
-#include "tools/ended.h"
-#include "tools/standard_streams.h"
+#include "engine/stepping/simulation.h"
+#include "render/picture/system_error.h"
+#include "scenes/text/input_error.h"
+#include "tools/commands/commands.h"
+#include "tools/system/exit_status.h"
+#include "tools/system/standard_streams.h"
 
 namespace {
 

@@ -56,7 +56,7 @@ void makeFolders(const program::Folder& folder) {
     both("deeper/frame-00001.png", onePixel(balls(), 30, 40, 9));
     both("frame-00002.png", shifted(balls()));
     writeManifest(folder / "expected", "00000000000000aa");
-    writePicture(folder / "actual/new <!--<script>.png", grey(balls()));
+    writePicture(folder / "actual/new <!--<script>.png", gray(balls()));
     writePicture(folder / "expected/gone.png", balls());
     both("size.png", balls(90, 160));
     both("broken.png", balls());

@@ -1,12 +1,12 @@
 // The automatic stepper: what it measures is true, what it chooses fits the substance and the wanted error, and depends
 // on nothing but the states.
-#include "engine/auto_stepper.h"
+#include "engine/error_control/auto_stepper.h"
 
 #include "tests/catch.h"
 
-#include "engine/diagnostics.h"
-#include "engine/error_look.h"
-#include "engine/far_look.h"
+#include "engine/error_control/error_estimate.h"
+#include "engine/error_control/long_error_estimate.h"
+#include "engine/forces/diagnostics.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

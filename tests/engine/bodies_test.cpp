@@ -1,5 +1,5 @@
 // Packings: counts, spacing, containment, jitter.
-#include "engine/bodies.h"
+#include "engine/state/bodies.h"
 
 #include <cmath>
 #include "tests/catch.h"
@@ -18,7 +18,7 @@ double nearestDistance(const std::vector<Vec3>& positions) {
 
 }  // namespace
 
-TEST_CASE("A ball is filled with a face-centred cubic packing", "[bodies]") {
+TEST_CASE("A ball is filled with a face-centerd cubic packing", "[bodies]") {
     const Vec3 center(1, 2, 3);
     const auto positions = ballPositions(center, 1.5, {.spacing = 0.3});
     for (const Vec3& position : positions) CHECK((position - center).norm() <= 1.5 + 1e-8);  // the slack of the surface
@@ -31,11 +31,11 @@ TEST_CASE("A ball is filled with a face-centred cubic packing", "[bodies]") {
 TEST_CASE("A box is filled up to its faces", "[bodies]") {
     const double edge = 0.3 * std::sqrt(2.0);  // of the lattice's cube
     const auto positions = boxPositions(Vec3::Zero(), Vec3(2 * edge, 2 * edge, 2 * edge), {.spacing = 0.3});
-    CHECK(positions.size() == 63);  // corners, edges and faces of 2 x 2 x 2 cubes around their centre
+    CHECK(positions.size() == 63);  // corners, edges and faces of 2 x 2 x 2 cubes around their center
     CHECK(nearestDistance(positions) == Approx(0.3).epsilon(1e-12));  // rounding
 }
 
-TEST_CASE("A grid has the counts asked for and is centred", "[bodies]") {
+TEST_CASE("A grid has the counts asked for and is centerd", "[bodies]") {
     const auto positions = gridPositions(Vec3(0, 1, 0), {4, 5, 1}, {.spacing = 0.5});
     CHECK(positions.size() == 20);
     Vec3 mean = Vec3::Zero();

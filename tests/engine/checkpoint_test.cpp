@@ -1,12 +1,12 @@
 // A run that is gone on with from a checkpoint is the run it was taken from, bit for bit; damaged bytes are refused.
-#include "engine/checkpoint.h"
+#include "engine/run/checkpoint.h"
 
 #include <cstring>
 #include <limits>
 #include <string>
 
-#include "engine/diagnostics.h"
-#include "engine/fnv.h"
+#include "engine/core/hash.h"
+#include "engine/forces/diagnostics.h"
 #include "tests/catch.h"
 #include "tests/engine/runs.h"
 

@@ -1,10 +1,10 @@
 // What the drift knows of the way to the obstacles must never be more than there is, or contacts would be left out.
 #include "tests/catch.h"
 
-#include "engine/audited_steps.h"
-#include "engine/contact_drift.h"
-#include "engine/drift.h"
-#include "engine/step_audit.h"
+#include "engine/error_control/checked_steps.h"
+#include "engine/stepping/drift.h"
+#include "engine/stepping/step_audit.h"
+#include "engine/stepping/swept_contact.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

@@ -6,9 +6,9 @@
 
 #include <cstdint>
 
-#include "engine/forces.h"
-#include "engine/particles.h"
-#include "engine/random.h"
+#include "engine/core/random.h"
+#include "engine/forces/forces.h"
+#include "engine/state/particles.h"
 
 namespace clouds {
 

@@ -1,12 +1,12 @@
 // Obstacles of section 3.2 against hand-worked contacts.
-#include "engine/colliders.h"
+#include "engine/law/obstacles.h"
 
 #include <cmath>
 #include <vector>
 #include "tests/catch.h"
 
-#include "engine/pair_law.h"
-#include "engine/surfaces.h"
+#include "engine/law/obstacle_surfaces.h"
+#include "engine/law/pair_law.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/rounding.h"
 
@@ -102,7 +102,7 @@ TEST_CASE("A sphere answers under its surface, or literally with its own radius"
     CHECK(forceAt(surface, Vec3(3.1, 0, 0)).x() ==
           Approx(repulsion(0.6, 0.5)).epsilon(1e3 * kEps));  // rounding of 2.1 - 2
     CHECK(forceAt(literal, Vec3(3.1, 0, 0)).x() == Approx(repulsion(2.1, 2.0)).epsilon(1e4 * kEps));  // same, softer
-    CHECK(forceAt(surface, Vec3(1, 0, 0)).y() > 0.0);  // at the very centre: some direction, finite
+    CHECK(forceAt(surface, Vec3(1, 0, 0)).y() > 0.0);  // at the very center: some direction, finite
     const Scenery published = only(Sphere{Vec3::Zero(), 0.5, true});
     const Scenery same = only(Sphere{Vec3::Zero(), 0.5, false});
     CHECK(forceAt(published, Vec3(0.3, 0.4, 0.1)) == forceAt(same, Vec3(0.3, 0.4, 0.1)));  // R = 0.5: one and the same

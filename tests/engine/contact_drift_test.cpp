@@ -1,10 +1,10 @@
 // Flights past obstacles: rebounds against an integrator of this file's own, what must not move, and what must end.
-#include "engine/contact_drift.h"
+#include "engine/stepping/swept_contact.h"
 
 #include <limits>
 #include "tests/catch.h"
 
-#include "engine/surfaces.h"
+#include "engine/law/obstacle_surfaces.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/runs.h"
 
@@ -20,7 +20,7 @@ double accelerationAt(double height, double speed, const Flight& flight, const R
 }
 
 /// Speed upwards (m/s) with which m y'' = F(y, y') and the barrier send back what meets the plane y = 0, by the
-/// explicit midpoint rule in steps that neither cover more than 10 micrometres nor last more than 1e-3 of a contact.
+/// explicit midpoint rule in steps that neither cover more than 10 micrometers nor last more than 1e-3 of a contact.
 double reboundOf(const Flight& flight, const RepulsorLaw& law) {
     double y = flight.radius;
     double v = flight.velocity.y();

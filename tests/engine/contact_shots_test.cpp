@@ -1,6 +1,6 @@
 // Shots of 0.01 to 1 kg at 1 to 1000 m/s at every kind of obstacle: none may pass. The far side is told here by
 // distances of this file's own.
-#include "engine/contact_drift.h"
+#include "engine/stepping/swept_contact.h"
 
 #include <array>
 #include <functional>
@@ -34,7 +34,7 @@ Vec3 directionOf(const Target& target, std::uint64_t number) {
     }
 }
 
-/// Flies 4 m from 1.5 m before the aim, in calls that cover `stride` metres at the initial speed.
+/// Flies 4 m from 1.5 m before the aim, in calls that cover `stride` meters at the initial speed.
 void shoot(const Target& target, const Vec3& direction, double stride) {
     Scenery scenery;
     scenery.colliders = {target.collider};
@@ -127,9 +127,9 @@ TEST_CASE("No shot at a sphere's middle passes it", "[contact-shots]") {
     for (const double radius : {0.5, 0.05})
         for (const Vec3& out : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(-1, 2, 0.5)}) {
             const Vec3 outward = out.normalized();
-            const Vec3 centre(0.3, 0.2, 0.1);
-            shootFromAllSides({Sphere{centre, radius, false}, centre, outward, 0.7,
-                               deeperThan(radius, centre + radius * outward, outward)},
+            const Vec3 center(0.3, 0.2, 0.1);
+            shootFromAllSides({Sphere{center, radius, false}, center, outward, 0.7,
+                               deeperThan(radius, center + radius * outward, outward)},
                               6);
         }
 }

@@ -1,9 +1,9 @@
 // Particles that leave a bounded world: who, when, and that nobody else notices.
 #include "tests/catch.h"
 
-#include "engine/checkpoint.h"
-#include "engine/diagnostics.h"
-#include "engine/error_look.h"
+#include "engine/error_control/error_estimate.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/run/checkpoint.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

@@ -1,11 +1,11 @@
 // Energy, momenta, hash, and the exponential of the drag.
-#include "engine/diagnostics.h"
+#include "engine/forces/diagnostics.h"
 
 #include <cmath>
 #include <limits>
 #include "tests/catch.h"
 
-#include "engine/decay.h"
+#include "engine/core/exp_negative.h"
 #include "tests/engine/clouds.h"
 
 using namespace engine;
@@ -39,12 +39,12 @@ TEST_CASE("Two states share a hash exactly when every bit agrees", "[diagnostics
 }
 
 TEST_CASE("The drag's exponential", "[diagnostics]") {
-    CHECK(decayFactor(0.0, 1.0) == 1.0);
+    CHECK(expNegative(0.0) == 1.0);
     for (double x = 1e-6; x < 700.0; x *= 1.37) {
         const double halvings = std::max(0.0, std::ceil(std::log2(x / 0.125)));
         // Ten roundings of the series, doubled by each squaring, which adds one of its own.
         const double tolerance = (10.0 + 2.0) * std::exp2(halvings) * std::numeric_limits<double>::epsilon();
-        CHECK(decayFactor(x, 1.0) == Approx(std::exp(-x)).epsilon(tolerance));
+        CHECK(expNegative(x) == Approx(std::exp(-x)).epsilon(tolerance));
     }
-    CHECK(decayFactor(1.0, 1e6) == 0.0);
+    CHECK(expNegative(1e6) == 0.0);
 }

@@ -1,5 +1,5 @@
 // The grid against the O(n^2) reference, which in turn is held against hand-worked sums and its own energy.
-#include "engine/forces.h"
+#include "engine/forces/forces.h"
 
 #include <set>
 #include "tests/catch.h"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include "tests/catch.h"
 
-#include "engine/diagnostics.h"
-#include "engine/step_audit.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/stepping/step_audit.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

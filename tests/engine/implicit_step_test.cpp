@@ -1,11 +1,11 @@
 // The implicit steppers: their order, what they keep, and that they stand steps at which explicit ones explode.
-#include "engine/implicit_step.h"
+#include "engine/stepping/implicit_step.h"
 
 #include <cmath>
 #include "tests/catch.h"
 
-#include "engine/diagnostics.h"
-#include "engine/step_bound.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/stepping/step_bound.h"
 #include "tests/engine/rounding.h"
 #include "tests/engine/runs.h"
 

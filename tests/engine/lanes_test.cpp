@@ -5,15 +5,15 @@
 
 #include "tests/catch.h"
 
-#include "engine/diagnostics.h"
-#include "engine/instruction_sets.h"
-#include "engine/kick_drift.h"
-#include "engine/lane_forces.h"
-#include "engine/make_records.h"
-#include "engine/outer_forces.h"
-#include "engine/pair_sums.h"
-#include "engine/soundness.h"
-#include "engine/steppers.h"
+#include "engine/core/instruction_sets.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/forces/external_forces.h"
+#include "engine/forces/pack_particles.h"
+#include "engine/forces/pair_sums.h"
+#include "engine/forces/simd_forces.h"
+#include "engine/stepping/kick_drift.h"
+#include "engine/stepping/state_checks.h"
+#include "engine/stepping/steppers.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -126,19 +126,19 @@ TEST_CASE("Records in float are those of the plain twin with every kind of vecto
         for (Vec3& velocity : particles.velocity) velocity *= size;
         particles.position[5] = Vec3(0.0, -0.0, 0.5);
         for (std::uint32_t p = 0; p < 1003; ++p) particles.material[p] = p % 5;
-        NeighbourList list;
+        NeighborList list;
         for (std::uint32_t place = 0; place < 1003; ++place) list.order.push_back(place * 7 % 1003);
-        constexpr double kPerMetre = 8388608.0 / 0.66;
+        constexpr double kPerMeter = 8388608.0 / 0.66;
         for (const std::string& name : instructionSets()) {
             const OnInstructionSet only(name);
             std::vector<SinglePrecisionRecord> singles(list.count());
             const OrderedParticles from(list, particles, particles.velocity);
-            makeSingles(from, kPerMetre, 0, 501, singles.data());
-            makeSingles(from, kPerMetre, 501, 1003, singles.data());
+            makeSingles(from, kPerMeter, 0, 501, singles.data());
+            makeSingles(from, kPerMeter, 501, 1003, singles.data());
             for (std::size_t place = 0; place < list.count(); ++place) {
                 const std::size_t p = list.order[place];
                 const auto expected =
-                    singleRecord(particles.position[p], particles.velocity[p], particles.id[p], kPerMetre);
+                    singleRecord(particles.position[p], particles.velocity[p], particles.id[p], kPerMeter);
                 INFO(size << " m, " << name << ", place " << place);
                 CHECK(std::memcmp(&singles[place], &expected, sizeof(expected)) == 0);
             }

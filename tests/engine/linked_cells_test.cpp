@@ -1,9 +1,9 @@
 // Who is near a place: nobody is missing, nobody twice, and not everybody is asked.
-#include "engine/linked_cells.h"
+#include "engine/neighbors/linked_cells.h"
 
 #include <map>
 
-#include "engine/random.h"
+#include "engine/core/random.h"
 #include "tests/catch.h"
 
 using namespace engine;

@@ -1,9 +1,9 @@
 // The skin follows the motion: what it is worth shows in `globular bench`, what it must not do is here.
-#include "engine/list_skin.h"
+#include "engine/neighbors/verlet_skin.h"
 
 #include "tests/catch.h"
 
-#include "engine/diagnostics.h"
+#include "engine/forces/diagnostics.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -54,6 +54,6 @@ TEST_CASE("A run's lists fit the way of its steps, and its forces are those of e
     const Simulation fast = parting(8.0, 0.002, ForceMethod::grid);
     CHECK(skinOf(fast) > 2.0 * kListSkin);
     const Simulation expected = parting(8.0, 0.002, ForceMethod::reference);
-    for (std::size_t p = 0; p < fast.particles.count(); ++p)  // some thousand roundings of metres
+    for (std::size_t p = 0; p < fast.particles.count(); ++p)  // some thousand roundings of meters
         CHECK((fast.particles.position[p] - expected.particles.position[p]).norm() < 1e-12);
 }

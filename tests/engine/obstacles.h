@@ -1,7 +1,7 @@
 // Sceneries of a single obstacle.
 #pragma once
 
-#include "engine/colliders.h"
+#include "engine/law/obstacles.h"
 
 inline engine::Scenery only(const engine::Collider& collider) {
     engine::Scenery scenery;

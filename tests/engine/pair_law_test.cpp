@@ -1,5 +1,5 @@
 // Laws of the pair force against closed forms, the printed equation and central differences.
-#include "engine/pair_law.h"
+#include "engine/law/pair_law.h"
 
 #include <cmath>
 #include "tests/catch.h"
@@ -149,7 +149,7 @@ TEST_CASE("Coincident particles part along a direction drawn from their ids", "[
         CHECK(there[axis] == -back[axis]);
         lengthSq += there[axis] * there[axis];
     }
-    CHECK(std::sqrt(lengthSq) == Approx(kCoincidentShare * 0.3).epsilon(8 * kEps));  // a normalisation's roundings
+    CHECK(std::sqrt(lengthSq) == Approx(kCoincidentShare * 0.3).epsilon(8 * kEps));  // a normalzation's roundings
     CHECK(coincidentSeparation(3, 9, 0.3) != there);
 }
 

@@ -1,10 +1,10 @@
 // The implicit steppers' matrix against one that is written out, and what its solver promises at any tolerance.
-#include "engine/pair_matrix.h"
+#include "engine/forces/pair_matrix.h"
 
 #include <Eigen/Dense>
 #include "tests/catch.h"
 
-#include "engine/conjugate_gradient.h"
+#include "engine/forces/conjugate_gradient.h"
 #include "tests/engine/clouds.h"
 #include "tests/engine/rounding.h"
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "engine/bodies.h"
-#include "engine/simulation.h"
-#include "engine/steppers.h"
+#include "engine/state/bodies.h"
+#include "engine/stepping/simulation.h"
+#include "engine/stepping/steppers.h"
 #include "tests/engine/clouds.h"
 
 namespace runs {

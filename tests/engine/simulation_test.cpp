@@ -1,11 +1,11 @@
 // Whole runs: time, births, bits, and the end of an unstable one.
-#include "engine/simulation.h"
+#include "engine/stepping/simulation.h"
 
 #include "tests/catch.h"
 
-#include "engine/bodies.h"
-#include "engine/diagnostics.h"
-#include "engine/steppers.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/state/bodies.h"
+#include "engine/stepping/steppers.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

@@ -1,11 +1,11 @@
 // The audit: steps that gain energy are taken back, whole and with the births they saw, and a run that nothing can
 // save says so.
-#include "engine/step_audit.h"
+#include "engine/stepping/step_audit.h"
 
 #include <algorithm>
 #include "tests/catch.h"
 
-#include "engine/diagnostics.h"
+#include "engine/forces/diagnostics.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

@@ -1,12 +1,12 @@
 // Order of convergence, closed forms, and what must be kept or may only fall.
-#include "engine/steppers.h"
+#include "engine/stepping/steppers.h"
 
 #include <cmath>
 #include "tests/catch.h"
 
-#include "engine/decay.h"
-#include "engine/diagnostics.h"
-#include "engine/step_bound.h"
+#include "engine/core/exp_negative.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/stepping/step_bound.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -15,7 +15,7 @@ namespace {
 
 using runs::freeSetup;
 
-/// Two solid particles about their rest length; amplitude in metres.
+/// Two solid particles about their rest length; amplitude in meters.
 Setup oscillator(StepperKind stepper, double step, double amplitude) {
     Material material = *materialPreset("solid");
     material.damping = 0.0;

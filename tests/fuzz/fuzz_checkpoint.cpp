@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/checkpoint.h"
-#include "engine/fnv.h"
+#include "engine/core/hash.h"
+#include "engine/run/checkpoint.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "render/system_error.h"
-#include "tools/manifest.h"
+#include "render/picture/system_error.h"
+#include "tools/run/manifest.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

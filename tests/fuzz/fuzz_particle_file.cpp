@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "scenes/input_error.h"
-#include "scenes/particle_file.h"
+#include "scenes/model/particle_file.h"
+#include "scenes/text/input_error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

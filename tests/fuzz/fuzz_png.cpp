@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "render/png.h"
-#include "render/system_error.h"
+#include "render/output/png.h"
+#include "render/picture/system_error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

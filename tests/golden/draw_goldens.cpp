@@ -6,14 +6,14 @@
 #include <array>
 #include <span>
 
-#include "engine/diagnostics.h"
-#include "render/png.h"
+#include "engine/forces/diagnostics.h"
+#include "render/output/png.h"
 #include "render/renderer.h"
-#include "scenes/frame_steps.h"
-#include "scenes/frame_view.h"
-#include "tools/manifest.h"
-#include "tools/output_file.h"
-#include "tools/picture_facts.h"
+#include "scenes/view/frame_steps.h"
+#include "scenes/view/frame_view.h"
+#include "tools/run/manifest.h"
+#include "tools/run/picture_provenance.h"
+#include "tools/system/output_file.h"
 
 namespace golden {
 namespace {
@@ -27,7 +27,7 @@ scenes::Scene sceneIn(const GoldenScene& golden, const std::string& style) {
     scenes::Overrides overrides(golden.overrides.begin(), golden.overrides.end());
     overrides.emplace_back("look.style=" + style);
     overrides.emplace_back(fmt::format("look.size=[{}, {}]", kSize.width, kSize.height));
-    return scenes::loadScene(fmt::format("{}/scenes/{}.toml", GLOBULAR_SOURCE, golden.name), overrides);
+    return scenes::loadScene(fmt::format("{}/scenes/library/{}.toml", GLOBULAR_SOURCE, golden.name), overrides);
 }
 
 class Drawing {

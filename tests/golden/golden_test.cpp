@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <set>
 
-#include "render/png.h"
-#include "scenes/library.h"
+#include "render/output/png.h"
+#include "scenes/build/library.h"
 #include "tests/catch.h"
 #include "tests/golden/draw_goldens.h"
-#include "tools/approve.h"
-#include "tools/compare_page.h"
-#include "tools/output_file.h"
+#include "tools/compare/approve.h"
+#include "tools/pages/compare_page.h"
+#include "tools/system/output_file.h"
 
 namespace {
 
@@ -68,7 +68,7 @@ TEST_CASE("Every built-in scene looks as it did", "[golden]") {
 
 TEST_CASE("No built-in scene is without goldens", "[golden]") {
     std::set<std::string> wanted, known;
-    for (const auto& entry : scenes::listScenes({GLOBULAR_SOURCE "/scenes"}))
+    for (const auto& entry : scenes::listScenes({GLOBULAR_SOURCE "/scenes/library"}))
         if (!entry.name.starts_with("hard/")) wanted.insert(entry.name);
     for (const golden::GoldenScene& scene : golden::scenes()) {
         known.insert(scene.name);

@@ -1,5 +1,6 @@
-// The arrows between folders: every #include line of the sources is read, and one that points the wrong way fails by
-// name.
+// The layout of the sources: every #include line is read, and one that points from a lower folder or room to a higher
+// one fails by name. A folder is a library, a room is a sub-folder of one.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -25,7 +26,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"tests", {"engine", "render", "scenes", "studies", "tools"}}};
 
 /// The one header of another folder that is allowed by name.
-const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", "render/view.h"}};
+const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", "render/picture/view.h"}};
 
 /// Libraries that a folder may use, by the first part of the path; standard headers have no such part.
 const std::map<std::string, std::set<std::string>> kLibraries = {
@@ -42,7 +43,29 @@ const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
     {"render", {"iostream"}}};
 
 /// Standard headers that one file may use all the same: ThreadSanitizer sees these threads, and oneTBB's not.
-const std::set<std::pair<std::string, std::string>> kAllowedHeaders = {{"engine/parallel.h", "thread"}};
+const std::set<std::pair<std::string, std::string>> kAllowedHeaders = {{"engine/core/parallel.h", "thread"}};
+
+/// The rooms of each folder, from the top down: a room may include those after it in its own list alone. The folder
+/// itself stands for the files that lie in no room.
+const std::map<std::string, std::vector<std::string>> kRooms = {
+    {"engine",
+     {"engine/run", "engine/error_control", "engine/stepping", "engine/forces", "engine/neighbors", "engine/state",
+      "engine/law", "engine/core"}},
+    {"render",
+     {"render", "render/opengl", "render/cpu", "render/cpu/shading", "render/cpu/lighting", "render/cpu/metaballs",
+      "render/cpu/raster", "render/prepare", "render/overlay", "render/output", "render/compare", "render/picture"}},
+    {"scenes", {"scenes/view", "scenes/build", "scenes/model", "scenes/schema", "scenes/text"}},
+    {"studies",
+     {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/pictures", "studies/oracle",
+      "studies/common"}},
+    {"tools", {"tools", "tools/commands", "tools/pages", "tools/compare", "tools/run", "tools/system"}}};
+
+/// The layout shows the architecture only as long as a room fits on a screen.
+constexpr std::size_t kMostFilesInRoom = 25;
+
+std::string roomOf(const std::string& file) {
+    return file.substr(0, file.rfind('/'));
+}
 
 struct Include {
     std::string folder;  ///< of the file that includes
@@ -62,17 +85,34 @@ std::vector<Include> includesIn(const std::string& folder, const std::string& fi
     return found;
 }
 
+bool isSource(const fs::path& path) {
+    return path.extension() == ".h" || path.extension() == ".cpp";
+}
+
 std::vector<Include> allIncludes() {
     std::vector<Include> found;
     for (const std::string& folder : kFolders)
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLOBULAR_SOURCE) / folder)) {
-            const std::string extension = entry.path().extension().string();
-            if (extension != ".h" && extension != ".cpp") continue;
+            if (!isSource(entry.path())) continue;
             std::ifstream stream(entry.path());
             const auto here = includesIn(folder, fs::relative(entry.path(), GLOBULAR_SOURCE).string(), stream);
             found.insert(found.end(), here.begin(), here.end());
         }
     return found;
+}
+
+/// How an include between two rooms of one folder is wrong; empty if it is not.
+std::string roomVerdict(const Include& include) {
+    const auto rooms = kRooms.find(include.folder);
+    if (rooms == kRooms.end() || include.target.rfind(include.folder + "/", 0) != 0) return "";
+    const auto indexOf = [&](const std::string& file) {
+        return std::find(rooms->second.begin(), rooms->second.end(), roomOf(file)) - rooms->second.begin();
+    };
+    const auto roomCount = static_cast<std::ptrdiff_t>(rooms->second.size());
+    if (indexOf(include.file) == roomCount) return roomOf(include.file) + " is not a known room";
+    if (indexOf(include.target) == roomCount) return roomOf(include.target) + " is not a known room";
+    if (indexOf(include.target) >= indexOf(include.file)) return "";
+    return roomOf(include.file) + " must not include " + roomOf(include.target) + ", which is above it";
 }
 
 /// Why an include is wrong; empty if it is not.
@@ -82,6 +122,7 @@ std::string verdict(const Include& include) {
         kAllowedFiles.count({include.folder, include.target}) == 0)
         return include.folder + "/ must not include " + target + "/";
     if (include.target.find("..") != std::string::npos) return "paths start at the root, not at ..";
+    if (const std::string wrongRoom = roomVerdict(include); !wrongRoom.empty()) return wrongRoom;
     const std::string refusal = include.folder + "/ must not include <" + include.target + ">";
     if (const auto libraries = kLibraries.find(include.folder); libraries != kLibraries.end()) {
         // Without a slash and with .h: the system's C headers.
@@ -108,19 +149,43 @@ TEST_CASE("Every include follows the arrows between folders", "[layering]") {
     }
 }
 
+TEST_CASE("No room holds more files than one can overlook", "[layering]") {
+    std::map<std::string, std::size_t> fileCounts;
+    for (const auto& [folder, rooms] : kRooms)
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLOBULAR_SOURCE) / folder))
+            if (isSource(entry.path())) ++fileCounts[roomOf(fs::relative(entry.path(), GLOBULAR_SOURCE).string())];
+    REQUIRE(fileCounts.size() > 20);
+    for (const auto& [room, count] : fileCounts) {
+        INFO(room);
+        CHECK(count <= kMostFilesInRoom);
+    }
+}
+
+TEST_CASE("A wrong arrow between rooms is noticed", "[layering]") {
+    CHECK(verdict({"engine", "engine/core/x.h", 1, "engine/law/pair_law.h"}) != "");
+    CHECK(verdict({"engine", "engine/law/x.h", 1, "engine/core/vec3.h"}) == "");
+    CHECK(verdict({"engine", "engine/law/x.h", 1, "engine/law/pair_law.h"}) == "");
+    CHECK(verdict({"engine", "engine/cellar/x.h", 1, "engine/core/vec3.h"}) != "");
+    CHECK(verdict({"engine", "engine/law/x.h", 1, "engine/cellar/vec3.h"}) != "");
+    CHECK(verdict({"render", "render/cpu/raster/x.cpp", 1, "render/cpu/shading/shade.h"}) != "");
+    CHECK(verdict({"render", "render/renderer.cpp", 1, "render/cpu/shading/shade.h"}) == "");
+    CHECK(verdict({"tools", "tools/run/x.cpp", 1, "tools/commands/commands.h"}) != "");
+    CHECK(verdict({"tools", "tools/commands/x.cpp", 1, "tools/run/render_loop.h"}) == "");
+}
+
 TEST_CASE("A wrong arrow is noticed", "[layering]") {
-    CHECK(verdict({"engine", "engine/x.cpp", 1, "scenes/scene.h"}) != "");
-    CHECK(verdict({"render", "render/x.cpp", 1, "engine/vec3.h"}) != "");
-    CHECK(verdict({"scenes", "scenes/x.cpp", 1, "render/context.h"}) != "");
-    CHECK(verdict({"scenes", "scenes/x.cpp", 1, "render/view.h"}) == "");
-    CHECK(verdict({"engine", "engine/x.cpp", 1, "chrono"}) != "");
-    CHECK(verdict({"engine", "engine/x.cpp", 1, "unistd.h"}) != "");
-    CHECK(verdict({"engine", "engine/x.cpp", 1, "glm/vec3.hpp"}) != "");
-    CHECK(verdict({"engine", "engine/x.cpp", 1, "Eigen/Geometry"}) == "");
-    CHECK(verdict({"render", "render/x.cpp", 1, "../scenes/scene.h"}) != "");
-    CHECK(verdict({"studies", "studies/x.cpp", 1, "tools/html.h"}) != "");
-    CHECK(verdict({"studies", "studies/x.cpp", 1, "fstream"}) != "");
-    CHECK(verdict({"studies", "studies/x.cpp", 1, "chrono"}) == "");
-    CHECK(verdict({"scenes", "scenes/x.cpp", 1, "studies/accuracy.h"}) != "");
-    CHECK(verdict({"tools", "tools/x.cpp", 1, "tests/engine/clouds.h"}) != "");
+    CHECK(verdict({"engine", "engine/core/x.cpp", 1, "scenes/model/scene.h"}) != "");
+    CHECK(verdict({"render", "render/picture/x.cpp", 1, "engine/core/vec3.h"}) != "");
+    CHECK(verdict({"scenes", "scenes/text/x.cpp", 1, "render/opengl/context.h"}) != "");
+    CHECK(verdict({"scenes", "scenes/text/x.cpp", 1, "render/picture/view.h"}) == "");
+    CHECK(verdict({"engine", "engine/core/x.cpp", 1, "chrono"}) != "");
+    CHECK(verdict({"engine", "engine/core/x.cpp", 1, "unistd.h"}) != "");
+    CHECK(verdict({"engine", "engine/core/x.cpp", 1, "glm/vec3.hpp"}) != "");
+    CHECK(verdict({"engine", "engine/core/x.cpp", 1, "Eigen/Geometry"}) == "");
+    CHECK(verdict({"render", "render/picture/x.cpp", 1, "../scenes/scene.h"}) != "");
+    CHECK(verdict({"studies", "studies/common/x.cpp", 1, "tools/pages/html.h"}) != "");
+    CHECK(verdict({"studies", "studies/common/x.cpp", 1, "fstream"}) != "");
+    CHECK(verdict({"studies", "studies/common/x.cpp", 1, "chrono"}) == "");
+    CHECK(verdict({"scenes", "scenes/text/x.cpp", 1, "studies/accuracy/accuracy.h"}) != "");
+    CHECK(verdict({"tools", "tools/system/x.cpp", 1, "tests/engine/clouds.h"}) != "");
 }

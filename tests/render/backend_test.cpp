@@ -5,7 +5,7 @@
 
 #include <tbb/global_control.h>
 
-#include "render/system_error.h"
+#include "render/picture/system_error.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;

@@ -1,10 +1,10 @@
 // Known-bad pictures against every profile: what each says, and by which rule.
-#include "render/compare.h"
+#include "render/compare/compare.h"
 
 #include <stdexcept>
 #include <string>
 
-#include "render/difference_image.h"
+#include "render/compare/difference_image.h"
 #include "tests/catch.h"
 #include "tests/render/test_pictures.h"
 
@@ -39,24 +39,24 @@ TEST_CASE("Each profile's verdict on known-bad pictures", "[compare]") {
     CHECK(verdicts(shifted(good), good) == Verdicts{"largest", "largest", "largest"});
     CHECK(verdicts(darker(good, 0.98), good) == Verdicts{"largest", "share", "within-limits"});
     CHECK(verdicts(darker(good, 0.9), good) == Verdicts{"largest", "largest", "share"});
-    CHECK(verdicts(grey(good), good) == Verdicts{"largest", "largest", "largest"});
+    CHECK(verdicts(gray(good), good) == Verdicts{"largest", "largest", "largest"});
     CHECK(verdicts(blank(good), good) == Verdicts{"largest", "largest", "largest"});
     CHECK(verdicts(noisy(good, 1), good) == Verdicts{"largest", "mean", "within-limits"});
     CHECK(verdicts(noisy(good, 16), good) == Verdicts{"largest", "share", "mean"});
 }
 
-TEST_CASE("The grey picture is as light as the coloured one, and what a shift costs", "[compare]") {
+TEST_CASE("The gray picture is as light as the colored one, and what a shift costs", "[compare]") {
     // What makes the verdicts above mean something.
     const Image good = balls();
     const render::Comparison shift = render::compare(shifted(good), good, render::limitsOf("loose"));
     CHECK(shift.reasons.size() >= 2);  // not by a single pixel alone
-    double light = 0.0, greyLight = 0.0;
-    const Image other = grey(good);
+    double light = 0.0, grayLight = 0.0;
+    const Image other = gray(good);
     for (std::size_t k = 0; k < good.rgb.size(); k += 3) {
         light += 0.2126 * good.rgb[k] + 0.7152 * good.rgb[k + 1] + 0.0722 * good.rgb[k + 2];
-        greyLight += other.rgb[k];
+        grayLight += other.rgb[k];
     }
-    CHECK(greyLight / light == Approx(1.0).epsilon(0.5 / 50.0));  // greys are rounded to whole steps of at least 50
+    CHECK(grayLight / light == Approx(1.0).epsilon(0.5 / 50.0));  // grays are rounded to whole steps of at least 50
 }
 
 TEST_CASE("Every limit decides alone", "[compare]") {

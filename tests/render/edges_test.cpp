@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/system_error.h"
+#include "render/picture/system_error.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -95,7 +95,7 @@ TEST_CASE("Every particle in every tile") {
     for (int k = 0; k < 3000; ++k)
         view.particles.push_back({{0.001F * float(k % 50), 1.0F, 0.0F}, 6.0F, {0.2F, 0.4F, 0.6F}});
     const render::Image image = drawn(view, {320, 180}, Quality::normal);
-    // Inside them all: depth 0 everywhere, so one colour per direction of the normal and no background.
+    // Inside them all: depth 0 everywhere, so one color per direction of the normal and no background.
     CHECK(compare(image, drawn(cloud(0), {320, 180}, Quality::normal), 2).share > 0.95);
 }
 

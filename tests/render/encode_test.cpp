@@ -1,10 +1,10 @@
-// sRGB encoding against the standard's formula: through the picture of a background, and of colours as they are packed.
+// sRGB encoding against the standard's formula: through the picture of a background, and of colors as they are packed.
 #include "tests/catch.h"
 
 #include <array>
 #include <cmath>
 
-#include "render/shade.h"
+#include "render/cpu/shading/shade.h"
 #include "tests/render/pictures.h"
 
 namespace {
@@ -28,7 +28,7 @@ double largestError(float bottom, float top) {
     return largest;
 }
 
-// The same of colours that are packed on vector units, and whether each channel is where it belongs.
+// The same of colors that are packed on vector units, and whether each channel is where it belongs.
 double largestPackedError(float most) {
     constexpr int kTiles = 32;
     double largest = 0.0;

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "render/first_hits.h"
+#include "render/cpu/raster/primary_hits.h"
 
 namespace {
 

@@ -35,7 +35,7 @@ TEST_CASE("A line is as wide as it says, at any quality") {
         for (const float width : {0.5F, 1.0F, 1.5F, 3.0F}) {
             CAPTURE(width);
             const double light = lightInColumn(drawn(lineView(width), kSize, quality), 30);
-            CHECK(light == Approx(double(width)).margin(0.03));  // bytes: two grey pixels, 0.01 each of linear light
+            CHECK(light == Approx(double(width)).margin(0.03));  // bytes: two gray pixels, 0.01 each of linear light
         }
     }
 }
@@ -48,7 +48,7 @@ TEST_CASE("A line is hidden by what is nearer only") {
     for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
         view.style = style;
         const render::Image image = drawn(view, kSize, Quality::normal);
-        // 13.3 pixels a metre at z = 2 or so: columns 32 - 1.0 * 48 / (8 * 0.73) and 32 + 1.5 * 48 / (12 * 0.73).
+        // 13.3 pixels a meter at z = 2 or so: columns 32 - 1.0 * 48 / (8 * 0.73) and 32 + 1.5 * 48 / (12 * 0.73).
         CHECK(lightInColumn(image, 24) < 0.01);
         CHECK(lightInColumn(image, 40) > 1.9);
         CHECK(lightInColumn(image, 2) > 1.9);

@@ -9,8 +9,8 @@
 
 #include <tbb/global_control.h>
 
-#include "render/openness.h"
-#include "render/skin.h"
+#include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/skin.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;

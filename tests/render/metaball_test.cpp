@@ -1,4 +1,4 @@
-// The ray cast of metaballs against the oracle's exact roots: hits, depths, colours, shadows.
+// The ray cast of metaballs against the oracle's exact roots: hits, depths, colors, shadows.
 #include "tests/catch.h"
 
 #include <bit>
@@ -6,10 +6,10 @@
 
 #include <hwy/highway.h>
 
-#include "render/binned_field.h"
-#include "render/depth_map.h"
-#include "render/metaball_frame.h"
-#include "render/ray_places.h"
+#include "render/cpu/lighting/depth_map.h"
+#include "render/cpu/metaballs/binned_field.h"
+#include "render/cpu/metaballs/metaball_frame.h"
+#include "render/cpu/metaballs/ray_layout.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -177,7 +177,7 @@ TEST_CASE("A lone metaball is a sphere") {
     CHECK(difference.share <= 4.0 / 9075.0);  // 2 steps: 16-bit normals and the glint's power of 32; 4 outline pixels
 }
 
-TEST_CASE("Metaballs are coloured and shaded as the oracle's") {
+TEST_CASE("Metaballs are colored and shaded as the oracle's") {
     render::View view = blobs(150);
     view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});
     view.boxObstacles.push_back({{0.81F, 0.01F, 1.2F}, {1.6F, 0.7F, 2.0F}, {0.2F, 0.3F, 0.7F}});

@@ -1,4 +1,4 @@
-// The oracle's metaballs and colours against closed forms and values worked by hand; its rays and shadows are tested in
+// The oracle's metaballs and colors against closed forms and values worked by hand; its rays and shadows are tested in
 // oracle_test.cpp. Where an input is not exact in float, it is read back from the view or its float rounding is allowed
 // for.
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "tests/catch.h"
 
-#include "studies/oracle.h"
+#include "studies/oracle/oracle.h"
 #include "tests/render/oracle_near.h"
 
 namespace {
@@ -30,7 +30,7 @@ render::View metaballView(std::vector<render::Sphere> balls, float reach) {
     return view;
 }
 
-/// Whether samples of the field every `step` metres along a ray, up to `end`, all stay below a level.
+/// Whether samples of the field every `step` meters along a ray, up to `end`, all stay below a level.
 bool staysBelow(const render::View& view, const Ray& ray, double step, double end, double level) {
     for (int i = 0; i * step < end; ++i)
         if (oracle::fieldAt(view, ray.origin + i * step * ray.direction) >= level) return false;
@@ -126,7 +126,7 @@ TEST_CASE("oracle: in a smooth skin a small ball feels a large one from afar") {
     for (const oracle::Ball& ball : balls) CHECK(std::abs(ball.weight - std::pow(1.0 + share, -0.75)) < kSingle);
 }
 
-TEST_CASE("oracle: a ray from inside the surface hits at once, with weighted colour and the field's gradient") {
+TEST_CASE("oracle: a ray from inside the surface hits at once, with weighted color and the field's gradient") {
     // At the origin 1 - d^2/R^2 is 3/4 and 1/2, so the kernels are as 9 to 4, and the field falls fastest along
     // 3/4 (0.5, 0, 0) + 1/2 (-0.5, -0.5, 0) = (0.125, -0.25, 0).
     const render::View view = metaballView(
@@ -197,11 +197,11 @@ TEST_CASE("oracle: in a random crowd the hit is on the surface, faces downhill, 
     CHECK(hitCount < 90);
 }
 
-TEST_CASE("oracle: sRGB values known, the round trip of all bytes, and what is no colour") {
+TEST_CASE("oracle: sRGB values known, the round trip of all bytes, and what is no color") {
     CHECK(oracle::encodeSrgb(0.0) == 0);
     CHECK(oracle::encodeSrgb(0.002) == 7);       // 255 * 12.92 * 0.002 = 6.59
     CHECK(oracle::encodeSrgb(0.0031308) == 10);  // 255 * 0.04045 = 10.31
-    CHECK(oracle::encodeSrgb(0.18) == 118);      // middle grey
+    CHECK(oracle::encodeSrgb(0.18) == 118);      // middle gray
     CHECK(oracle::encodeSrgb(0.5) == 188);
     CHECK(oracle::encodeSrgb(1.0) == 255);
     for (int byte = 0; byte < 256; ++byte) {
@@ -230,7 +230,7 @@ TEST_CASE("oracle: ambient, diffuse and glint of one point by hand") {
     checkNear(colorOf(view, Hit::Kind::sphereObstacle), matt, tolerance);     // above
     checkNear(colorOf(view, Hit::Kind::boxObstacle), matt, tolerance);        // above
     checkNear(colorOf(litView(0.0F), Hit::Kind::particle), matt, tolerance);  // above
-    view.sphereObstacles = {{{4.8F, 0.0F, 1.4F}, 0.5F, {}}};                  // 5 m towards the light
+    view.sphereObstacles = {{{4.8F, 0.0F, 1.4F}, 0.5F, {}}};                  // 5 m toward the light
     checkNear(colorOf(view, Hit::Kind::particle), unlit, 4 * kEps);           // ambient alone, a few roundings
     view.light.shadows = false;
     checkNear(colorOf(view, Hit::Kind::particle), glossy, tolerance);  // above
@@ -260,10 +260,10 @@ TEST_CASE("oracle: the ground fades into the background with the fourth power of
     checkNear(groundAt(far), (0.375 + 16.0 * 0.75) / 17.0, 16 * kEps);  // d = 10: fade 16; the same
     CHECK(groundAt(1e90) == 0.75);                                      // fade overflows to infinity: background alone
     view.ground->center = {0.0F, 0.0F, 4.0F};
-    CHECK(groundAt(4.0) == 0.375);  // no fade at the centre
+    CHECK(groundAt(4.0) == 0.375);  // no fade at the center
 }
 
-TEST_CASE("oracle: a picture runs from the top left, with the background's top colour above") {
+TEST_CASE("oracle: a picture runs from the top left, with the background's top color above") {
     render::View view = orthographicView(2.0F);
     view.background = {{1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}};
     view.particles = {{{-3.5F, 1.5F, 0.0F}, 0.4F, {}}};

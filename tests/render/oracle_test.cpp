@@ -1,6 +1,6 @@
 // The oracle's rays and shadows against closed forms and values worked by hand, so that render_tests may trust it; its
-// metaballs and colours are tested in oracle_shading_test.cpp.
-#include "studies/oracle.h"
+// metaballs and colors are tested in oracle_shading_test.cpp.
+#include "studies/oracle/oracle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "tests/catch.h"
 
-#include "studies/polynomial.h"
+#include "studies/oracle/polynomial.h"
 #include "tests/render/oracle_near.h"
 
 namespace {
@@ -99,7 +99,7 @@ TEST_CASE("oracle: orthographic rays are parallel and start on the eye's plane")
     view.camera.eye = {0.0F, 0.0F, 10.0F};
     view.camera.halfHeight = 2.0F;
     view.particles = {{{-3.5F, 1.5F, 0.0F}, 1.0F, {1.0F, 0.0F, 0.0F}}};
-    const Ray ray = oracle::pixelRay(view, {8, 4}, 0.5, 0.5);  // one pixel is one metre: the sphere's centre
+    const Ray ray = oracle::pixelRay(view, {8, 4}, 0.5, 0.5);  // one pixel is one meter: the sphere's center
     checkNear(ray.origin, {-3.5, 1.5, 10.0}, 16 * kEps);       // a few roundings of values up to 10
     checkNear(ray.direction, {0.0, 0.0, -1.0}, 4 * kEps);      // a few roundings of 1
     const Hit hit = oracle::trace(view, ray);
@@ -163,7 +163,7 @@ TEST_CASE("oracle: box faces, corners and parallel rays") {
             CHECK(oracle::trace(view, ray).kind == Hit::Kind::none);
         }
     }
-    // Along (-3, -4, 0)/5 towards the corner edge (1, 2): 0.1 m to either side of it the ray enters by +x, or by +y.
+    // Along (-3, -4, 0)/5 toward the corner edge (1, 2): 0.1 m to either side of it the ray enters by +x, or by +y.
     const dvec3 direction{-0.6, -0.8, 0.0};
     const Hit viaX = oracle::trace(view, {dvec3{1.0, 1.9, 0.0} - 5.0 * direction, direction});
     const Hit viaY = oracle::trace(view, {dvec3{0.9, 2.0, 0.0} - 5.0 * direction, direction});
@@ -193,11 +193,11 @@ TEST_CASE("oracle: the ground lies behind what stands on it and ends at the hori
     CHECK(oracle::trace(view, {down.origin, {0.0, 0.0, -1.0}}).kind == Hit::Kind::none);
     view.sphereObstacles[0].center = {1.5F, 1.0F, 0.0F};
     CHECK(oracle::trace(view, down).kind == Hit::Kind::sphereObstacle);
-    checkNear(oracle::trace(view, down).distance, 2.0, 8 * kEps);  // 2.5 to the centre, less the radius
+    checkNear(oracle::trace(view, down).distance, 2.0, 8 * kEps);  // 2.5 to the center, less the radius
 }
 
 TEST_CASE("oracle: the shadow of a ball on the ground is the analytic ellipse, for every kind of ball") {
-    // Light from (0.6, 0.8, 0): the shadow of a ball of radius r at height y is centred at x - y 0.6/0.8 and has the
+    // Light from (0.6, 0.8, 0): the shadow of a ball of radius r at height y is centerd at x - y 0.6/0.8 and has the
     // half axes r/0.8 along x and r along z.
     render::View view;
     view.ground = render::Ground{};

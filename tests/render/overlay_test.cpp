@@ -1,4 +1,4 @@
-// Overlays: where they are drawn and where not, what they say, how long the scale bar is, which colours the bar shows.
+// Overlays: where they are drawn and where not, what they say, how long the scale bar is, which colors the bar shows.
 #include "tests/catch.h"
 
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "render/draw_overlay.h"
-#include "render/text.h"
+#include "render/overlay/draw_overlay.h"
+#include "render/overlay/text.h"
 #include "tests/render/pictures.h"
 
 using render::Image;
@@ -15,9 +15,9 @@ using render::Overlay;
 
 namespace {
 
-Image plain(int width, int height, std::uint8_t grey) {
+Image plain(int width, int height, std::uint8_t gray) {
     Image image{width, height, {}};
-    image.rgb.assign(image.byteCount(), grey);
+    image.rgb.assign(image.byteCount(), gray);
     return image;
 }
 
@@ -46,9 +46,9 @@ Bounds boundsOf(const Image& image, const std::function<bool(int, int)>& isMeant
     return bounds;
 }
 
-Bounds changed(const Image& image, std::uint8_t grey) {
+Bounds changed(const Image& image, std::uint8_t gray) {
     return boundsOf(image, [&](int x, int y) {
-        return byteAt(image, x, y, 0) != grey || byteAt(image, x, y, 1) != grey || byteAt(image, x, y, 2) != grey;
+        return byteAt(image, x, y, 0) != gray || byteAt(image, x, y, 1) != gray || byteAt(image, x, y, 2) != gray;
     });
 }
 
@@ -271,7 +271,7 @@ TEST_CASE("A scale bar that does not fit is left out rather than cut") {
     CHECK(changed(image, 90).count == 0);
 }
 
-TEST_CASE("The colour bar runs through its colours, from below upwards") {
+TEST_CASE("The color bar runs through its colors, from below upwards") {
     for (const Size size : kSizes) {
         INFO(size.width << " x " << size.height);
         Image image = plain(size.width, size.height, 0);
@@ -304,15 +304,15 @@ TEST_CASE("The colour bar runs through its colours, from below upwards") {
     }
 }
 
-TEST_CASE("Ink of the picture's own colour is seen by its halo") {
-    for (const int grey : {0, 255}) {
-        Image image = plain(320, 180, static_cast<std::uint8_t>(grey));
+TEST_CASE("Ink of the picture's own color is seen by its halo") {
+    for (const int gray : {0, 255}) {
+        Image image = plain(320, 180, static_cast<std::uint8_t>(gray));
         Overlay overlay;
         overlay.stamp = "t = 1.25 s";
-        overlay.ink = glm::vec3(static_cast<float>(grey) / 255.0F);
+        overlay.ink = glm::vec3(static_cast<float>(gray) / 255.0F);
         render::drawOverlay(image, overlay, {});
         const Bounds contrast =
-            boundsOf(image, [&](int x, int y) { return std::abs(byteAt(image, x, y) - grey) > 100; });
+            boundsOf(image, [&](int x, int y) { return std::abs(byteAt(image, x, y) - gray) > 100; });
         CHECK(contrast.count > 100);
     }
 }

@@ -3,15 +3,15 @@
 
 #include <stdexcept>
 
-#include "render/panel_strip.h"
+#include "render/overlay/panel_strip.h"
 
 using render::Image;
 
 namespace {
 
-Image plain(int width, int height, std::uint8_t grey) {
+Image plain(int width, int height, std::uint8_t gray) {
     Image image{width, height, {}};
-    image.rgb.assign(image.byteCount(), grey);
+    image.rgb.assign(image.byteCount(), gray);
     return image;
 }
 

@@ -1,5 +1,5 @@
 // The metrics against closed forms and against ffmpeg's psnr and ssim filters.
-#include "render/picture_metrics.h"
+#include "render/compare/picture_metrics.h"
 
 #include <unistd.h>
 
@@ -9,8 +9,8 @@
 #include <regex>
 #include <stdexcept>
 
-#include "render/child_process.h"
-#include "render/png.h"
+#include "render/output/child_process.h"
+#include "render/output/png.h"
 #include "tests/catch.h"
 #include "tests/render/test_pictures.h"
 
@@ -83,7 +83,7 @@ TEST_CASE("PSNR and SSIM are ffmpeg's", "[metrics]") {
     for (const auto& [width, height] : {std::pair{160, 90}, std::pair{61, 43}, std::pair{16, 12}}) {
         const Image good = balls(width, height);
         for (const Image& bad :
-             {noisy(good, 2), noisy(good, 60), shifted(good), darker(good, 0.98), grey(good), blank(good)}) {
+             {noisy(good, 2), noisy(good, 60), shifted(good), darker(good, 0.98), gray(good), blank(good)}) {
             const auto metrics = render::measure(bad, good, {}, 3);
             INFO(width << "x" << height << ", psnr " << metrics.psnr() << ", ssim " << metrics.ssim);
             // Printed with six decimals: half of the last one. The mean of squares is a sum of whole numbers on both

@@ -3,7 +3,7 @@
 
 #include <hwy/highway.h>
 
-#include "render/camera_frame.h"
+#include "render/picture/camera_frame.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;

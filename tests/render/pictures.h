@@ -6,11 +6,11 @@
 #include <ostream>
 #include <random>
 
-#include "render/context.h"
-#include "render/image.h"
+#include "render/opengl/context.h"
+#include "render/picture/image.h"
+#include "render/picture/view.h"
 #include "render/renderer.h"
-#include "render/view.h"
-#include "studies/oracle.h"
+#include "studies/oracle/oracle.h"
 
 namespace pictures {
 
@@ -65,7 +65,7 @@ inline render::Image drawn(const render::View& view, render::PictureSize size, r
     return renderer.draw(view);
 }
 
-/// Particles of different sizes in a ball, over a ground, with light and sky of different colours.
+/// Particles of different sizes in a ball, over a ground, with light and sky of different colors.
 inline render::View cloud(int count, unsigned seed = 7) {
     render::View view;
     std::mt19937 random(seed);
@@ -88,7 +88,7 @@ inline render::View cloud(int count, unsigned seed = 7) {
 }
 
 /// The cloud with a sphere and a box beside it. The box stands a little off the ground and off the middle of the
-/// picture, where two surfaces, or an edge and a column of pixel centres, would coincide.
+/// picture, where two surfaces, or an edge and a column of pixel centers, would coincide.
 inline render::View cloudWithObstacles(int count) {
     render::View view = cloud(count);
     view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/plain_tiles.h"
+#include "render/cpu/shading/background_tiles.h"
 #include "tests/render/pictures.h"
 
 using pictures::drawn;
@@ -134,7 +134,7 @@ TEST_CASE("A picture is the same in another's memory") {
     }
 }
 
-TEST_CASE("A plain tile is coloured once while it shows the same before the same backdrop") {
+TEST_CASE("A plain tile is colored once while it shows the same before the same backdrop") {
     using render::TileClass;
     constexpr int kColumns = 3;
     constexpr render::PixelColor kMark = 0x00badbad;
@@ -150,7 +150,7 @@ TEST_CASE("A plain tile is coloured once while it shows the same before the same
     backdrop.groundHeight = -1.0F;
     backdrop.fadeDistance = 1e6F;
     render::PlainTiles plain;
-    // Which tiles are coloured, all of it or none.
+    // Which tiles are colored, all of it or none.
     const auto colored = [&] {
         std::ranges::fill(pixels, kMark);
         plain.color(backdrop, classes, kColumns, pixels);

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "render/png.h"
-#include "render/system_error.h"
+#include "render/output/png.h"
+#include "render/picture/system_error.h"
 
 namespace {
 

@@ -79,7 +79,7 @@ TEST_CASE("Shadows are the oracle's up to their softened edge") {
     view.camera.projection = render::Projection::orthographic;
     view.camera.halfHeight = 2.0F;
     requireAlike(view, 0.03);
-    view.light.toLight = {0.0F, 1.0F, 0.0F};  // along an axis: boxes have no sides towards the light
+    view.light.toLight = {0.0F, 1.0F, 0.0F};  // along an axis: boxes have no sides toward the light
     requireAlike(view, 0.03);
 }
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <random>
 
-#include "render/image.h"
+#include "render/picture/image.h"
 
 namespace test_pictures {
 
@@ -67,8 +67,8 @@ inline render::Image darker(const render::Image& image, double factor) {
     return other;
 }
 
-/// The greys of the same luma (BT.709).
-inline render::Image grey(const render::Image& image) {
+/// The grays of the same luma (BT.709).
+inline render::Image gray(const render::Image& image) {
     render::Image other = image;
     for (std::size_t k = 0; k < image.rgb.size(); k += 3) {
         const std::uint8_t luma = byteOf(0.2126 * image.rgb[k] + 0.7152 * image.rgb[k + 1] + 0.0722 * image.rgb[k + 2]);

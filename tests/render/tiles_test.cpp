@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/tiles.h"
+#include "render/prepare/tiles.h"
 #include "tests/render/pictures.h"
 
 TEST_CASE("orderByKey sorts by key, equal keys by place") {

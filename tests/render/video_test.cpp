@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "render/child_process.h"
-#include "render/system_error.h"
-#include "render/video.h"
+#include "render/output/child_process.h"
+#include "render/output/video.h"
+#include "render/picture/system_error.h"
 
 namespace fs = std::filesystem;
 
@@ -68,7 +68,7 @@ std::string fakeFfmpeg(const Folder& folder, const std::string& action) {
 
 }  // namespace
 
-TEST_CASE("A film has its frames, rate, size and colour tags") {
+TEST_CASE("A film has its frames, rate, size and color tags") {
     const Folder folder;
     const std::string path = folder.file("film.mp4");
     writeFilm({path, {64, 48}, 25}, 7);
@@ -108,7 +108,7 @@ TEST_CASE("The number of cores does not change a byte") {
     CHECK(bytesOf(folder.file("one")) == bytesOf(folder.file("all")));
 }
 
-TEST_CASE("Colours survive: a red film is red") {
+TEST_CASE("Colors survive: a red film is red") {
     const Folder folder;
     render::Image red{64, 64, {}};
     for (int k = 0; k < 64 * 64; ++k) red.rgb.insert(red.rgb.end(), {220, 40, 30});

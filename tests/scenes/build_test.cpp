@@ -1,10 +1,10 @@
 // Sections to the engine's input: materials, bodies, emitters and obstacles, number by number.
 #include "tests/catch.h"
 
-#include "engine/bodies.h"
-#include "engine/emitters.h"
-#include "scenes/color.h"
-#include "scenes/particle_file.h"
+#include "engine/state/bodies.h"
+#include "engine/stepping/emitters.h"
+#include "scenes/model/particle_file.h"
+#include "scenes/text/color.h"
 #include "tests/scenes/scene_text.h"
 
 using engine::Vec3;

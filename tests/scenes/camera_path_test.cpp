@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "scenes/camera_path.h"
-#include "scenes/frame_view.h"
+#include "scenes/model/camera_path.h"
+#include "scenes/view/frame_view.h"
 #include "tests/scenes/scene_text.h"
 
 using engine::Vec3;

@@ -1,13 +1,13 @@
-// Colour maps, judged in CIELAB and by CIEDE2000; they are made in OKLab, so the judge shares nothing with the maker.
+// Color maps, judged in CIELAB and by CIEDE2000; they are made in OKLab, so the judge shares nothing with the maker.
 #include "tests/catch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "scenes/color.h"
-#include "scenes/color_map.h"
-#include "scenes/frame_view.h"
+#include "scenes/schema/color_map.h"
+#include "scenes/text/color.h"
+#include "scenes/view/frame_view.h"
 #include "tests/scenes/scene_text.h"
 
 using engine::Vec3;
@@ -62,10 +62,10 @@ double difference(const Vec3& one, const Vec3& other) {
         if (std::abs(h1 - h2) > 180.0) meanHue += h1 + h2 < 360.0 ? 180.0 : -180.0;
     }
     const double meanChroma = 0.5 * (c1 + c2);
-    const double fromGrey = std::pow(0.5 * (one.x() + other.x()) - 50.0, 2);
+    const double fromGray = std::pow(0.5 * (one.x() + other.x()) - 50.0, 2);
     const double t = 1.0 - 0.17 * cosine(meanHue - 30.0) + 0.24 * cosine(2.0 * meanHue) +
                      0.32 * cosine(3.0 * meanHue + 6.0) - 0.20 * cosine(4.0 * meanHue - 63.0);
-    const double l = (other.x() - one.x()) / (1.0 + 0.015 * fromGrey / std::sqrt(20.0 + fromGrey));
+    const double l = (other.x() - one.x()) / (1.0 + 0.015 * fromGray / std::sqrt(20.0 + fromGray));
     const double c = (c2 - c1) / (1.0 + 0.045 * meanChroma);
     const double h = 2.0 * std::sqrt(c1 * c2) * cosine(0.5 * turn - 90.0) / (1.0 + 0.015 * meanChroma * t);
     const double blue = 30.0 * std::exp(-std::pow((meanHue - 275.0) / 25.0, 2));
@@ -113,7 +113,7 @@ bool isUniform(const std::vector<Vec3>& colors) {
 
 }  // namespace
 
-TEST_CASE("the judge of colours gives the published differences") {
+TEST_CASE("the judge of colors gives the published differences") {
     // Pairs 1, 7 and 25 of Sharma's table 1, printed with four decimals.
     CHECK(difference({50.0, 2.6772, -79.7751}, {50.0, 0.0, -82.7485}) == Approx(2.0425).margin(5e-5));
     CHECK(difference({50.0, 0.0, 0.0}, {50.0, -1.0, 2.0}) == Approx(2.3669).margin(5e-5));
@@ -139,7 +139,7 @@ TEST_CASE("in every map lightness grows and steps look equal") {
     REQUIRE(scenes::colorMapNames().size() == 4);
     for (const std::string_view name : scenes::colorMapNames()) {
         for (const int count : {9, 65, 256}) {
-            INFO(name << ", " << count << " colours");
+            INFO(name << ", " << count << " colors");
             const std::vector<Vec3> colors = colorMap(name, count);
             REQUIRE(colors.size() == static_cast<std::size_t>(count));
             const Steps steps = stepsOf(colors);
@@ -153,7 +153,7 @@ TEST_CASE("in every map lightness grows and steps look equal") {
     }
 }
 
-TEST_CASE("every colour of a map can be shown, and the maps are long and different") {
+TEST_CASE("every color of a map can be shown, and the maps are long and different") {
     for (const std::string_view name : scenes::colorMapNames()) {
         INFO(name);
         const std::vector<Vec3> colors = colorMap(name);
@@ -169,7 +169,7 @@ TEST_CASE("every colour of a map can be shown, and the maps are long and differe
     CHECK_THROWS_AS(colorMap("viridis"), std::logic_error);
 }
 
-TEST_CASE("a scene names its map, and particles take its colours") {
+TEST_CASE("a scene names its map, and particles take its colors") {
     const std::string point = scenes_test::kTop +
                               "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\nvelocity = [3, 0, 4]\n"
                               "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 10]\ncolor_map = \"ember\"\n";
@@ -178,7 +178,7 @@ TEST_CASE("a scene names its map, and particles take its colours") {
     const glm::vec3 color = scenes::frameView(scene, scene.setup.initial, 0.0).particles.at(0).color;
     const Vec3 middle = colorMap("ember", 3)[1];  // a speed of 5 m/s is half way
     for (int channel = 0; channel < 3; ++channel)
-        CHECK(color[channel] == Approx(middle[channel]).margin(1e-4));  // between two of 256 colours
+        CHECK(color[channel] == Approx(middle[channel]).margin(1e-4));  // between two of 256 colors
     CHECK(sceneOf(point, {"look.color_map=dusk"}).look.ramp == colorMap("dusk"));
     CHECK(sceneOf(point, {"look.color_map=dusk", "overlay.color_bar=true"}).overlay.colorBar);
 }

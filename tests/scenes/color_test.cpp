@@ -1,9 +1,9 @@
-// Colours: the sRGB curve against its published values, and ramps.
+// Colors: the sRGB curve against its published values, and ramps.
 #include "tests/catch.h"
 
 #include <cmath>
 
-#include "scenes/color.h"
+#include "scenes/text/color.h"
 
 using engine::Vec3;
 using scenes::colorFromHex;
@@ -21,7 +21,7 @@ TEST_CASE("the sRGB curve meets its definition") {
     CHECK(std::abs(linearFromSrgb(0.04045 + 1e-12) - linearFromSrgb(0.04045)) < 1e-7);
 }
 
-TEST_CASE("hexadecimal colours are read in either case, and nothing else is") {
+TEST_CASE("hexadecimal colors are read in either case, and nothing else is") {
     CHECK(*colorFromHex("#ffffff") == Vec3(1.0, 1.0, 1.0));
     CHECK(*colorFromHex("#000000") == Vec3(0.0, 0.0, 0.0));
     CHECK(*colorFromHex("#FF8000") == *colorFromHex("#ff8000"));
@@ -31,7 +31,7 @@ TEST_CASE("hexadecimal colours are read in either case, and nothing else is") {
         CHECK(!colorFromHex(text));
 }
 
-TEST_CASE("a ramp is linear between its colours and constant beyond them") {
+TEST_CASE("a ramp is linear between its colors and constant beyond them") {
     const std::vector<Vec3> colors = {Vec3(0.0, 0.0, 0.0), Vec3(1.0, 0.5, 0.0), Vec3(1.0, 1.0, 1.0)};
     CHECK(rampColor(colors, -3.0) == colors[0]);
     CHECK(rampColor(colors, 0.0) == colors[0]);

@@ -1,11 +1,11 @@
-// A scene's frame as the renderer gets it: numbers, colours, obstacles and their edges.
+// A scene's frame as the renderer gets it: numbers, colors, obstacles and their edges.
 #include "tests/catch.h"
 
 #include <numbers>
 #include <set>
 
-#include "scenes/color.h"
-#include "scenes/frame_view.h"
+#include "scenes/text/color.h"
+#include "scenes/view/frame_view.h"
 #include "tests/scenes/scene_text.h"
 
 using engine::Vec3;
@@ -42,7 +42,7 @@ TEST_CASE("numbers beyond single precision stay finite") {
     CHECK(view.particles.at(0).center.y == -std::numeric_limits<float>::max());
 }
 
-TEST_CASE("colour by material") {
+TEST_CASE("color by material") {
     const std::string two =
         "[[material]]\nname = \"a\"\ncolor = [0.1, 0.2, 0.3]\n[[material]]\nname = \"b\"\ncolor = \"#ffffff\"\n";
     const render::View view =
@@ -51,7 +51,7 @@ TEST_CASE("colour by material") {
     CHECK(view.particles.at(1).color == glm::vec3(0.1F, 0.2F, 0.3F));
 }
 
-TEST_CASE("colour by speed and by age runs through the ramp in linear light") {
+TEST_CASE("color by speed and by age runs through the ramp in linear light") {
     const std::string ramp = "colors = [\"#000000\", \"#ffffff\"]\n";
     // The speed of (3, 0, 4) is 5, half way from 0 to 10 and a quarter from 4 to 8.
     CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 10]\n" + ramp).particles.at(0).color ==
@@ -113,7 +113,7 @@ TEST_CASE("a container has twelve different edges along the axes") {
     CHECK(length == 28.0F);
 }
 
-TEST_CASE("edges take their colours from the look or from the container") {
+TEST_CASE("edges take their colors from the look or from the container") {
     const std::string corners = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
     const std::string look = "[look]\nedge_color = [0, 0, 1]\n";
     CHECK(viewOf(kBall + "[[obstacle]]\nshape = \"container\"\n" + corners + look).edges.at(0).color ==

@@ -1,7 +1,7 @@
 // Built-in scenes by name.
 #include "tests/catch.h"
 
-#include "scenes/library.h"
+#include "scenes/build/library.h"
 #include "tests/scenes/scene_text.h"
 
 using scenes_test::kBall;

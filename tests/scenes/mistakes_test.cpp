@@ -67,7 +67,7 @@ TEST_CASE("wrong types say what was found and what is expected") {
 
 TEST_CASE("numbers outside their range are refused, with bounds and unit") {
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = -0.2\n") ==
-          Lines{"pile.toml:5:10: radius is -0.2, must be > 0 (metres)"});
+          Lines{"pile.toml:5:10: radius is -0.2, must be > 0 (meters)"});
     CHECK(problemsOf("fps = 241\n" + kBall) == Lines{"pile.toml:1:7: fps is 241, must be 1 to 240 (per second)"});
     CHECK(problemsOf("fps = 0\n" + kBall) == Lines{"pile.toml:1:7: fps is 0, must be 1 to 240 (per second)"});
     CHECK(problemsOf(kBall + "[material]\ncr = 0.9\n") == Lines{"pile.toml:7:6: cr is 0.9, must be >= 1"});
@@ -88,11 +88,11 @@ TEST_CASE("the bounds themselves are accepted where they are closed") {
 
 TEST_CASE("a world has its maximum above its minimum, where it has both") {
     CHECK(problemsOf(kBall + "[world]\nminimum = [0, 1, 0]\nmaximum = [2, 1, -1]\n") ==
-          Lines{"pile.toml:8:11: maximum[1] is 1, must be above the minimum 1 (metres)",
-                "pile.toml:8:11: maximum[2] is -1, must be above the minimum 0 (metres)"});
+          Lines{"pile.toml:8:11: maximum[1] is 1, must be above the minimum 1 (meters)",
+                "pile.toml:8:11: maximum[2] is -1, must be above the minimum 0 (meters)"});
     CHECK(problemsOf(kBall + "[world]\nmaximum = [9, 9, 9]\n") == Lines{});
     CHECK(problemsOf(kBall + "[world]\nmaximum = [9, 9, 2e8]\n") ==
-          Lines{"pile.toml:7:18: maximum[2] is 200000000, must be -100000000 to 100000000 (metres)"});
+          Lines{"pile.toml:7:18: maximum[2] is 200000000, must be -100000000 to 100000000 (meters)"});
 }
 
 TEST_CASE("nobody begins outside the world") {
@@ -124,14 +124,14 @@ TEST_CASE("missing keys are reported at the table that needs them") {
           Lines{"pile.toml: title is missing, a scene needs it",
                 "pile.toml: duration is missing, a scene needs it (seconds)"});
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\n") ==
-          Lines{"pile.toml:3:1: radius is missing, a body of shape \"ball\" needs it (metres)"});
+          Lines{"pile.toml:3:1: radius is missing, a body of shape \"ball\" needs it (meters)"});
     CHECK(problemsOf(kTop + "[[body]]\n") == Lines{"pile.toml:3:1: shape is missing, a body needs it"});
     CHECK(problemsOf(kTop + "[[emitter]]\n") ==
-          Lines{"pile.toml:3:1: position is missing, an emitter needs it (metres)",
+          Lines{"pile.toml:3:1: position is missing, an emitter needs it (meters)",
                 "pile.toml:3:1: interval is missing, an emitter needs it (seconds)"});
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"sphere\"\n") ==
-          Lines{"pile.toml:6:1: radius is missing, an obstacle of shape \"sphere\" needs it (metres)",
-                "pile.toml:6:1: center is missing, an obstacle of shape \"sphere\" needs it (metres)"});
+          Lines{"pile.toml:6:1: radius is missing, an obstacle of shape \"sphere\" needs it (meters)",
+                "pile.toml:6:1: center is missing, an obstacle of shape \"sphere\" needs it (meters)"});
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"box\"\nminimum = [0, 0, 0]\n").size() == 1);
 }
 
@@ -172,9 +172,9 @@ TEST_CASE("a key that is written counts from its own place, not from that of its
 
 TEST_CASE("corners, directions and cameras have to make sense") {
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 0, 1]\n") ==
-          Lines{"pile.toml:9:11: maximum[1] is 0, must be above the minimum 0 (metres)"});
+          Lines{"pile.toml:9:11: maximum[1] is 0, must be above the minimum 0 (meters)"});
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, -1, 1]\n") ==
-          Lines{"pile.toml:6:11: maximum[1] is -1, must be at least the minimum 0 (metres)"});
+          Lines{"pile.toml:6:11: maximum[1] is -1, must be at least the minimum 0 (meters)"});
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"plane\"\nnormal = [0, 0, 0]\n") ==
           Lines{"pile.toml:8:10: normal is [0, 0, 0], must not be zero"});
     CHECK(problemsOf(kBall + "[camera]\neye = [0, 0, 0]\n") ==
@@ -280,7 +280,7 @@ TEST_CASE("ten different mistakes are ten problems, in order of position") {
         "did you mean \"symplectic-euler\"?",
         "pile.toml:7:10: syntax error: floating-point: expected decimal digit or exponent, saw '.'",
         "pile.toml:8:1: key \"step\" is given twice, first in line 7",
-        "pile.toml:9:1: radius is missing, a body of shape \"ball\" needs it (metres)",
+        "pile.toml:9:1: radius is missing, a body of shape \"ball\" needs it (meters)",
         "pile.toml:11:12: material \"sand\" is not defined (defined: liquid)",
         "pile.toml:12:1: unknown table \"camra\", did you mean \"camera\"?"};
     CHECK(problemsOf(text) == expected);

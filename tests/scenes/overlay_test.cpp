@@ -1,8 +1,8 @@
 // Overlays of a scene: keys, texts, ticks, and what is refused.
 #include "tests/catch.h"
 
-#include "scenes/frame_view.h"
-#include "scenes/overlay_view.h"
+#include "scenes/view/frame_view.h"
+#include "scenes/view/overlay_view.h"
 #include "tests/scenes/scene_text.h"
 
 using scenes_test::kBall;
@@ -56,7 +56,7 @@ TEST_CASE("the scale bar says its length") {
     CHECK(scenes::lengthText(1500.0) == "1.5 km");
 }
 
-TEST_CASE("the colour bar has the colours, the range and the unit of the look") {
+TEST_CASE("the color bar has the colors, the range and the unit of the look") {
     const render::Overlay overlay =
         overlayAt(kBall + kSpeed + "colors = [\"#000000\", \"#ffffff\"]\n[overlay]\ncolor_bar = true\n", 0.0);
     REQUIRE(overlay.colorBar.has_value());
@@ -108,13 +108,13 @@ TEST_CASE("ink contrasts with the background unless it is given") {
 
 TEST_CASE("overlays that cannot be drawn are refused where they are asked for") {
     CHECK(problemsOf(kBall + "[overlay]\ncolor_bar = true\n") ==
-          Lines{"pile.toml:7:13: color_bar is true, but colours by material have no scale; it needs look.color_by "
+          Lines{"pile.toml:7:13: color_bar is true, but colors by material have no scale; it needs look.color_by "
                 "\"speed\" or \"age\""});
     CHECK(problemsOf(kBall + "[camera]\nprojection = \"orthographic\"\nhalf_height = 2\n[overlay]\nscale_bar = 8\n") ==
           Lines{"pile.toml:10:13: scale_bar is 8, 1.1 of the picture's width at the camera's target, must be at most "
-                "0.8 of it (metres)"});
+                "0.8 of it (meters)"});
     CHECK(problemsOf(kBall + "[overlay]\nscale_bar = -1\n") ==
-          Lines{"pile.toml:7:13: scale_bar is -1, must be >= 0 (metres)"});
+          Lines{"pile.toml:7:13: scale_bar is -1, must be >= 0 (meters)"});
     CHECK(problemsOf(kBall, {"overlay.scale_bar=100"}).at(0).rfind("--set overlay.scale_bar=100: scale_bar is", 0) ==
           0);
 }

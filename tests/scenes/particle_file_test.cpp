@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "scenes/input_error.h"
-#include "scenes/particle_file.h"
+#include "scenes/model/particle_file.h"
+#include "scenes/text/input_error.h"
 
 using engine::Vec3;
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/input_error.h"
-#include "scenes/scene.h"
+#include "scenes/model/scene.h"
+#include "scenes/text/input_error.h"
 
 namespace scenes_test {
 

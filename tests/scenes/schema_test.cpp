@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/material.h"
-#include "scenes/check.h"
-#include "scenes/document.h"
-#include "scenes/schema.h"
+#include "engine/law/material.h"
+#include "scenes/schema/check.h"
+#include "scenes/schema/document.h"
+#include "scenes/schema/schema.h"
 
 using scenes::Key;
 using scenes::schema;
@@ -110,6 +110,6 @@ TEST_CASE("ranges and units have words") {
     CHECK(scenes::rangeText({.low = 0.0, .lowOpen = true}) == "> 0");
     CHECK(scenes::rangeText({.low = 0.0, .high = 0.5}) == "0 to 0.5");
     CHECK(scenes::rangeText({.high = 2.0, .highOpen = true}) == "< 2");
-    CHECK(scenes::unitWords("m") == "metres");
+    CHECK(scenes::unitWords("m") == "meters");
     CHECK(scenes::unitWords("N m^4") == "N m^4");
 }

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scenes/library.h"
-#include "scenes/scene.h"
+#include "scenes/build/library.h"
+#include "scenes/model/scene.h"
 
 using engine::Vec3;
 
 namespace {
 
-const std::string kScenes = GLOBULAR_SOURCE "/scenes";
+const std::string kScenes = GLOBULAR_SOURCE "/scenes/library";
 
 scenes::Scene paperScene(const std::string& name) {
     return scenes::loadScene(kScenes + "/paper/" + name + ".toml", {});

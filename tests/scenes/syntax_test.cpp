@@ -1,7 +1,7 @@
 // Text that is not TOML: every broken statement is found, and what stands after it is still read.
 #include "tests/catch.h"
 
-#include "scenes/statements.h"
+#include "scenes/text/statements.h"
 #include "tests/scenes/scene_text.h"
 
 using scenes_test::kBall;
@@ -55,14 +55,14 @@ TEST_CASE("a broken header keeps its keys") {
           Lines{"pile.toml:6:9: syntax error: table header: expected ']', saw '\\n'",
                 "pile.toml:7:8: drag is -1, must be >= 0 (per second)"});
     CHECK(problemsOf(kTop + "[[body]\nshape = \"ball\"\n") ==
-          Lines{"pile.toml:3:1: radius is missing, a body of shape \"ball\" needs it (metres)",
+          Lines{"pile.toml:3:1: radius is missing, a body of shape \"ball\" needs it (meters)",
                 "pile.toml:3:8: syntax error: table header: expected ']', saw '\\n'"});
 }
 
 TEST_CASE("values that are never closed are reported where they start") {
     CHECK(problemsOf(kBall + "center = [0, 0\nvelocity = [0, 0, 0]\nspacing = 0\n") ==
           Lines{"pile.toml:6:1: the value of \"center\" is never closed",
-                "pile.toml:8:11: spacing is 0, must be > 0 (metres)"});
+                "pile.toml:8:11: spacing is 0, must be > 0 (meters)"});
     CHECK(problemsOf("title = \"t\nduration = -2\n") ==
           Lines{"pile.toml: there is nothing to simulate: give a [[body]] or an [[emitter]]",
                 "pile.toml:1:1: the value of \"title\" is never closed",
@@ -86,7 +86,7 @@ TEST_CASE("text that is no TOML from start to end is refused") {
 
 TEST_CASE("lines may end as on other systems, and a byte order mark is no mistake") {
     CHECK(problemsOf("title = \"t\"\r\nduration = 2\r\n[[body]]\r\nshape = \"ball\"\r\nradius = -1\r\n") ==
-          Lines{"pile.toml:5:10: radius is -1, must be > 0 (metres)"});
+          Lines{"pile.toml:5:10: radius is -1, must be > 0 (meters)"});
     CHECK(problemsOf("\xEF\xBB\xBF" + kBall) == Lines{});
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "engine/steppers.h"
-#include "studies/accuracy.h"
-#include "studies/accuracy_csv.h"
-#include "studies/accuracy_plot.h"
+#include "engine/stepping/steppers.h"
+#include "studies/accuracy/accuracy.h"
+#include "studies/accuracy/accuracy_csv.h"
+#include "studies/accuracy/accuracy_plot.h"
 
 using engine::StepperKind;
 using studies::AccuracyRow;

@@ -1,7 +1,7 @@
 // The benchmark measures what it says: rows for what was asked, numbers that fit together, hashes that do not depend on
 // threads.
-#include "studies/bench.h"
-#include "studies/bench_frames.h"
+#include "studies/bench/bench.h"
+#include "studies/bench/bench_frames.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -35,10 +35,10 @@ TEST_CASE("bench has the rows that the filter names", "[bench]") {
         CHECK(row.name == "forces");
         CHECK(row.material == "solid");
         CHECK(row.particles == 500);
-        CHECK(row.neighbours > 20.0);  // 54 within twice the distance in a close packing, fewer at the surface
-        CHECK(row.neighbours < 54.0);
+        CHECK(row.neighbors > 20.0);  // 54 within twice the distance in a close packing, fewer at the surface
+        CHECK(row.neighbors < 54.0);
         CHECK(row.seconds > 0.0);
-        CHECK(row.nanosecondsPerPair() == Approx(1e9 * row.seconds / (500 * row.neighbours)));
+        CHECK(row.nanosecondsPerPair() == Approx(1e9 * row.seconds / (500 * row.neighbors)));
     }
     CHECK(benched("nothing like it", 1).empty());
 }

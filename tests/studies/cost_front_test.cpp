@@ -1,7 +1,7 @@
 // Costs read off fronts that are known.
 #include "tests/catch.h"
 
-#include "studies/cost_front.h"
+#include "studies/common/pareto_front.h"
 
 using studies::costAt;
 

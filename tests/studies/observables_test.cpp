@@ -1,10 +1,10 @@
 // Observables against runs whose value is known: made by hand, or of two particles with a closed form.
-#include "studies/observables.h"
+#include "studies/stability/observables.h"
 
 #include <cmath>
 #include <limits>
 
-#include "studies/run.h"
+#include "studies/common/run.h"
 #include "tests/catch.h"
 #include "tests/studies/trials.h"
 
@@ -81,7 +81,7 @@ TEST_CASE("rebound and restitution are compared as shares of the reference") {
         return runOf({frameOf({{{0, 0, 0}, {0, -9, 0}}, {{3, 0, 0}, {0, -9, 0}, 3.0}}),
                       frameOf({{{0, 0, 0}, {0, a, 0}}, {{3, 0, 0}, {0, b, 0}, 3.0}})});
     };
-    // Centre of mass: (1 + 3 1)/4 against (1 + 3 2)/4.
+    // Center of mass: (1 + 3 1)/4 against (1 + 3 2)/4.
     CHECK(against(studies::reboundError, speeds(1, 1), speeds(1, 2)) == Approx(1.0 - 4.0 / 7.0));
     CHECK(against(studies::restitutionError, speeds(1.1, 1.5), speeds(1, 2)) == Approx(0.25));
 }

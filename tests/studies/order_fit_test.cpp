@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "studies/order_fit.h"
+#include "studies/common/order_fit.h"
 
 using studies::fittedOrder;
 

@@ -1,5 +1,5 @@
 // Which shots count as having passed an obstacle: first and last places by hand, every shape.
-#include "studies/observables.h"
+#include "studies/stability/observables.h"
 #include "tests/catch.h"
 #include "tests/studies/trials.h"
 
@@ -18,7 +18,7 @@ double passes(const std::string& obstacle, const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-TEST_CASE("a plane is passed behind its repulsor, half a metre deep") {
+TEST_CASE("a plane is passed behind its repulsor, half a meter deep") {
     CHECK(passes("shape = \"plane\"\n", {0, 1, 0}, {0, 3, 0}) == 0.0);
     CHECK(passes("shape = \"plane\"\n", {0, 1, 0}, {0, -0.4, 0}) == 0.0);
     CHECK(passes("shape = \"plane\"\n", {0, 1, 0}, {0, -0.6, 0}) == 1.0);

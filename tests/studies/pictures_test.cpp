@@ -1,5 +1,5 @@
 // The study of pictures: its cloud, its measures of error, its baseline, and a small run of it.
-#include "studies/pictures.h"
+#include "studies/pictures/pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include <vector>
 #include "tests/catch.h"
 
-#include "studies/crowd.h"
-#include "studies/flicker.h"
-#include "studies/picture_cloud.h"
-#include "studies/quad_baseline.h"
+#include "studies/oracle/ball_grid.h"
+#include "studies/pictures/flicker.h"
+#include "studies/pictures/picture_cloud.h"
+#include "studies/pictures/quad_baseline.h"
 
 using namespace studies;
 using render::Quality;

@@ -1,13 +1,13 @@
 // The study of scaling on small blocks, its fits on made-up rows, and what it asks of the peer.
-#include "studies/scaling.h"
+#include "studies/scaling/scaling.h"
 
 #include <algorithm>
 #include <cmath>
 #include "tests/catch.h"
 
-#include "studies/blocks.h"
-#include "studies/lammps.h"
-#include "studies/timing.h"
+#include "studies/common/blocks.h"
+#include "studies/common/timing.h"
+#include "studies/scaling/lammps.h"
 
 using namespace studies;
 
@@ -51,7 +51,7 @@ TEST_CASE("Blocks are measured by lists at every size and by every pair where th
     for (const ScalingRow& row : rows) {
         CHECK(row.list > 0.0);
         CHECK(row.listInFloat > 0.0);
-        CHECK(row.neighbours > 1.0);
+        CHECK(row.neighbors > 1.0);
         CHECK(row.stateHash.size() == 16);
     }
     CHECK(measureBlocks("powder", small(), [](const ScalingRow&) {})[1].stateHash == rows[1].stateHash);
@@ -59,15 +59,15 @@ TEST_CASE("Blocks are measured by lists at every size and by every pair where th
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
 }
 
-TEST_CASE("A block has the number, the spacing and the neighbours that were asked for", "[scaling]") {
+TEST_CASE("A block has the number, the spacing and the neighbors that were asked for", "[scaling]") {
     const engine::Setup setup = packedBlock("solid", 4000, {});
     CHECK(setup.initial.count() == 4000);
     // 54 sites of the packing within two spacings, less at the faces of the cube.
-    CHECK(meanNeighbours(setup, setup.initial) > 35.0);
-    CHECK(meanNeighbours(setup, setup.initial) < 54.0);
+    CHECK(meanNeighbors(setup, setup.initial) > 35.0);
+    CHECK(meanNeighbors(setup, setup.initial) < 54.0);
     for (const engine::Vec3& velocity : setup.initial.velocity) CHECK(velocity == engine::Vec3::Zero());
     const engine::Setup dense = packedBlock("solid", 4000, {.spacing = 0.76, .speed = 1.0});
-    CHECK(meanNeighbours(dense, dense.initial) > meanNeighbours(setup, setup.initial));
+    CHECK(meanNeighbors(dense, dense.initial) > meanNeighbors(setup, setup.initial));
     for (const engine::Vec3& velocity : dense.initial.velocity) CHECK(velocity.cwiseAbs().maxCoeff() <= 1.0);
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("Exponents are slopes of logarithms over the sizes that a method is fi
 TEST_CASE("The plot has a curve for each method that has a time", "[scaling]") {
     const std::string script = scalingPlot(madeUp());
     CHECK(script.find("every pair, here") != std::string::npos);
-    CHECK(script.find("neighbour lists in float") != std::string::npos);
+    CHECK(script.find("neighbor lists in float") != std::string::npos);
     CHECK(script.find("Table 2") == std::string::npos);  // nothing was published of it
     auto rows = madeUp();
     rows[0].published = 11.9e-3;
@@ -100,7 +100,7 @@ TEST_CASE("The middle of several times", "[scaling]") {
     CHECK(median({4.0, 1.0}) == 4.0);
 }
 
-TEST_CASE("The peer is given as many neighbours, and its last loop is read", "[scaling]") {
+TEST_CASE("The peer is given as many neighbors, and its last loop is read", "[scaling]") {
     // 45 = 4/3 pi rc^3 rho: rc = 2.3347 at .8442, 1.5299 at 3.
     CHECK(lammpsScript(PeerForce::lennardJones).find("lj/cut/opt 2.334") != std::string::npos);
     CHECK(lammpsScript(PeerForce::dissipative).find("dpd 1.0 1.529") != std::string::npos);

@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <set>
 
-#include "scenes/library.h"
+#include "scenes/build/library.h"
 #include "tests/catch.h"
 
 namespace {
 
 std::vector<scenes::LibraryEntry> hardCases() {
     std::vector<scenes::LibraryEntry> cases;
-    for (const scenes::LibraryEntry& entry : scenes::listScenes({GLOBULAR_SOURCE "/scenes"}))
+    for (const scenes::LibraryEntry& entry : scenes::listScenes({GLOBULAR_SOURCE "/scenes/library"}))
         if (entry.name.rfind("hard/", 0) == 0) cases.push_back(entry);
     return cases;
 }

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "studies/cloud_statistics.h"
-#include "studies/position_error.h"
+#include "studies/common/cloud_statistics.h"
+#include "studies/common/position_error.h"
 
 using engine::Vec3;
 
@@ -21,7 +21,7 @@ constexpr double kRounding = 1e-14;  // a few sums of at most ten numbers below 
 
 }  // namespace
 
-TEST_CASE("Centre and radius of gyration weigh by mass", "[studies]") {
+TEST_CASE("Center and radius of gyration weigh by mass", "[studies]") {
     engine::Particles pair;
     engine::append(pair, {.position = Vec3(0, 0, 0), .mass = 3.0});
     engine::append(pair, {.position = Vec3(4, 0, 0), .mass = 1.0});
@@ -35,12 +35,12 @@ TEST_CASE("R90 and z90 hold nine of ten particles, and all of fewer than ten", "
     engine::Particles ten = row(10);
     for (int k = 0; k < 10; ++k) ten.position[static_cast<std::size_t>(k)].y() = 9.0 - k;
     const auto statistics = studies::statisticsOf(ten);
-    // Centre (4.5, 4.5, 0); distances sqrt(2) times 4.5 twice, 3.5 twice, ...: the ninth of them is one of the largest.
+    // Center (4.5, 4.5, 0); distances sqrt(2) times 4.5 twice, 3.5 twice, ...: the ninth of them is one of the largest.
     CHECK(std::abs(statistics.r90 - 4.5 * std::sqrt(2.0)) <= kRounding);
     CHECK(statistics.z90 == 8.0);
     // The second of two.
     CHECK(std::abs(studies::statisticsOf(row(2)).r90 - 0.5) <= kRounding);
-    // The 18th of twenty on a line: centre 9.5, distances .5 .5 1.5 1.5 ... 9.5 9.5.
+    // The 18th of twenty on a line: center 9.5, distances .5 .5 1.5 1.5 ... 9.5 9.5.
     CHECK(std::abs(studies::statisticsOf(row(20)).r90 - 8.5) <= kRounding);
 }
 

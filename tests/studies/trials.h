@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/scene.h"
-#include "studies/observables.h"
+#include "scenes/model/scene.h"
+#include "studies/stability/observables.h"
 
 namespace studies_test {
 

@@ -43,7 +43,7 @@ TEST_CASE("A scene with ten mistakes prints ten messages and exits with 2", "[to
     CHECK(program::lineCount(outcome.err) == 10);
     CHECK(outcome.err.find("wrong.toml:1:1: ") != std::string::npos);
     CHECK(outcome.err.find("did you mean \"title\"") != std::string::npos);
-    CHECK(outcome.err.find("wrong.toml:12:10: radius is -0.2, must be > 0 (metres)") != std::string::npos);
+    CHECK(outcome.err.find("wrong.toml:12:10: radius is -0.2, must be > 0 (meters)") != std::string::npos);
 }
 
 TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant", "[tools]") {

@@ -1,13 +1,13 @@
 // The report of compare without a browser: one file that refers to nothing else, and data that cannot break out of its
 // element.
-#include "tools/compare_page.h"
+#include "tools/pages/compare_page.h"
 
 #include <nlohmann/json.hpp>
 
 #include "tests/catch.h"
 #include "tests/tools/golden_files.h"
 #include "tests/tools/program.h"
-#include "tools/html.h"
+#include "tools/pages/html.h"
 
 using namespace golden_files;
 using namespace test_pictures;
@@ -27,7 +27,7 @@ TEST_CASE("compare --report: one file, failures first, pictures inlined once", "
     const program::Folder folder;
     writePicture(folder / "actual/a.png", balls());
     writePicture(folder / "expected/a.png", balls());
-    writePicture(folder / "actual/b<!--<script>.png", grey(balls()));
+    writePicture(folder / "actual/b<!--<script>.png", gray(balls()));
     writePicture(folder / "actual/z.png", onePixel(balls(), 3, 4, 100));
     writePicture(folder / "expected/z.png", balls());
     const std::string command = "compare " + (folder / "actual").string() + " " + (folder / "expected").string() +

@@ -234,7 +234,7 @@ TEST_CASE("compare: frames of two videos", "[compare]") {
         run(compare + (two / "other.mp4").string() + " " + (two / "a.mp4").string() + " --profile loose");
     CHECK(other.code == 1);
     CHECK(other.out.find("\"name\":\"frame-00002.png\",\"status\":\"different\"") != std::string::npos);
-    // A film against the frames it was made of. Flat colours keep their places through 4:2:0; luma has 219 steps and
+    // A film against the frames it was made of. Flat colors keep their places through 4:2:0; luma has 219 steps and
     // chroma 224 for 255, whose rounding reaches a channel as at most 0.5 (1.17 + 2 * 1.14) < 2 steps, twice. Another
     // matrix would cost twenty.
     int number = 0;

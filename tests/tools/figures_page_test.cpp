@@ -1,9 +1,9 @@
 // The page of the figures: everything that was drawn is in it, with the times at which it was.
-#include "tools/figures_page.h"
+#include "tools/pages/figures_page.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
-#include "tools/html.h"
-#include "tools/output_file.h"
+#include "tools/pages/html.h"
+#include "tools/system/output_file.h"
 
 TEST_CASE("The page holds still, strip and video of every figure, and the times of the strip", "[tools]") {
     const program::Folder folder;

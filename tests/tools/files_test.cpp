@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
-#include "render/system_error.h"
+#include "render/picture/system_error.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
-#include "tools/html.h"
-#include "tools/output_file.h"
-#include "tools/scene_options.h"
-#include "tools/shell_words.h"
+#include "tools/pages/html.h"
+#include "tools/run/scene_options.h"
+#include "tools/system/output_file.h"
+#include "tools/system/shell_words.h"
 
 namespace {
 

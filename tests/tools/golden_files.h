@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "render/png.h"
+#include "render/output/png.h"
 #include "tests/render/test_pictures.h"
-#include "tools/manifest.h"
-#include "tools/output_file.h"
-#include "tools/picture_facts.h"
+#include "tools/run/manifest.h"
+#include "tools/run/picture_provenance.h"
+#include "tools/system/output_file.h"
 
 namespace golden_files {
 

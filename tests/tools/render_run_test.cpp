@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "render/png.h"
+#include "render/output/png.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
-#include "tools/output_file.h"
+#include "tools/system/output_file.h"
 
 using program::run;
 using program::textOf;

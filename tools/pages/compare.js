@@ -10,7 +10,7 @@ const VIEWS = [["four", "All four"], ["expected", "Expected"], ["actual", "Actua
 const CAPTION = {expected: "Expected", actual: "Actual", difference: "Difference ×16", heat: "Heat map"};
 const HINT = {
   swap: "Hover, or press x, to see the other one.", slider: "Drag in the picture, or move the slider.",
-  four: "Heat map: the largest difference of a pixel's channels, from blue (1) by red (16) to white (255); grey where there is none.",
+  four: "Heat map: the largest difference of a pixel's channels, from blue (1) by red (16) to white (255); gray where there is none.",
 };
 HINT.heat = HINT.four;
 const shown = {picture: null, view: "four", zoom: "0", swapped: false, slide: 50, text: "", status: "all", mark: null};

@@ -1,0 +1,77 @@
+// The box around many vectors: where particles are, how far they have moved, how fast they are, all but for what they
+// have in common.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/core/vec3.h"
+
+namespace engine {
+
+struct Extent {
+    Vec3 low;
+    Vec3 high;
+
+    /// Of nobody.
+    static Extent empty() {
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        return {Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+    }
+
+    Vec3 middle() const { return 0.5 * (low + high); }
+
+    /// From the middle to a corner.
+    double halfDiagonal() const { return 0.5 * std::sqrt(squaredLength(high - low)); }
+
+    void include(const Extent& other) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], other.low[axis]);
+            high[axis] = std::max(high[axis], other.high[axis]);
+        }
+    }
+};
+
+/// The box of vectorOf(index) over 0 ... count - 1, at least one.
+template <class VectorOf>
+Extent extentOver(std::size_t count, const VectorOf& vectorOf) {
+    const auto extentOf = [&](std::size_t begin, std::size_t end) {
+        const Vec3 first = vectorOf(begin);
+        Extent extent{first, first};
+        for (std::size_t index = begin + 1; index < end; ++index) {
+            const Vec3 vector = vectorOf(index);
+            extent.include({vector, vector});
+        }
+        return extent;
+    };
+    const std::vector<Extent> parts = resultsOfChunks<Extent>(count, extentOf);
+    Extent extent = parts.front();
+    for (const Extent& part : parts) extent.include(part);
+    return extent;
+}
+
+/// The largest distance of vectorOf(index) from a vector, over 0 ... count - 1; what is no number is infinitely far.
+template <class VectorOf>
+double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
+    return std::sqrt(largestOver(count, [&](std::size_t index) {
+        const double distanceSq = squaredLength(vectorOf(index) - from);
+        return std::isnan(distanceSq) ? std::numeric_limits<double>::infinity() : distanceSq;
+    }));
+}
+
+/// Whether none of vectorOf(index) over 0 ... count - 1 is further than a distance from a vector, or no number.
+template <class VectorOf>
+bool areWithin(double distance, const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
+    return holdsInRanges(count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        bool areNear = true;  // no branch, and nothing that waits for the vector before
+        for (std::size_t index = begin; index < end; ++index)
+            areNear &= squaredLength(vectorOf(index) - from) <= distance * distance;
+        return areNear;
+    });
+}
+
+}  // namespace engine

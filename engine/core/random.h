@@ -1,0 +1,27 @@
+// Random numbers as pure functions of a key: nothing to store, nothing to carry over a resume, the same on every
+// machine. Used for jitter, for the choice among nozzles and for the direction of coincident particles.
+#pragma once
+
+#include <cstdint>
+
+namespace engine {
+
+/// The finalzer of SplitMix64 (Steele, Lea and Flood 2014): a bijection that scatters neighboring keys.
+inline std::uint64_t scatter(std::uint64_t key) {
+    key += 0x9E3779B97F4A7C15ULL;
+    key = (key ^ (key >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    key = (key ^ (key >> 27)) * 0x94D049BB133111EBULL;
+    return key ^ (key >> 31);
+}
+
+/// A number for a seed and two counters.
+inline std::uint64_t randomBits(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
+    return scatter(scatter(scatter(seed) ^ stream) ^ index);
+}
+
+/// Bits to a double in [-1, 1): the upper 53 bits, exactly representable.
+inline double symmetricUnit(std::uint64_t bits) {
+    return static_cast<double>(bits >> 11) * 0x1.0p-52 - 1.0;
+}
+
+}  // namespace engine

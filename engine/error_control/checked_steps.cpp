@@ -1,0 +1,119 @@
+// Births, a step, a verdict.
+#include "engine/error_control/checked_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/stepping/population.h"
+#include "engine/stepping/state_checks.h"
+#include "engine/stepping/step_audit.h"
+#include "engine/stepping/step_cost.h"
+#include "engine/stepping/steppers.h"
+
+namespace engine {
+namespace {
+
+/// Chosen: good steps in a row before a longer one is tried again.
+constexpr std::uint32_t kPatience = 8;
+
+/// Chosen: how many steps a run can go back. A step may leave a state that no further step from it can pass.
+constexpr std::size_t kHistory = 4;
+
+/// The energy of the state as it stands; the forces come with it.
+void establishEnergy(Simulation& simulation) {
+    requireSound(simulation, 0.0);
+    Particles& particles = simulation.particles;
+    const double pairEnergy = simulation.evaluator.evaluateFree(particles, particles.velocity, simulation.forces);
+    ++simulation.steps.forceEvaluations;
+    simulation.forcesCurrent = true;
+    noteEnergy(simulation, pairEnergy);
+}
+
+/// The implicit steppers know the energy in the middle of a step only. What ends an interval can be seen and is never
+/// taken back, so its last step is judged by its end too.
+void lookAtEnd(Simulation& simulation) {
+    if (isVerlet(simulation.stepper) || std::isnan(*simulation.energy)) return;
+    if (!isSound(simulation.particles)) return noteUnsound(simulation);
+    establishEnergy(simulation);
+}
+
+/// Where the steps have to end next: at the time (s) that was asked for or at a birth on the way, or a newborn would be
+/// felt by the others from the next step's start on only.
+double nextStop(const Simulation& simulation, double time) {
+    double stop = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
+        stop = std::min(stop, nextBirth(simulation.setup.emitters[e], simulation.emitters[e]));
+    return stop < time - kSameMoment ? stop : time;
+}
+
+void record(Simulation& simulation, double h, StepLimit limit) {
+    StepStatistics& steps = simulation.steps;
+    steps.shortest = steps.count == 0 ? h : std::min(steps.shortest, h);
+    steps.longest = std::max(steps.longest, h);
+    ++steps.count;
+    ++steps.limitedBy[static_cast<std::size_t>(limit)];
+    ++steps.takenBy[static_cast<std::size_t>(simulation.stepper)];
+}
+
+/// The states of the last few steps, the latest at the end.
+class History {
+ public:
+    void add(const Simulation& simulation) {
+        if (states_.size() == kHistory) std::rotate(states_.begin(), states_.begin() + 1, states_.end());
+        if (states_.size() < kHistory) states_.emplace_back();
+        keep(simulation, states_.back());
+    }
+
+    const BeforeStep& latest() const { return states_.back(); }
+
+    /// Back to the latest state, or, where that has just been tried, to the one before.
+    void goBack(Simulation& simulation, bool further) {
+        if (further && states_.size() > 1) states_.pop_back();
+        takeBack(simulation, states_.back());
+        states_.pop_back();
+    }
+
+ private:
+    std::vector<BeforeStep> states_;
+};
+
+}  // namespace
+
+bool advanceAudited(Simulation& simulation, double time, double longest, StepLimit why, double mostPasses) {
+    History history;
+    int refused = 0;
+    giveBirth(simulation);
+    if (!simulation.energy) establishEnergy(simulation);
+    const double passesBefore = passesOf(simulation);
+    while (simulation.time < time) {
+        if (passesOf(simulation) - passesBefore > mostPasses) return false;
+        StepRestriction& restriction = simulation.restriction;
+        const double stop = nextStop(simulation, time);
+        const double remaining = stop - simulation.time;
+        const double allowed = std::min(longest, restriction.seconds);
+        // The smallest whole number of steps; the slack keeps 0.02 s at steps of 0.01 s from becoming three.
+        const double count = std::max(1.0, std::ceil(remaining / allowed * (1.0 - 1e-9)));
+        const double h = remaining / count;
+        history.add(simulation);
+        takeStep(simulation, h);
+        if (count == 1.0 && stop == time) lookAtEnd(simulation);
+        if (const auto reason = objection(simulation, history.latest())) {
+            if (h < kShortestStep) reportInstability(simulation, h);
+            // Two refusals in a row speak against the step that led here.
+            history.goBack(simulation, ++refused % 2 == 0);
+            ++simulation.steps.rejected;
+            restriction = {0.5 * h, *reason, 0};
+            if (!isVerlet(simulation.stepper)) establishEnergy(simulation);
+            continue;
+        }
+        refused = 0;
+        record(simulation, h, restriction.seconds < longest ? restriction.reason : why);
+        simulation.time = count == 1.0 ? stop : simulation.time + h;
+        giveBirth(simulation);
+        if (++restriction.passed % kPatience == 0) restriction.seconds *= 2.0;
+    }
+    return true;
+}
+
+}  // namespace engine

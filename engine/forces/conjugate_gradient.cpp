@@ -1,0 +1,53 @@
+// Textbook conjugate gradients (Hestenes and Stiefel 1952); sums in fixed chunks.
+#include "engine/forces/conjugate_gradient.h"
+
+#include <algorithm>
+
+#include "engine/core/parallel.h"
+
+namespace engine {
+namespace {
+
+/// Chosen: far beyond what a step that is worth taking needs; the audit judges what comes out.
+constexpr int kMostIterations = 500;
+
+}  // namespace
+
+int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& tolerance, std::vector<Vec3>& x,
+          SolverScratch& scratch) {
+    const std::size_t count = matrix.count();
+    std::vector<Vec3>& residual = scratch.residual;
+    std::vector<Vec3>& direction = scratch.direction;
+    std::vector<Vec3>& product = scratch.product;
+    for (std::vector<Vec3>* of : {&x, &residual, &direction}) of->resize(count);
+    const auto termOfNorm = [&](std::size_t p) { return squaredLength(residual[p]) / matrix.mass[p]; };
+    double norm = sumOver(count, [&](std::size_t p) {
+        x[p] = Vec3::Zero();
+        residual[p] = b[p];
+        direction[p] = residual[p] / matrix.mass[p];
+        return termOfNorm(p);
+    });
+    const auto squared = [](double value) { return value * value; };
+    const double target = std::max(squared(tolerance.relative) * norm,
+                                   std::min(squared(tolerance.absolute), squared(kMostLeftOut) * norm));
+    int iteration = 0;
+    while (norm > target && iteration < kMostIterations) {
+        multiply(matrix, direction, product);
+        ++iteration;
+        const double curvature = sumOver(count, [&](std::size_t p) { return dot(direction[p], product[p]); });
+        if (!(curvature > 0.0)) break;  // rounding alone is left, or numbers that are none: the audit decides
+        const double length = norm / curvature;
+        const double before = norm;
+        norm = sumOver(count, [&](std::size_t p) {
+            x[p] += length * direction[p];
+            residual[p] -= length * product[p];
+            return termOfNorm(p);
+        });
+        const double share = norm / before;
+        inParallel(count, kParticleGrain,
+                   [&](std::size_t p) { direction[p] = residual[p] / matrix.mass[p] + share * direction[p]; });
+    }
+    return iteration;
+}
+
+}  // namespace engine

@@ -1,0 +1,57 @@
+// Sums over particles, in order of birth.
+#include "engine/forces/diagnostics.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/core/hash.h"
+
+namespace engine {
+Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
+    const ForceLaw& law = evaluator.law();
+    Energy sum;
+    sum.pairs = evaluator.pairEnergyGrid(particles);
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        const Vec3& x = particles.position[p];
+        const Vec3& v = particles.velocity[p];
+        sum.kinetic += 0.5 * particles.mass[p] * squaredLength(v);
+        sum.gravity -= particles.mass[p] * dot(law.gravity, x);
+        sum.contacts += contactEnergy(law.scenery, {x, v, particles.radius[p], 1.0});
+    }
+    return sum;
+}
+
+Vec3 linearMomentum(const Particles& particles) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t p = 0; p < particles.count(); ++p) sum += particles.mass[p] * particles.velocity[p];
+    return sum;
+}
+
+Vec3 angularMomentum(const Particles& particles) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        sum += particles.mass[p] * particles.position[p].cross(particles.velocity[p]);
+    return sum;
+}
+
+double largestSpeed(const Particles& particles) {
+    double largestSq = 0.0;
+    for (const Vec3& velocity : particles.velocity) largestSq = std::max(largestSq, squaredLength(velocity));
+    return std::sqrt(largestSq);
+}
+
+std::string stateHash(const Particles& particles) {
+    std::uint64_t hash = fnv1a({});
+    const auto add = [&](const Vec3& vector) {
+        for (int axis = 0; axis < 3; ++axis) hash = fnv1a(std::bit_cast<std::uint64_t>(vector[axis]), hash);
+    };
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        hash = fnv1a(std::uint64_t{particles.id[p]}, hash);
+        add(particles.position[p]);
+        add(particles.velocity[p]);
+    }
+    return hexadecimal(hash);
+}
+
+}  // namespace engine

@@ -1,0 +1,31 @@
+// What can be measured of a state: energy, linear and angular momentum, and a hash that two runs share exactly when
+// every bit of their particles agrees. Sums run in a fixed order, so they do not depend on threads.
+#pragma once
+
+#include <string>
+
+#include "engine/forces/forces.h"
+#include "engine/state/particles.h"
+
+namespace engine {
+
+struct Energy {
+    double kinetic = 0.0;   ///< J
+    double pairs = 0.0;     ///< J, the sum of U(D)
+    double contacts = 0.0;  ///< J, of obstacles
+    double gravity = 0.0;   ///< J, the sum of -m g.x
+
+    double total() const { return kinetic + pairs + contacts + gravity; }
+};
+
+/// Energy of a state under the evaluator's law.
+Energy energy(ForceEvaluator& evaluator, const Particles& particles);
+
+Vec3 linearMomentum(const Particles& particles);   ///< kg m/s
+Vec3 angularMomentum(const Particles& particles);  ///< kg m^2/s, about the origin
+double largestSpeed(const Particles& particles);   ///< m/s; 0 without particles
+
+/// 64-bit FNV-1a over id, position and velocity of every particle in order, as 16 hexadecimal digits.
+std::string stateHash(const Particles& particles);
+
+}  // namespace engine

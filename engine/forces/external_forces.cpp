@@ -1,0 +1,210 @@
+// Compiled once per instruction set: as many particles at a time as a vector has lanes, and one face of an obstacle
+// after the other. Most faces are touched by nobody, which is soon known.
+#include "engine/forces/external_forces.h"
+
+#include <array>
+#include <variant>
+
+#include "engine/law/obstacle_surfaces.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/forces/external_forces.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "engine/core/simd_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace engine {
+namespace HWY_NAMESPACE {
+
+/// contactForce() on particles side by side, as many as D has lanes: as surfaces.h and pair_law.h have it, with the
+/// same order of products and sums. Of planes, containers and spheres heights alone tell who touches them: mayReach()
+/// spares a single particle work, and changes nothing.
+template <class D>
+class LaneContacts {
+    using V = hn::Vec<D>;
+    static constexpr D kTag{};
+    static constexpr std::size_t kMost = hn::MaxLanes(D());
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+
+ public:
+    LaneContacts(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                 std::size_t first)
+        : materials_(law.materials),
+          law_(law.scenery.law),
+          particles_(particles),
+          velocities_(velocities),
+          first_(first),
+          point_(read(particles.position[first])),
+          velocity_(read(velocities[first])),
+          radius_(hn::LoadU(kTag, &particles.radius[first])),
+          force_{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)} {
+        std::array<double, kMost> reach, friction;
+        for (std::size_t lane = 0; lane < lanes(); ++lane) {
+            const Material& material = law.materials[particles.material[first + lane]];
+            reach[lane] = material.dampingReach;
+            friction[lane] = material.friction;
+        }
+        dampingReach_ = hn::LoadU(kTag, reach.data());
+        friction_ = hn::LoadU(kTag, friction.data());
+        hasFriction_ = !hn::AllTrue(kTag, hn::Eq(friction_, hn::Zero(kTag)));
+    }
+
+    static std::size_t lanes() { return hn::Lanes(kTag); }
+
+    static Vector3<V> read(const Vec3& first) {
+        Vector3<V> vectors;
+        hn::LoadInterleaved3(kTag, first.data(), vectors.x, vectors.y, vectors.z);
+        return vectors;
+    }
+
+    /// Of all that was met, N.
+    const Vector3<V>& force() const { return force_; }
+
+    void meet(const Plane& plane) {
+        const Vector3<V> normal = all(plane.normal);
+        touch(dot(difference(point_, all(plane.point)), normal), normal, law_.radius);
+    }
+
+    void meet(const Container& box) {
+        const std::array<V, 3> point = {point_.x, point_.y, point_.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            const V along = point[static_cast<std::size_t>(axis)];
+            const Vec3 inwards = Vec3::Unit(axis);
+            touch(hn::Sub(along, set(box.minimum[axis])), all(inwards), law_.radius);
+            touch(hn::Sub(set(box.maximum[axis]), along), all(-inwards), law_.radius);
+        }
+    }
+
+    void meet(const Sphere& sphere) {
+        const Vector3<V> away = difference(point_, all(sphere.center));
+        const V distance = hn::Sqrt(dot(away, away));
+        const V height = hn::Sub(distance, set(sphere.radius));
+        if (hn::AllFalse(kTag, hn::Lt(height, radius_))) return;
+        const auto isApart = hn::Gt(distance, hn::Zero(kTag));
+        const Vector3<V> normal{hn::IfThenElseZero(isApart, hn::Div(away.x, distance)),
+                                hn::IfThenElse(isApart, hn::Div(away.y, distance), set(1.0)),
+                                hn::IfThenElseZero(isApart, hn::Div(away.z, distance))};
+        touch(height, normal, sphere.literalRepulsor ? sphere.radius : law_.radius);
+    }
+
+    /// A box has faces, edges and corners: whoever is near meets it alone.
+    void meet(const Box& box) {
+        std::array<Vec3, kMost> force;
+        hn::StoreInterleaved3(force_.x, force_.y, force_.z, kTag, force.front().data());
+        for (std::size_t lane = 0; lane < lanes(); ++lane) {
+            const std::size_t p = first_ + lane;
+            if (!mayReach(box, particles_.position[p], particles_.radius[p])) continue;
+            const Material& material = materials_[particles_.material[p]];
+            const Probe probe{particles_.position[p], velocities_[p], particles_.radius[p], material.dampingReach,
+                              material.friction};
+            forEachSurface(box, probe.position, law_.radius, [&](const Surface& surface) {
+                if (surface.height < probe.radius)
+                    addForce(surface, contactWith(surface, law_, probe), probe, force[lane]);
+            });
+        }
+        force_ = read(force.front());
+    }
+
+ private:
+    static V set(double number) { return hn::Set(kTag, number); }
+    static Vector3<V> all(const Vec3& vector) { return {set(vector.x()), set(vector.y()), set(vector.z())}; }
+
+    static V aboveZero(V number) { return hn::IfThenElseZero(hn::Gt(number, hn::Zero(kTag)), number); }
+
+    /// Adds the force of a face at these heights (m) on those who touch it: addForce() of contactWith().
+    void touch(V height, const Vector3<V>& normal, double repulsorRadius) {
+        const auto isTouched = hn::Lt(height, radius_);
+        if (hn::AllFalse(kTag, isTouched)) return;
+        const V rest = hn::Add(radius_, set(repulsorRadius));
+        const V core = hn::Mul(set(law_.coreFraction), rest);
+        const V distance = hn::Max(hn::Add(height, set(repulsorRadius)), core);
+        const V guardedSq = hn::Max(hn::Mul(distance, distance), hn::Mul(core, core));
+        const V inverseSq = hn::Div(set(1.0), guardedSq);
+        const V toRest = hn::Sub(inverseSq, hn::Div(set(1.0), hn::Mul(rest, rest)));
+        const V toReach = aboveZero(toRest);
+        const V conservative = hn::Mul(hn::Mul(set(law_.repulsion), hn::Sqrt(inverseSq)), hn::Mul(toRest, toReach));
+        const V speed = dot(velocity_, normal);
+        const V damping = hn::Mul(set(law_.dampingFactor), dampingReach_);
+        const V damped = hn::Mul(hn::Mul(damping, hn::Mul(distance, speed)), toReach);
+        push(isTouched, hn::Mul(distance, hn::Sub(conservative, damped)), normal);
+        if (hasFriction_) rub(isTouched, hn::Mul(distance, conservative), speed, normal);
+    }
+
+    /// slipDamping() by contacts of this normal force (N), at this normal speed (m/s).
+    void rub(hn::Mask<D> isTouched, V pressure, V speed, const Vector3<V>& normal) {
+        const Vector3<V> slip =
+            difference(velocity_, {hn::Mul(speed, normal.x), hn::Mul(speed, normal.y), hn::Mul(speed, normal.z)});
+        const V slipSpeed = hn::Max(hn::Sqrt(dot(slip, slip)), set(kStickingSpeed));
+        const V damping = hn::Div(hn::Mul(friction_, aboveZero(pressure)), slipSpeed);
+        push(hn::And(isTouched, hn::Ne(friction_, hn::Zero(kTag))), hn::Neg(damping), slip);
+    }
+
+    /// Adds factor times direction where it applies.
+    void push(hn::Mask<D> applies, V factor, const Vector3<V>& direction) {
+        const auto add = [&](V& sum, V along) {
+            sum = hn::IfThenElse(applies, hn::Add(sum, hn::Mul(factor, along)), sum);
+        };
+        add(force_.x, direction.x);
+        add(force_.y, direction.y);
+        add(force_.z, direction.z);
+    }
+
+    const std::vector<Material>& materials_;
+    const RepulsorLaw& law_;
+    const Particles& particles_;
+    const std::vector<Vec3>& velocities_;
+    std::size_t first_;
+    Vector3<V> point_, velocity_;
+    V radius_, dampingReach_, friction_;
+    bool hasFriction_;
+    Vector3<V> force_;
+};
+
+template <class D>
+void addTo(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities, std::size_t first,
+           Vec3& firstForce) {
+    constexpr D kTag{};
+    LaneContacts<D> contacts(law, particles, velocities, first);
+    for (const Collider& collider : law.scenery.colliders)
+        std::visit([&](const auto& shape) { contacts.meet(shape); }, collider);
+    const auto mass = hn::LoadU(kTag, &particles.mass[first]);
+    auto sum = contacts.read(firstForce);
+    const auto add = [&](auto& force, double gravity, auto contact) {
+        force = hn::Add(hn::Add(force, hn::Mul(mass, hn::Set(kTag, gravity))), contact);
+    };
+    add(sum.x, law.gravity.x(), contacts.force().x);
+    add(sum.y, law.gravity.y(), contacts.force().y);
+    add(sum.z, law.gravity.z(), contacts.force().z);
+    hn::StoreInterleaved3(sum.x, sum.y, sum.z, kTag, firstForce.data());
+}
+
+void addOuterForcesHere(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                        std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
+    using Many = hn::ScalableTag<double>;
+    using One = hn::CappedTag<double, 1>;
+    std::size_t p = begin;
+    for (; p + hn::Lanes(Many()) <= end; p += hn::Lanes(Many())) addTo<Many>(law, particles, velocities, p, forces[p]);
+    for (; p < end; ++p) addTo<One>(law, particles, velocities, p, forces[p]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace engine
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace engine {
+
+HWY_EXPORT(addOuterForcesHere);
+
+void addOuterForces(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                    std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
+    if (begin == end) return;
+    HWY_DYNAMIC_DISPATCH(addOuterForcesHere)(law, particles, velocities, begin, end, forces);
+}
+
+}  // namespace engine
+
+#endif

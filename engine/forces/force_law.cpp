@@ -1,0 +1,64 @@
+// The terms and the cutoff that materials and radii ask for.
+#include "engine/forces/force_law.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/core/parallel.h"
+
+namespace engine {
+namespace {
+
+bool sameLaw(const Material& a, const Material& b) {
+    return a.repulsion == b.repulsion && a.damping == b.damping && a.repulsionReach == b.repulsionReach &&
+           a.dampingReach == b.dampingReach && a.friction == b.friction && a.coreFraction == b.coreFraction;
+}
+
+/// By their bits, each against the next: a loop over numbers would take as long as a tenth of a powder's forces.
+bool allEqual(const std::vector<double>& numbers) {
+    if (numbers.size() < 2) return true;
+    constexpr std::size_t kGrain = 1U << 16;  // chosen: half a megabyte is worth waking a thread for
+    return holdsInRanges(numbers.size() - 1, kGrain, [&](std::size_t begin, std::size_t end) {
+        const double* const first = numbers.data() + begin;
+        return std::memcmp(first, first + 1, (end - begin) * sizeof(double)) == 0;
+    });
+}
+
+}  // namespace
+
+std::vector<Material> mixedPairs(const std::vector<Material>& materials) {
+    std::vector<Material> pairs;
+    for (const Material& a : materials)
+        for (const Material& b : materials) pairs.push_back(sameLaw(a, b) ? a : mixed(a, b));
+    return pairs;
+}
+
+double reachOf(const std::vector<Material>& materials) {
+    double reach = 0.0;
+    for (const Material& material : materials) {
+        // The mix's reaches lie between those of its parts.
+        reach = std::max(reach, material.repulsionReach);
+        if (material.damping > 0.0) reach = std::max(reach, material.dampingReach);
+    }
+    return reach;
+}
+
+ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
+    ForceTerms terms;
+    terms.pair.oneReach = true;  // of mixtures too, if each has one
+    for (const Material& material : law.materials) {
+        terms.pair.attraction |= material.repulsionReach > 1.0;
+        terms.pair.damping |= material.damping > 0.0;
+        terms.pair.friction |= material.friction > 0.0;
+        if (material.damping > 0.0) terms.pair.oneReach &= material.repulsionReach == material.dampingReach;
+        terms.uniform &= sameLaw(material, law.materials.front());
+    }
+    const std::vector<double>& radii = particles.radius;
+    const bool isOneRadius = allEqual(radii);
+    terms.uniform &= isOneRadius;
+    const double largest = radii.empty() ? 0.0 : isOneRadius ? radii.front() : *std::ranges::max_element(radii);
+    terms.cutoff = reachOf(law.materials) * 2.0 * largest;
+    return terms;
+}
+
+}  // namespace engine

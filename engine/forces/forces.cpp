@@ -1,0 +1,108 @@
+// The total force: pairs, gravity, obstacles.
+#include "engine/forces/forces.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/forces/external_forces.h"
+#include "engine/forces/pair_sums.h"
+
+namespace engine {
+
+ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision)
+    : law_(std::move(law)), method_(method), pairs_(law_, precision) {}
+
+void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
+                              std::vector<Vec3>& forces, double step) {
+    evaluatePairs(particles, velocities, forces, step);
+    if (law_.scenery.colliders.empty()) return addGravity(particles, forces);
+    inRanges(particles.count(), grainAmong(law_.scenery), [&](std::size_t begin, std::size_t end) {
+        addOuterForces(law_, particles, velocities, begin, end, forces);
+    });
+}
+
+void ForceEvaluator::evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities,
+                                   std::vector<Vec3>& forces, double step) {
+    if (method_ == ForceMethod::reference)
+        pairForcesReference(law_, particles, velocities, forces);
+    else
+        pairForcesGrid(particles, velocities, forces, step);
+}
+
+double ForceEvaluator::evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities,
+                                    std::vector<Vec3>& forces, double step) {
+    double energy = 0.0;
+    if (method_ == ForceMethod::reference) {
+        pairForcesReference(law_, particles, velocities, forces);
+        energy = pairEnergyReference(law_, particles);
+    } else {
+        addUp(particles, velocities, {.forces = forces, .energy = &energy}, step);
+    }
+    addGravity(particles, forces);
+    return energy;
+}
+
+double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights& weights, std::vector<Vec3>& forces,
+                                PairMatrix& matrix, double step) {
+    double energy = 0.0;
+    forces.resize(particles.count());
+    pairs_.prepare(law_, particles, particles.velocity, step);
+    pairs_.makeRecords(particles, particles.velocity);
+    addUpPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
+    // The matrix has no slow twin: products of the reference's pairs would be the same sums.
+    if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
+    matrix.mass.resize(particles.count());
+    inParallel(particles.count(), kParticleGrain,
+               [&](std::size_t place) { matrix.mass[place] = particles.mass[order()[place]]; });
+    addGravity(particles, forces);
+    return energy;
+}
+
+void ForceEvaluator::renewList(const Particles& particles) {
+    if (needsList()) pairs_.renewList(law_, particles, particles.velocity);
+}
+
+bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
+                             std::uint32_t& companion) const {
+    const NeighborList& list = pairs_.list;
+    if (p >= list.placeOf.size()) return false;
+    const std::size_t known = std::min(positions.size(), list.placeOf.size());
+    const auto isNear = [&](std::uint32_t other) {
+        return other < known && squaredLength(positions[p] - positions[other]) < cutoff * cutoff;
+    };
+    if (companion != p && isNear(companion)) return false;
+    const std::size_t seat = list.seatOf(p);
+    for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k) {
+        const std::uint32_t other = list.order[list.rows.placeAt(seat, k)];
+        if (!isNear(other)) continue;
+        companion = other;
+        return false;
+    }
+    return true;
+}
+
+void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
+    inParallel(particles.count(), kParticleGrain,
+               [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
+}
+
+void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,
+                                    std::vector<Vec3>& forces, double step) {
+    addUp(particles, velocities, {.forces = forces}, step);
+}
+
+void ForceEvaluator::addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums,
+                           double step) {
+    sums.forces.resize(particles.count());
+    pairs_.prepare(law_, particles, velocities, step);
+    addUpPairs(pairs_, sums);
+}
+
+double ForceEvaluator::pairEnergyGrid(const Particles& particles) {
+    if (particles.count() < 2) return 0.0;
+    pairs_.prepare(law_, particles, particles.velocity);
+    pairs_.makeRecords(particles, particles.velocity);
+    return pairEnergySum(pairs_);
+}
+
+}  // namespace engine

@@ -1,0 +1,65 @@
+// Equation 1 as the paper evaluates it: every pair, in double, one after another. It is the oracle: obvious, serial,
+// slow.
+#include "engine/forces/forces.h"
+
+namespace engine {
+namespace {
+
+struct Pair {
+    Vec3 separation;  ///< P = x_p - x_i, or its stand-in for coincident particles
+    PairConstants<double> constants;
+};
+
+Pair pairOf(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i) {
+    const double restLength = particles.radius[p] + particles.radius[i];
+    const Material material = mixed(law.materials[particles.material[p]], law.materials[particles.material[i]]);
+    Pair pair{particles.position[p] - particles.position[i], pairConstants<double>(material, restLength)};
+    if (squaredLength(pair.separation) == 0.0) {
+        const auto [x, y, z] = coincidentSeparation(particles.id[p], particles.id[i], restLength);
+        pair.separation = Vec3(x, y, z);
+    }
+    return pair;
+}
+
+/// Against the slip, in newtons.
+Vec3 frictionOf(const Pair& pair, const Vec3& velocity) {
+    const double distance = pair.separation.norm();
+    const Vec3 normal = pair.separation / distance;
+    const Vec3 slip = velocity - velocity.dot(normal) * normal;
+    const double push = distance * pairCoefficient<PairTerms{true, false}>(distance * distance, 0.0, pair.constants);
+    return -slipDamping(pair.constants.friction, push, slip.squaredNorm()) * slip;
+}
+
+}  // namespace
+
+void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                         std::vector<Vec3>& forces) {
+    forces.assign(particles.count(), Vec3::Zero());
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        for (std::size_t i = 0; i < particles.count(); ++i) {
+            if (i == p) continue;
+            const Pair pair = pairOf(law, particles, p, i);
+            const double distanceSq = squaredLength(pair.separation);
+            const double approach = dot(velocities[p] - velocities[i], pair.separation);
+            forces[p] += pairCoefficient<PairTerms{}>(distanceSq, approach, pair.constants) * pair.separation;
+            if (pair.constants.friction > 0.0) forces[p] += frictionOf(pair, velocities[p] - velocities[i]);
+        }
+    }
+}
+
+double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i) {
+    const Pair pair = pairOf(law, particles, p, i);
+    const double energy = pairEnergy(std::sqrt(squaredLength(pair.separation)), pair.constants);
+    // What parts a coincident pair is above its energy by as much as its stand-in lies below.
+    const bool isCoincident = particles.position[p] == particles.position[i];
+    return isCoincident ? 2.0 * pairEnergy(0.0, pair.constants) - energy : energy;
+}
+
+double pairEnergyReference(const ForceLaw& law, const Particles& particles) {
+    double energy = 0.0;
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        for (std::size_t i = p + 1; i < particles.count(); ++i) energy += pairEnergyReference(law, particles, p, i);
+    return energy;
+}
+
+}  // namespace engine

@@ -1,0 +1,102 @@
+// Of those in float, compiled once per instruction set, a particle's coordinates are three of four lanes; where vectors
+// have fewer, they are taken one by one.
+#include "engine/forces/pack_particles.h"
+
+#include <cstddef>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/forces/pack_particles.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace engine {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_MAX_BYTES >= 32
+/// singleRecord() over lanes.
+class SingleWriter {
+    static_assert(offsetof(SinglePrecisionRecord, id) == 12 && offsetof(SinglePrecisionRecord, rest) == 28);
+    static constexpr hn::CappedTag<double, 4> kTag{};
+    static constexpr hn::RebindToUnsigned<decltype(kTag)> kBits{};
+    static constexpr hn::Rebind<std::uint32_t, decltype(kTag)> kWhole{};
+    static constexpr hn::Rebind<float, decltype(kTag)> kFloat{};
+    using V = hn::Vec<decltype(kTag)>;
+
+ public:
+    explicit SingleWriter(double perMeter) : perMeter_(hn::Set(kTag, perMeter)) {}
+
+    HWY_INLINE void write(const OrderedParticles& from, std::size_t p, SinglePrecisionRecord& record) const {
+        const Vec3& position = from.position[p];
+        const auto velocity = hn::BitCast(kWhole, hn::DemoteTo(kFloat, three(from.velocity[p])));
+        auto* const to = reinterpret_cast<std::uint32_t*>(&record);
+        hn::Store(hn::InsertLane(wrappedUnits(position), 3, from.id[p]), kWhole, to);
+        const std::uint32_t rest = restOf(position.x(), position.y(), position.z());
+        hn::Store(hn::InsertLane(velocity, 3, rest), kWhole, to + 4);
+    }
+
+ private:
+    static V three(const Vec3& vector) { return hn::MaskedLoad(hn::FirstN(kTag, 3), kTag, vector.data()); }
+
+    hn::Vec<decltype(kWhole)> wrappedUnits(const Vec3& position) const {
+        const V units = hn::Mul(three(position), perMeter_);
+        const V rounding = hn::Set(kTag, kWholeRounding);
+        const V turns = hn::Sub(hn::Add(hn::Mul(units, hn::Set(kTag, 1.0 / kWordTurn)), rounding), rounding);
+        const V rest = hn::Sub(units, hn::Mul(turns, hn::Set(kTag, kWordTurn)));
+        return hn::TruncateTo(kWhole, hn::BitCast(kBits, hn::Add(rest, rounding)));
+    }
+
+    V perMeter_;
+};
+#else
+class SingleWriter {
+ public:
+    explicit SingleWriter(double perMeter) : perMeter_(perMeter) {}
+
+    void write(const OrderedParticles& from, std::size_t p, SinglePrecisionRecord& record) const {
+        record = singleRecord(from.position[p], from.velocity[p], from.id[p], perMeter_);
+    }
+
+ private:
+    double perMeter_;
+};
+#endif
+
+void makeSinglesHere(const OrderedParticles& of, double perMeter, std::size_t begin, std::size_t end,
+                     SinglePrecisionRecord* all) {
+    const OrderedParticles from = of;  // nothing that is written is part of it
+    const SingleWriter writer(perMeter);
+    for (std::size_t place = begin; place < end; ++place) {
+        from.fetchAhead<SinglePrecisionRecord>(place);
+        writer.write(from, from.order[place], all[place]);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace engine
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace engine {
+
+HWY_EXPORT(makeSinglesHere);
+
+void makeDoubles(const OrderedParticles& of, std::size_t begin, std::size_t end, PairRecord* all) {
+    const OrderedParticles from = of;  // nothing that is written is part of it
+    for (std::size_t place = begin; place < end; ++place) {
+        from.fetchAhead<PairRecord>(place);
+        all[place] = doubleRecord(from, from.order[place]);
+    }
+}
+
+void makeSingles(const OrderedParticles& from, double perMeter, std::size_t begin, std::size_t end,
+                 SinglePrecisionRecord* all) {
+    HWY_DYNAMIC_DISPATCH(makeSinglesHere)(from, perMeter, begin, end, all);
+}
+
+}  // namespace engine
+
+#endif

@@ -1,0 +1,95 @@
+// Sorting for a visit.
+#include "engine/forces/pair_traversal.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/forces/pack_particles.h"
+#include "engine/neighbors/verlet_skin.h"
+
+namespace engine {
+namespace {
+
+/// Units in the reach of a list: differences within it stay below 2^24, which float holds exactly.
+constexpr double kUnits = 8388608.0;
+
+/// How fast particles leave the place they have in the crowd, at most, m/s: what all have in common moves no list.
+double fastest(const std::vector<Vec3>& velocities) {
+    const auto velocity = [&](std::size_t p) -> const Vec3& { return velocities[p]; };
+    return farthestFrom(extentOver(velocities.size(), velocity).middle(), velocities.size(), velocity);
+}
+
+/// Entries of a row that lie within the cutoff (m), if they are spread evenly.
+double neighborsWithin(double cutoff, const NeighborList& list) {
+    const double share = cutoff / list.reach;
+    return share * share * share * static_cast<double>(list.entryCount) / static_cast<double>(list.count());
+}
+
+}  // namespace
+
+PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
+    : pairMaterials(mixedPairs(law.materials)), materialCount(law.materials.size()), precision(wanted) {}
+
+void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                              double step) {
+    const bool areTheSame = areMovesNoted && particles.count() == list.count();
+    if (!areTheSame) terms = termsFor(law, particles);
+    if (!std::exchange(areMovesNoted, false)) forgetMoves();
+    const bool isCovered = (displacements && coversWithin(list, *displacements, particles.count(), terms.cutoff)) ||
+                           covers(list, particles.position, terms.cutoff);
+    if (!isCovered) {
+        const bool isForeseen = step > 0.0 && list.count() > 0 && particles.count() > 0;
+        const double skin =
+            isForeseen ? cheapestSkin(neighborsWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
+                       : kListSkin;
+        build(list, particles.position, terms.cutoff, skin * terms.cutoff);
+        displacements = Extent{Vec3::Zero(), Vec3::Zero()};
+        hasRecords = false;  // they are in another order
+    }
+}
+
+void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                            double step) {
+    renewList(law, particles, velocities, step);
+    if (terms.uniform && particles.count() > 0) {
+        uniformRadius = particles.radius.front();
+        uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);
+    }
+    const bool hasSingles = terms.uniform && precision == Precision::singles;
+    hasRecords = false;
+    if (!hasSingles) makeRecords(particles, velocities);
+    singles.resize(hasSingles ? particles.count() : 0);
+    unit = list.reach / kUnits;
+    const OrderedParticles from(list, particles, velocities);
+    inRanges(singles.size(), kParticleGrain,
+             [&](std::size_t begin, std::size_t end) { makeSingles(from, 1.0 / unit, begin, end, singles.data()); });
+}
+
+void PairTraversal::forgetList() {
+    list.builtAt.clear();
+    list.placeOf.clear();
+    forgetMoves();
+}
+
+void PairTraversal::noteMoves(const Extent& moves) {
+    if (!displacements) return;
+    areMovesNoted = true;
+    displacements->low += moves.low;
+    displacements->high += moves.high;
+}
+
+void PairTraversal::forgetMoves() {
+    areMovesNoted = false;
+    displacements.reset();
+}
+
+void PairTraversal::makeRecords(const Particles& particles, const std::vector<Vec3>& velocities) {
+    if (hasRecords) return;
+    hasRecords = true;
+    records.resize(particles.count());
+    const OrderedParticles from(list, particles, velocities);
+    inRanges(records.size(), kParticleGrain,
+             [&](std::size_t begin, std::size_t end) { makeDoubles(from, begin, end, records.data()); });
+}
+
+}  // namespace engine

@@ -1,0 +1,133 @@
+// One way over all neighboring pairs for everything that sums over them: forces, energies, the implicit steppers'
+// matrix, the step bound. Each particle visits its own neighbors in a fixed order and writes to itself alone: no
+// thread waits for another, and no sum depends on how the work is shared out.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/core/bounding_box.h"
+#include "engine/core/parallel.h"
+#include "engine/core/scratch.h"
+#include "engine/forces/force_law.h"
+#include "engine/forces/packed_particle.h"
+#include "engine/law/pair_law.h"
+#include "engine/neighbors/neighbor_list.h"
+#include "engine/neighbors/neighbor_rows.h"
+
+namespace engine {
+
+/// Arithmetic of the pair forces; the state is always in double.
+enum class Precision { doubles, singles };
+
+/// Particles sorted for visiting, their neighbors, and the constants of their pairs. Kept between visits: most of them
+/// find the list still good.
+struct PairTraversal {
+    std::vector<Material> pairMaterials;  ///< mixedPairs of the law
+    std::size_t materialCount = 0;
+    ForceTerms terms;
+    PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
+    double uniformRadius = 0.0;     ///< of every particle there, m
+    NeighborList list;
+    Precision precision = Precision::doubles;             ///< of forces where the terms are uniform
+    Scratch<std::vector<PairRecord>> records;             ///< in the list's order, where there are any
+    Scratch<std::vector<SinglePrecisionRecord>> singles;  ///< in the list's order; empty in double
+    double unit = 0.0;                                    ///< of the singles' positions, m
+    /// Since the list was built, m; none where somebody has prepared without saying how far particles have moved.
+    std::optional<Extent> displacements;
+    bool areMovesNoted = false;  ///< since the last prepare(), in the displacements
+    bool hasRecords = false;     ///< not in float, unless they are asked for
+
+    PairTraversal() = default;
+    PairTraversal(const ForceLaw& law, Precision precision);
+
+    /// Sorts the particles, with the velocities (m/s) that the damping is to see, and brings the list up to date. A new
+    /// one is made for passes that are a step (s) apart; 0: nobody knows.
+    void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                 double step = 0.0);
+
+    /// The first part of it: brings the list up to date, but makes no records.
+    void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                   double step = 0.0);
+
+    /// Since the last call, or else renewList(), every particle has moved by some vector in a box (m), and nothing but
+    /// its velocity has changed besides. Spares the next renewList() a look at each of them.
+    void noteMoves(const Extent& moves);
+
+    /// Particles are moved in ways that nobody notes.
+    void forgetMoves();
+
+    /// Particles have other indices now: the list serves nobody any more.
+    void forgetList();
+
+    /// After prepare(), for the same: the records, where there are none yet, for whatever float is not enough for.
+    void makeRecords(const Particles& particles, const std::vector<Vec3>& velocities);
+
+    /// Brings back the list that was built for these positions (m) with this reach (m).
+    void restoreList(const std::vector<Vec3>& builtAt, double reach) {
+        build(list, builtAt, reach, 0.0);
+        forgetMoves();
+    }
+
+    template <bool isUniform>
+    PairConstants<double> constants(const PairRecord& p, const PairRecord& i) const {
+        if constexpr (isUniform) return uniform;
+        return pairConstants<double>(pairMaterials[p.material * materialCount + i.material], p.radius + i.radius);
+    }
+
+    /// Place of the particle in a seat of the list.
+    std::uint32_t placeAt(std::size_t seat) const { return static_cast<std::uint32_t>(list.rows.selves[seat]); }
+
+    /// Calls visit(other place, P, P.P) for every other particle within the cutoff of the one in a seat of the list.
+    /// A list's row holds some beyond the cutoff, unpredictably so: they are sifted without branches first.
+    template <class Visit>
+    void forEachNeighbor(std::size_t seat, const Visit& visit) const {
+        const PairRecord& p = records[placeAt(seat)];
+        const double cutoffSq = terms.cutoff * terms.cutoff;
+        constexpr std::uint32_t kSieve = 128;  // chosen: longer than most rows
+        std::array<std::uint32_t, kSieve> within;
+        const RowPart& part = list.rows.parts[LaneRows::partOf(seat)];
+        const std::size_t first = list.rows.at(seat, 0);
+        const std::uint32_t length = list.rows.length[seat];
+        for (std::uint32_t begin = 0; begin < length; begin += kSieve) {
+            const std::uint32_t end = std::min(begin + kSieve, length);
+            std::size_t found = 0;
+            for (std::uint32_t k = begin; k < end; ++k) {
+                const std::uint32_t other = part.placeAt(first + k * kGroup);
+                within[found] = other;
+                found += squaredLength(separationOf(p, records[other])) < cutoffSq ? 1U : 0U;
+            }
+            for (std::size_t k = 0; k < found; ++k) {
+                const auto visitIt = [&](const Vec3& separation, double distanceSq) {
+                    visit(within[k], separation, distanceSq);
+                };
+                visitPair(p, records[within[k]], visitIt);
+            }
+        }
+    }
+
+    /// Calls visit(P, P.P) for a pair; one that coincides has a stand-in for P.
+    template <class Visit>
+    static void visitPair(const PairRecord& p, const PairRecord& i, const Visit& visit) {
+        Vec3 separation = separationOf(p, i);
+        double distanceSq = squaredLength(separation);
+        if (distanceSq == 0.0) {
+            const auto [x, y, z] = coincidentSeparation(p.id, i.id, p.radius + i.radius);
+            separation = Vec3(x, y, z);
+            distanceSq = squaredLength(separation);
+        }
+        visit(separation, distanceSq);
+    }
+
+    /// Calls body(seat in the list) for every particle, shared out over the threads.
+    template <class Body>
+    void forEachParticle(const Body& body) const {
+        constexpr std::size_t kGrain = 64;  // chosen: particles of a dense scene take half a microsecond each
+        inParallel(list.count(), kGrain, body);
+    }
+
+ private:
+    static Vec3 separationOf(const PairRecord& p, const PairRecord& i) { return {p.x - i.x, p.y - i.y, p.z - i.z}; }
+};
+
+}  // namespace engine

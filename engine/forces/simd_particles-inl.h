@@ -1,0 +1,234 @@
+// Particles as lanes: how the kernels on vector units read records. Included once per instruction set, by Highway's
+// rules; the guard below is theirs.
+#if defined(ENGINE_LANE_RECORDS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ENGINE_LANE_RECORDS_INL_H
+#undef ENGINE_LANE_RECORDS_INL_H
+#else
+#define ENGINE_LANE_RECORDS_INL_H
+#endif
+
+#include <algorithm>
+#include <array>
+
+#include "engine/core/simd_vectors-inl.h"
+#include "engine/forces/packed_particle.h"
+#include "engine/neighbors/neighbor_rows.h"
+#include "engine/neighbors/simd_blocks-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace engine {
+namespace HWY_NAMESPACE {
+
+/// What a row of places refers to, as it was read.
+template <class Position, class Velocity>
+struct Others {
+    Vector3<Position> position;
+    Vector3<Velocity> velocity;  ///< zero where it is not needed
+};
+
+/// Of the pairs of a row: P in units of length, V, and where there is a pair at all.
+template <class T>
+struct Row {
+    Vector3<Lanes<T>> separation, velocity;
+    hn::Mask<Tag<T>> isPair;
+};
+
+/// Entries of the longest row of a block of lanes.
+template <class T>
+std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {
+    std::uint32_t longest = 0;
+    for (std::size_t lane = 0; lane < hn::Lanes(Tag<T>()); ++lane)
+        longest = std::max(longest, rows.length[first + lane]);
+    return longest;
+}
+
+/// Entries of a row as numbers of 32 bits.
+template <class T, class Entry>
+Places<T> placesFrom(const Entry* entries) {
+    constexpr hn::Rebind<std::int32_t, Tag<T>> kPlaces;
+    const auto read = hn::LoadU(hn::Rebind<Entry, Tag<T>>(), entries);
+    if constexpr (sizeof(Entry) < sizeof(std::int32_t))
+        return hn::PromoteTo(kPlaces, read);
+    else
+        return read;
+}
+
+template <class V>
+V countedFrom(std::uint32_t base, V places) {
+    return hn::Sub(places, hn::Set(hn::DFromV<V>(), static_cast<std::int32_t>(base)));
+}
+
+/// The particles of a block of lanes in double: positions as they are.
+struct Doubles {
+    using T = double;
+    using V = Lanes<double>;
+    static constexpr Tag<double> kTag{};
+    static constexpr std::int64_t kStride = sizeof(PairRecord) / sizeof(double);
+
+    const double* base;   ///< of the first record that a place of a row can mean
+    Places<double> self;  ///< places as rows have them
+    Others<V, V> own;
+
+    /// Shape:  where the particles are among the records; the record that places of rows count from.
+    Doubles(const PairRecord* records, const std::int32_t* selves, std::uint32_t from) : base(&records[0].x) {
+        own = load<true>(selves);
+        base = &records[from].x;
+        self = countedFrom(from, hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), selves));
+    }
+
+    template <bool needsVelocity, class Entry>
+    Others<V, V> load(const Entry* places) const {
+        Vector3<V> x;
+        Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
+#if HWY_TARGET == HWY_SCALAR
+        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
+        x = {field(0), field(1), field(2)};
+        if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
+#elif HWY_TARGET <= HWY_AVX3
+        // x y z and vx of two records two apart, then of these two by two.
+        const auto halves = [&](int first) { return halvesFrom(base, kStride, places[first], places[first + 2]); };
+        const V a = halves(0), b = halves(1), c = halves(4), d = halves(5);
+        const V xz0 = hn::InterleaveLower(kTag, a, b), xz1 = hn::InterleaveLower(kTag, c, d);
+        const V yu0 = hn::InterleaveUpper(kTag, a, b), yu1 = hn::InterleaveUpper(kTag, c, d);
+        x = {evenBlocks(xz0, xz1), evenBlocks(yu0, yu1), oddBlocks(xz0, xz1)};
+        if constexpr (needsVelocity) {
+            const V vw0 = blocksOf(base + 4, kStride, places), vw1 = blocksOf(base + 4, kStride, places + 1);
+            v = {oddBlocks(yu0, yu1), hn::InterleaveLower(kTag, vw0, vw1), hn::InterleaveUpper(kTag, vw0, vw1)};
+        }
+#else
+        // Numbers two by two, of every other record from one on.
+        const auto pairs = [](const double* field, const Entry* from) {
+            return blocksFrom(kTag, field, kStride, from, 2);
+        };
+        const V xy0 = pairs(base, places), xy1 = pairs(base, places + 1);
+        const V zu0 = pairs(base + 2, places), zu1 = pairs(base + 2, places + 1);
+        x = {hn::InterleaveLower(kTag, xy0, xy1), hn::InterleaveUpper(kTag, xy0, xy1),
+             hn::InterleaveLower(kTag, zu0, zu1)};
+        if constexpr (needsVelocity) {
+            const V vw0 = pairs(base + 4, places), vw1 = pairs(base + 4, places + 1);
+            v = {hn::InterleaveUpper(kTag, zu0, zu1), hn::InterleaveLower(kTag, vw0, vw1),
+                 hn::InterleaveUpper(kTag, vw0, vw1)};
+        }
+#endif
+        return {x, v};
+    }
+
+    template <bool needsVelocity, class Entry>
+    Row<double> row(const Entry* places, const Others<V, V>& others) const {
+        const hn::Rebind<std::int64_t, Tag<double>> kWide;
+        Row<double> row;
+        row.isPair =
+            hn::RebindMask(kTag, hn::Ne(hn::PromoteTo(kWide, placesFrom<double>(places)), hn::PromoteTo(kWide, self)));
+        row.separation = difference(own.position, others.position);
+        if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
+        return row;
+    }
+
+    /// Of pairs of a row without separation those that share their position: all, or nearly.
+    template <class Entry>
+    hn::Mask<Tag<double>> sharePlace(const Entry* /*places*/, hn::Mask<Tag<double>> pairs) const {
+        return pairs;
+    }
+};
+
+/// In float: positions are whole numbers of a unit, modulo 2^32, whose differences are exact anywhere in the world, and
+/// separations stay in it.
+struct Singles {
+    using T = float;
+    using V = Lanes<float>;
+    using I = Places<float>;
+    static constexpr Tag<float> kTag{};
+    static constexpr hn::Rebind<std::int32_t, Tag<float>> kWhole{};
+    static constexpr std::int64_t kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
+
+    const SinglePrecisionRecord* records;  ///< the first that a place of a row can mean
+    const float* base;                     ///< the same; positions are bits of integers
+    I self;                                ///< places as rows have them
+    Others<I, V> own;
+
+    /// Shape:  as Doubles has it.
+    Singles(const SinglePrecisionRecord* all, const std::int32_t* selves, std::uint32_t from)
+        : records(all + from), base(reinterpret_cast<const float*>(all)) {
+        own = load<true>(selves);
+        base = reinterpret_cast<const float*>(records);
+        self = countedFrom(from, hn::LoadU(kWhole, selves));
+    }
+
+    template <bool needsVelocity, class Entry>
+    Others<I, V> load(const Entry* places) const {
+        Vector3<I> x;
+        Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
+        const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
+#if HWY_TARGET == HWY_SCALAR
+        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
+        x = {whole(field(0)), whole(field(1)), whole(field(2))};
+        if constexpr (needsVelocity) v = {field(4), field(5), field(6)};
+#else
+        static constexpr hn::Repartition<double, Tag<float>> kTwos{};
+        // What two vectors have in the lower or upper halves of their blocks.
+        const auto lower = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveLower(kTag, a, b)); };
+        const auto upper = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
+        const auto firsts = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
+        const auto seconds = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
+#if HWY_TARGET <= HWY_AVX3
+        // Of eight records x and vx, y and vy, z and vz, in blocks of four each.
+        struct Eight {
+            V xu, yv, zw;
+        };
+        const auto eight = [&](int first) {
+            const auto halves = [&](int at) { return halvesFrom(base, kStride, places[at], places[at + 4]); };
+            const V a = halves(first), b = halves(first + 1), c = halves(first + 2), d = halves(first + 3);
+            const auto xy01 = lower(a, b), xy23 = lower(c, d);
+            return Eight{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
+        };
+        const Eight a = eight(0), b = eight(8);
+        x = {whole(evenBlocks(a.xu, b.xu)), whole(evenBlocks(a.yv, b.yv)), whole(evenBlocks(a.zw, b.zw))};
+        if constexpr (needsVelocity) v = {oddBlocks(a.xu, b.xu), oddBlocks(a.yv, b.yv), oddBlocks(a.zw, b.zw)};
+#else
+        // Numbers four by four, of every fourth record from one on.
+        const auto fours = [](const float* field, const Entry* from) {
+            return blocksFrom(kTag, field, kStride, from, 4);
+        };
+        const auto fields = [&](const float* field) {
+            const V a = fours(field, places), b = fours(field, places + 1);
+            const V c = fours(field, places + 2), d = fours(field, places + 3);
+            const auto xy01 = lower(a, b), xy23 = lower(c, d);
+            return Vector3<V>{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
+        };
+        const Vector3<V> position = fields(base);
+        x = {whole(position.x), whole(position.y), whole(position.z)};
+        if constexpr (needsVelocity) v = fields(base + 4);
+#endif
+#endif
+        return {x, v};
+    }
+
+    template <bool needsVelocity, class Entry>
+    Row<float> row(const Entry* places, const Others<I, V>& others) const {
+        Row<float> row;
+        row.isPair = hn::RebindMask(kTag, hn::Ne(placesFrom<float>(places), self));
+        const Vector3<I> units = difference(own.position, others.position);
+        row.separation = {hn::ConvertTo(kTag, units.x), hn::ConvertTo(kTag, units.y), hn::ConvertTo(kTag, units.z)};
+        if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
+        return row;
+    }
+
+    /// Of pairs of a row without separation those that share their position: others are only nearer than a unit.
+    template <class Entry>
+    hn::Mask<Tag<float>> sharePlace(const Entry* places, hn::Mask<Tag<float>> pairs) const {
+        std::array<std::uint8_t, 8> bits = {};
+        std::array<std::int32_t, kGroup> selves;
+        hn::StoreU(self, kWhole, selves.data());
+        hn::StoreMaskBits(kTag, pairs, bits.data());
+        for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane)
+            if (!coincide(records[selves[lane]], records[places[lane]]))
+                bits[lane / 8] &= static_cast<std::uint8_t>(~(1U << lane % 8));
+        return hn::LoadMaskBits(kTag, bits.data());
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace engine
+HWY_AFTER_NAMESPACE();
+
+#endif

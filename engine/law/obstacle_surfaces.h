@@ -1,0 +1,168 @@
+// Obstacles as surfaces: what a particle sees of each shape is a signed distance, a normal and a repulsor behind it.
+// One contact law then serves all shapes, whether it acts as a force (the paper's way) or along a swept path.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "engine/law/obstacles.h"
+#include "engine/law/pair_law.h"
+
+namespace engine {
+
+/// One face as a particle sees it.
+struct Surface {
+    double height = 0.0;                                             ///< signed distance of the particle's center, m
+    Vec3 normal = Vec3::UnitY();                                     ///< away from the solid
+    double repulsorRadius = 0.5;                                     ///< m
+    double halfThickness = std::numeric_limits<double>::infinity();  ///< of the solid under the face, m
+    double curvature = 0.0;                                          ///< of a solid sphere, 1/m
+};
+
+template <class Visit>
+void forEachSurface(const Plane& plane, const Vec3& point, double repulsorRadius, const Visit& visit) {
+    visit(Surface{dot(point - plane.point, plane.normal), plane.normal, repulsorRadius});
+}
+
+template <class Visit>
+void forEachSurface(const Container& box, const Vec3& point, double repulsorRadius, const Visit& visit) {
+    for (int axis = 0; axis < 3; ++axis) {
+        visit(Surface{point[axis] - box.minimum[axis], Vec3::Unit(axis), repulsorRadius});
+        visit(Surface{box.maximum[axis] - point[axis], -Vec3::Unit(axis), repulsorRadius});
+    }
+}
+
+/// Outside the box the normal points from the closest point; inside, out of the nearest face.
+template <class Visit>
+void forEachSurface(const Box& box, const Vec3& point, double repulsorRadius, const Visit& visit) {
+    const double halfThickness = 0.5 * (box.maximum - box.minimum).minCoeff();
+    const Vec3 closest = point.cwiseMax(box.minimum).cwiseMin(box.maximum);
+    const Vec3 away = point - closest;
+    const double distance = std::sqrt(squaredLength(away));
+    if (distance > 0.0) {
+        visit(Surface{distance, away / distance, repulsorRadius, halfThickness});
+        return;
+    }
+    Surface nearest{-std::numeric_limits<double>::infinity(), Vec3::UnitY(), repulsorRadius, halfThickness};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double below = box.minimum[axis] - point[axis];
+        const double above = point[axis] - box.maximum[axis];
+        if (below > nearest.height) nearest = Surface{below, -Vec3::Unit(axis), repulsorRadius, halfThickness};
+        if (above > nearest.height) nearest = Surface{above, Vec3::Unit(axis), repulsorRadius, halfThickness};
+    }
+    visit(nearest);
+}
+
+template <class Visit>
+void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadius, const Visit& visit) {
+    const Vec3 away = point - sphere.center;
+    const double distance = std::sqrt(squaredLength(away));
+    const Vec3 normal = distance > 0.0 ? Vec3(away / distance) : Vec3(Vec3::UnitY());
+    visit(Surface{distance - sphere.radius, normal, sphere.literalRepulsor ? sphere.radius : repulsorRadius,
+                  sphere.radius, 1.0 / sphere.radius});
+}
+
+/// Every surface of the scenery, near or far.
+template <class Visit>
+void forEachSurface(const Scenery& scenery, const Vec3& point, const Visit& visit) {
+    for (const Collider& collider : scenery.colliders)
+        std::visit([&](const auto& shape) { forEachSurface(shape, point, scenery.law.radius, visit); }, collider);
+}
+
+/// Whether a shape may have a surface nearer than a reach (m). Far obstacles, which most are, need no root and no
+/// normal.
+template <class Shape>
+bool mayReach(const Shape& shape, const Vec3& point, double reach) {
+    constexpr double kSlack = 1.0 + 1e-9;  // far above what roundings add up to
+    if constexpr (std::is_same_v<Shape, Sphere>) {
+        const double within = shape.radius + reach;
+        return squaredLength(point - shape.center) < kSlack * within * within;
+    } else if constexpr (std::is_same_v<Shape, Box>) {
+        const Vec3 closest = point.cwiseMax(shape.minimum).cwiseMin(shape.maximum);
+        return squaredLength(point - closest) < kSlack * reach * reach;
+    } else if constexpr (std::is_same_v<Shape, Container>) {
+        return ((point - shape.minimum).array() < reach).any() || ((shape.maximum - point).array() < reach).any();
+    } else {
+        return true;
+    }
+}
+
+/// Every surface whose distance from a particle's center is less than its radius (m).
+template <class Visit>
+void forEachTouched(const Scenery& scenery, const Vec3& point, double radius, const Visit& visit) {
+    for (const Collider& collider : scenery.colliders)
+        std::visit(
+            [&](const auto& shape) {
+                if (!mayReach(shape, point, radius)) return;
+                forEachSurface(shape, point, scenery.law.radius, [&](const Surface& surface) {
+                    if (surface.height < radius) visit(surface);
+                });
+            },
+            collider);
+}
+
+/// A surface and a particle as a pair: the repulsor sits repulsorRadius behind the face.
+struct Contact {
+    PairConstants<double> constants;
+    double distance = 0.0;    ///< particle to repulsor, at least the core distance, m
+    double beyondCore = 0.0;  ///< how much deeper the particle is, m
+};
+
+inline Contact contactWith(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
+    Material repulsor;
+    repulsor.repulsion = law.repulsion;
+    repulsor.damping = law.dampingFactor * probe.dampingReach;
+    repulsor.repulsionReach = 1.0;
+    repulsor.dampingReach = 1.0;
+    repulsor.coreFraction = law.coreFraction;
+    Contact contact;
+    contact.constants = pairConstants<double>(repulsor, probe.radius + surface.repulsorRadius);
+    const double distance = surface.height + surface.repulsorRadius;
+    contact.distance = std::max(distance, law.coreFraction * (probe.radius + surface.repulsorRadius));
+    contact.beyondCore = contact.distance - distance;
+    return contact;
+}
+
+inline constexpr PairTerms kRepulsorTerms{.attraction = false, .damping = true};
+
+/// Force along the normal on a particle with this normal speed (m/s), in newtons. A particle deeper than the core
+/// distance feels the force at the core: the half-space has no far side to be pushed out of.
+inline double normalForce(const Contact& contact, double normalSpeed) {
+    const double distanceSq = contact.distance * contact.distance;
+    return contact.distance *
+           pairCoefficient<kRepulsorTerms>(distanceSq, contact.distance * normalSpeed, contact.constants);
+}
+
+/// Energy of the conservative part, J.
+inline double contactEnergy(const Contact& contact) {
+    return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
+}
+
+/// Energy of a particle at this surface, J; 0 where it does not touch.
+inline double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
+    return surface.height >= probe.radius ? 0.0 : contactEnergy(contactWith(surface, law, probe));
+}
+
+/// Adds the contact's force on the particle, N, friction included. Inline by force: a call is half of its cost.
+[[gnu::always_inline]] inline void addForce(const Surface& surface, const Contact& contact, const Probe& probe,
+                                            Vec3& force) {
+    const double normalSpeed = dot(probe.velocity, surface.normal);
+    force += normalForce(contact, normalSpeed) * surface.normal;
+    if (probe.friction == 0.0) return;
+    const Vec3 slip = probe.velocity - normalSpeed * surface.normal;
+    force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
+}
+
+/// Damping of the normal motion, kg/s.
+inline double dampingAlong(const Contact& contact) {
+    const double distanceSq = contact.distance * contact.distance;
+    return pairDampingOverSq(distanceSq, contact.constants) * distanceSq;
+}
+
+/// Stiffness of the normal motion, N/m; 0 deeper than the core, where the force is constant.
+inline double stiffnessAlong(const Contact& contact) {
+    return contact.beyondCore > 0.0 ? 0.0 : std::max(0.0, pairStiffness(contact.distance, contact.constants));
+}
+
+}  // namespace engine

@@ -1,0 +1,144 @@
+// Counting sort into a periodic cell grid.
+#include "engine/neighbors/cell_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/bounding_box.h"
+#include "engine/core/parallel.h"
+#include "engine/neighbors/cell_axes.h"
+
+namespace engine {
+namespace {
+
+/// About two cells a particle keep the grid linear in n when the particles are spread thin.
+std::int64_t cellLimit(std::size_t particleCount) {
+    return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount));
+}
+
+std::array<std::int64_t, 3> chooseDimensions(const Extent& extent, std::size_t particleCount, double width) {
+    const std::int64_t limit = cellLimit(particleCount);
+    std::array<std::int64_t, 3> dimensions{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double along = std::floor((extent.high[axis] - extent.low[axis]) / width) + 2.0;
+        // In this order a width that is not a number is the limit.
+        dimensions[static_cast<std::size_t>(axis)] =
+            static_cast<std::int64_t>(std::min(static_cast<double>(limit), along));
+    }
+    // Any size is correct; halving the longest axis keeps cells that share storage far apart.
+    const auto cells = [&] {
+        return static_cast<double>(dimensions[0]) * static_cast<double>(dimensions[1]) *
+               static_cast<double>(dimensions[2]);
+    };
+    while (cells() > static_cast<double>(limit)) {
+        std::int64_t& longest = *std::max_element(dimensions.begin(), dimensions.end());
+        longest = (longest + 1) / 2;
+    }
+    return dimensions;
+}
+
+/// Along x, y, z.
+std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) {
+    // In 32 bits, which hold any cell's number, divisions take half as long.
+    const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
+    const auto ny = static_cast<std::uint32_t>(grid.dimensions[1]);
+    return {cell % nx, cell / nx % ny, cell / nx / ny};
+}
+
+}  // namespace
+
+void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth) {
+    grid.order.resize(positions.size());
+    grid.cellOf.resize(positions.size());
+    grid.start.assign(2, 0);
+    grid.dimensions = {1, 1, 1};
+    if (positions.empty()) return;
+
+    const double width = cellWidth * kRoundingMargin;
+    const Extent extent = extentOver(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
+    grid.dimensions = chooseDimensions(extent, positions.size(), width);
+    const std::array<std::int64_t, 3>& size = grid.dimensions;
+    // One more than there are, and counts two places further on: filling leaves each start where it belongs.
+    grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 2, 0);
+    const CellAxes axes{CellAxis(width, size[0], extent.low.x()), CellAxis(width, size[1], extent.low.y()),
+                        CellAxis(width, size[2], extent.low.z())};
+    inRanges(positions.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        findCells(axes, &positions[begin], end - begin, &grid.cellOf[begin]);
+    });
+    for (const std::uint32_t cell : grid.cellOf) ++grid.start[cell + 2];
+    for (std::size_t at = 2; at < grid.start.size(); ++at) grid.start[at] += grid.start[at - 1];
+    for (std::size_t p = 0; p < positions.size(); ++p)
+        grid.order[grid.start[grid.cellOf[p] + 1]++] = static_cast<std::uint32_t>(p);
+    grid.start.pop_back();
+}
+
+std::uint32_t cellOfPlace(const CellGrid& grid, std::uint32_t place) {
+    const auto next = std::upper_bound(grid.start.begin(), grid.start.end(), place);
+    return static_cast<std::uint32_t>(next - grid.start.begin() - 1);
+}
+
+CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells) {
+    const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
+    const std::uint32_t x = cell % nx;
+    CellRun run{cell, cell};
+    if (x == 0) return run;
+    const std::uint32_t end = std::min(cell + mostCells, cell - x + nx - 1);
+    while (run.last + 1 < end && grid.start[run.last + 2] - grid.start[cell] <= mostParticles) ++run.last;
+    return run;
+}
+
+Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
+    const auto [nx, ny, nz] = grid.dimensions;
+    const auto [x, y, z] = indicesOf(grid, run.first);
+    const std::int64_t lastX = x + run.last - run.first;
+    // With one or two cells along an axis, steps of -1 and +1 meet: visit each cell once.
+    const auto firstStep = [](std::int64_t size) { return size >= 3 ? -1 : 0; };
+    const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
+
+    Neighborhood found;
+    const auto add = [&](std::int64_t from, std::int64_t last) {
+        const CellRange range{grid.start[static_cast<std::size_t>(from)],
+                              grid.start[static_cast<std::size_t>(last) + 1]};
+        if (range.begin == range.end) return;
+        CellRange* before = found.count > 0 ? &found.ranges[static_cast<std::size_t>(found.count - 1)] : nullptr;
+        if (before != nullptr && before->end == range.begin)
+            before->end = range.end;
+        else
+            found.ranges[static_cast<std::size_t>(found.count++)] = range;
+    };
+    const bool isInside = x > 0 && lastX + 1 < nx;  // its neighbors along x lie side by side
+    for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
+        for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
+            const std::int64_t first = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;
+            if (isInside) {
+                add(first + x - 1, first + lastX + 1);
+                continue;
+            }
+            for (std::int64_t dx = firstStep(nx); dx <= lastStep(nx); ++dx) {
+                const std::int64_t at = first + wrappedStep(x + dx, nx);
+                add(at, at);
+            }
+        }
+    }
+    return found;
+}
+
+Front frontOf(const CellGrid& grid, std::uint32_t first, std::uint32_t last) {
+    const auto [nx, ny, nz] = grid.dimensions;
+    // The first place of a cell in the row next to that of another, some cells further along.
+    const auto startAt = [&, nx = nx, ny = ny, nz = nz](const auto& indices, std::int64_t dx, std::int64_t dz) {
+        const auto& [x, y, z] = indices;
+        const std::int64_t row = wrappedStep(z + dz, nz) * ny + wrappedStep(y + 1, ny);
+        return grid.start[static_cast<std::size_t>(row * nx + std::clamp<std::int64_t>(x + dx, 0, nx))];
+    };
+    const auto from = indicesOf(grid, first);
+    const auto to = indicesOf(grid, last);
+    Front front;
+    for (std::int64_t dz = -1; dz <= 1; ++dz) {
+        const CellRange range{startAt(from, -1, dz), startAt(to, 2, dz)};
+        if (range.begin < range.end) front[static_cast<std::size_t>(dz + 1)] = range;
+    }
+    return front;
+}
+
+}  // namespace engine

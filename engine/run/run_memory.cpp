@@ -1,0 +1,56 @@
+// Counted member by member, as simulation.h and pair_matrix.h have them.
+#include "engine/run/run_memory.h"
+
+#include "engine/error_control/auto_stepper.h"
+
+namespace engine {
+namespace {
+
+/// The states of a run and what every stepper keeps of them.
+std::size_t bytesOfState(const Simulation& simulation) {
+    constexpr std::size_t kState = 2 * sizeof(Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
+    constexpr std::size_t kForces = 3 * sizeof(Vec3);  // with predicted velocities and positions at the start
+    constexpr std::size_t kDrift = sizeof(double) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
+    const std::size_t initial = simulation.setup.initial.count() * kState;
+    return initial + simulation.particles.count() * (kState + kForces + kDrift + sizeof(PairRecord));
+}
+
+/// The states that the audit can go back to, and one that the automatic stepper keeps.
+std::size_t bytesBefore(const Simulation& simulation) {
+    constexpr std::size_t kStates = 5;
+    return kStates * 3 * sizeof(Vec3) * simulation.particles.count();
+}
+
+/// The implicit steppers' matrix and the vectors of its solver.
+std::size_t bytesOfMatrix(const Simulation& simulation) {
+    const bool hasFriction = termsFor(simulation.evaluator.law(), simulation.particles).pair.friction;
+    const bool hasObstacles = !simulation.setup.scenery.colliders.empty();
+    const LaneRows& rows = simulation.evaluator.list().rows;
+    const std::size_t entries = (hasFriction ? 2 : 1) * sizeof(double) * roomOf(rows);
+    const std::size_t own = hasObstacles ? sizeof(Matrix3) : 0;
+    constexpr std::size_t kVectors = 5 * sizeof(Vec3);
+    return bytesOf(rows) + entries +
+           simulation.particles.count() * (sizeof(double) + own + sizeof(PairRecord) + kVectors);
+}
+
+}  // namespace
+
+std::size_t mostBytes(const Simulation& simulation) {
+    const std::size_t run = bytesOfState(simulation) + bytesOf(simulation.evaluator.list());
+    const std::size_t before = bytesBefore(simulation);
+    switch (simulation.setup.stepper) {
+        case StepperKind::symplecticEuler:
+            return run;
+        case StepperKind::velocityVerlet:
+        case StepperKind::leapfrog:
+            return run + before;
+        case StepperKind::implicitDamping:
+        case StepperKind::linearlyImplicit:
+            return run + before + bytesOfMatrix(simulation);
+        case StepperKind::automatic:
+            break;
+    }
+    return (1 + kRunsOfLook) * run + 2 * (before + bytesOfMatrix(simulation));
+}
+
+}  // namespace engine

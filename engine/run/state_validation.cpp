@@ -1,0 +1,89 @@
+// One group of members after the other.
+#include "engine/run/state_validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/error_control/auto_stepper.h"
+#include "engine/error_control/checked_steps.h"
+
+namespace engine {
+namespace {
+
+bool areFinite(const std::vector<Vec3>& vectors) {
+    return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& vector) { return vector.allFinite(); });
+}
+
+bool haveEqualLengths(const Simulation& simulation) {
+    const Particles& particles = simulation.particles;
+    const std::size_t count = particles.count();
+    return particles.velocity.size() == count && particles.radius.size() == count && particles.mass.size() == count &&
+           particles.birthTime.size() == count && particles.material.size() == count && particles.id.size() == count &&
+           (!simulation.forcesCurrent || simulation.forces.size() == count);
+}
+
+/// Whether a particle still is what the set-up made it: one of those at the start, or one of an emitter.
+bool isOfSetup(const Simulation& simulation, std::size_t p) {
+    const Particles& particles = simulation.particles;
+    const Particles& initial = simulation.setup.initial;
+    const std::size_t id = particles.id[p];
+    if (id >= particles.nextId || (p > 0 && id <= particles.id[p - 1])) return false;
+    if (id < initial.count())
+        return particles.radius[p] == initial.radius[id] && particles.mass[p] == initial.mass[id] &&
+               particles.material[p] == initial.material[id];
+    const std::vector<Material>& materials = simulation.setup.materials;
+    const std::uint32_t material = particles.material[p];
+    return material < materials.size() && particles.radius[p] == materials[material].radius &&
+           particles.mass[p] == materials[material].mass;
+}
+
+bool areOfSetup(const Simulation& simulation) {
+    const std::size_t everBorn = simulation.setup.initial.count() + birthCount(simulation);
+    if (simulation.deaths > 0 && !simulation.setup.world) return false;
+    if (simulation.mostBeforeDeaths > everBorn || (simulation.mostBeforeDeaths > 0) != (simulation.deaths > 0))
+        return false;
+    if (simulation.particles.nextId != everBorn || simulation.particles.count() + simulation.deaths != everBorn)
+        return false;
+    for (std::size_t p = 0; p < simulation.particles.count(); ++p)
+        if (!isOfSetup(simulation, p)) return false;
+    return true;
+}
+
+bool areOnSchedule(const Simulation& simulation) {
+    for (std::size_t e = 0; e < simulation.emitters.size(); ++e) {
+        const Emitter& emitter = simulation.setup.emitters[e];
+        const EmitterState& state = simulation.emitters[e];
+        if (!isReachable(emitter, state) || nextBirth(emitter, state) <= simulation.time) return false;
+    }
+    return true;
+}
+
+bool areStepsPossible(const Simulation& simulation) {
+    const StepRestriction& restriction = simulation.restriction;
+    const bool isKnown = simulation.setup.stepper == StepperKind::automatic
+                             ? isReachable(simulation.automatic, simulation.stepper)
+                             : simulation.stepper == simulation.setup.stepper;
+    // Written so that a NaN fails.
+    return isKnown && restriction.seconds >= 0.5 * kShortestStep && isLimit(restriction.reason);
+}
+
+}  // namespace
+
+bool isInWorld(const std::vector<Vec3>& positions) {
+    return areFinite(positions) && std::all_of(positions.begin(), positions.end(), [](const Vec3& position) {
+               return position.cwiseAbs().maxCoeff() <= kWorldLimit;
+           });
+}
+
+const char* flawOf(const Simulation& simulation) {
+    if (!haveEqualLengths(simulation)) return "its arrays are of different lengths";
+    if (!isInWorld(simulation.particles.position)) return "a particle is not in the world";
+    if (!areFinite(simulation.particles.velocity)) return "a velocity is not finite";
+    if (!(simulation.time >= 0.0) || !std::isfinite(simulation.time)) return "its time is not a time";
+    if (!areOfSetup(simulation)) return "its particles are not the scene's";
+    if (!areOnSchedule(simulation)) return "a birth is not on its schedule";
+    if (!areStepsPossible(simulation)) return "its steps are none that the scene's stepper takes";
+    return nullptr;
+}
+
+}  // namespace engine

@@ -1,0 +1,71 @@
+// Packings. Jitter is keyed by the place in the lattice, so the same body is the same on every machine.
+#include "engine/state/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/random.h"
+
+namespace engine {
+namespace {
+
+/// Relative slack so that lattice points exactly on a face belong to the body.
+constexpr double kFaceSlack = 1e-9;
+
+Vec3 jitterOf(const Packing& packing, std::uint64_t place) {
+    Vec3 offset = Vec3::Zero();
+    if (packing.jitter == 0.0) return offset;
+    for (int axis = 0; axis < 3; ++axis)
+        offset[axis] = symmetricUnit(randomBits(packing.seed, place, static_cast<std::uint64_t>(axis)));
+    return packing.jitter * packing.spacing * offset;
+}
+
+/// Calls visit(position) for the face-centerd cubic lattice around a center that fills a box of the given half extent.
+/// A lattice of cube edge a = sqrt(2) spacing has a point wherever the sum of its half-edge coordinates is even.
+template <class Visit>
+void forEachLatticePoint(const Vec3& center, const Vec3& halfExtent, double spacing, const Visit& visit) {
+    const double halfEdge = spacing / std::sqrt(2.0);
+    std::array<int, 3> count{};
+    for (int axis = 0; axis < 3; ++axis)
+        count[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor(halfExtent[axis] / halfEdge + kFaceSlack));
+    for (int z = -count[2]; z <= count[2]; ++z)
+        for (int y = -count[1]; y <= count[1]; ++y)
+            for (int x = -count[0]; x <= count[0]; ++x)
+                if ((x + y + z) % 2 == 0) visit(Vec3(center + halfEdge * Vec3(x, y, z)));
+}
+
+}  // namespace
+
+std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing& packing) {
+    std::vector<Vec3> positions;
+    forEachLatticePoint(center, Vec3::Constant(radius), packing.spacing, [&](const Vec3& point) {
+        if (squaredLength(point - center) > radius * radius * (1.0 + kFaceSlack)) return;
+        positions.push_back(point + jitterOf(packing, positions.size()));
+    });
+    return positions;
+}
+
+std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const Packing& packing) {
+    std::vector<Vec3> positions;
+    forEachLatticePoint(0.5 * (minimum + maximum), 0.5 * (maximum - minimum), packing.spacing,
+                        [&](const Vec3& point) { positions.push_back(point + jitterOf(packing, positions.size())); });
+    return positions;
+}
+
+std::vector<Vec3> gridPositions(const Vec3& center, const std::array<std::uint32_t, 3>& counts,
+                                const Packing& packing) {
+    std::vector<Vec3> positions;
+    const Vec3 layers(counts[0], counts[1], counts[2]);
+    for (std::uint32_t z = 0; z < counts[2]; ++z)
+        for (std::uint32_t y = 0; y < counts[1]; ++y)
+            for (std::uint32_t x = 0; x < counts[0]; ++x) {
+                Vec3 offset = packing.spacing * (Vec3(x, y, z) - 0.5 * (layers - Vec3::Ones()));
+                const Vec3 jitter = jitterOf(packing, positions.size());
+                for (int axis = 0; axis < 3; ++axis)
+                    if (counts[static_cast<std::size_t>(axis)] > 1) offset[axis] += jitter[axis];
+                positions.push_back(center + offset);
+            }
+    return positions;
+}
+
+}  // namespace engine

@@ -1,0 +1,29 @@
+// Bodies: shapes filled with particles at time zero. Called by the scene reader; the simulation only sees particles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/vec3.h"
+
+namespace engine {
+
+/// Where the particles of a packed body sit.
+struct Packing {
+    double spacing = 0.3;    ///< distance of nearest neighbors, m
+    double jitter = 0.0;     ///< random displacement of each coordinate, up to this share of the spacing
+    std::uint64_t seed = 1;  ///< of the jitter
+};
+
+/// Face-centerd cubic positions inside a ball, in meters.
+std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing& packing);
+
+/// Face-centerd cubic positions inside an axis-aligned box, in meters.
+std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const Packing& packing);
+
+/// A cubic lattice of counts[0] x counts[1] x counts[2] positions around a center, in meters.
+/// A direction with a single layer gets no jitter, so that a planar body stays planar.
+std::vector<Vec3> gridPositions(const Vec3& center, const std::array<std::uint32_t, 3>& counts, const Packing& packing);
+
+}  // namespace engine

@@ -1,0 +1,27 @@
+// Appending is the only way a particle enters; it keeps the arrays of equal length and the ids in order of birth.
+#include "engine/state/particles.h"
+
+namespace engine {
+
+void append(Particles& particles, const NewParticle& particle) {
+    particles.position.push_back(particle.position);
+    particles.velocity.push_back(particle.velocity);
+    particles.radius.push_back(particle.radius);
+    particles.mass.push_back(particle.mass);
+    particles.birthTime.push_back(particle.birthTime);
+    particles.material.push_back(particle.material);
+    particles.id.push_back(particles.nextId++);
+}
+
+void truncate(Particles& particles, std::size_t count) {
+    if (count < particles.count()) particles.nextId = particles.id[count];
+    particles.position.resize(count);
+    particles.velocity.resize(count);
+    particles.radius.resize(count);
+    particles.mass.resize(count);
+    particles.birthTime.resize(count);
+    particles.material.resize(count);
+    particles.id.resize(count);
+}
+
+}  // namespace engine

@@ -1,0 +1,62 @@
+// The state of all particles as a structure of arrays, in order of birth. Index and id agree until a particle has left;
+// code that needs identity uses the id.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/vec3.h"
+
+namespace engine {
+
+struct Particles {
+    std::vector<Vec3> position;           ///< m
+    std::vector<Vec3> velocity;           ///< m/s
+    std::vector<double> radius;           ///< m
+    std::vector<double> mass;             ///< kg
+    std::vector<double> birthTime;        ///< s
+    std::vector<std::uint32_t> material;  ///< index into the materials of the set-up
+    std::vector<std::uint32_t> id;        ///< ascending: 0, 1, 2, ... in order of birth
+    std::uint32_t nextId = 0;
+
+    std::size_t count() const { return position.size(); }
+};
+
+/// One particle on its way into Particles.
+struct NewParticle {
+    Vec3 position = Vec3::Zero();
+    Vec3 velocity = Vec3::Zero();
+    double radius = 0.15;
+    double mass = 1.0;
+    double birthTime = 0.0;
+    std::uint32_t material = 0;
+};
+
+/// Appends a particle with the next id.
+void append(Particles& particles, const NewParticle& particle);
+
+/// Keeps the first `count` particles; the ids of the others are free again.
+void truncate(Particles& particles, std::size_t count);
+
+/// Keeps the particles for whose index `stays` is true, when it is asked once for each in order.
+template <class Stays>
+void keepWhere(Particles& particles, const Stays& stays) {
+    std::size_t kept = 0;
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        if (!stays(p)) continue;
+        particles.position[kept] = particles.position[p];
+        particles.velocity[kept] = particles.velocity[p];
+        particles.radius[kept] = particles.radius[p];
+        particles.mass[kept] = particles.mass[p];
+        particles.birthTime[kept] = particles.birthTime[p];
+        particles.material[kept] = particles.material[p];
+        particles.id[kept] = particles.id[p];
+        ++kept;
+    }
+    const std::uint32_t nextId = particles.nextId;
+    truncate(particles, kept);
+    particles.nextId = nextId;  // of the dead nobody takes the place
+}
+
+}  // namespace engine

@@ -1,0 +1,162 @@
+// Compiled once per instruction set. Coordinates of particles lie side by side, three numbers each: three vectors hold
+// those of as many particles as one has lanes.
+#include "engine/stepping/kick_drift.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "engine/stepping/state_checks.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/stepping/kick_drift.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace engine {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The numbers of some particles one after the other.
+struct Numbers {
+    const double* mass;
+    const double* force;
+    double* position;
+    double* velocity;
+};
+
+/// As many particles at a time as D has lanes.
+template <class D, bool addsWeight>
+class Kicker {
+    using V = hn::Vec<D>;
+    using Indices = decltype(hn::SetTableIndices(D(), static_cast<const std::int64_t*>(nullptr)));
+    static constexpr D kTag{};
+    static constexpr std::size_t kMost = hn::MaxLanes(D());
+    static constexpr std::size_t kAxes = 3;
+
+ public:
+    explicit Kicker(const KickDrift& step)
+        : h_(hn::Set(kTag, step.h)),
+          decay_(hn::Set(kTag, step.decay)),
+          particle_{particlesOf(0), particlesOf(1), particlesOf(2)},
+          gravity_{gravityOf(step, 0), gravityOf(step, 1), gravityOf(step, 2)} {}
+
+    static std::size_t lanes() { return hn::Lanes(kTag); }
+
+    /// The smallest and the largest velocity in each lane of the three vectors, m/s.
+    struct Range {
+        std::array<V, kAxes> low, high;
+
+        Range() {
+            low.fill(hn::Set(kTag, std::numeric_limits<double>::infinity()));
+            high.fill(hn::Set(kTag, -std::numeric_limits<double>::infinity()));
+        }
+
+        Extent extent() const {
+            Extent extent = Extent::empty();
+            std::array<double, kMost> lows, highs;
+            for (std::size_t k = 0; k < kAxes; ++k) {
+                hn::StoreU(low[k], kTag, lows.data());
+                hn::StoreU(high[k], kTag, highs.data());
+                for (std::size_t lane = 0; lane < lanes(); ++lane) {
+                    const auto axis = static_cast<Eigen::Index>((k * lanes() + lane) % kAxes);
+                    extent.low[axis] = std::min(extent.low[axis], lows[lane]);
+                    extent.high[axis] = std::max(extent.high[axis], highs[lane]);
+                }
+            }
+            return extent;
+        }
+    };
+
+    /// Returns whether the particles from one on are sound.
+    bool move(const Numbers& all, std::size_t first, Range& range) const {
+        const V mass = hn::LoadU(kTag, all.mass + first);
+        const V perMass = hn::Div(h_, mass);
+        auto areSound = hn::FirstN(kTag, lanes());
+        for (std::size_t k = 0; k < kAxes; ++k) {
+            const std::size_t at = kAxes * first + k * lanes();
+            V force = hn::LoadU(kTag, all.force + at);
+            if constexpr (addsWeight)
+                force = hn::Add(force, hn::Mul(hn::TableLookupLanes(mass, particle_[k]), gravity_[k]));
+            const V kick = hn::Mul(hn::TableLookupLanes(perMass, particle_[k]), force);
+            const V velocity = hn::Mul(decay_, hn::Add(hn::LoadU(kTag, all.velocity + at), kick));
+            const V position = hn::Add(hn::LoadU(kTag, all.position + at), hn::Mul(h_, velocity));
+            hn::StoreU(velocity, kTag, all.velocity + at);
+            hn::StoreU(position, kTag, all.position + at);
+            areSound = hn::And(areSound, isBelow(position, kWorldLimit));
+            areSound = hn::And(areSound, isBelow(velocity, kFastest));
+            range.low[k] = hn::Min(range.low[k], velocity);
+            range.high[k] = hn::Max(range.high[k], velocity);
+        }
+        return hn::AllTrue(kTag, areSound);
+    }
+
+ private:
+    /// False for what is no number.
+    static hn::Mask<D> isBelow(V number, double limit) { return hn::Lt(hn::Abs(number), hn::Set(kTag, limit)); }
+
+    /// Whose number stands in each lane of the first, second or third vector.
+    static Indices particlesOf(std::size_t vector) {
+        std::array<std::int64_t, kMost> of;
+        for (std::size_t lane = 0; lane < lanes(); ++lane)
+            of[lane] = static_cast<std::int64_t>((vector * lanes() + lane) / kAxes);
+        return hn::SetTableIndices(kTag, of.data());
+    }
+
+    static V gravityOf(const KickDrift& step, std::size_t vector) {
+        std::array<double, kMost> of;
+        for (std::size_t lane = 0; lane < lanes(); ++lane)
+            of[lane] = step.gravity[static_cast<Eigen::Index>((vector * lanes() + lane) % kAxes)];
+        return hn::LoadU(kTag, of.data());
+    }
+
+    V h_, decay_;
+    std::array<Indices, kAxes> particle_;
+    std::array<V, kAxes> gravity_;
+};
+
+/// Moves as many as fill vectors of D from one on; that one is then the first of those that are left.
+template <class D, bool addsWeight>
+Moved moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, std::size_t end) {
+    const Kicker<D, addsWeight> kicker(step);
+    typename Kicker<D, addsWeight>::Range range;
+    bool areSound = true;
+    for (; first + kicker.lanes() <= end; first += kicker.lanes()) areSound &= kicker.move(all, first, range);
+    return {areSound, range.extent()};
+}
+
+template <bool addsWeight>
+Moved moveAll(const KickDrift& step, const Numbers& all, std::size_t begin, std::size_t end) {
+    std::size_t first = begin;
+    Moved moved = moveMany<hn::ScalableTag<double>, addsWeight>(step, all, first, end);
+    moved.include(moveMany<hn::CappedTag<double, 1>, addsWeight>(step, all, first, end));
+    return moved;
+}
+
+Moved kickAndDriftHere(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    const Numbers all{particles.mass.data(), step.forces.data()->data(), particles.position.data()->data(),
+                      particles.velocity.data()->data()};
+    return step.hasWeight ? moveAll<false>(step, all, begin, end) : moveAll<true>(step, all, begin, end);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace engine
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace engine {
+
+HWY_EXPORT(kickAndDriftHere);
+
+Moved kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+    if (begin == end) return {};
+    return HWY_DYNAMIC_DISPATCH(kickAndDriftHere)(step, begin, end, particles);
+}
+
+}  // namespace engine
+
+#endif

@@ -1,0 +1,58 @@
+// Positions within the world, speeds that are numbers.
+#include "engine/stepping/state_checks.h"
+
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+
+#include "engine/core/parallel.h"
+
+namespace engine {
+namespace {
+
+/// Number by number, without a branch: several at once.
+bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t end, double limit) {
+    if (begin == end) return true;
+    const double* const numbers = vectors.front().data();
+    std::uint64_t others = 0;
+    for (std::size_t k = 3 * begin; k < 3 * end; ++k)
+        others |= std::abs(numbers[k]) < limit ? 0U : 1U;  // so a NaN is one
+    return others == 0;
+}
+
+[[noreturn]] void report(const Simulation& simulation, std::size_t p, double h) {
+    const Vec3& x = simulation.particles.position[p];
+    std::ostringstream text;
+    text << "the simulation became unstable: particle " << simulation.particles.id[p] << " is at (" << x.x() << ", "
+         << x.y() << ", " << x.z() << ") m with speed " << simulation.particles.velocity[p].stableNorm()
+         << " m/s at time " << simulation.time << " s, step " << simulation.steps.count << " of " << h
+         << " s; lower physics.step, or raise material.mass";
+    throw InstabilityError(text.str());
+}
+
+}  // namespace
+
+bool isSound(const Particles& particles) {
+    return holdsInRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        return areBelow(particles.position, begin, end, kWorldLimit) &&
+               areBelow(particles.velocity, begin, end, kFastest);
+    });
+}
+
+void reportInstability(const Simulation& simulation, double h) {
+    requireSound(simulation, h);
+    std::size_t fastest = 0;
+    const Particles& particles = simulation.particles;
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        if (squaredLength(particles.velocity[p]) > squaredLength(particles.velocity[fastest])) fastest = p;
+    report(simulation, fastest, h);
+}
+
+void requireSound(const Simulation& simulation, double h) {
+    const Particles& particles = simulation.particles;
+    if (isSound(particles)) return;
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        if (!isSound(particles.position[p], particles.velocity[p])) report(simulation, p, h);
+}
+
+}  // namespace engine

@@ -1,0 +1,122 @@
+// Each particle's own sums, and the eigenvalues that bound the step.
+//
+// The pair's conservative part has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step, so
+// negative parts count as zero. Its damping has b_d s_d along n and nothing across.
+#include "engine/stepping/step_bound.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/random.h"
+#include "engine/forces/pair_sums.h"
+
+namespace engine {
+namespace {
+
+struct OwnSums {
+    Matrix3 stiffness = Matrix3::Zero();  ///< N/m
+    Matrix3 damping = Matrix3::Zero();    ///< kg/s
+};
+
+OwnSums sumsOf(const PairTraversal& pairs, std::size_t seat) {
+    OwnSums sums;
+    const PairRecord& p = pairs.records[pairs.placeAt(seat)];
+    pairs.forEachNeighbor(seat, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+        const auto c = pairs.constants<false>(p, pairs.records[other]);
+        const double distance = std::sqrt(distanceSq);
+        const Vec3 normal = separation / distance;
+        const Matrix3 along = normal * normal.transpose();
+        const double across = -pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, c);
+        sums.stiffness +=
+            std::max(0.0, pairStiffness(distance, c)) * along + std::max(0.0, across) * (Matrix3::Identity() - along);
+        sums.damping += pairDampingOverSq(distanceSq, c) * distanceSq * along;
+    });
+    return sums;
+}
+
+double largestEigenvalue(const Matrix3& matrix) {
+    return Eigen::SelfAdjointEigenSolver<Matrix3>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
+/// The step at which a mode with this squared frequency (1/s^2) and decay (1/s) stops being damped; infinite without
+/// either.
+double longestStep(StepperKind stepper, double frequencySq, double decay) {
+    if (stepper == StepperKind::implicitDamping) return 2.0 / std::sqrt(frequencySq);
+    if (stepper == StepperKind::symplecticEuler || stepper == StepperKind::leapfrog)
+        return 4.0 / (decay + std::sqrt(decay * decay + 4.0 * frequencySq));
+    return 2.0 / (decay + std::sqrt(decay * decay + frequencySq));
+}
+
+/// C and K of all pairs, each as a matrix without mass.
+struct PairSystem {
+    PairMatrix damping;
+    PairMatrix stiffness;
+    std::vector<double> mass;  ///< kg, by place
+};
+
+PairSystem systemOf(const PairTraversal& pairs, const Particles& particles) {
+    PairSystem system;
+    std::vector<Vec3> forces(particles.count());
+    addUpPairs(pairs, {.forces = forces, .matrix = &system.damping, .weights = {1.0, 0.0}});
+    addUpPairs(pairs, {.forces = forces, .matrix = &system.stiffness, .weights = {0.0, 1.0}});
+    system.damping.mass.assign(particles.count(), 0.0);
+    system.stiffness.mass = system.damping.mass;
+    for (const std::uint32_t p : pairs.list.order) system.mass.push_back(particles.mass[p]);
+    return system;
+}
+
+double dotOf(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return sumOver(a.size(), [&](std::size_t p) { return dot(a[p], b[p]); });
+}
+
+/// The own sums overestimate: neighbors would all have to move against the particle. Power iteration on
+/// M^-1 (h^2 K + 2 h C), at the step h that the own sums allow, finds the mode that really limits the step; its
+/// Rayleigh quotients are the squared frequency and the decay.
+double refined(const PairTraversal& pairs, const Particles& particles, StepperKind stepper, double h) {
+    constexpr int kIterations = 40;  // chosen: quotients settle to a few per cent
+    PairSystem system = systemOf(pairs, particles);
+    const std::size_t count = particles.count();
+    std::vector<Vec3> x(count), kx(count), cx(count), mx(count);
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::uint64_t axis = 0; axis < 3; ++axis)
+            x[p][static_cast<int>(axis)] = symmetricUnit(randomBits(1, pairs.records[p].id, axis));
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+        multiply(system.stiffness, x, kx);
+        multiply(system.damping, x, cx);
+        for (std::size_t p = 0; p < count; ++p) x[p] = (h * h * kx[p] + 2.0 * h * cx[p]) / system.mass[p];
+        const double length = std::sqrt(dotOf(x, x));
+        if (!(length > 0.0)) return h;
+        for (Vec3& entry : x) entry /= length;
+    }
+    multiply(system.stiffness, x, kx);
+    multiply(system.damping, x, cx);
+    for (std::size_t p = 0; p < count; ++p) mx[p] = system.mass[p] * x[p];
+    const double inertia = dotOf(x, mx);
+    return std::max(h, longestStep(stepper, dotOf(x, kx) / inertia, dotOf(x, cx) / inertia));
+}
+
+}  // namespace
+
+std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles, StepperKind stepper) {
+    if (particles.count() < 2) return std::nullopt;
+    PairTraversal pairs(law, Precision::doubles);
+    pairs.prepare(law, particles, particles.velocity);
+    std::vector<StepBound> bounds(particles.count());
+    pairs.forEachParticle([&](std::size_t seat) {
+        const std::size_t p = pairs.list.order[pairs.placeAt(seat)];
+        const OwnSums sums = sumsOf(pairs, seat);
+        const double frequencySq = 2.0 * largestEigenvalue(sums.stiffness) / particles.mass[p];
+        const double decay = 2.0 * largestEigenvalue(sums.damping) / particles.mass[p];
+        const double seconds = longestStep(stepper, frequencySq, decay);
+        if (std::isfinite(seconds)) bounds[p] = {seconds, p, decay * decay > 4.0 * frequencySq};
+    });
+    const auto tightest = std::min_element(
+        bounds.begin(), bounds.end(), [](const StepBound& a, const StepBound& b) { return a.seconds < b.seconds; });
+    if (!std::isfinite(tightest->seconds)) return std::nullopt;
+    StepBound bound = *tightest;
+    bound.seconds = refined(pairs, particles, stepper, bound.seconds);
+    return bound;
+}
+
+}  // namespace engine

@@ -1,0 +1,109 @@
+// Projection and clipping of edges, in double: a line that passes close to the eye is very long on the picture.
+#include "render/cpu/raster/line_list.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace render {
+
+namespace {
+
+constexpr double kNearDepth = 1e-3;  // m; closer than that a line has no direction on the picture
+
+struct ScreenPoint {
+    double x;
+    double y;
+    double depth;
+};
+
+ScreenPoint project(const CameraFrame& frame, glm::dvec3 view) {
+    const double scale = frame.perspective ? 1.0 / view.z : 1.0;
+    return {0.5 * frame.width * (1.0 + view.x * scale / frame.halfWidth),
+            0.5 * frame.height * (1.0 - view.y * scale / frame.halfHeight), view.z};
+}
+
+// Cuts the segment to where a + (b - a) t has a z of at least kNearDepth.
+bool clipNear(glm::dvec3& a, glm::dvec3& b) {
+    if (a.z < kNearDepth && b.z < kNearDepth) return false;
+    if (a.z < kNearDepth) a += (b - a) * ((kNearDepth - a.z) / (b.z - a.z));
+    if (b.z < kNearDepth) b += (a - b) * ((kNearDepth - b.z) / (a.z - b.z));
+    return true;
+}
+
+// Liang-Barsky: the part of the segment within [low, high] along one axis.
+bool narrow(double from, double step, double low, double high, std::pair<double, double>& part) {
+    if (step == 0.0) return from >= low && from <= high;
+    const double first = (low - from) / step;
+    const double second = (high - from) / step;
+    part.first = std::max(part.first, std::min(first, second));
+    part.second = std::min(part.second, std::max(first, second));
+    return part.first <= part.second;
+}
+
+ScreenPoint between(const CameraFrame& frame, const ScreenPoint& a, const ScreenPoint& b, double t) {
+    const double depth =
+        frame.perspective ? 1.0 / ((1.0 - t) / a.depth + t / b.depth) : a.depth + (b.depth - a.depth) * t;
+    return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, depth};
+}
+
+std::optional<ScreenLine> screenLine(const CameraFrame& frame, const Edge& edge) {
+    glm::dvec3 from(frame.toView(edge.from));
+    glm::dvec3 to(frame.toView(edge.to));
+    if (!clipNear(from, to)) return std::nullopt;
+    const ScreenPoint a = project(frame, from);
+    const ScreenPoint b = project(frame, to);
+    const double margin = edge.width + 2.0;
+    std::pair<double, double> part{0.0, 1.0};
+    if (!narrow(a.x, b.x - a.x, -margin, frame.width + margin, part)) return std::nullopt;
+    if (!narrow(a.y, b.y - a.y, -margin, frame.height + margin, part)) return std::nullopt;
+    const ScreenPoint c = between(frame, a, b, part.first);
+    const ScreenPoint d = between(frame, a, b, part.second);
+    return ScreenLine{{c.x, c.y}, {d.x, d.y}, static_cast<float>(c.depth), static_cast<float>(d.depth),
+                      edge.width, edge.color};
+}
+
+// Whether the line comes within reach of a tile: distance of the tile's center to the segment against half its
+// diagonal.
+bool touches(const ScreenLine& line, int column, int row) {
+    const glm::vec2 center = (glm::vec2(column, row) + 0.5F) * static_cast<float>(kTileSize);
+    const glm::vec2 from = line.from;
+    const glm::vec2 along = line.to - from;
+    const float t = std::clamp(dot(center - from, along) / std::max(dot(along, along), 1e-12F), 0.0F, 1.0F);
+    const float reach = 0.7072F * static_cast<float>(kTileSize) + 0.5F * line.width + 1.5F;
+    return length(center - (from + t * along)) <= reach;
+}
+
+void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame, std::vector<BinItem>& items) {
+    const float reach = 0.5F * line.width + 1.5F;
+    // Conversion rounds toward zero, below which all is zero.
+    const auto tileOf = [](float at, int count) {
+        return std::clamp(static_cast<int>(at / static_cast<float>(kTileSize)), 0, (count - 1) / kTileSize);
+    };
+    const int x0 = tileOf(std::min(line.from.x, line.to.x) - reach, frame.width);
+    const int x1 = tileOf(std::max(line.from.x, line.to.x) + reach, frame.width);
+    const int y0 = tileOf(std::min(line.from.y, line.to.y) - reach, frame.height);
+    const int y1 = tileOf(std::max(line.from.y, line.to.y) + reach, frame.height);
+    for (int row = y0; row <= y1; ++row) {
+        for (int column = x0; column <= x1; ++column) {
+            if (touches(line, column, row)) items.push_back({index, {column, row, column, row}});
+        }
+    }
+}
+
+}  // namespace
+
+LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges) {
+    LineList list;
+    std::vector<BinItem> items;
+    for (const Edge& edge : edges) {
+        const auto line = screenLine(frame, edge);
+        if (!line) continue;
+        addTouched(*line, static_cast<std::uint32_t>(list.lines.size()), frame, items);
+        list.lines.push_back(*line);
+    }
+    list.tiles = binItems(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
+    return list;
+}
+
+}  // namespace render

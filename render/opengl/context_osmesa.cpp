@@ -1,0 +1,78 @@
+// OSMesa: Mesa's software renderer as a plain library, no display server and no device files.
+#include "render/opengl/context.h"
+#include "render/picture/system_error.h"
+
+#ifdef RENDER_HAS_OSMESA
+
+#include <GL/osmesa.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+namespace render {
+
+namespace {
+
+class OsmesaContext final : public NativeContext {
+ public:
+    OsmesaContext() {
+        const std::array<int, 13> attributes = {OSMESA_FORMAT,
+                                                OSMESA_RGBA,
+                                                OSMESA_PROFILE,
+                                                OSMESA_CORE_PROFILE,
+                                                OSMESA_CONTEXT_MAJOR_VERSION,
+                                                3,
+                                                OSMESA_CONTEXT_MINOR_VERSION,
+                                                3,
+                                                OSMESA_DEPTH_BITS,
+                                                0,
+                                                OSMESA_STENCIL_BITS,
+                                                0,
+                                                0};
+        context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+        if (context_ == nullptr) throw SystemError("OSMesa cannot create an OpenGL 3.3 core context");
+    }
+    ~OsmesaContext() override { OSMesaDestroyContext(context_); }
+    OsmesaContext(const OsmesaContext&) = delete;
+    OsmesaContext& operator=(const OsmesaContext&) = delete;
+
+    void makeCurrent() override {
+        // OSMesa insists on a buffer of its own; everything is drawn to framebuffer objects instead.
+        if (OSMesaMakeCurrent(context_, unused_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
+            throw SystemError("OSMesa cannot make its context current");
+        }
+    }
+    void release() override {
+        if (OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0) == GL_FALSE) {
+            throw SystemError("OSMesa cannot release its context");
+        }
+    }
+    void* address(const char* name) override {
+        const OSMESAproc found = OSMesaGetProcAddress(name);
+        void* pointer = nullptr;
+        static_assert(sizeof(found) == sizeof(pointer));
+        std::memcpy(&pointer, &found, sizeof(pointer));
+        return pointer;
+    }
+
+ private:
+    ::OSMesaContext context_ = nullptr;
+    std::array<std::uint8_t, 4> unused_{};
+};
+
+}  // namespace
+
+std::unique_ptr<NativeContext> makeOsmesaContext() {
+    return std::make_unique<OsmesaContext>();
+}
+
+}  // namespace render
+
+#else
+
+std::unique_ptr<render::NativeContext> render::makeOsmesaContext() {
+    throw SystemError("this globular was built without OSMesa (libosmesa6-dev); use the egl backend");
+}
+
+#endif

@@ -1,0 +1,71 @@
+// Creation and use of GL objects, with every limit that depends on data checked.
+#include "render/opengl/gl_objects.h"
+
+#include <fmt/format.h>
+
+#include "render/picture/system_error.h"
+
+namespace render {
+
+namespace {
+
+constexpr GLenum kPixelOrder = GL_BGRA;
+constexpr GLenum kPixelType = GL_UNSIGNED_INT_8_8_8_8_REV;
+
+template <typename Name>
+Name generate(const Gl& gl, void (*make)(GLsizei, GLuint*)) {
+    GLuint name = 0;
+    make(1, &name);
+    return Name(gl, name);
+}
+
+GLint limitOf(const Gl& gl, GLenum name) {
+    GLint value = 0;
+    gl.GetIntegerv(name, &value);
+    return value;
+}
+
+}  // namespace
+
+Target::Target(const Gl& gl, int width, int height)
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      pixels_(generate<TextureName>(gl, gl.GenTextures)),
+      framebuffer_(generate<FramebufferName>(gl, gl.GenFramebuffers)) {
+    const GLint limit = limitOf(gl, GL_MAX_TEXTURE_SIZE);
+    if (width > limit || height > limit) {
+        throw SystemError(
+            fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}", width, height, limit));
+    }
+    gl.BindTexture(GL_TEXTURE_2D, pixels_.get());
+    // Without room for smaller copies.
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, kPixelOrder, kPixelType, nullptr);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, pixels_.get(), 0);
+    const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        throw SystemError(
+            fmt::format("OpenGL cannot draw to {} x {} pixels: framebuffer status 0x{:04x}", width, height, status));
+    }
+}
+
+void Target::put(std::span<const std::uint32_t> pixels) const {
+    gl_->BindTexture(GL_TEXTURE_2D, pixels_.get());
+    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, kPixelOrder, kPixelType, pixels.data());
+}
+
+void Target::readRows(int first, int count, std::uint32_t* room) const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    gl_->ReadPixels(0, first, width_, count, kPixelOrder, kPixelType, room);
+}
+
+void checkGl(const Gl& gl, std::string_view doing) {
+    const GLenum error = gl.GetError();
+    if (error == GL_NO_ERROR) return;
+    const char* meaning = error == GL_OUT_OF_MEMORY ? " (out of memory)" : "";
+    throw SystemError(fmt::format("OpenGL error 0x{:04x}{} while {}", error, meaning, doing));
+}
+
+}  // namespace render

@@ -1,0 +1,160 @@
+// posix_spawn with a socket for input: MSG_NOSIGNAL then turns a dead reader into an error code instead of SIGPIPE.
+#include "render/output/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "render/picture/system_error.h"
+
+extern char** environ;
+
+namespace render {
+
+namespace {
+
+std::string words(int error) {
+    return std::generic_category().message(error);
+}
+
+int unnamedFile() {
+    std::error_code ignored;
+    std::filesystem::path folder = std::filesystem::temp_directory_path(ignored);
+    if (ignored) folder = "/tmp";
+    std::string name = (folder / "globular-XXXXXX").string();
+    const int file = ::mkostemp(name.data(), O_CLOEXEC);
+    if (file < 0)
+        throw SystemError(fmt::format("cannot create a temporary file in {}: {}", folder.string(), words(errno)));
+    ::unlink(name.c_str());
+    return file;
+}
+
+// The child gets exactly 0, 1 and 2; everything else of ours is closed on exec.
+int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& pid) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
+    std::vector<char*> pointers;
+    for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+    pointers.push_back(nullptr);
+    // A group of its own: what a terminal sends to ours, such as SIGINT, is for us to act on.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    // What we ignore it would, too.
+    sigset_t ignored;
+    sigemptyset(&ignored);
+    sigaddset(&ignored, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &ignored);
+    const int error = ::posix_spawnp(&pid, pointers[0], &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chrono::duration<double> patience)
+    : patience_(patience) {
+    std::array<int, 2> ends{-1, -1};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+        throw SystemError(fmt::format("cannot create a socket pair for {}: {}", arguments.front(), words(errno)));
+    }
+    input_ = ends[0];
+    int error = 0;
+    try {
+        log_ = unnamedFile();
+        error = spawn(arguments, ends[1], log_, pid_);
+    } catch (...) {
+        ::close(ends[0]);
+        ::close(ends[1]);
+        throw;
+    }
+    ::close(ends[1]);
+    if (error == 0) return;
+    ::close(input_);
+    ::close(log_);
+    throw SystemError(fmt::format("cannot start {}: {}", arguments.front(), words(error)));
+}
+
+ChildProcess::~ChildProcess() {
+    if (pid_ > 0) {
+        ::kill(-pid_, SIGKILL);
+        wait();
+    }
+    closeInput();
+    ::close(log_);
+}
+
+void ChildProcess::closeInput() {
+    if (input_ >= 0) ::close(input_);
+    input_ = -1;
+}
+
+void ChildProcess::giveUp() {
+    gaveUp_ = true;
+    ::kill(-pid_, SIGKILL);  // its whole group
+}
+
+bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
+    const auto milliseconds =
+        static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(patience_).count());
+    while (!bytes.empty()) {
+        pollfd end = {input_, POLLOUT, 0};
+        const int ready = ::poll(&end, 1, milliseconds);
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready == 0) giveUp();
+        if (ready <= 0) return false;
+        const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+        if (sent < 0) return false;
+        bytes = bytes.subspan(static_cast<std::size_t>(sent));
+    }
+    return true;
+}
+
+std::string ChildProcess::wait() {
+    closeInput();
+    if (pid_ <= 0) return "no such process any more";  // waitpid(-1) would take someone else's child
+    int status = 0;
+    const auto start = std::chrono::steady_clock::now();
+    while (true) {
+        const pid_t ended = ::waitpid(pid_, &status, WNOHANG);
+        if (ended == pid_) break;
+        if (ended < 0 && errno != EINTR) return fmt::format("no exit status: {}", words(errno));
+        if (!gaveUp_ && std::chrono::steady_clock::now() - start > patience_) giveUp();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    pid_ = -1;
+    if (gaveUp_) return fmt::format("no sign of life for {:g} s", patience_.count());
+    if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+    return WEXITSTATUS(status) == 0 ? std::string() : fmt::format("exit status {}", WEXITSTATUS(status));
+}
+
+std::string ChildProcess::output(std::size_t most) const {
+    const off_t size = ::lseek(log_, 0, SEEK_END);
+    std::string text(std::min(most, static_cast<std::size_t>(std::max<off_t>(size, 0))), '\0');
+    const ssize_t got = ::pread(log_, text.data(), text.size(), size - static_cast<off_t>(text.size()));
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+    return text;
+}
+
+}  // namespace render

@@ -1,0 +1,132 @@
+// stb's PNG with ISA-L in place of its compressor and its checksum.
+#include "render/output/png.h"
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "render/picture/system_error.h"
+
+namespace {
+
+// stb's own goes byte by byte.
+unsigned int checksum(const unsigned char* data, int size) {
+    return crc32_gzip_refl(0, data, static_cast<std::uint64_t>(size));
+}
+
+// What does not get smaller is stored in blocks of 65535 bytes, five more each; and the stream's head and end.
+std::size_t mostCompressed(std::size_t size) {
+    return size + 5 * (size / 65535 + 1) + 64;
+}
+
+// Signature given by stb: returns a malloc'd zlib stream, which stb frees.
+unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, int /*quality*/) {
+    const std::size_t bound = mostCompressed(static_cast<std::size_t>(size));
+    auto* output = static_cast<unsigned char*>(std::malloc(bound));
+    if (output == nullptr) return nullptr;
+    std::vector<std::uint8_t> levelBuffer(ISAL_DEF_LVL1_DEFAULT);
+    isal_zstream stream;
+    isal_deflate_stateless_init(&stream);
+    stream.level = 1;
+    stream.level_buf = levelBuffer.data();
+    stream.level_buf_size = static_cast<std::uint32_t>(levelBuffer.size());
+    stream.gzip_flag = IGZIP_ZLIB;
+    stream.end_of_stream = 1;
+    stream.next_in = data;
+    stream.avail_in = static_cast<std::uint32_t>(size);
+    stream.next_out = output;
+    stream.avail_out = static_cast<std::uint32_t>(bound);
+    if (isal_deflate_stateless(&stream) != COMP_OK) {
+        std::free(output);
+        return nullptr;
+    }
+    *compressedSize = static_cast<int>(stream.total_out);
+    return output;
+}
+
+constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+
+bool isPng(std::span<const std::uint8_t> bytes) {
+    return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
+}
+
+/// Whether every chunk up to the last ends within the file: the decoder would reserve whatever length one claims.
+bool holdsItsChunks(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+    constexpr std::string_view kLast = "IEND";
+    for (std::size_t at = kSignature.size(); at + kAround <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t byte = at; byte < at + 4; ++byte) length = length << 8 | bytes[byte];
+        if (length > bytes.size() - at - kAround) return false;
+        if (std::equal(kLast.begin(), kLast.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4)) return true;
+        at += kAround + length;
+    }
+    return false;
+}
+
+}  // namespace
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#define STBIW_ZLIB_COMPRESS compressZlib
+#define STBIW_CRC32 checksum
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb_image_write.h>
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace render {
+
+std::vector<std::uint8_t> encodePng(const Image& image) {
+    // Filter 1 (difference to the left) is nearly as small as trying all five and much faster. A constant of the
+    // library's state, written once although frames are encoded from several threads.
+    static const int filter = stbi_write_force_png_filter = 1;
+    static_cast<void>(filter);
+    int size = 0;
+    const std::unique_ptr<unsigned char, void (*)(void*)> png(
+        stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size), std::free);
+    if (!png) throw std::bad_alloc();
+    return {png.get(), png.get() + size};
+}
+
+Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name) {
+    const auto require = [&](bool holds, const char* what) {
+        if (!holds) throw SystemError(fmt::format("cannot read {} as PNG: {}", name, what));
+    };
+    require(isPng(bytes), "it is no PNG");
+    require(holdsItsChunks(bytes), "it is cut short");
+    const auto size = static_cast<int>(bytes.size());
+    require(stbi_is_16_bit_from_memory(bytes.data(), size) == 0, "it has 16 bits a channel, 8 are wanted");
+    Image image;
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(bytes.data(), size, &image.width, &image.height, &channels, 4), stbi_image_free);
+    require(pixels != nullptr, stbi_failure_reason());
+    image.rgb.resize(image.byteCount());
+    for (std::size_t pixel = 0; pixel < image.byteCount() / 3; ++pixel) {
+        require(pixels.get()[4 * pixel + 3] == 255, "it is transparent, an opaque picture is wanted");
+        std::copy_n(pixels.get() + 4 * pixel, 3, image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+    }
+    return image;
+}
+
+}  // namespace render

@@ -1,0 +1,66 @@
+// The text is that of the overlays, at the size that it has on a picture like the panels.
+#include "render/overlay/panel_strip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "render/overlay/coverage_mask.h"
+#include "render/overlay/draw_overlay.h"
+#include "render/overlay/text.h"
+
+namespace render {
+
+namespace {
+
+constexpr Bytes kInk{26, 26, 26};
+
+void requireOneSize(const std::vector<Panel>& panels) {
+    if (panels.empty()) throw std::logic_error("render: a strip without panels");
+    for (const Panel& panel : panels) {
+        const Image& first = panels.front().image;
+        if (panel.image.width == first.width && panel.image.height == first.height) continue;
+        throw std::logic_error(fmt::format("render: panels of {} x {} and {} x {} pixels in one strip", first.width,
+                                           first.height, panel.image.width, panel.image.height));
+    }
+}
+
+void place(const Image& panel, int left, Image& strip) {
+    const auto rowBytes = static_cast<std::ptrdiff_t>(3) * panel.width;
+    for (int y = 0; y < panel.height; ++y)
+        std::copy_n(panel.rgb.begin() + y * rowBytes, rowBytes,
+                    strip.rgb.begin() + std::ptrdiff_t{3} * (std::ptrdiff_t{y} * strip.width + left));
+}
+
+/// As large as that, or as fits into the panel.
+void label(const std::string& text, double center, int baseline, double largestEm, int width, Image& strip) {
+    const double em = largestEm * std::min(1.0, width / textWidth(text, largestEm));
+    const TextPlace at{std::round(center - 0.5 * textWidth(text, em)), baseline, em};
+    Stencil stencil = stencilAround(textBox(text, at));
+    coverText(stencil, text, at);
+    paint(strip, stencil, kInk);
+}
+
+}  // namespace
+
+Image joinPanels(const std::vector<Panel>& panels) {
+    requireOneSize(panels);
+    const int width = panels.front().image.width;
+    const int height = panels.front().image.height;
+    const auto count = static_cast<int>(panels.size());
+    const double em = overlayEm(width, height, 1.0);
+    const int gap = std::max(2, static_cast<int>(std::lround(em / 5.0)));
+    Image strip{count * width + (count - 1) * gap, height + static_cast<int>(std::lround(1.9 * em)), {}};
+    strip.rgb.assign(strip.byteCount(), 255);
+    for (int k = 0; k < count; ++k) {
+        const Panel& panel = panels[static_cast<std::size_t>(k)];
+        const int left = k * (width + gap);
+        place(panel.image, left, strip);
+        label(panel.text, left + 0.5 * width, height + static_cast<int>(std::lround(1.3 * em)), em, width, strip);
+    }
+    return strip;
+}
+
+}  // namespace render

@@ -1,0 +1,80 @@
+// Camera basis and bounds of projected boxes.
+#include "render/picture/camera_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace render {
+
+namespace {
+
+struct Interval {
+    double low;
+    double high;
+};
+
+// Rounded down, as conversion does from zero on; std::floor may be a call.
+int clampedPixel(double at, int count) {
+    return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)) + 1.0) - 1;
+}
+
+// Intervals on the plane at depth 1 (parallel projection: on any) as pixels of the picture, two pixels wider.
+std::optional<Rect> within(const CameraFrame& frame, Interval x, Interval y) {
+    constexpr double kMargin = 2.0;
+    const double perX = 0.5 * frame.width / frame.halfWidth;
+    const double perY = 0.5 * frame.height / frame.halfHeight;
+    const Rect rect{clampedPixel(0.5 * frame.width + x.low * perX - kMargin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.high * perY - kMargin, frame.height),
+                    clampedPixel(0.5 * frame.width + x.high * perX + kMargin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.low * perY + kMargin, frame.height)};
+    if (rect.x0 >= frame.width || rect.y0 >= frame.height || rect.x1 < 0 || rect.y1 < 0) return std::nullopt;
+    return Rect{std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, frame.width - 1),
+                std::min(rect.y1, frame.height - 1)};
+}
+
+glm::vec3 anyPerpendicular(glm::vec3 direction) {
+    const glm::vec3 other = std::abs(direction.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
+    return normalize(cross(direction, other));
+}
+
+}  // namespace
+
+CameraFrame cameraFrame(const Camera& camera, PictureSize size) {
+    CameraFrame frame;
+    frame.eye = camera.eye;
+    frame.width = size.width;
+    frame.height = size.height;
+    const glm::vec3 aim = camera.target - camera.eye;
+    // A camera on its own target looks along -z rather than nowhere.
+    frame.forward = dot(aim, aim) > 0.0F ? normalize(aim) : glm::vec3(0.0F, 0.0F, -1.0F);
+    const glm::vec3 side = cross(frame.forward, camera.up);
+    const bool upright = dot(side, side) > 1e-12F * dot(camera.up, camera.up);
+    frame.right = upright ? normalize(side) : anyPerpendicular(frame.forward);
+    frame.up = cross(frame.right, frame.forward);
+    frame.perspective = camera.projection == Projection::perspective;
+    frame.halfHeight = frame.perspective ? std::tan(0.5F * camera.verticalFov) : camera.halfHeight;
+    frame.halfWidth = frame.halfHeight * static_cast<float>(size.width) / static_cast<float>(size.height);
+    return frame;
+}
+
+std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minimum, glm::vec3 maximum) {
+    Interval x{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    Interval y = x;
+    int behind = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) != 0 ? maximum.x : minimum.x, (corner & 2) != 0 ? maximum.y : minimum.y,
+                           (corner & 4) != 0 ? maximum.z : minimum.z);
+        const glm::dvec3 view(frame.toView(at));
+        if (view.z <= 1e-6) ++behind;
+        const double scale = frame.perspective ? 1.0 / std::max(view.z, 1e-6) : 1.0;
+        x = {std::min(x.low, view.x * scale), std::max(x.high, view.x * scale)};
+        y = {std::min(y.low, view.y * scale), std::max(y.high, view.y * scale)};
+    }
+    if (behind == 8) return std::nullopt;
+    // Corners on both sides of the eye's plane: what is between them may be anywhere.
+    if (behind > 0 && frame.perspective) return Rect{0, 0, frame.width - 1, frame.height - 1};
+    return within(frame, x, y);
+}
+
+}  // namespace render

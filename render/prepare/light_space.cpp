@@ -1,0 +1,106 @@
+// Binning of shadow casters. Used by the picture pass and, for its basis and bounds, by the metaballs' depth map.
+#include "render/prepare/light_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+namespace render {
+
+namespace {
+
+// Enough for cells of two radii in a pile of a million; more would cost more to clear than it saves.
+constexpr int kMostCellsPerSide = 512;
+
+// Conversion rounds toward zero, below which all is zero.
+int cellOf(float at, float origin, float cellSize, int count) {
+    return std::clamp(static_cast<int>((at - origin) / cellSize), 0, count - 1);
+}
+
+float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {
+    double sum = 0.0;
+    for (const ViewSphere& sphere : spheres) sum += sphere.radius;
+    const auto meanDiameter = static_cast<float>(2.0 * sum / static_cast<double>(spheres.size()));
+    return std::max({meanDiameter, extent.x / static_cast<float>(kMostCellsPerSide - 1),
+                     extent.y / static_cast<float>(kMostCellsPerSide - 1), 1e-6F});
+}
+
+}  // namespace
+
+LightBasis lightBasis(glm::vec3 toLight) {
+    LightBasis basis;
+    basis.toLight = normalize(toLight);
+    const glm::vec3 other =
+        std::abs(basis.toLight.x) < 0.9F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
+    basis.u = normalize(cross(other, basis.toLight));
+    basis.v = cross(basis.toLight, basis.u);
+    return basis;
+}
+
+LightBounds lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres) {
+    LightBounds bounds{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
+    for (const ViewSphere& sphere : spheres) {
+        const glm::vec3 at = basis.toLightSpace(sphere.center);
+        bounds.low = min(bounds.low, at - sphere.radius);
+        bounds.high = max(bounds.high, at + sphere.radius);
+    }
+    return bounds;
+}
+
+LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness) {
+    LightGrid grid;
+    grid.cells.resize(1);
+    if (spheres.empty()) return grid;
+
+    // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see light_reach.cpp.
+    const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
+    std::vector<glm::vec3> seen(spheres.size());
+    std::vector<float> keys(spheres.size());
+    glm::vec2 low(std::numeric_limits<float>::max());
+    glm::vec2 high(std::numeric_limits<float>::lowest());
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        const glm::vec3 at = basis.toLightSpace(spheres[k].center);
+        const float radius = spheres[k].radius;
+        seen[k] = at;
+        keys[k] = -(at.z + radius);
+        low = min(low, glm::vec2(at) - margin * radius);
+        high = max(high, glm::vec2(at) + margin * radius);
+    }
+    grid.origin = low;
+    grid.cellSize = wantedCellSize(spheres, high - low);
+    grid.columns = std::clamp(static_cast<int>((high.x - low.x) / grid.cellSize) + 1, 1, kMostCellsPerSide);
+    grid.rows = std::clamp(static_cast<int>((high.y - low.y) / grid.cellSize) + 1, 1, kMostCellsPerSide);
+
+    std::vector<BinItem> items(spheres.size());
+    const std::vector<std::uint32_t> order = orderByKey(keys);
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        const glm::vec3 at = seen[order[place]];
+        const float reach = margin * spheres[order[place]].radius;
+        items[place] = {order[place],
+                        {cellOf(at.x - reach, low.x, grid.cellSize, grid.columns),
+                         cellOf(at.y - reach, low.y, grid.cellSize, grid.rows),
+                         cellOf(at.x + reach, low.x, grid.cellSize, grid.columns),
+                         cellOf(at.y + reach, low.y, grid.cellSize, grid.rows)}};
+    }
+    const CellLists lists = binItems(items, grid.columns, grid.rows);
+    grid.cells.resize(lists.begin.size() - 1);
+    LightSpheres& listed = grid.spheres;
+    for (std::vector<float>* values : {&listed.u, &listed.v, &listed.height, &listed.radius})
+        values->resize(lists.items.size() + kTileSize);
+    tbb::parallel_for(std::size_t{0}, grid.cells.size(), [&](std::size_t cell) {
+        grid.cells[cell] = {static_cast<std::int32_t>(lists.begin[cell]),
+                            static_cast<std::int32_t>(lists.begin[cell + 1])};
+        for (std::size_t k = lists.begin[cell]; k < lists.begin[cell + 1]; ++k) {
+            const std::uint32_t sphere = lists.items[k];
+            listed.u[k] = seen[sphere].x;
+            listed.v[k] = seen[sphere].y;
+            listed.height[k] = seen[sphere].z;
+            listed.radius[k] = spheres[sphere].radius;
+        }
+    });
+    return grid;
+}
+
+}  // namespace render

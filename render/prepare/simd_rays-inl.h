@@ -1,0 +1,112 @@
+// Rays of a camera on lanes, shared by the kernels that are compiled once per instruction set.
+#if defined(RENDER_LANE_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_LANE_RAYS_INL_H_
+#undef RENDER_LANE_RAYS_INL_H_
+#else
+#define RENDER_LANE_RAYS_INL_H_
+#endif
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <hwy/highway.h>
+
+#include "render/picture/camera_frame.h"
+#include "render/prepare/tiles.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// No more lanes than a tile has columns.
+using D = hn::CappedTag<float, kTileSize>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+
+struct Vec3 {
+    V x, y, z;
+};
+
+HWY_INLINE V all(float value) {
+    return hn::Set(D(), value);
+}
+
+HWY_INLINE VI allOf(std::int32_t value) {
+    return hn::Set(DI(), value);
+}
+
+HWY_INLINE Vec3 uniform(glm::vec3 v) {
+    return {all(v.x), all(v.y), all(v.z)};
+}
+
+HWY_INLINE V dotted(const Vec3& a, const Vec3& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+HWY_INLINE Vec3 chosen(M mask, const Vec3& yes, const Vec3& no) {
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+/// The place at this parameter of a line.
+HWY_INLINE Vec3 along(const Vec3& origin, V t, const Vec3& direction) {
+    return {hn::Add(origin.x, hn::Mul(t, direction.x)), hn::Add(origin.y, hn::Mul(t, direction.y)),
+            hn::Add(origin.z, hn::Mul(t, direction.z))};
+}
+
+HWY_INLINE V clamped(V value, float low, float high) {
+    return hn::Min(hn::Max(value, all(low)), all(high));
+}
+
+/// Of lanes of integers, for lanes of floats.
+HWY_INLINE M laneMask(hn::Mask<DI> mask) {
+    return hn::RebindMask(D(), mask);
+}
+
+/// The least of these lanes, in each; no lanes: as much as a float holds.
+HWY_INLINE V leastOf(V values, M lanes) {
+    return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, all(std::numeric_limits<float>::max())));
+}
+
+/// A bit for each lane.
+HWY_INLINE std::uint32_t bitsOf(M mask) {
+    std::array<std::uint8_t, 8> bytes{};
+    hn::StoreMaskBits(D(), mask, bytes.data());
+    return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+}
+
+/// Where rays through these pixels cross the plane at view depth 1 (parallel projection: any plane).
+struct Plane {
+    V x, y;
+};
+
+HWY_INLINE Plane planeAt(const CameraFrame& frame, V x, V y) {
+    const V one = all(1.0F);
+    return {hn::Mul(hn::Sub(hn::Mul(x, all(2.0F / static_cast<float>(frame.width))), one), all(frame.halfWidth)),
+            hn::Mul(hn::Sub(one, hn::Mul(y, all(2.0F / static_cast<float>(frame.height)))), all(frame.halfHeight))};
+}
+
+/// In world axes, relative to the eye; the direction's component along `forward` is 1.
+struct WorldRay {
+    Vec3 origin, direction;
+};
+
+HWY_INLINE WorldRay worldRay(const CameraFrame& frame, const Plane& at) {
+    const Vec3 right = uniform(frame.right);
+    const Vec3 up = uniform(frame.up);
+    const Vec3 off{hn::Add(hn::Mul(at.x, right.x), hn::Mul(at.y, up.x)),
+                   hn::Add(hn::Mul(at.x, right.y), hn::Mul(at.y, up.y)),
+                   hn::Add(hn::Mul(at.x, right.z), hn::Mul(at.y, up.z))};
+    if (!frame.perspective) return {off, uniform(frame.forward)};
+    return {uniform(glm::vec3(0.0F)), along(uniform(frame.forward), all(1.0F), off)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#endif

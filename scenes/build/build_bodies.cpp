@@ -1,0 +1,198 @@
+// [[body]]: the particles that are there at the start.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "engine/core/hash.h"
+#include "engine/core/random.h"
+#include "engine/state/bodies.h"
+#include "scenes/build/builders.h"
+#include "scenes/model/particle_file.h"
+#include "scenes/text/read_file.h"
+
+namespace scenes {
+namespace {
+
+using engine::Vec3;
+
+/// A body while it is built.
+struct Body {
+    Section& section;
+    std::size_t index = 0;
+    std::uint32_t material = 0;
+    const Materials& materials;
+};
+
+/// Lattice points the packing visits in a box of the given half extent; see engine/state/bodies.cpp for the lattice.
+double latticeCount(const Vec3& halfExtent, double spacing) {
+    double count = 0.5;
+    for (int axis = 0; axis < 3; ++axis)
+        count *= 2.0 * std::floor(halfExtent[axis] * std::numbers::sqrt2 / spacing) + 1.0;
+    return count;
+}
+
+/// Particles that a packed body will visit at most.
+double countBound(const Section& section) {
+    const std::string& shape = section.text("shape");
+    if (shape == "ball") return latticeCount(Vec3::Constant(section.number("radius")), section.number("spacing"));
+    if (shape == "box")
+        return latticeCount(0.5 * (section.vector("maximum") - section.vector("minimum")), section.number("spacing"));
+    const Vec3& counts = section.vector("counts");
+    return counts.x() * counts.y() * counts.z();
+}
+
+void checkBox(Section& section, BuildContext& context) {
+    if (!section.has("minimum") || !section.has("maximum")) return;
+    const Vec3 extent = section.vector("maximum") - section.vector("minimum");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(extent[axis] >= 0.0))
+            report(
+                section, "maximum",
+                fmt::format("maximum[{}] is {}, must be at least the minimum {} (meters)", axis,
+                            numberText(section.vector("maximum")[axis]), numberText(section.vector("minimum")[axis])),
+                context);
+}
+
+void checkPoints(Section& section, BuildContext& context) {
+    if (!section.has("positions") || !section.has("velocities")) return;
+    const std::size_t wanted = section.vectors("positions").size();
+    const std::size_t found = section.vectors("velocities").size();
+    if (found != wanted)
+        report(section, "velocities",
+               fmt::format("velocities has {} entries, must have {} like positions", found, wanted), context);
+}
+
+void checkCount(Section& section, BuildContext& context) {
+    expect(section, "shape", countBound(section), "the body would have", context);
+}
+
+engine::Packing packingOf(const Body& body, const BuildContext& context) {
+    engine::Packing packing;
+    packing.spacing = body.section.number("spacing");
+    packing.jitter = body.section.number("jitter");
+    packing.seed = engine::scatter(context.seed ^ engine::scatter(body.index));
+    return packing;
+}
+
+std::vector<Vec3> packedPositions(const Body& body, const BuildContext& context) {
+    const Section& section = body.section;
+    const engine::Packing packing = packingOf(body, context);
+    const std::string& shape = section.text("shape");
+    if (shape == "ball") return engine::ballPositions(section.vector("center"), section.number("radius"), packing);
+    if (shape == "box") return engine::boxPositions(section.vector("minimum"), section.vector("maximum"), packing);
+    const Vec3& counts = section.vector("counts");
+    const auto count = [&](int axis) { return static_cast<std::uint32_t>(counts[axis]); };
+    return engine::gridPositions(section.vector("center"), {count(0), count(1), count(2)}, packing);
+}
+
+/// The material's particles, with what the body changes of them.
+engine::NewParticle templateOf(const Body& body) {
+    const engine::Material& material = body.materials.list[body.material];
+    body.section.deriveNumber("particle_radius", material.radius);
+    body.section.deriveNumber("particle_mass", material.mass);
+    engine::NewParticle particle;
+    particle.velocity = body.section.vector("velocity");
+    particle.radius = body.section.number("particle_radius");
+    particle.mass = body.section.number("particle_mass");
+    particle.material = body.material;
+    return particle;
+}
+
+void appendPacked(const Body& body, const BuildContext& context, engine::Particles& particles) {
+    engine::NewParticle particle = templateOf(body);
+    for (const Vec3& position : packedPositions(body, context)) {
+        particle.position = position;
+        append(particles, particle);
+    }
+}
+
+void appendPoints(const Body& body, engine::Particles& particles) {
+    engine::NewParticle particle = templateOf(body);
+    const std::vector<Vec3>& positions = body.section.vectors("positions");
+    for (std::size_t index = 0; index < positions.size(); ++index) {
+        particle.position = positions[index];
+        if (body.section.has("velocities"))
+            particle.velocity = body.section.vector("velocity") + body.section.vectors("velocities")[index];
+        append(particles, particle);
+    }
+}
+
+/// What the file says of a particle counts, unless the body says otherwise; what it leaves out comes from the material.
+void appendFileParticle(const Body& body, const ParticleFile& file, std::size_t index, engine::Particles& particles) {
+    const Section& section = body.section;
+    const bool ownMaterial = file.hasMaterial && !section.has("material");
+    engine::NewParticle particle;
+    particle.material = ownMaterial ? file.particles.material[index] : body.material;
+    const engine::Material& material = body.materials.list[particle.material];
+    particle.position = file.particles.position[index];
+    particle.velocity = file.particles.velocity[index] + section.vector("velocity");
+    particle.radius = section.has("particle_radius") ? section.number("particle_radius")
+                      : file.hasRadius               ? file.particles.radius[index]
+                                                     : material.radius;
+    particle.mass = section.has("particle_mass") ? section.number("particle_mass")
+                    : file.hasMass               ? file.particles.mass[index]
+                                                 : material.mass;
+    append(particles, particle);
+}
+
+void appendFile(const Body& body, BuildContext& context, engine::Particles& particles) {
+    Section& section = body.section;
+    const std::string path = (std::filesystem::path(context.folder) / section.text("file")).string();
+    try {
+        const std::string bytes = readFile(path, kLargestParticleFile);
+        context.contentHash = engine::fnv1a(bytes, context.contentHash);
+        const ParticleFile file = decodeParticles(bytes, path);
+        for (std::size_t index = 0; index < file.particles.count(); ++index) {
+            if (file.hasMaterial && !section.has("material") &&
+                file.particles.material[index] >= body.materials.list.size())
+                return report(
+                    section, "file",
+                    fmt::format(
+                        "{}: particle {} is of material {}, the scene has {} (counted from 0); name one with material",
+                        path, index, file.particles.material[index], body.materials.list.size()),
+                    context);
+            appendFileParticle(body, file, index, particles);
+        }
+    } catch (const InputError& error) {
+        section.markUnsound();
+        context.problems.add(section.at("file"), error);
+    }
+}
+
+void buildBody(const Body& body, BuildContext& context, engine::Particles& particles) {
+    Section& section = body.section;
+    if (!section.has("shape")) return;
+    const std::string& shape = section.text("shape");
+    const bool packed = shape == "box" || shape == "ball" || shape == "grid";
+    if (packed)
+        section.deriveNumber("spacing",
+                             2.0 * (section.has("particle_radius") ? section.number("particle_radius")
+                                                                   : body.materials.list[body.material].radius));
+    checkBox(section, context);
+    checkPoints(section, context);
+    if (packed && section.isSound()) checkCount(section, context);
+    if (!section.isSound()) return;
+    const std::size_t before = particles.count();
+    if (shape == "file")
+        appendFile(body, context, particles);
+    else if (shape == "points")
+        appendPoints(body, particles);
+    else
+        return appendPacked(body, context, particles);
+    expect(section, "shape", static_cast<double>(particles.count() - before), "the body has", context);
+}
+
+}  // namespace
+
+engine::Particles buildBodies(std::vector<Section>& sections, const Materials& materials, BuildContext& context) {
+    engine::Particles particles;
+    for (std::size_t index = 0; index < sections.size(); ++index) {
+        const auto material = materialOf(sections[index], materials, context);
+        buildBody({sections[index], index, material.value_or(0), materials}, context, particles);
+    }
+    return particles;
+}
+
+}  // namespace scenes

@@ -1,0 +1,94 @@
+// Finds scene files by folder scan; nothing is cached, there are few.
+#include "scenes/build/library.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "scenes/schema/document.h"
+#include "scenes/text/edit_distance.h"
+#include "scenes/text/input_error.h"
+#include "scenes/text/read_file.h"
+
+namespace scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Name to path.
+using Names = std::map<std::string, std::string>;
+
+void addRoot(const fs::path& root, Names& names) {
+    std::error_code error;
+    for (fs::recursive_directory_iterator file(root, error), end; !error && file != end; file.increment(error)) {
+        if (file->path().extension() != ".toml") continue;
+        std::error_code ignored;
+        if (!file->is_regular_file(ignored)) continue;
+        names.emplace(file->path().lexically_relative(root).replace_extension().generic_string(),
+                      file->path().string());
+    }
+}
+
+Names namesBelow(const std::vector<std::string>& roots) {
+    Names names;
+    for (const std::string& root : roots) addRoot(root, names);
+    return names;
+}
+
+std::string lastPart(const std::string& name) {
+    return name.substr(name.find_last_of('/') + 1);
+}
+
+/// Only the title; whether the rest is right is found when the scene is loaded.
+std::string titleOf(const std::string& path) {
+    try {
+        ProblemList problems(path, {});
+        const Document document = parseDocument(readFile(path, kLargestSceneFile), problems);
+        const Entry* title = findEntry(document.root, "title");
+        return title != nullptr && title->value.kind == Kind::text ? title->value.text : std::string{};
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
+[[noreturn]] void failUnknown(const std::string& name, const Names& names) {
+    std::vector<std::string> known;
+    for (const auto& [full, path] : names) {
+        known.push_back(full);
+        known.push_back(lastPart(full));
+    }
+    const std::string nearest = nearestName(name, known);
+    throw InputError(
+        {{name, 0, 0,
+          nearest.empty()
+              ? "there is no such file and no built-in scene of that name (`globular scenes` lists them)"
+              : fmt::format("there is no such file or built-in scene, did you mean {}?", inQuotes(nearest))}});
+}
+
+}  // namespace
+
+std::vector<LibraryEntry> listScenes(const std::vector<std::string>& roots) {
+    std::vector<LibraryEntry> entries;
+    for (const auto& [name, path] : namesBelow(roots)) entries.push_back({name, titleOf(path), path});
+    return entries;
+}
+
+std::string resolveScene(const std::string& nameOrPath, const std::vector<std::string>& roots) {
+    std::error_code ignored;
+    const fs::path path(nameOrPath);
+    const bool exists = fs::exists(path, ignored) && !fs::is_directory(path, ignored);
+    if (exists || path.extension() == ".toml") return nameOrPath;
+    const Names names = namesBelow(roots);
+    if (const auto found = names.find(nameOrPath); found != names.end()) return found->second;
+    std::vector<std::string> matches;
+    for (const auto& [full, file] : names)
+        if (lastPart(full) == nameOrPath) matches.push_back(full);
+    if (matches.empty()) failUnknown(nameOrPath, names);
+    if (matches.size() > 1)
+        throw InputError({{nameOrPath, 0, 0, fmt::format("may be any of {}", fmt::join(matches, ", "))}});
+    return names.at(matches[0]);
+}
+
+}  // namespace scenes

@@ -1,0 +1,237 @@
+// The way from text to scene: parse, override, check against the schema, build the parts, and report all that went
+// wrong.
+#include "scenes/model/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/core/hash.h"
+#include "engine/stepping/steppers.h"
+#include "scenes/build/builders.h"
+#include "scenes/schema/document.h"
+#include "scenes/schema/overrides.h"
+#include "scenes/schema/read_sections.h"
+#include "scenes/text/read_file.h"
+
+namespace scenes {
+namespace {
+
+void readTop(const Section& top, Scene& scene) {
+    scene.title = top.text("title");
+    scene.description = top.text("description");
+    scene.duration = top.number("duration");
+    scene.fps = static_cast<int>(top.integer("fps"));
+    scene.seed = static_cast<std::uint64_t>(top.integer("seed"));
+}
+
+void readPhysics(const Section& physics, engine::Setup& setup) {
+    setup.gravity = physics.vector("gravity");
+    setup.drag = physics.number("drag");
+    setup.step = physics.number("step");
+    for (const engine::StepperKind stepper : engine::kSteppers)
+        if (engine::nameOf(stepper) == physics.text("stepper")) setup.stepper = stepper;
+    setup.error = physics.number("error");
+    setup.solverTolerance = physics.number("solver_tolerance");
+    setup.precision = physics.text("precision") == "float" ? engine::Precision::singles : engine::Precision::doubles;
+    setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
+}
+
+std::optional<engine::Bounds> buildWorld(Section& section, BuildContext& context) {
+    if (!section.has("minimum") && !section.has("maximum")) return std::nullopt;
+    checkCorners(section, context);
+    engine::Bounds world;
+    if (section.has("minimum")) world.minimum = section.vector("minimum");
+    if (section.has("maximum")) world.maximum = section.vector("maximum");
+    return world;
+}
+
+/// Who begins outside would be gone before it is seen.
+void checkWorld(const Section& section, const engine::Setup& setup, BuildContext& context) {
+    if (!setup.world || !section.isSound()) return;
+    const auto isInside = [&](const engine::Vec3& position, const char* what) {
+        if (contains(*setup.world, position)) return true;
+        context.problems.add(section.at(),
+                             fmt::format("{} at [{}, {}, {}] is outside the world", what, numberText(position.x()),
+                                         numberText(position.y()), numberText(position.z())));
+        return false;
+    };
+    for (const engine::Vec3& position : setup.initial.position)
+        if (!isInside(position, "a body's particle")) return;
+    for (const engine::Emitter& emitter : setup.emitters)
+        for (const engine::Vec3& site : emitter.sites)
+            if (!isInside(site, "an emitter's point of birth")) return;
+}
+
+/// Each after the one before, and none after the end.
+std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
+    Section& still = sections.still;
+    const double end = context.duration;
+    if (!still.has("strip")) return {0.25 * end, 0.5 * end, 0.75 * end, end};
+    const std::vector<double> times = still.numbers("strip");
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        if (k > 0 && times[k] <= times[k - 1])
+            report(still, "strip",
+                   fmt::format("strip[{}] is {}, must be after the moment before, {} (seconds)", k,
+                               numberText(times[k]), numberText(times[k - 1])),
+                   context);
+        if (times[k] > end && sections.top.has("duration"))
+            report(still, "strip",
+                   fmt::format("strip[{}] is {}, must be at most the duration, {} (seconds)", k, numberText(times[k]),
+                               sections.top.canonical("duration")),
+                   context);
+    }
+    return times;
+}
+
+void readStill(Sections& sections, BuildContext& context, Scene& scene) {
+    Section& still = sections.still;
+    still.deriveNumber("time", 0.5 * context.duration);
+    if (still.has("time") && sections.top.has("duration") && still.number("time") > context.duration)
+        report(still, "time",
+               fmt::format("time is {}, must be at most the duration, {} (seconds)", still.canonical("time"),
+                           sections.top.canonical("duration")),
+               context);
+    if (still.has("time")) scene.stillTime = still.number("time");
+    scene.stripTimes = stripTimes(sections, context);
+}
+
+/// Something has to move.
+void checkPopulation(const Sections& sections, const engine::Setup& setup, BuildContext& context) {
+    if (sections.doubtful || !sections.emitters.empty()) return;
+    if (sections.bodies.empty())
+        context.problems.add({}, "there is nothing to simulate: give a [[body]] or an [[emitter]]");
+    else if (setup.initial.count() == 0 && context.problems.empty())
+        context.problems.add({}, "there is nothing to simulate: the bodies have no particles");
+}
+
+/// Frames and pictures have to be possible to hold.
+void checkSize(Sections& sections, BuildContext& context) {
+    Section& top = sections.top;
+    if (top.has("duration") && top.has("fps")) {
+        const double frames = top.number("duration") * static_cast<double>(top.integer("fps"));
+        if (frames > context.limits.frames)
+            report(top, top.isGiven("duration") ? "duration" : "fps",
+                   fmt::format("the animation would have about {:.7g} frames, {}", frames,
+                               allowedText("frames", context.limits.frames)),
+                   context);
+    }
+    if (!sections.look.has("size")) return;
+    const double pixels = sections.look.numbers("size")[0] * sections.look.numbers("size")[1];
+    if (pixels > context.limits.pixels)
+        report(sections.look, "size",
+               fmt::format("a picture would have about {:.7g} pixels, {}", pixels,
+                           allowedText("pixels", context.limits.pixels)),
+               context);
+}
+
+std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
+    std::vector<EffectiveValue> values;
+    for (const Section* section : sections.all()) {
+        for (const Key* key : keysOf(section->table().name)) {
+            const std::string_view name = nameOf(*key);
+            if (!section->has(name)) continue;
+            values.push_back(
+                {section->prefix().empty() ? std::string(name) : fmt::format("{}.{}", section->prefix(), name),
+                 section->canonical(name), std::string(key->unit), section->origin(name)});
+        }
+    }
+    return values;
+}
+
+/// Equal for scenes that mean the same, however they are written.
+std::string hashOf(const std::vector<EffectiveValue>& values, std::uint64_t contentHash) {
+    std::uint64_t hash = contentHash;
+    for (const EffectiveValue& value : values)
+        hash = engine::fnv1a(fmt::format("{} = {}\n", value.path, value.text), hash);
+    return engine::hexadecimal(hash);
+}
+
+BuildContext contextOf(const Sections& sections, const std::string& fileName, ProblemList& problems) {
+    BuildContext context{.problems = problems,
+                         .folder = std::filesystem::path(fileName).parent_path().string(),
+                         .contentHash = engine::fnv1a({})};
+    // A duration that does not fit is reported; what is built with this one is thrown away.
+    if (sections.top.has("duration")) context.duration = sections.top.number("duration");
+    context.seed = static_cast<std::uint64_t>(sections.top.integer("seed"));
+    return context;
+}
+
+void build(Sections& sections, BuildContext& context, Scene& scene) {
+    Materials materials = buildMaterials(sections.materials, context);
+    scene.setup.world = buildWorld(sections.world, context);
+    scene.setup.initial = buildBodies(sections.bodies, materials, context);
+    scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
+    Obstacles obstacles = buildObstacles(sections.obstacles, sections.look, context);
+    scene.camera = buildCamera(sections.cameras, context);
+    scene.look = buildLook(sections.look, context);
+    scene.overlay = buildOverlay(sections.overlay, sections.look, scene.camera, context);
+    readStill(sections, context, scene);
+    checkSize(sections, context);
+    if (sections.study) scene.study = buildStudy(*sections.study, context);
+    checkPopulation(sections, scene.setup, context);
+    checkWorld(sections.world, scene.setup, context);
+    scene.setup.materials = std::move(materials.list);
+    scene.materialColors = std::move(materials.colors);
+    scene.setup.scenery.colliders = std::move(obstacles.colliders);
+    scene.obstacleLooks = std::move(obstacles.looks);
+}
+
+/// The frame of the animation that is nearest to a time.
+int frameNear(const Scene& scene, double time) {
+    return std::clamp(static_cast<int>(std::lround(time * scene.fps)), 0, frameCount(scene) - 1);
+}
+
+}  // namespace
+
+int frameCount(const Scene& scene) {
+    return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps)));
+}
+
+int stillFrame(const Scene& scene) {
+    return frameNear(scene, scene.stillTime);
+}
+
+std::vector<int> stripFrames(const Scene& scene) {
+    std::vector<int> frames;
+    for (const double time : scene.stripTimes) {
+        const int frame = frameNear(scene, time);
+        if (frames.empty() || frames.back() < frame) frames.push_back(frame);
+    }
+    return frames;
+}
+
+double frameTime(const Scene& scene, int frame) {
+    return static_cast<double>(frame) / scene.fps;
+}
+
+Scene readScene(std::string_view text, const std::string& fileName, const Overrides& overrides, const Limits& limits) {
+    ProblemList problems(fileName, overrides);
+    Document document = parseDocument(text, problems);
+    applyOverrides(document.root, overrides, problems);
+    Sections sections = readSections(document, problems);
+    BuildContext context = contextOf(sections, fileName, problems);
+    context.damaged = document.damaged;
+    context.limits = limits;
+    Scene scene;
+    build(sections, context, scene);
+    problems.throwIfAny();
+
+    readTop(sections.top, scene);
+    readPhysics(sections.physics, scene.setup);
+    scene.setup.seed = scene.seed;
+    scene.size = {static_cast<int>(sections.look.numbers("size")[0]),
+                  static_cast<int>(sections.look.numbers("size")[1])};
+    scene.sourceName = fileName;
+    scene.values = effectiveValues(sections);
+    scene.sceneHash = hashOf(scene.values, context.contentHash);
+    return scene;
+}
+
+Scene loadScene(const std::string& path, const Overrides& overrides, const Limits& limits) {
+    return readScene(readFile(path, kLargestSceneFile), path, overrides, limits);
+}
+
+}  // namespace scenes

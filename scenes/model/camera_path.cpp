@@ -1,0 +1,76 @@
+// Monotone piecewise cubics (PCHIP). A natural spline would be smoother still, in its second derivative, but swings
+// past its keys: a camera would dip into the ground or drift away from a place where two keys hold it.
+#include "scenes/model/camera_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace scenes {
+namespace {
+
+using engine::Vec3;
+
+/// Everything of a placement that moves.
+using Numbers = std::array<double, 11>;
+
+Numbers numbersOf(const CameraPlacement& camera) {
+    return {camera.eye.x(), camera.eye.y(), camera.eye.z(), camera.target.x(),  camera.target.y(), camera.target.z(),
+            camera.up.x(),  camera.up.y(),  camera.up.z(),  camera.verticalFov, camera.halfHeight};
+}
+
+CameraPlacement placementOf(const Numbers& numbers, render::Projection projection) {
+    return {.projection = projection,
+            .eye = Vec3(numbers[0], numbers[1], numbers[2]),
+            .target = Vec3(numbers[3], numbers[4], numbers[5]),
+            .up = Vec3(numbers[6], numbers[7], numbers[8]),
+            .verticalFov = numbers[9],
+            .halfHeight = numbers[10]};
+}
+
+/// Rates of change at a key: zero at the ends of the path, where the camera holds still, and where a number turns
+/// round; else the harmonic mean of the rates on both sides, weighted by how far each reaches. It is at most three
+/// times the smaller of them, which keeps the cubics on both sides monotone.
+Numbers ratesAt(const CameraPath& path, std::size_t key) {
+    Numbers rates{};
+    if (key == 0 || key + 1 == path.keys.size()) return rates;
+    const double before = path.keys[key].time - path.keys[key - 1].time;
+    const double after = path.keys[key + 1].time - path.keys[key].time;
+    const Numbers from = numbersOf(path.keys[key - 1].placement);
+    const Numbers here = numbersOf(path.keys[key].placement);
+    const Numbers to = numbersOf(path.keys[key + 1].placement);
+    for (std::size_t k = 0; k < rates.size(); ++k) {
+        const double left = (here[k] - from[k]) / before;
+        const double right = (to[k] - here[k]) / after;
+        const double leftWeight = before + 2.0 * after;
+        const double rightWeight = after + 2.0 * before;
+        // Compared with zero one by one: the product of two small rates may vanish.
+        if ((left > 0.0 && right > 0.0) || (left < 0.0 && right < 0.0))
+            rates[k] = (leftWeight + rightWeight) / (leftWeight / left + rightWeight / right);
+    }
+    return rates;
+}
+
+}  // namespace
+
+CameraPlacement cameraAt(const CameraPath& path, double time) {
+    const auto next = std::upper_bound(path.keys.begin(), path.keys.end(), time,
+                                       [](double t, const CameraKey& key) { return t < key.time; });
+    if (next == path.keys.begin()) return path.keys.front().placement;
+    if (next == path.keys.end()) return path.keys.back().placement;
+    const auto index = static_cast<std::size_t>(next - path.keys.begin());
+    const double length = next->time - path.keys[index - 1].time;
+    const double u = (time - path.keys[index - 1].time) / length;
+    const Numbers from = numbersOf(path.keys[index - 1].placement);
+    const Numbers to = numbersOf(next->placement);
+    const Numbers leaving = ratesAt(path, index - 1);
+    const Numbers arriving = ratesAt(path, index);
+    Numbers now{};
+    // Hermite's cubic, written so that a number that does not change stays as it is to the last bit.
+    for (std::size_t k = 0; k < now.size(); ++k)
+        now[k] = from[k] + (to[k] - from[k]) * (u * u * (3.0 - 2.0 * u)) +
+                 length * u * (1.0 - u) * ((1.0 - u) * leaving[k] - u * arriving[k]);
+    return placementOf(now, next->placement.projection);
+}
+
+}  // namespace scenes

@@ -1,0 +1,105 @@
+// The schema as `globular schema` shows it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/schema/schema.h"
+
+namespace scenes {
+namespace {
+
+std::string typeText(Type type) {
+    switch (type) {
+        case Type::number:
+            return "number";
+        case Type::numberList:
+            return "list of numbers";
+        case Type::integer:
+            return "integer";
+        case Type::boolean:
+            return "boolean";
+        case Type::text:
+            return "string";
+        case Type::textList:
+            return "list of strings";
+        case Type::choice:
+            return "choice";
+        case Type::vec3:
+            return "[x, y, z]";
+        case Type::vec3List:
+            return "list of [x, y, z]";
+        case Type::color:
+            return "color";
+        case Type::colorList:
+            return "list of colors";
+        case Type::interval:
+            return "[low, high]";
+        case Type::size:
+            return "[width, height]";
+        case Type::counts:
+            return "[nx, ny, nz]";
+    }
+    return {};
+}
+
+std::string joined(const std::vector<std::string_view>& words, std::string_view separator) {
+    return fmt::format("{}", fmt::join(words, separator));
+}
+
+std::string fallbackText(const Key& key) {
+    if (key.required) return "required";
+    if (!key.fallback.empty()) return std::string(key.fallback);
+    return key.derived.empty() ? "none" : fmt::format("({})", key.derived);
+}
+
+SchemaRow rowOf(const Key& key) {
+    SchemaRow row;
+    row.key = std::string(key.path);
+    row.type = typeText(key.type);
+    row.unit = std::string(key.unit);
+    row.fallback = fallbackText(key);
+    row.range = key.type == Type::choice ? joined(key.choices, " | ") : rangeText(key.range);
+    if (!key.appliesTo.empty())
+        row.appliesTo = fmt::format("{} {}", findTable(tableOf(key))->discriminator, joined(key.appliesTo, ", "));
+    row.help = std::string(key.help);
+    return row;
+}
+
+/// "m, > 0, default 0.15": what there is to say besides the help.
+std::string factsOf(const SchemaRow& row) {
+    std::string facts = row.type;
+    if (!row.unit.empty()) facts += fmt::format(", {}", row.unit);
+    if (!row.range.empty()) facts += fmt::format(", {}", row.range);
+    facts += row.fallback == "required" || row.fallback == "none"
+                 ? fmt::format(", {}", row.fallback == "none" ? "no default" : "required")
+                 : fmt::format(", default {}", row.fallback);
+    if (!row.appliesTo.empty()) facts += fmt::format("; {}", row.appliesTo);
+    return facts;
+}
+
+}  // namespace
+
+std::vector<SchemaRow> schemaRows() {
+    std::vector<SchemaRow> rows;
+    for (const Key& key : schema()) rows.push_back(rowOf(key));
+    return rows;
+}
+
+std::string schemaText() {
+    std::size_t width = 0;
+    for (const Key& key : schema()) width = std::max(width, nameOf(key).size());
+    std::string text;
+    for (const TableInfo& table : tables()) {
+        const std::string_view brackets = table.name.empty() ? "{}# {}\n"
+                                          : table.single     ? "\n[{}]  # {}\n"
+                                                             : "\n[[{}]]  # {}\n";
+        text += fmt::format(fmt::runtime(brackets), table.name, table.help);
+        for (const Key* key : keysOf(table.name)) {
+            text += fmt::format("  {:<{}}  {}\n", nameOf(*key), width, key->help);
+            text += fmt::format("  {:<{}}    {}\n", "", width, factsOf(rowOf(*key)));
+        }
+    }
+    return text;
+}
+
+}  // namespace scenes

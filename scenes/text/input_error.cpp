@@ -1,0 +1,31 @@
+// The text of problems.
+#include "scenes/text/input_error.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace scenes {
+namespace {
+
+std::string textOf(const std::vector<Problem>& problems) {
+    std::string text;
+    for (const Problem& problem : problems) {
+        if (!text.empty()) text += '\n';
+        text += lineOf(problem);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string lineOf(const Problem& problem) {
+    if (problem.line == 0) return fmt::format("{}: {}", problem.file, problem.message);
+    if (problem.column == 0) return fmt::format("{}:{}: {}", problem.file, problem.line, problem.message);
+    return fmt::format("{}:{}:{}: {}", problem.file, problem.line, problem.column, problem.message);
+}
+
+InputError::InputError(std::vector<Problem> problems)
+    : std::runtime_error(textOf(problems)), problems_(std::move(problems)) {}
+
+}  // namespace scenes

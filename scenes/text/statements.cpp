@@ -1,0 +1,143 @@
+// A scanner that knows strings, brackets and comments, and no more of TOML than that.
+#include "scenes/text/statements.h"
+
+#include <cctype>
+
+namespace scenes {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+bool isBare(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+}
+
+std::size_t skipBlanks(const std::string& line, std::size_t at) {
+    const std::size_t found = line.find_first_not_of(kBlanks, at);
+    return found == std::string::npos ? line.size() : found;
+}
+
+/// The dotted name of bare keys that starts at a place; empty if none does.
+std::string nameAt(const std::string& line, std::size_t at) {
+    std::size_t end = at;
+    while (end < line.size() && (isBare(line[end]) || line[end] == '.')) ++end;
+    return line.substr(at, end - at);
+}
+
+bool endsWithName(const std::string& line, std::size_t at, std::string_view after) {
+    const std::string name = nameAt(line, at);
+    if (name.empty()) return false;
+    const std::size_t next = skipBlanks(line, at + name.size());
+    return line.compare(next, after.size(), after) == 0;
+}
+
+/// A line that cannot be the continuation of a list: a whole header, or a key and its equals sign.
+bool opensStatement(const std::string& line) {
+    const std::size_t first = skipBlanks(line, 0);
+    if (endsWithName(line, first, "=")) return true;
+    if (line.compare(first, 2, "[[") == 0) return endsWithName(line, skipBlanks(line, first + 2), "]]");
+    // [true] would be a list; no table is called that.
+    return line.compare(first, 1, "[") == 0 && endsWithName(line, skipBlanks(line, first + 1), "]") &&
+           !endsWithName(line, skipBlanks(line, first + 1), "],") &&
+           std::isalpha(static_cast<unsigned char>(line[skipBlanks(line, first + 1)])) != 0;
+}
+
+/// What is still open at the end of a line.
+struct Open {
+    int brackets = 0;
+    std::string quote;     ///< the delimiter of a string that spans lines
+    bool runaway = false;  ///< a string that cannot span lines did not end in its own
+};
+
+/// The end of a string that opens at a place with the given delimiter; npos if it does not end in this line.
+std::size_t endOfString(const std::string& line, std::size_t from, const std::string& delimiter) {
+    for (std::size_t at = from; at < line.size(); ++at) {
+        if (line[at] == '\\' && delimiter[0] == '"')
+            ++at;
+        else if (line.compare(at, delimiter.size(), delimiter) == 0)
+            return at + delimiter.size();
+    }
+    return std::string::npos;
+}
+
+void scanLine(const std::string& line, std::size_t at, Open& open) {
+    while (at < line.size()) {
+        if (!open.quote.empty()) {
+            at = endOfString(line, at, open.quote);
+            if (at == std::string::npos) return;
+            open.quote.clear();
+            continue;
+        }
+        const char c = line[at];
+        if (c == '#') return;
+        if (c == '"' || c == '\'') {
+            const std::string triple(3, c);
+            const bool isTriple = line.compare(at, 3, triple) == 0;
+            open.quote = isTriple ? triple : std::string(1, c);
+            at = endOfString(line, at + open.quote.size(), open.quote);
+            // A plain string ends with its line, whether closed or not.
+            if (at != std::string::npos || !isTriple) open.quote.clear();
+            open.runaway = open.runaway || (at == std::string::npos && !isTriple);
+            if (at == std::string::npos) return;
+            continue;
+        }
+        if (c == '[' || c == '{') ++open.brackets;
+        if (c == ']' || c == '}') --open.brackets;
+        ++at;
+    }
+}
+
+Statement headerAt(const std::string& line, std::size_t first) {
+    Statement statement;
+    statement.form = Form::header;
+    statement.doubleBracket = line.compare(first, 2, "[[") == 0;
+    statement.name = nameAt(line, skipBlanks(line, first + (statement.doubleBracket ? 2 : 1)));
+    return statement;
+}
+
+/// A value that is never closed is taken to end with its first line.
+Statement pairAt(const std::vector<std::string>& lines, std::size_t index, std::size_t first) {
+    Statement statement;
+    statement.name = nameAt(lines[index], first);
+    if (!statement.name.empty()) statement.form = Form::pair;
+    Open open;
+    scanLine(lines[index], first, open);
+    std::size_t last = index;
+    while ((open.brackets > 0 || !open.quote.empty()) && last + 1 < lines.size()) {
+        if (open.quote.empty() && opensStatement(lines[last + 1])) break;
+        scanLine(lines[++last], 0, open);
+    }
+    statement.closed = open.brackets <= 0 && open.quote.empty() && !open.runaway;
+    statement.lastLine = open.quote.empty() ? last : index;
+    return statement;
+}
+
+}  // namespace
+
+std::vector<std::string> splitLines(std::string_view text) {
+    std::vector<std::string> lines;
+    while (true) {
+        const std::size_t end = text.find('\n');
+        lines.emplace_back(text.substr(0, end));
+        if (end == std::string_view::npos) return lines;
+        text.remove_prefix(end + 1);
+    }
+}
+
+std::vector<Statement> splitStatements(const std::vector<std::string>& lines) {
+    std::vector<Statement> statements;
+    for (std::size_t index = 0; index < lines.size(); ++index) {
+        const std::size_t first = skipBlanks(lines[index], 0);
+        if (first == lines[index].size() || lines[index][first] == '#') continue;
+        const bool isHeader = lines[index][first] == '[';
+        Statement statement = isHeader ? headerAt(lines[index], first) : pairAt(lines, index, first);
+        statement.firstLine = index;
+        if (isHeader) statement.lastLine = index;
+        statement.column = static_cast<int>(first) + 1;
+        index = statement.lastLine;
+        statements.push_back(std::move(statement));
+    }
+    return statements;
+}
+
+}  // namespace scenes

@@ -1,0 +1,84 @@
+// All runs of a scene, then the reference, then what they amount to.
+#include "studies/accuracy/accuracy.h"
+
+#include <algorithm>
+
+#include "engine/stepping/step_cost.h"
+#include "engine/stepping/steppers.h"
+
+namespace studies {
+namespace {
+
+/// A run this long is timed well enough once, s.
+constexpr double kLongRun = 5.0;
+
+/// Short runs are timed until they have taken so long together, s, but no more often than that.
+constexpr double kTimed = 0.3;
+constexpr int kMostRounds = 12;
+
+std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettings& settings) {
+    std::vector<Variant> variants;
+    for (const engine::StepperKind stepper : engine::kSteppers) {
+        if (stepper == engine::StepperKind::automatic)
+            for (const double error : settings.errors) variants.push_back({stepper, error, {}});
+        else
+            for (const int count : settings.stepsPerFrame) variants.push_back({stepper, 1.0 / (scene.fps * count), {}});
+    }
+    // What float costs and saves shows on the stepper whose time goes into forces alone.
+    for (const int count : settings.stepsPerFrame)
+        variants.push_back(
+            {engine::StepperKind::velocityVerlet, 1.0 / (scene.fps * count), {}, engine::Precision::singles});
+    return variants;
+}
+
+/// Whether a run is timed once more, after seconds spent on it in so many rounds.
+bool isTimedAgain(const WindowRun& run, double spent, int round, int rounds) {
+    if (run.ending != Ending::finished || rounds == 1) return false;
+    return round < rounds ? run.seconds < kLongRun : spent < kTimed;
+}
+
+/// Every run once, then the short ones again, the shortest most often. Rounds over all of them, because other programs
+/// of the machine come and go; the least seconds of a run, because they only ever add.
+std::vector<WindowRun> timedRuns(const Window& window, const AccuracySettings& settings, const RunListener& listener) {
+    std::vector<WindowRun> runs;
+    for (const Variant& variant : variantsOf(window.scene, settings)) {
+        runs.push_back(runWindow(window, variant, settings.runLimit));
+        listener(runs.back(), "run");
+    }
+    std::vector<double> spent;
+    for (const WindowRun& run : runs) spent.push_back(run.seconds);
+    for (int round = 1; round < std::max(kMostRounds, settings.rounds); ++round)
+        for (std::size_t r = 0; r < runs.size(); ++r) {
+            WindowRun& run = runs[r];
+            if (!isTimedAgain(run, spent[r], round, settings.rounds)) continue;
+            const WindowRun next = runWindow(window, run.variant, settings.runLimit);
+            run.seconds = std::min(run.seconds, next.seconds);
+            spent[r] += next.seconds;
+            listener(next, "again");
+        }
+    return runs;
+}
+
+}  // namespace
+
+SceneAccuracy measureAccuracy(const std::string& name, const scenes::Scene& scene, const AccuracySettings& settings,
+                              const RunListener& listener) {
+    const Window window = openWindow(scene, settings.firstFrame, settings.frameCount);
+    const std::vector<WindowRun> runs = timedRuns(window, settings, listener);
+    const Reference reference = findReference(window, runs, {settings.referenceBudget, listener});
+
+    SceneAccuracy accuracy;
+    accuracy.name = name;
+    accuracy.title = scene.title;
+    accuracy.particleCount = window.start.particles.count();
+    accuracy.from = scenes::frameTime(scene, window.firstFrame);
+    accuracy.window = window.seconds();
+    accuracy.productCost = engine::implicitCosts(scene.setup).product;
+    accuracy.reference = reference.facts;
+    for (const WindowRun& run : runs) accuracy.rows.push_back(rowOf(window, run, reference));
+    accuracy.orders = ordersOf(accuracy.rows);
+    accuracy.autos = autosOf(accuracy.rows, accuracy.window);
+    return accuracy;
+}
+
+}  // namespace studies

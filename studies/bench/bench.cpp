@@ -1,0 +1,233 @@
+// Packings, a little shaken; every time is the median of rounds, each long enough for the clock.
+#include "studies/bench/bench.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/neighbors/verlet_skin.h"
+#include "engine/stepping/steppers.h"
+#include "studies/bench/machine_loops.h"
+#include "studies/common/blocks.h"
+#include "studies/common/timing.h"
+
+namespace studies {
+namespace {
+
+using engine::Precision;
+using engine::StepperKind;
+using engine::Vec3;
+
+/// What is packed, and how densely.
+struct Packed {
+    const char* name;
+    const char* material;
+    double spacing;  ///< of nearest neighbors, in rest lengths
+};
+
+/// At the rest length, and as a solid packs when it has settled under its own attraction (scenes/solid.toml).
+constexpr std::array kPackings = {Packed{"solid", "solid", 1.0}, Packed{"settled solid", "solid", 0.76},
+                                  Packed{"liquid", "liquid", 1.0}, Packed{"powder", "powder", 1.0}};
+
+/// Beyond it a million particles' steps would take the patience of whoever waits.
+constexpr std::size_t kMostStepped = 100000;
+
+/// Median seconds of a call of the work, which has been called once before.
+double measured(const Work& work, const BenchSettings& settings) {
+    const double once = secondsOf(work, 1);
+    const auto repeats = static_cast<std::uint64_t>(std::max(1.0, std::ceil(settings.secondsPerRound / once)));
+    std::vector<double> rounds;
+    for (int round = 0; round < settings.rounds; ++round) rounds.push_back(secondsOf(work, repeats));
+    return median(std::move(rounds));
+}
+
+engine::ForceLaw lawOf(const engine::Setup& setup) {
+    return {setup.materials, setup.gravity, setup.scenery};
+}
+
+std::string hashOf(const std::vector<Vec3>& vectors) {
+    std::uint64_t hash = engine::fnv1a("");
+    for (const Vec3& v : vectors)
+        for (int axis = 0; axis < 3; ++axis) hash = engine::fnv1a(std::bit_cast<std::uint64_t>(v[axis]), hash);
+    return engine::hexadecimal(hash);
+}
+
+/// What rows of one packing have in common.
+struct Subject {
+    engine::Setup setup;
+    BenchRow row;
+    double rowBytes = 0.0;  ///< a particle
+};
+
+Subject subjectOf(const Packed& packed, std::size_t count) {
+    Subject subject{packedBlock(packed.material, count, {.spacing = packed.spacing}), {}};
+    const engine::Particles& particles = subject.setup.initial;
+    engine::PairTraversal pairs(lawOf(subject.setup), Precision::doubles);
+    pairs.prepare(lawOf(subject.setup), particles, particles.velocity);
+    subject.row.material = packed.name;
+    subject.row.particles = particles.count();
+    subject.row.neighbors = meanNeighbors(subject.setup, particles);
+    subject.rowBytes = static_cast<double>(bytesOf(pairs.list.rows)) / static_cast<double>(particles.count());
+    subject.row.bytesPerParticle = subject.rowBytes + sizeof(engine::PairRecord);
+    return subject;
+}
+
+class Bench {
+ public:
+    Bench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener)
+        : settings_(settings), listener_(listener) {}
+
+    void measureMachine() {
+        if (settings_.wants("multiply-add", "")) addMultiplyAdds();
+        if (settings_.wants("copy", "")) addCopy();
+    }
+
+    void measure(const Packed& packed, std::size_t count) {
+        const std::string material = packed.name;
+        const bool steps = count <= kMostStepped;
+        if (!wantsAny(material)) return;
+        const Subject subject = subjectOf(packed, count);
+        for (const Precision precision : {Precision::doubles, Precision::singles})
+            if (settings_.wants("forces", material)) addForces(subject, precision);
+        if (settings_.wants("list", material)) addList(subject);
+        for (const StepperKind stepper : engine::kSteppers)
+            if (steps && stepper != StepperKind::automatic && settings_.wants(stepName(stepper), material))
+                addSteps(subject, stepper, Precision::doubles);
+        for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet})
+            if (steps && settings_.wants(stepName(stepper), material)) addSteps(subject, stepper, Precision::singles);
+    }
+
+    std::vector<BenchRow> rows;
+
+ private:
+    static std::string stepName(StepperKind stepper) { return "step " + std::string(engine::nameOf(stepper)); }
+
+    bool wantsAny(const std::string& material) const {
+        bool any = settings_.wants("forces", material) || settings_.wants("list", material);
+        for (const StepperKind stepper : engine::kSteppers) any = any || settings_.wants(stepName(stepper), material);
+        return any;
+    }
+
+    void add(BenchRow row) {
+        listener_(row);
+        rows.push_back(std::move(row));
+    }
+
+    void addForces(const Subject& subject, Precision precision) {
+        engine::ForceEvaluator evaluator(lawOf(subject.setup), engine::ForceMethod::grid, precision);
+        const engine::Particles& particles = subject.setup.initial;
+        std::vector<Vec3> forces;
+        BenchRow row = subject.row;
+        row.name = "forces";
+        row.precision = precision;
+        if (precision == Precision::singles)
+            row.bytesPerParticle = subject.rowBytes + sizeof(engine::SinglePrecisionRecord);
+        const Work pass = [&] { evaluator.pairForcesGrid(particles, particles.velocity, forces); };
+        pass();  // builds the list
+        row.seconds = measured(pass, settings_);
+        row.stateHash = hashOf(forces);
+        add(row);
+    }
+
+    void addList(const Subject& subject) {
+        const engine::Particles& particles = subject.setup.initial;
+        const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
+        engine::NeighborList list;
+        BenchRow row = subject.row;
+        row.name = "list";
+        const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kListSkin * cutoff); };
+        work();
+        row.seconds = measured(work, settings_);
+        std::uint64_t hash = engine::fnv1a("");
+        for (const engine::RowPart& part : list.rows.parts)
+            for (std::size_t at = 0; at < part.start.back() * engine::kGroup; ++at)
+                hash = engine::fnv1a(std::uint64_t{part.placeAt(at)}, hash);
+        row.stateHash = engine::hexadecimal(hash);
+        add(row);
+    }
+
+    /// A fixed number of steps from the packing, so that the hash at their end can be compared; timed as they go.
+    void addSteps(const Subject& subject, StepperKind stepper, Precision precision) {
+        constexpr int kSteps = 20;
+        constexpr double kStep = 0.001;  // s, stable for all of them
+        engine::Setup setup = subject.setup;
+        setup.stepper = stepper;
+        setup.precision = precision;
+        setup.step = kStep;
+        BenchRow row = subject.row;
+        row.name = stepName(stepper);
+        row.precision = precision;
+        std::vector<double> rounds;
+        for (int round = 0; round < settings_.rounds; ++round) {
+            engine::Simulation simulation = engine::start(setup);
+            engine::advance(simulation, kStep);  // builds the list
+            rounds.push_back(secondsOf([&] { engine::advance(simulation, (kSteps + 1) * kStep); }, 1) / kSteps);
+            row.stateHash = engine::stateHash(simulation.particles);
+        }
+        row.seconds = median(std::move(rounds));
+        add(row);
+    }
+
+    void addMultiplyAdds() {
+        constexpr std::size_t kRounds = 1U << 22;
+        const std::size_t threads = engine::threadCount();
+        BenchRow row;
+        row.name = "multiply-add";
+        row.precision = Precision::singles;
+        float sink = 0.0F;
+        double operations = 0.0;
+        row.seconds = measured([&] { operations = multiplyAdd(threads, kRounds, sink); }, settings_);
+        row.rate = operations / row.seconds;
+        row.stateHash = engine::hexadecimal(std::bit_cast<std::uint32_t>(sink));
+        add(row);
+    }
+
+    void addCopy() {
+        constexpr std::size_t kNumbers = 1U << 24;  // 128 MiB each: far beyond any cache
+        std::vector<double> from(kNumbers, 1.0);
+        std::vector<double> to(kNumbers, 0.0);
+        BenchRow row;
+        row.name = "copy";
+        row.seconds = measured(
+            [&] {
+                engine::inParallel(64, 1, [&](std::size_t part) {
+                    const std::size_t share = kNumbers / 64;
+                    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(part * share), share,
+                                to.begin() + static_cast<std::ptrdiff_t>(part * share));
+                });
+            },
+            settings_);
+        row.rate = 2.0 * sizeof(double) * static_cast<double>(kNumbers) / row.seconds;
+        add(row);
+    }
+
+    BenchSettings settings_;
+    std::function<void(const BenchRow&)> listener_;
+};
+
+}  // namespace
+
+double BenchRow::particleStepsPerSecond() const {
+    return static_cast<double>(particles) * steps / seconds;
+}
+
+double BenchRow::pairsPerSecond() const {
+    return neighbors * particleStepsPerSecond();
+}
+
+double BenchRow::nanosecondsPerPair() const {
+    return particles == 0 || neighbors == 0.0 ? 0.0 : 1e9 / pairsPerSecond();
+}
+
+std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {
+    Bench bench(settings, listener);
+    bench.measureMachine();
+    for (const std::size_t count : settings.counts)
+        for (const Packed& packed : kPackings) bench.measure(packed, count);
+    return std::move(bench.rows);
+}
+
+}  // namespace studies

@@ -1,0 +1,53 @@
+// One run of a scene past its still, each frame timed in its two halves.
+#include "studies/bench/bench_frames.h"
+
+#include <optional>
+
+#include "engine/forces/diagnostics.h"
+#include "render/renderer.h"
+#include "scenes/view/frame_steps.h"
+#include "scenes/view/frame_view.h"
+#include "studies/common/blocks.h"
+#include "studies/common/timing.h"
+
+namespace studies {
+
+std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* context, int rounds) {
+    const scenes::Scene& scene = subject.scene;
+    engine::Simulation simulation = engine::start(scene.setup);
+    int frame = scenes::stillFrame(scene);
+    scenes::advanceToFrame(scene, simulation, frame);
+    std::optional<render::Renderer> renderer;
+    if (context != nullptr) {
+        renderer.emplace(*context, scene.size, render::Quality::normal);
+        renderer->draw(scenes::frameView(scene, simulation));  // touches the memory
+    }
+    const std::uint64_t stepsBefore = simulation.steps.count;
+    std::vector<double> simulated;
+    std::vector<double> drawn;
+    for (int round = 0; round < rounds; ++round) {
+        ++frame;
+        simulated.push_back(secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); }, 1));
+        if (!renderer) continue;
+        const render::View view = scenes::frameView(scene, simulation);
+        drawn.push_back(secondsOf([&] { renderer->draw(view); }, 1));
+    }
+    BenchRow row;
+    row.name = kSimulateFrame;
+    row.material = subject.name;
+    row.particles = simulation.particles.count();
+    row.neighbors = meanNeighbors(scene.setup, simulation.particles);
+    row.precision = scene.setup.precision;
+    row.seconds = median(simulated);
+    row.steps = static_cast<double>(simulation.steps.count - stepsBefore) / rounds;
+    row.stateHash = engine::stateHash(simulation.particles);
+    if (!renderer) return {row};
+    BenchRow drawing = row;
+    drawing.name = kDrawFrame;
+    drawing.neighbors = 0.0;
+    drawing.steps = 1.0;
+    drawing.seconds = median(drawn);
+    return {row, drawing};
+}
+
+}  // namespace studies

@@ -1,0 +1,50 @@
+// A face-centerd packing cut to the number of particles.
+#include "studies/common/blocks.h"
+
+#include <cmath>
+
+#include "engine/core/random.h"
+#include "engine/forces/pair_traversal.h"
+#include "engine/state/bodies.h"
+
+namespace studies {
+
+using engine::Vec3;
+
+engine::Setup packedBlock(const std::string& material, std::size_t count, const BlockShape& shape) {
+    engine::Setup setup;
+    setup.materials = {*engine::materialPreset(material)};
+    setup.materials[0].mass = shape.mass;
+    setup.gravity = Vec3::Zero();
+    const double spacing = shape.spacing * 2.0 * setup.materials[0].radius;
+    const double side = std::cbrt(static_cast<double>(count) / std::sqrt(2.0)) * spacing;
+    // A little larger, then cut to the number.
+    auto positions =
+        engine::boxPositions(Vec3::Zero(), Vec3::Constant(side + spacing), {.spacing = spacing, .jitter = 0.05});
+    positions.resize(std::min(count, positions.size()));
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        Vec3 velocity = Vec3::Zero();
+        for (std::uint64_t axis = 0; axis < 3; ++axis)
+            velocity[static_cast<int>(axis)] =
+                shape.speed * engine::symmetricUnit(engine::randomBits(setup.seed, p, axis));
+        append(
+            setup.initial,
+            {.position = positions[p], .velocity = velocity, .radius = setup.materials[0].radius, .mass = shape.mass});
+    }
+    return setup;
+}
+
+double meanNeighbors(const engine::Setup& setup, const engine::Particles& particles) {
+    const engine::ForceLaw law{setup.materials, setup.gravity, setup.scenery};
+    engine::PairTraversal pairs(law, engine::Precision::doubles);
+    pairs.prepare(law, particles, particles.velocity);
+    std::vector<std::uint32_t> neighbors(particles.count());
+    pairs.forEachParticle([&](std::size_t seat) {
+        pairs.forEachNeighbor(seat, [&](std::uint32_t, const Vec3&, double) { ++neighbors[seat]; });
+    });
+    double sum = 0.0;
+    for (const std::uint32_t number : neighbors) sum += number;
+    return particles.count() == 0 ? 0.0 : sum / static_cast<double>(particles.count());
+}
+
+}  // namespace studies

@@ -1,0 +1,13 @@
+// Doubled quotation marks inside quotation marks.
+#include "studies/common/csv.h"
+
+namespace studies {
+
+std::string csvField(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+}  // namespace studies

@@ -1,0 +1,148 @@
+// Choose the stepper from what was measured, halve its step until that no longer matters.
+#include "studies/common/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/stepping/steppers.h"
+#include "studies/common/cloud_statistics.h"
+#include "studies/common/infinity.h"
+#include "studies/common/position_error.h"
+
+namespace studies {
+namespace {
+
+/// Small beside any error, large beside the rounding of a position (1e-16 m at radii of 0.1 m), radii.
+constexpr double kTwinDistance = 1e-9;
+
+/// Solver errors must stay below what halving the step changes.
+constexpr double kReferenceSolverTolerance = 1e-10;
+
+/// Twins that part by more than this share of the smallest error tell that positions show how roundings are amplified,
+/// and not the steppers. Chosen.
+constexpr double kChaoticShare = 0.1;
+
+/// What the last halving may change, as a share of the smallest error.
+constexpr double kSettledShare = 0.05;
+
+/// Chosen: an error of this many times what the reference still changes is known to a third.
+constexpr double kResolvedFactor = 3.0;
+
+/// The two finest finished runs of a stepper, the finest last; empty where there are not two.
+std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engine::StepperKind stepper) {
+    std::vector<const WindowRun*> finished;
+    for (const WindowRun& run : runs)
+        if (isOf(run.variant, stepper) && run.ending == Ending::finished) finished.push_back(&run);
+    if (finished.size() < 2) return {};
+    return {finished.end()[-2], finished.end()[-1]};
+}
+
+/// What tells fine runs apart: positions, unless even their births differ.
+Measure measureOf(const engine::Particles& a, const engine::Particles& b) {
+    return sameBirths(a, b) ? Measure::positions : Measure::statistics;
+}
+
+/// Of two steppers of order 2, the change at equal cost is proportional to the change times the square of the cost.
+double changeAtEqualCost(const Window& window, const std::vector<const WindowRun*>& two) {
+    const double cost = two[1]->passes;
+    const engine::Particles& coarse = two[0]->particles;
+    const engine::Particles& fine = two[1]->particles;
+    return difference(window, measureOf(coarse, fine), coarse, fine) * cost * cost;
+}
+
+const WindowRun& finestOfBetterStepper(const Window& window, const std::vector<WindowRun>& runs) {
+    const WindowRun* best = nullptr;
+    double least = kInfinity;
+    for (const auto stepper : {engine::StepperKind::velocityVerlet, engine::StepperKind::implicitDamping}) {
+        const auto two = finestTwo(runs, stepper);
+        const double change = two.empty() ? kInfinity : changeAtEqualCost(window, two);
+        if (change < least) best = two[1];
+        least = std::min(least, change);
+    }
+    if (best != nullptr) return *best;
+    std::string words;
+    for (const WindowRun& run : runs)
+        if (words.empty()) words = run.words;
+    throw engine::InstabilityError(fmt::format(
+        "neither velocity-verlet nor implicit-damping finished the window twice, so there is no reference; {}",
+        words.empty() ? "all runs were too slow" : words));
+}
+
+double smallestError(const Window& window, Measure measure, const std::vector<WindowRun>& runs,
+                     const engine::Particles& reference) {
+    double smallest = kInfinity;
+    for (const WindowRun& run : runs) {
+        if (run.ending != Ending::finished) continue;
+        smallest = std::min(smallest, difference(window, measure, run.particles, reference));
+    }
+    return smallest;
+}
+
+/// To its end, however long it takes.
+WindowRun runWhole(const Window& window, const Variant& variant, const ReferenceBudget& budget,
+                   std::string_view purpose) {
+    WindowRun run = runWindow(window, variant, kInfinity);
+    budget.listener(run, purpose);
+    if (run.ending != Ending::finished) throw engine::InstabilityError(run.words);
+    return run;
+}
+
+WindowRun runTwin(const Window& window, const Variant& variant, const ReferenceBudget& budget) {
+    Window twin = window;
+    twin.start.particles = displaced(std::move(twin.start.particles), kTwinDistance);
+    return runWhole(twin, variant, budget, "twin");
+}
+
+}  // namespace
+
+std::string_view nameOf(Measure measure) {
+    return measure == Measure::positions ? "positions" : "statistics";
+}
+
+double statisticsDifference(const engine::Particles& particles, const engine::Particles& reference) {
+    if (reference.count() == 0) return 0.0;
+    const double radius =
+        std::accumulate(reference.radius.begin(), reference.radius.end(), 0.0) / static_cast<double>(reference.count());
+    return largestDifference(statisticsOf(particles), statisticsOf(reference)) / radius;
+}
+
+double difference(const Window& window, Measure measure, const engine::Particles& a, const engine::Particles& b) {
+    if (measure == Measure::statistics) return statisticsDifference(a, b);
+    return positionError(a, b, window.start.particles.count()).rms;
+}
+
+Reference findReference(const Window& window, const std::vector<WindowRun>& runs, const ReferenceBudget& budget) {
+    const WindowRun& finest = finestOfBetterStepper(window, runs);
+    const WindowRun twin = runTwin(window, finest.variant, budget);
+
+    Reference reference;
+    ReferenceFacts& facts = reference.facts;
+    facts.variant = {finest.variant.stepper, finest.variant.asked / 4.0, kReferenceSolverTolerance};
+    reference.run = runWhole(window, facts.variant, budget, "reference");
+    double spent = reference.run.seconds;
+    facts.twinSeparation =
+        difference(window, measureOf(twin.particles, finest.particles), twin.particles, finest.particles);
+    const double smallest = smallestError(window, Measure::positions, runs, reference.run.particles);
+    facts.birthsDiffer =
+        !sameBirths(finest.particles, reference.run.particles) || !sameBirths(twin.particles, reference.run.particles);
+    if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.measure = Measure::statistics;
+    do {
+        facts.variant.asked /= 2.0;
+        WindowRun halved = runWhole(window, facts.variant, budget, "reference");
+        spent += halved.seconds;
+        facts.birthsDiffer = facts.birthsDiffer || !sameBirths(reference.run.particles, halved.particles);
+        if (facts.birthsDiffer) facts.measure = Measure::statistics;
+        facts.change = difference(window, facts.measure, reference.run.particles, halved.particles);
+        reference.run = std::move(halved);
+        facts.settled =
+            facts.change <= kSettledShare * smallestError(window, facts.measure, runs, reference.run.particles);
+    } while (!facts.settled && spent + 2.0 * reference.run.seconds <= budget.seconds);
+    facts.seconds = reference.run.seconds;
+    facts.resolution =
+        kResolvedFactor * std::max(facts.change, difference(window, facts.measure, twin.particles, finest.particles));
+    return reference;
+}
+
+}  // namespace studies

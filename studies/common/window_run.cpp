@@ -1,0 +1,108 @@
+// Copy the state, change the set-up, advance frame by frame against the clock.
+#include "studies/common/window_run.h"
+
+#include <chrono>
+
+#include "engine/error_control/auto_stepper.h"
+#include "engine/stepping/step_cost.h"
+#include "engine/stepping/steppers.h"
+#include "scenes/view/frame_steps.h"
+
+namespace studies {
+namespace {
+
+/// A fresh simulation that takes over the state alone, not what another stepper remembered of its way there.
+engine::Simulation begin(const Window& window, const Variant& variant) {
+    engine::Setup setup = window.start.setup;
+    setup.initial = {};
+    setup.world.reset();  // what is compared particle by particle has all of them at its end
+    setup.stepper = variant.stepper;
+    setup.precision = variant.precision;
+    if (variant.stepper == engine::StepperKind::automatic)
+        setup.error = variant.asked;
+    else
+        setup.step = variant.asked;
+    if (variant.solverTolerance) setup.solverTolerance = *variant.solverTolerance;
+    engine::Simulation simulation = engine::start(setup);
+    simulation.particles = window.start.particles;
+    simulation.emitters = window.start.emitters;
+    simulation.time = window.start.time;
+    return simulation;
+}
+
+/// The automatic stepper as in the middle of a run: it has made its choice, and looks again half a pause later.
+void settle(const Window& window, engine::Simulation& simulation) {
+    engine::Simulation scout = simulation;
+    scenes::advanceToFrame(window.scene, scout, window.firstFrame + 1);
+    const engine::AutoChoice& chosen = scout.automatic.choices[static_cast<std::size_t>(scout.stepper)];
+    if (chosen.step <= 0.0) return;  // nobody was there to choose for
+    simulation.automatic = scout.automatic;
+    simulation.automatic.nextLook = simulation.automatic.intervals + engine::kLongestPause / 2;
+    simulation.automatic.looks = engine::kLongestPause;
+    simulation.automatic.trials = 0.0;
+    simulation.stepper = scout.stepper;
+}
+
+}  // namespace
+
+double Window::seconds() const {
+    return scenes::frameTime(scene, lastFrame) - scenes::frameTime(scene, firstFrame);
+}
+
+std::string nameOf(const Variant& variant) {
+    const std::string stepper(engine::nameOf(variant.stepper));
+    return variant.precision == engine::Precision::singles ? stepper + " in float" : stepper;
+}
+
+bool isOf(const Variant& variant, engine::StepperKind stepper, engine::Precision precision) {
+    return variant.stepper == stepper && variant.precision == precision;
+}
+
+std::string nameOf(Ending ending) {
+    switch (ending) {
+        case Ending::finished:
+            return "finished";
+        case Ending::unstable:
+            return "unstable";
+        case Ending::tooSlow:
+            return "too slow";
+    }
+    return {};
+}
+
+Window openWindow(const scenes::Scene& scene, int firstFrame, int frameCount) {
+    Window window{scene, engine::start(scene.setup), firstFrame, firstFrame + frameCount};
+    scenes::advanceToFrame(scene, window.start, firstFrame);
+    return window;
+}
+
+WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit) {
+    using Clock = std::chrono::steady_clock;
+    engine::Simulation simulation = begin(window, variant);
+    WindowRun run;
+    run.variant = variant;
+    Clock::time_point start = Clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    try {
+        if (variant.stepper == engine::StepperKind::automatic) settle(window, simulation);
+        start = Clock::now();
+        for (int frame = window.firstFrame + 1; frame <= window.lastFrame; ++frame) {
+            scenes::advanceToFrame(window.scene, simulation, frame);
+            if (frame == window.lastFrame || elapsed() <= secondsLimit) continue;
+            run.ending = Ending::tooSlow;
+            break;
+        }
+    } catch (const engine::InstabilityError& error) {
+        run.ending = Ending::unstable;
+        run.words = error.what();
+    }
+    run.seconds = elapsed();
+    run.steps = simulation.steps;
+    run.lookPasses = simulation.automatic.trials;
+    run.passes = engine::passesOf(simulation) + run.lookPasses;
+    if (run.ending == Ending::finished) run.energy = engine::energy(simulation.evaluator, simulation.particles);
+    run.particles = std::move(simulation.particles);
+    return run;
+}
+
+}  // namespace studies

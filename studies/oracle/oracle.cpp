@@ -1,0 +1,383 @@
+// The oracle's ray caster, see oracle.h. From top to bottom: the metaball field, the nearest surface, light, the
+// picture. Balls, boxes and the ground are in oracle_solids.h, the roots of the field's polynomials in polynomial.h.
+#include "studies/oracle/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "studies/common/infinity.h"
+#include "studies/oracle/oracle_shadow.h"
+#include "studies/oracle/oracle_solids.h"
+#include "studies/oracle/polynomial.h"
+
+namespace oracle {
+namespace {
+
+/// 1 - d^2/R^2, the square root of the kernel, or 0 outside of the ball's reach.
+double kernelRoot(const Ball& ball, const dvec3& point) {
+    const dvec3 offset = point - ball.center;
+    const double squared = glm::dot(offset, offset);
+    return squared < ball.reach * ball.reach ? 1.0 - squared / (ball.reach * ball.reach) : 0.0;
+}
+
+/// A ball whose reach a ray crosses.
+struct CrossedBall {
+    Foot foot;
+    double reach = 0.0;
+    double weight = 1.0;
+    Chord chord;
+};
+
+std::vector<CrossedBall> ballsCrossed(const Scene& scene, const Indices& near, const Ray& ray) {
+    std::vector<CrossedBall> crossed;
+    for (const std::uint32_t k : near) {
+        const Ball& ball = scene.balls[k];
+        const Foot foot = footOf(ray, ball.center);
+        const std::optional<Chord> chord = chordOf(foot, ball.reach);
+        if (chord && chord->exit > 0.0) crossed.push_back({foot, ball.reach, ball.weight, *chord});
+    }
+    return crossed;
+}
+
+/// The field minus the threshold on the stretch from low to high of a ray, as a polynomial in s from -1 (low) to 1
+/// (high). With half = (high - low)/2, e = (low + high)/2 - middle, a ball's d^2 = offSquared + (e + half s)^2, so that
+///   1 - d^2/R^2 = a + b s + c s^2   with   a = 1 - (offSquared + e^2)/R^2,  b = -2 e half/R^2,  c = -half^2/R^2
+/// and the kernel is its square. No ball may begin or end inside the stretch.
+Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, const Chord& stretch) {
+    const double half = 0.5 * (stretch.exit - stretch.enter);
+    Quartic sum{-threshold, 0.0, 0.0, 0.0, 0.0};
+    for (const CrossedBall& ball : balls) {
+        if (ball.chord.enter > stretch.enter || ball.chord.exit < stretch.exit) continue;
+        const double e = 0.5 * (stretch.enter + stretch.exit) - ball.foot.middle;
+        const double scale = 1.0 / (ball.reach * ball.reach);
+        const double a = 1.0 - (ball.foot.offSquared + e * e) * scale;
+        const double b = -2.0 * e * half * scale;
+        const double c = -half * half * scale;
+        sum[0] += ball.weight * a * a;
+        sum[1] += ball.weight * 2.0 * a * b;
+        sum[2] += ball.weight * (b * b + 2.0 * a * c);
+        sum[3] += ball.weight * 2.0 * b * c;
+        sum[4] += ball.weight * c * c;
+    }
+    return sum;
+}
+
+/// The first distance from 0 on where the field is at least the threshold; infinity without one. Between neighboring
+/// entries and exits the field is one polynomial, whose roots are all found: no step, so no sliver is too thin.
+double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ray) {
+    const std::vector<CrossedBall> balls = ballsCrossed(scene, near, ray);
+    std::vector<double> ends{0.0};
+    for (const CrossedBall& ball : balls) {
+        if (ball.chord.enter > 0.0) ends.push_back(ball.chord.enter);
+        ends.push_back(ball.chord.exit);
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const Chord stretch{ends[i], ends[i + 1]};
+        if (stretch.enter == stretch.exit) continue;
+        const Quartic excess = fieldAlong(balls, fieldThreshold(scene.view), stretch);
+        if (valueAt(excess, -1.0) >= 0.0) return stretch.enter;
+        if (staysNegative(excess)) continue;
+        const std::vector<double> roots = rootsIn(excess, -1.0, 1.0);
+        if (!roots.empty()) return stretch.enter + 0.5 * (roots.front() + 1.0) * (stretch.exit - stretch.enter);
+    }
+    return kInfinity;
+}
+
+/// The kernel's gradient is -4 (1 - d^2/R^2) (x - c)/R^2; the factor 4 drops out of the normal.
+Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
+    const render::View& view = scene.view;
+    const double distance = firstFieldDistance(scene, near, ray);
+    if (distance == kInfinity) return {};
+    Hit hit;
+    hit.kind = Hit::Kind::particle;
+    hit.distance = distance;
+    hit.point = ray.origin + distance * ray.direction;
+    dvec3 downhill{0.0};
+    dvec3 colorSum{0.0};
+    double kernelSum = 0.0;
+    SixValues openSum{};
+    for (const std::uint32_t k : near) {
+        const Ball& ball = scene.balls[k];
+        const double root = kernelRoot(ball, hit.point);
+        if (root == 0.0) continue;
+        const double kernel = ball.weight * root * root;
+        downhill += ball.weight * root / (ball.reach * ball.reach) * (hit.point - ball.center);
+        colorSum += kernel * dvec3(view.particles[k].color);
+        kernelSum += kernel;
+        for (std::size_t side = 0; side < 6; ++side) openSum[side] += kernel * scene.sky.ofParticle(k)[side];
+    }
+    hit.normal = unitOr(downhill, -ray.direction);
+    hit.albedo = colorSum / kernelSum;
+    for (std::size_t side = 0; side < 6; ++side) hit.open[side] = openSum[side] / kernelSum;
+    return hit;
+}
+
+void keepNearer(Hit& best, const Hit& candidate) {
+    if (candidate.distance < best.distance) best = candidate;
+}
+
+void keepNearer(Hit& best, Hit candidate, Hit::Kind kind, const glm::vec3& color) {
+    candidate.kind = kind;
+    candidate.albedo = dvec3(color);
+    keepNearer(best, candidate);
+}
+
+/// Everything that casts shadows: all but the ground.
+Hit traceCasters(const Scene& scene, const Ray& ray) {
+    const render::View& view = scene.view;
+    Hit best;
+    const Indices near = scene.crowd.along(ray);
+    if (view.style == render::Style::metaballs) {
+        keepNearer(best, hitField(scene, near, ray));
+    } else {
+        for (const std::uint32_t k : near) {
+            const render::Sphere& sphere = view.particles[k];
+            Hit hit = hitSphere(ray, dvec3(sphere.center), sphere.radius);
+            hit.open = scene.sky.ofParticle(k);
+            keepNearer(best, hit, Hit::Kind::particle, sphere.color);
+        }
+    }
+    for (const render::SphereObstacle& sphere : view.sphereObstacles)
+        keepNearer(best, hitSphere(ray, dvec3(sphere.center), sphere.radius), Hit::Kind::sphereObstacle, sphere.color);
+    for (const render::BoxObstacle& box : view.boxObstacles)
+        keepNearer(best, hitBox(ray, box), Hit::Kind::boxObstacle, box.color);
+    return best;
+}
+
+dvec3 unitToLight(const render::View& view) {
+    return glm::normalize(dvec3(view.light.toLight));
+}
+
+/// Fresnel's term by Schlick, a channel each.
+dvec3 fresnel(const render::View& view, const dvec3& albedo, double cosine) {
+    const dvec3 headOn = glm::mix(dvec3(view.surface.specular), albedo, double(view.surface.metal));
+    return headOn + (1.0 - headOn) * std::pow(1.0 - std::max(0.0, cosine), 5.0);
+}
+
+/// Fresnel, gloss and cone of the glint, without the light's color and visibility; toLight must be on the normal's
+/// side.
+dvec3 glint(const render::View& view, const Hit& hit, const dvec3& toEye, const dvec3& toLight) {
+    if (view.surface.specular == 0.0F && view.surface.metal == 0.0F) return dvec3{0.0};
+    const dvec3 halfway = unitOr(toLight + toEye, dvec3{0.0});
+    const double gloss = std::ldexp(1.0, view.surface.glossExponent);
+    return fresnel(view, hit.albedo, glm::dot(toEye, halfway)) *
+           ((gloss + 8.0) / 8.0 * std::pow(std::max(0.0, glm::dot(hit.normal, halfway)), gloss));
+}
+
+dvec3 skyToward(const render::View& view, const dvec3& d) {
+    return glm::mix(dvec3(view.ambient.ground), dvec3(view.ambient.sky), 0.5 + 0.5 * d.y);
+}
+
+dvec3 surroundingsToward(const render::View& view, const dvec3& d) {
+    const render::Surroundings& around = view.surroundings;
+    if (d.y > 0.0) return glm::mix(dvec3(around.horizon), dvec3(around.top), d.y * (2.0 - d.y));
+    return glm::mix(dvec3(around.horizon), dvec3(around.bottom), std::min(1.0, -4.0 * d.y));
+}
+
+dvec3 shoulder(const dvec3& color) {
+    const double peak = std::max({color.x, color.y, color.z});
+    if (peak <= 0.7) return color;
+    const double kept = 1.0 - 0.09 / (peak - 0.4);
+    return glm::mix(kept / peak * color, dvec3(kept), 1.0 - 1.0 / (1.0 + 0.06 * (peak - kept)));
+}
+
+/// Openness of what was hit: a particle's own, that of the place for all else.
+SixValues openAt(const Scene& scene, const Hit& hit) {
+    return hit.kind == Hit::Kind::particle ? hit.open : scene.sky.at(hit.point);
+}
+
+dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
+    const render::View& view = scene.view;
+    // Terms that obstacles and ground do not have.
+    const render::Surface surface = hit.kind == Hit::Kind::particle ? view.surface : render::Surface{};
+    const bool particle = hit.kind == Hit::Kind::particle;
+    const dvec3 toLight = unitToLight(view);
+    const dvec3 toEye = -ray.direction;
+    const dvec3& n = hit.normal;
+    const dvec3 light(view.light.color);
+    const bool facing = glm::dot(n, toLight) > 0.0;
+    const double lit = !facing ? 0.0 : view.light.shadows ? visibility(scene, hit.point, n) : 1.0;
+    const SixValues open = openAt(scene, hit);
+    double cosine = std::max(0.0, glm::dot(n, toLight));
+    const double dust = 2.2 / (cosine + std::max(0.0, glm::dot(n, toEye)) + 0.2);
+    cosine *= 1.0 + double(surface.roughness) * (dust - 1.0);
+    const dvec3 ambient = skyToward(view, n) * (1.0 - double(view.ambient.occlusion) * (1.0 - openToward(open, n)));
+    const dvec3 through = double(surface.translucency) * openToward(open, -n) *
+                          (skyToward(view, -n) + light * (0.25 + std::max(0.0, -glm::dot(n, toLight))));
+    const dvec3 body =
+        glm::mix(hit.albedo, hit.albedo * hit.albedo, double(surface.absorption) * (1.0 - openToward(open, -n)));
+    dvec3 color = (1.0 - double(surface.metal)) * body * (ambient + light * (cosine * lit) + through);
+    if (particle && facing) color += lit * light * glint(view, hit, toEye, toLight);
+    const dvec3 mirrored = glm::reflect(ray.direction, n);
+    color += double(surface.reflection) * fresnel(view, hit.albedo, glm::dot(n, toEye)) * openToward(open, mirrored) *
+             surroundingsToward(view, mirrored);
+    color += double(surface.glow) * hit.albedo * hit.albedo;
+    return view.exposure > 0.0F ? shoulder(double(view.exposure) * color) : color;
+}
+
+}  // namespace
+
+Scene::Scene(const render::View& view_, bool everyone)
+    : view(view_), balls(ballsOf(view_)), crowd(Crowd::everyone(view_.particles.size())), sky(view_) {
+    if (everyone) return;
+    std::vector<Extent> extents;
+    for (std::size_t k = 0; k < balls.size(); ++k) {
+        // The edge of a soft shadow is wider than the sphere.
+        const double sphere = double(view.particles[k].radius) * (1.0 + 0.5 * double(view.light.softness));
+        extents.push_back({balls[k].center, view.style == render::Style::metaballs ? balls[k].reach : sphere});
+    }
+    crowd = Crowd(extents);
+}
+
+std::vector<Ball> ballsOf(const render::View& view) {
+    std::vector<Ball> balls;
+    for (const render::Sphere& particle : view.particles)
+        balls.push_back({dvec3(particle.center), double(view.field.reach) * double(particle.radius), 1.0});
+    if (view.field.skin == render::Skin::plain || view.style == render::Style::spheres) return balls;
+    std::vector<Extent> extents;
+    // Half of each reach: two of them overlap where the pair acts.
+    for (const Ball& ball : balls) extents.push_back({ball.center, 0.5 * ball.reach});
+    const Crowd crowd(extents);
+    std::vector<Ball> skin = balls;
+    for (std::size_t k = 0; k < balls.size(); ++k) {
+        const dvec3 here = balls[k].center;
+        double crowding = 0.0;
+        dvec3 pull(0.0);
+        for (const std::uint32_t other : crowd.within(here, 0.5 * balls[k].reach)) {
+            const dvec3 off = balls[other].center - here;
+            const double reach = 0.5 * (balls[k].reach + balls[other].reach);
+            const double root = std::max(0.0, 1.0 - glm::dot(off, off) / (reach * reach));
+            crowding += root * root;
+            pull += root * root * off;
+        }
+        skin[k].center = here + double(render::kSkinPull) * pull / crowding;
+        skin[k].weight = std::pow(crowding, -0.75);
+    }
+    return skin;
+}
+
+Ray pixelRay(const render::View& view, render::PictureSize size, double px, double py) {
+    const render::Camera& camera = view.camera;
+    const dvec3 eye(camera.eye);
+    const dvec3 forward = glm::normalize(dvec3(camera.target) - eye);
+    const dvec3 right = glm::normalize(glm::cross(forward, dvec3(camera.up)));
+    if (!std::isfinite(right.x)) throw std::domain_error("pixelRay: the camera looks nowhere or along its up");
+    const dvec3 up = glm::cross(right, forward);
+    // In units of half the picture's height, from its center.
+    const double x = (2.0 * px - size.width) / size.height;
+    const double y = 1.0 - 2.0 * py / size.height;
+    const dvec3 across = x * right + y * up;
+    if (camera.projection == render::Projection::orthographic)
+        return {eye + double(camera.halfHeight) * across, forward};
+    return {eye, glm::normalize(forward + std::tan(0.5 * double(camera.verticalFov)) * across)};
+}
+
+Hit trace(const render::View& view, const Ray& ray) {
+    return trace(Scene(view, true), ray);
+}
+
+Hit trace(const Scene& scene, const Ray& ray) {
+    const render::View& view = scene.view;
+    Hit best = traceCasters(scene, ray);
+    if (view.ground) keepNearer(best, hitGround(ray, *view.ground), Hit::Kind::ground, view.ground->color);
+    return best;
+}
+
+double fieldAt(const render::View& view, const dvec3& point) {
+    double sum = 0.0;
+    for (const Ball& ball : ballsOf(view)) {
+        const double root = kernelRoot(ball, point);
+        sum += ball.weight * root * root;
+    }
+    return sum;
+}
+
+double fieldThreshold(const render::View& view) {
+    const double reach = double(view.field.reach);
+    const double root = 1.0 - 1.0 / (reach * reach);
+    return root * root;
+}
+
+bool inShadow(const Scene& scene, const dvec3& point, const dvec3& normal) {
+    // Lifts the start off its own surface: a million roundings of the coordinates, still far below anything visible.
+    const double lift = 1e-9 * (1.0 + glm::length(point));
+    return traceCasters(scene, {point + lift * normal, unitToLight(scene.view)}).kind != Hit::Kind::none;
+}
+
+double visibility(const Scene& scene, const dvec3& point, const dvec3& normal) {
+    const render::View& view = scene.view;
+    if (view.light.softness == 0.0F) return inShadow(scene, point, normal) ? 0.0 : 1.0;
+    const ShadedPoint shaded{point, normal, unitToLight(view), double(view.light.softness)};
+    double cover = 0.0;
+    if (view.style == render::Style::spheres) {
+        for (const std::uint32_t k : scene.crowd.along({point, shaded.toLight}))
+            cover += coverOfSphere(shaded, dvec3(view.particles[k].center), double(view.particles[k].radius));
+    } else {
+        double met = 0.0;
+        const std::vector<dvec3> starts = fieldShadowStarts(shaded, meanRadius(view));
+        for (const dvec3& start : starts) {
+            const Ray ray{start, shaded.toLight};
+            met += firstFieldDistance(scene, scene.crowd.along(ray), ray) < kInfinity ? 1.0 : 0.0;
+        }
+        cover += met / static_cast<double>(starts.size());
+    }
+    for (const render::SphereObstacle& sphere : view.sphereObstacles)
+        cover += coverOfSphere(shaded, dvec3(sphere.center), double(sphere.radius));
+    for (const render::BoxObstacle& box : view.boxObstacles) cover += coverOfBox(shaded, box, meanRadius(view));
+    return std::max(0.0, 1.0 - cover);
+}
+
+dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT) {
+    return shade(Scene(view, true), hit, ray, screenT);
+}
+
+dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT) {
+    const render::View& view = scene.view;
+    const dvec3 background = glm::mix(dvec3(view.background.bottom), dvec3(view.background.top), screenT);
+    if (hit.kind == Hit::Kind::none) return background;
+    const dvec3 color = shadeSurface(scene, hit, ray);
+    if (hit.kind != Hit::Kind::ground) return color;
+    const double relative = glm::distance(hit.point, dvec3(view.ground->center)) / double(view.ground->fadeDistance);
+    const double fade = std::pow(relative, 4.0);
+    return glm::mix(color, background, 1.0 / (1.0 + 1.0 / fade));  // fade/(1 + fade), also for fade = 0 and infinity
+}
+
+std::uint8_t encodeSrgb(double linear) {
+    if (!(linear >= 0.0 && linear <= 1.0))
+        throw std::domain_error("encodeSrgb: " + std::to_string(linear) + " is not in [0,1]");
+    const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::floor(255.0 * encoded + 0.5));
+}
+
+Picture draw(const render::View& view, render::PictureSize size, int samplesPerAxis) {
+    return drawWindow(Scene(view), size, {0, 0, size.width, size.height}, samplesPerAxis);
+}
+
+Picture drawWindow(const Scene& scene, render::PictureSize size, const Window& window, int samplesPerAxis) {
+    const render::View& view = scene.view;
+    Picture picture{window.width, window.height, {}, {}, {}, {}};
+    const auto sampleAt = [&](double px, double py) {
+        const Ray ray = pixelRay(view, size, px, py);
+        return glm::clamp(shade(scene, trace(scene, ray), ray, 1.0 - py / size.height), 0.0, 1.0);
+    };
+    for (int y = window.y; y < window.y + window.height; ++y) {
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            const Hit hit = trace(scene, pixelRay(view, size, x + 0.5, y + 0.5));
+            picture.kinds.push_back(hit.kind);
+            picture.distances.push_back(hit.distance);
+            picture.normals.push_back(hit.normal);
+            dvec3 sum{0.0};
+            for (int j = 0; j < samplesPerAxis; ++j)
+                for (int i = 0; i < samplesPerAxis; ++i)
+                    sum += sampleAt(x + (i + 0.5) / samplesPerAxis, y + (j + 0.5) / samplesPerAxis);
+            const dvec3 mean = glm::clamp(sum / double(samplesPerAxis * samplesPerAxis), 0.0, 1.0);
+            for (int channel = 0; channel < 3; ++channel) picture.rgb.push_back(encodeSrgb(mean[channel]));
+        }
+    }
+    return picture;
+}
+
+}  // namespace oracle

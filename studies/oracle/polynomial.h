@@ -1,0 +1,85 @@
+// Real roots of polynomials up to degree four inside an interval, for the oracle's metaballs (studies/oracle.cpp).
+// Between two neighboring zeros of its derivative a polynomial is monotone, so it has at most one root there and
+// bisection finds it; the derivative's zeros are found the same way, starting from the linear one. Header only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace oracle {
+
+/// c[0] + c[1] x + ... + c[4] x^4.
+using Quartic = std::array<double, 5>;
+
+inline double valueAt(const Quartic& c, double x) {
+    return (((c[4] * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0];
+}
+
+inline Quartic derivative(const Quartic& c) {
+    return {c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0};
+}
+
+/// The root between low and high, where c has opposite signs; to the last bit of x where valueAt's signs are right.
+inline double bisect(const Quartic& c, double low, double high) {
+    const bool risesFromLow = valueAt(c, low) < 0.0;
+    while (true) {
+        const double middle = 0.5 * (low + high);
+        if (middle <= low || middle >= high) return middle;  // low and high are neighboring doubles
+        const double value = valueAt(c, middle);
+        if (value == 0.0) return middle;
+        ((value < 0.0) == risesFromLow ? low : high) = middle;
+    }
+}
+
+/// The zeros of c among the knots and between them, ascending; c must be monotone between neighboring knots.
+inline std::vector<double> rootsBetweenKnots(const Quartic& c, const std::vector<double>& knots) {
+    std::vector<double> roots;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        const double here = valueAt(c, knots[i]);
+        if (here == 0.0) {
+            if (roots.empty() || roots.back() != knots[i]) roots.push_back(knots[i]);
+        } else if (i + 1 < knots.size()) {
+            const double next = valueAt(c, knots[i + 1]);
+            if ((here < 0.0 && next > 0.0) || (here > 0.0 && next < 0.0))
+                roots.push_back(bisect(c, knots[i], knots[i + 1]));
+        }
+    }
+    return roots;
+}
+
+/// Whether no root lies in [-1, 1] for certain: with s = 2 t - 1 the polynomial is a mean of its five coefficients in
+/// Bernstein's basis, so it is negative where they all are. False proves nothing.
+inline bool staysNegative(const Quartic& c) {
+    // Powers of t of c(2 t - 1), by Horner's rule: q <- q (2 t - 1) + c[k].
+    Quartic q{};
+    for (std::size_t k = c.size(); k-- > 0;) {
+        for (std::size_t power = q.size() - 1; power > 0; --power) q[power] = 2.0 * q[power - 1] - q[power];
+        q[0] = c[k] - q[0];
+    }
+    // b_k = sum over j <= k of (k choose j) / (4 choose j) q_j.
+    const double b1 = q[0] + q[1] / 4.0;
+    const double b2 = q[0] + q[1] / 2.0 + q[2] / 6.0;
+    const double b3 = q[0] + 3.0 * q[1] / 4.0 + q[2] / 2.0 + q[3] / 4.0;
+    const double b4 = q[0] + q[1] + q[2] + q[3] + q[4];
+    // A margin for the rounding of some twenty operations on numbers of the size of q[0] and smaller.
+    const double below = -1e-13;
+    return q[0] < below && b1 < below && b2 < below && b3 < below && b4 < below;
+}
+
+/// All distinct roots in [low, high], ascending. A root where c only touches zero is found if it touches in double
+/// arithmetic.
+inline std::vector<double> rootsIn(const Quartic& c, double low, double high) {
+    std::array<Quartic, 4> chain{c};  // c and its first three derivatives; the last one is linear, hence monotone
+    for (std::size_t order = 1; order < chain.size(); ++order) chain[order] = derivative(chain[order - 1]);
+    std::vector<double> roots;
+    for (std::size_t order = chain.size(); order-- > 0;) {
+        std::vector<double> knots{low};
+        knots.insert(knots.end(), roots.begin(), roots.end());
+        knots.push_back(high);
+        roots = rootsBetweenKnots(chain[order], knots);
+    }
+    return roots;
+}
+
+}  // namespace oracle

@@ -1,0 +1,222 @@
+// Draws the cloud again and again, and compares windows of it with the oracle's.
+#include "studies/pictures/pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "render/output/png.h"
+#include "render/output/video.h"
+#include "render/renderer.h"
+#include "studies/common/timing.h"
+#include "studies/oracle/ball_grid.h"
+#include "studies/pictures/picture_cloud.h"
+#include "studies/pictures/quad_baseline.h"
+
+namespace studies {
+namespace {
+
+using render::DrawTimes;
+using render::Quality;
+using render::Style;
+
+/// The view with its particles a little further in each frame, seen by a camera at rest.
+std::vector<render::View> framesAtRest(const render::View& view, int count) {
+    std::vector<render::View> frames;
+    for (int frame = 0; frame < count; ++frame) {
+        frames.push_back(view);
+        for (render::Sphere& particle : frames.back().particles) particle.center.x += 0.02F * static_cast<float>(frame);
+    }
+    return frames;
+}
+
+DrawTimes medianStages(const std::vector<DrawTimes>& times) {
+    const auto of = [&times](double DrawTimes::*stage) {
+        std::vector<double> values;
+        for (const DrawTimes& time : times) values.push_back(time.*stage);
+        return median(values);
+    };
+    return {of(&DrawTimes::bin),   of(&DrawTimes::occlusion), of(&DrawTimes::shadow),  of(&DrawTimes::cast),
+            of(&DrawTimes::color), of(&DrawTimes::openGl),    of(&DrawTimes::readBack)};
+}
+
+/// Seconds of drawing frames while the one before is encoded, as the render loop does.
+double overlapped(render::Renderer& renderer, const std::vector<render::View>& frames, int count,
+                  const std::function<void(const render::Image&)>& encode) {
+    constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+    std::array<render::Image, 3> places;  // in flight
+    int next = 0;
+    const auto drawNext = [&](tbb::flow_control& flow) -> render::Image* {
+        if (next == count) {
+            flow.stop();
+            return nullptr;
+        }
+        const auto frame = static_cast<std::size_t>(next++);
+        render::Image& image = places[frame % places.size()];
+        tbb::this_task_arena::isolate([&] { image = renderer.draw(frames[frame % frames.size()], std::move(image)); });
+        return &image;
+    };
+    const auto all = [&] {
+        tbb::parallel_pipeline(places.size(), tbb::make_filter<void, render::Image*>(kInOrder, drawNext) &
+                                                  tbb::make_filter<render::Image*, void>(
+                                                      kInOrder, [&](render::Image* image) { encode(*image); }));
+    };
+    return secondsOf(all, 1);
+}
+
+render::VideoOptions videoOptions(const PictureSettings& settings, render::PictureSize size) {
+    render::VideoOptions options;
+    options.path = settings.videoPath;
+    options.size = size;
+    return options;
+}
+
+/// Seconds of a video of so many frames, which are these in turn.
+double secondsOfVideo(const render::VideoOptions& options, const std::vector<render::Image>& images, int count) {
+    render::VideoWriter video(options);
+    return secondsOf(
+        [&] {
+            for (int k = 0; k < count; ++k) video.add(images[static_cast<std::size_t>(k) % images.size()]);
+            video.finish();
+        },
+        1);
+}
+
+/// What a video takes once is told apart from what each of its frames takes.
+void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
+                     render::Renderer& renderer, PictureRow& row) {
+    // Slow frames are alike; a second of them is enough.
+    const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.draw)));
+    const render::Image image = renderer.draw(frames.front());
+    row.png = secondsOf([&] { render::encodePng(image); }, 3);
+    row.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); }) / count;
+    std::vector<render::Image> images;
+    for (int k = 0; k < count; ++k)
+        images.push_back(renderer.draw(frames[static_cast<std::size_t>(k) % frames.size()]));
+    const render::VideoOptions options = videoOptions(settings, row.size);
+    const double one = secondsOfVideo(options, images, 1);
+    row.mp4 = std::max(0.0, secondsOfVideo(options, images, 1 + settings.encodedFrames) - one) / settings.encodedFrames;
+    row.mp4Once = std::max(0.0, one - row.mp4);
+    render::VideoWriter video(options);
+    double seconds = overlapped(renderer, frames, count, [&](const render::Image& i) { video.add(i); });
+    seconds += secondsOf([&] { video.finish(); }, 1);
+    row.withMp4 = std::max(0.0, seconds - row.mp4Once) / count;
+}
+
+std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const render::View& view,
+                                      render::PictureSize size) {
+    std::vector<ExactWindow> windows;
+    for (int row = 0; row < settings.windowRows; ++row)
+        for (int column = 0; column < settings.windowColumns; ++column)
+            windows.push_back({{(2 * column + 1) * size.width / (2 * settings.windowColumns) - settings.windowSide / 2,
+                                (2 * row + 1) * size.height / (2 * settings.windowRows) - settings.windowSide / 2,
+                                settings.windowSide, settings.windowSide},
+                               {}});
+    const oracle::Scene scene(view);
+    tbb::parallel_for(std::size_t{0}, windows.size(), [&](std::size_t k) {
+        windows[k].picture = oracle::drawWindow(scene, size, windows[k].window, settings.samplesPerAxis);
+    });
+    return windows;
+}
+
+/// The qualities of one style, number and size.
+struct Subject {
+    Style style;
+    std::size_t particles;
+    render::PictureSize size;
+    const render::View& fewest;  ///< particles of all that the study draws
+};
+
+/// Medians over some frames.
+struct Drawing {
+    double baseline = 0.0;        ///< s
+    double fewestBaseline = 0.0;  ///< s
+    double draw = 0.0;            ///< s
+    DrawTimes stages;
+};
+
+/// Draws every frame with the quads and with the renderer in turn, so that both meet the machine in the same mood.
+/// fewest: drawn with the quads in turn, too; none: nothing.
+Drawing measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
+                       const render::View* fewest = nullptr) {
+    std::vector<DrawTimes> times;
+    std::vector<double> baseline, fewestBaseline, draw;
+    // The first frame compiles shaders.
+    render::Image ofQuads = quads.draw(frames.front());
+    render::Image ours = renderer.draw(frames.front());
+    for (const render::View& view : frames) {
+        if (fewest != nullptr)
+            fewestBaseline.push_back(secondsOf([&] { ofQuads = quads.draw(*fewest, std::move(ofQuads)); }, 1));
+        baseline.push_back(secondsOf([&] { ofQuads = quads.draw(view, std::move(ofQuads)); }, 1));
+        draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }, 1));
+        times.push_back(renderer.times());
+    }
+    return {median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline), median(draw), medianStages(times)};
+}
+
+PictureRow measureQuality(const PictureSettings& settings, render::Context& context, const Subject& subject,
+                          Quality quality, const std::vector<render::View>& frames) {
+    PictureRow row;
+    row.style = subject.style;
+    row.particles = subject.particles;
+    row.size = subject.size;
+    row.quality = quality;
+    render::Renderer renderer(context, subject.size, quality);
+    {
+        QuadBaseline quads(context, subject.size);
+        const Drawing moving = measureDrawing(quads, renderer, frames, &subject.fewest);
+        row.baseline = moving.baseline;
+        row.fewestBaseline = moving.fewestBaseline;
+        row.draw = moving.draw;
+        row.stages = moving.stages;
+        const Drawing resting = measureDrawing(quads, renderer, framesAtRest(frames.front(), settings.frames));
+        row.atRestBaseline = resting.baseline;
+        row.atRest = resting.draw;
+    }
+    measureEncoding(settings, frames, renderer, row);
+    return row;
+}
+
+void measureSubject(const PictureSettings& settings, render::Context& context, const Subject& subject,
+                    const PictureListener& listener, std::vector<PictureRow>& rows) {
+    const render::View view = pictureCloud(subject.particles, subject.style);
+    const std::vector<render::View> frames = framesOf(view, settings.frames);
+    const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
+    for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
+        PictureRow row = measureQuality(settings, context, subject, quality, frames);
+        render::Renderer renderer(context, subject.size, quality);
+        row.error = errorOf(renderer.draw(view), renderer.surfaces(view), view, exact);
+        rows.push_back(row);
+        listener(rows);
+    }
+}
+
+}  // namespace
+
+const char* nameOf(Style style) {
+    return style == Style::spheres ? "spheres" : "metaballs";
+}
+
+const char* nameOf(Quality quality) {
+    return quality == Quality::draft ? "draft" : quality == Quality::normal ? "normal" : "final";
+}
+
+std::vector<PictureRow> measurePictures(const PictureSettings& settings, const PictureListener& listener) {
+    render::Context context(settings.backend);
+    std::vector<PictureRow> rows;
+    if (settings.particles.empty()) return rows;
+    for (const Style style : {Style::spheres, Style::metaballs}) {
+        const render::View fewest = pictureCloud(std::ranges::min(settings.particles), style);
+        for (const render::PictureSize size : settings.sizes)
+            for (const std::size_t particles : settings.particles)
+                measureSubject(settings, context, {style, particles, size, fewest}, listener, rows);
+    }
+    return rows;
+}
+
+}  // namespace studies

@@ -1,0 +1,91 @@
+// What the study of pictures writes: the table and the scripts of the plots.
+#include <fmt/format.h>
+
+#include "studies/common/curves.h"
+#include "studies/pictures/pictures.h"
+
+namespace studies {
+namespace {
+
+constexpr render::Style kStyles[] = {render::Style::spheres, render::Style::metaballs};
+constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal, render::Quality::final};
+
+std::string lookOf(render::Style style, render::Quality quality) {
+    const char* color = style == render::Style::spheres ? "#0072b2" : "#d55e00";
+    const int point = quality == render::Quality::draft ? 6 : quality == render::Quality::normal ? 7 : 5;
+    return fmt::format("linespoints pointtype {} pointsize 0.8 linewidth 1.5 linecolor rgb '{}'", point, color);
+}
+
+bool firstSize(const std::vector<PictureRow>& rows, const PictureRow& row) {
+    return row.size.width == rows.front().size.width && row.size.height == rows.front().size.height;
+}
+
+template <typename Point>
+std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& point) {
+    std::vector<Curve> curves;
+    for (const render::Style style : kStyles) {
+        for (const render::Quality quality : kQualities) {
+            Curve curve{fmt::format("{}, {}", nameOf(style), nameOf(quality)), lookOf(style, quality), ""};
+            for (const PictureRow& row : rows)
+                if (row.style == style && row.quality == quality && firstSize(rows, row)) curve.points += point(row);
+            curves.push_back(curve);
+        }
+    }
+    return curves;
+}
+
+}  // namespace
+
+std::string picturesCsv(const std::vector<PictureRow>& rows) {
+    std::string csv =
+        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,color_ms,opengl_ms,read_back_ms,"
+        "png_ms,mp4_ms,mp4_once_ms,draw_ms,draw_at_rest_ms,with_png_ms,with_mp4_ms,baseline_ms,baseline_at_rest_ms,"
+        "fewest_baseline_ms,ratio,ratio_at_rest,ratio_to_fewest,rmse,ssim,wrong_hits,depth_error_radii,"
+        "normal_error_degrees\n";
+    for (const PictureRow& row : rows) {
+        csv += fmt::format("{},{},{},{},{}", nameOf(row.style), row.particles, row.size.width, row.size.height,
+                           nameOf(row.quality));
+        for (const double seconds :
+             {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.color,
+              row.stages.openGl, row.stages.readBack, row.png, row.mp4, row.mp4Once, row.draw, row.atRest, row.withPng,
+              row.withMp4, row.baseline, row.atRestBaseline, row.fewestBaseline})
+            csv += fmt::format(",{:.4g}", 1e3 * seconds);
+        csv += fmt::format(",{:.3g},{:.3g},{:.3g},{:.4g},{:.5f},{:.3g},{:.3g},{:.3g}\n", row.ratio(), row.ratioAtRest(),
+                           row.ratioToFewest(), row.error.rmse, row.error.ssim, row.error.wrongHits, row.error.depth,
+                           row.error.normal);
+    }
+    return csv;
+}
+
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SkinRow>& skins) {
+    std::vector<Curve> curves =
+        curvesOf(rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw); });
+    Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2", ""};
+    for (const PictureRow& row : rows)
+        if (row.style == render::Style::spheres && row.quality == render::Quality::draft && firstSize(rows, row))
+            quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
+    curves.push_back(quads);
+    Curve plain{"metaballs, normal, plain skin", "linespoints pointtype 4 linecolor rgb '#e69f00' dashtype 3", ""};
+    for (const SkinRow& row : skins)
+        if (row.skin == render::Skin::plain) plain.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw);
+    curves.push_back(plain);
+    return std::string(kPlotFrame) +
+           fmt::format(
+               "set xlabel \"particles\"\nset ylabel \"milliseconds a frame\"\n"
+               "set title \"A frame of {} x {}, drawn and read back\"\n"
+               "set key top left reverse Left samplen 2 font \",13\"\n",
+               rows.front().size.width, rows.front().size.height) +
+           plotOf(curves);
+}
+
+std::string pictureErrorsPlot(const std::vector<PictureRow>& rows) {
+    return std::string(kPlotFrame) +
+           "set xlabel \"milliseconds a frame\"\nset ylabel \"1 - SSIM\"\n"
+           "set title \"Error against the exact picture, and what it costs\"\n"
+           "set key top right samplen 2 font \",13\"\n" +
+           plotOf(curvesOf(rows, [](const PictureRow& row) {
+               return fmt::format("{:.6g} {:.6g}\n", 1e3 * row.draw, 1.0 - row.error.ssim);
+           }));
+}
+
+}  // namespace studies

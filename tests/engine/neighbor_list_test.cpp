@@ -1,0 +1,356 @@
+// The neighbor list holds exactly the pairs within its reach, and knows how long it can be trusted.
+#include "engine/neighbors/neighbor_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include "tests/catch.h"
+
+#include "engine/core/instruction_sets.h"
+#include "tests/engine/clouds.h"
+
+using namespace engine;
+
+namespace {
+
+constexpr double kCutoff = 0.6;  // m
+constexpr double kSkin = 0.06;   // m
+
+std::uint32_t particleIn(const NeighborList& list, std::size_t seat) {
+    return list.order[static_cast<std::size_t>(list.rows.selves[seat])];
+}
+
+/// Particle indices in the row of a seat; fails on one that occurs twice.
+std::set<std::uint32_t> rowOf(const NeighborList& list, std::size_t seat) {
+    std::set<std::uint32_t> row;
+    for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k)
+        CHECK(row.insert(list.order[list.rows.placeAt(seat, k)]).second);
+    return row;
+}
+
+/// Entry by entry, with what fills the rows up.
+void checkSame(const NeighborList& list, const NeighborList& expected) {
+    CHECK(list.order == expected.order);
+    CHECK(list.placeOf == expected.placeOf);
+    CHECK(list.rows.selves == expected.rows.selves);
+    CHECK(list.rows.length == expected.rows.length);
+    REQUIRE(list.rows.parts.size() == expected.rows.parts.size());
+    for (std::size_t part = 0; part < list.rows.parts.size(); ++part) {
+        CHECK(list.rows.parts[part].start == expected.rows.parts[part].start);
+        CHECK(list.rows.parts[part].base == expected.rows.parts[part].base);
+        CHECK(list.rows.parts[part].narrow == expected.rows.parts[part].narrow);
+        CHECK(list.rows.parts[part].wide == expected.rows.parts[part].wide);
+    }
+}
+
+/// By every pair.
+std::set<std::uint32_t> neighborsOf(const std::vector<Vec3>& positions, std::size_t p, double reach) {
+    std::set<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < positions.size(); ++i)
+        if (i != p && squaredLength(positions[p] - positions[i]) < reach * reach) near.insert(i);
+    return near;
+}
+
+/// Of the reach squared: float errs by 4e-6 of it.
+constexpr double kFarthest = kFloatMargin + 4e-6;
+
+bool isWithin(const std::set<std::uint32_t>& part, const std::set<std::uint32_t>& all) {
+    return std::includes(all.begin(), all.end(), part.begin(), part.end());
+}
+
+/// Rows hold what is within reach, and nothing else but pairs that float does not know to be beyond it.
+void checkRows(const std::vector<Vec3>& positions) {
+    NeighborList list;
+    build(list, positions, kCutoff, kSkin);
+    REQUIRE(list.count() == positions.size());
+    std::size_t entries = 0;
+    CHECK(std::set<std::uint32_t>(list.order.begin(), list.order.end()).size() == positions.size());
+    for (std::size_t seat = 0; seat < list.count(); ++seat) {
+        const std::uint32_t p = particleIn(list, seat);
+        INFO("particle " << p);
+        const auto row = rowOf(list, seat);
+        CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), row));
+        CHECK(isWithin(row, neighborsOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
+        entries += row.size();
+    }
+    CHECK(list.entryCount == entries);
+    CHECK(covers(list, positions, kCutoff));
+}
+
+/// Coincident ones, some on faces of cells, and some so far away that cells are shared.
+std::vector<Vec3> hardPositions() {
+    std::vector<Vec3> positions = clouds::strewn(60, 0.8).position;
+    for (std::size_t p = 0; p < 20; ++p) positions[p] = Vec3(0.1, 0.1, 0.1);
+    for (int k = -3; k <= 3; ++k) positions.emplace_back((kCutoff + kSkin) * k, 0.0, 0.0);
+    positions.emplace_back(9e7, -9e7, 9e7);
+    positions.emplace_back(9e7, -9e7, 9e7 + 0.3);
+    positions.emplace_back(-9e7, 8e7, 0.0);
+    return positions;
+}
+
+/// A list over a cloud that then moves far as one, and two of it this far (m) against each other, in some direction.
+bool coversAfterMove(double distance, std::size_t p) {
+    std::vector<Vec3> positions = clouds::strewn(50, 0.8).position;
+    NeighborList list;
+    build(list, positions, kCutoff, kSkin);
+    const Vec3 direction = clouds::randomVector(11, p).normalized();
+    positions[p] += 0.5 * distance * direction;
+    positions[(p + 1) % positions.size()] -= 0.5 * distance * direction;
+    for (Vec3& position : positions) position += Vec3(3.0, -5.0, 7.0);
+    return covers(list, positions, kCutoff);
+}
+
+}  // namespace
+
+TEST_CASE("Rows hold every other particle within the reach once", "[neighbor-list]") {
+    for (const std::size_t count : {0U, 1U, 2U}) checkRows(clouds::strewn(count, 0.1).position);
+    checkRows(clouds::strewn(300, 1.5).position);   // dense
+    checkRows(clouds::strewn(400, 0.3).position);   // rows longer than the sieve
+    checkRows(clouds::strewn(1200, 0.5).position);  // more candidates than are looked through at once
+    checkRows(clouds::strewn(2000, 4.0).position);  // one a cell: some cells are searched together
+    checkRows(clouds::strewn(100, 40.0).position);  // mostly alone
+}
+
+TEST_CASE("Rows hold coincident particles, those on cell faces and far outliers", "[neighbor-list]") {
+    checkRows(hardPositions());
+}
+
+TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbor-list]") {
+    // In pairs, thinly: cells are searched together, up to 8 reaches from where they begin.
+    std::vector<Vec3> positions;
+    for (std::size_t pair = 0; pair < 400; ++pair) {
+        const Vec3 middle = clouds::randomVector(31, pair).cwiseProduct(Vec3(6.0, 3.0, 3.0));
+        const Vec3 half = 0.5 * (kCutoff + kSkin) * (1 - 1e-9) * clouds::randomVector(32, pair).normalized();
+        positions.push_back(middle - half);
+        positions.push_back(middle + half);
+    }
+    for (const std::string& name : instructionSets()) {
+        const OnInstructionSet only(name);
+        NeighborList list;
+        build(list, positions, kCutoff, kSkin);
+        for (std::uint32_t p = 0; p < positions.size(); ++p) {
+            INFO("particle " << p << " with " << name);
+            CHECK(rowOf(list, list.seatOf(p)).count(p ^ 1U) == 1);
+        }
+    }
+}
+
+TEST_CASE("Positions that are no numbers leave the rows of the others as they are", "[neighbor-list]") {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<Vec3> sound = clouds::strewn(300, 0.3).position;
+    for (const Vec3& lost : {Vec3(kNan, 0, 0), Vec3(0, kNan, 0), Vec3(0, 0, kNan), Vec3(1e300, -1e300, 0)}) {
+        std::vector<Vec3> positions = {lost};  // the first of its cell, whichever that is
+        positions.insert(positions.end(), sound.begin(), sound.end());
+        NeighborList list;
+        build(list, positions, kCutoff, kSkin);
+        for (std::size_t p = 1; p < positions.size(); ++p)
+            CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, list.seatOf(p))));
+        CHECK(rowOf(list, list.seatOf(0)).empty());
+    }
+}
+
+TEST_CASE("A list covers until two particles have come nearer by the skin", "[neighbor-list]") {
+    for (std::size_t p = 0; p < 50; p += 7) {
+        CHECK(coversAfterMove(kSkin * (1 - 1e-12), p));        // positions of 10 m round to 1e-15, 2e-14 of the skin
+        CHECK_FALSE(coversAfterMove(kSkin * (1 + 1e-12), p));  // same
+        CHECK_FALSE(coversAfterMove(std::numeric_limits<double>::quiet_NaN(), p));
+    }
+}
+
+TEST_CASE("A list covers neither a wider cutoff nor another number of particles", "[neighbor-list]") {
+    std::vector<Vec3> positions = clouds::strewn(10, 0.8).position;
+    NeighborList list;
+    CHECK_FALSE(covers(list, positions, kCutoff));  // never built
+    build(list, positions, kCutoff, kSkin);
+    CHECK(covers(list, positions, kCutoff + kSkin));
+    CHECK_FALSE(covers(list, positions, (kCutoff + kSkin) * (1 + 1e-12)));  // far above the rounding of the sum
+    positions.pop_back();
+    CHECK_FALSE(covers(list, positions, kCutoff));
+}
+
+TEST_CASE("A list covers a crowd until any of it parts from the others", "[neighbor-list]") {
+    const std::vector<Vec3> before = clouds::strewn(3000, 2.5).position;
+    NeighborList list;
+    build(list, before, kCutoff, kSkin);
+    std::vector<Vec3> fallen = before;
+    for (Vec3& position : fallen) position.y() -= 1.0;
+    CHECK(covers(list, fallen, kCutoff));
+    for (const std::size_t p : {0U, 1975U, 1976U, 2999U}) {
+        std::vector<Vec3> parted = fallen;
+        parted[p].x() += 0.9 * kSkin;  // half the skin each from the middle of all ways
+        CHECK(covers(list, parted, kCutoff));
+        parted[p].x() += 0.2 * kSkin;
+        CHECK_FALSE(covers(list, parted, kCutoff));
+    }
+}
+
+TEST_CASE("A list covers whoever goes which way in a small box", "[neighbor-list]") {
+    const std::vector<Vec3> before = clouds::strewn(200, 1.2).position;
+    NeighborList list;
+    CHECK_FALSE(coversWithin(list, {Vec3::Zero(), Vec3::Zero()}, before.size(), kCutoff));  // never built
+    build(list, before, kCutoff, kSkin);
+    const Vec3 common(30.0, -50.0, 70.0);
+    const Vec3 half(0.3 * kSkin, 0.4 * kSkin, 0.0);  // half a skin to the corners
+    for (const double share : {0.9, 1.0 - 1e-6, 1.0 + 1e-6, 1.1}) {
+        INFO(share << " of half the skin");
+        const Extent ways{common - share * half, common + share * half};
+        CHECK(coversWithin(list, ways, before.size(), kCutoff) == (share < 1.0));
+        CHECK_FALSE(coversWithin(list, ways, before.size() + 1, kCutoff));
+        CHECK_FALSE(coversWithin(list, ways, before.size(), kCutoff + kSkin));
+        std::vector<Vec3> after = before;
+        for (std::size_t p = 0; p < after.size(); ++p) {
+            const Vec3 corner = clouds::randomVector(13, p).unaryExpr([](double x) { return x < 0.0 ? -1.0 : 1.0; });
+            after[p] += common + share * half.cwiseProduct(corner);
+        }
+        CHECK(covers(list, after, kCutoff) == (share < 1.0));
+    }
+}
+
+TEST_CASE("A list that covers holds every pair that has come within the cutoff", "[neighbor-list]") {
+    std::vector<Vec3> positions = clouds::strewn(300, 1.2).position;
+    NeighborList list;
+    build(list, positions, kCutoff, kSkin);
+    for (std::size_t p = 0; p < positions.size(); ++p)
+        positions[p] += 0.499 * kSkin * clouds::randomVector(12, p).normalized();
+    REQUIRE(covers(list, positions, kCutoff));
+    for (std::size_t seat = 0; seat < list.count(); ++seat) {
+        const auto row = rowOf(list, seat);
+        const std::uint32_t p = particleIn(list, seat);
+        for (const std::uint32_t i : neighborsOf(positions, p, kCutoff)) {
+            INFO("particles " << p << " and " << i);
+            CHECK(row.count(i) == 1);
+        }
+    }
+}
+
+TEST_CASE("Rows that wait for each other are of like length", "[neighbor-list]") {
+    NeighborList list;
+    build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
+    for (std::size_t seat = 1; seat < list.count(); ++seat)
+        if (seat % kSeatsPerPart != 0) CHECK(list.rows.length[seat] <= list.rows.length[seat - 1]);
+    for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.seatOf(p)) == p);
+}
+
+TEST_CASE("Rows are filled up to the longest of their group with their own particle", "[neighbor-list]") {
+    for (const std::size_t count : {1U, 37U, 3001U}) {
+        NeighborList list;
+        build(list, clouds::strewn(count, 2.5).position, kCutoff, kSkin);
+        for (std::size_t seat = 0; seat < list.rows.selves.size(); ++seat) {
+            const std::size_t first = seat / kGroup * kGroup;
+            const std::uint32_t longest =
+                *std::max_element(&list.rows.length[first], &list.rows.length[first] + kGroup);
+            if (seat >= count) CHECK(list.rows.length[seat] == 0);
+            for (std::uint32_t k = list.rows.length[seat]; k < longest; ++k)
+                CHECK(list.rows.placeAt(seat, k) == static_cast<std::uint32_t>(list.rows.selves[seat]));
+        }
+    }
+}
+
+namespace {
+
+/// A slab of about one particle a cell: the layer in the middle has 2^16 places and more between those beside it.
+std::vector<Vec3> slab() {
+    constexpr std::uint64_t kCount = 110000;
+    const Vec3 half = Vec3(95.0, 95.0, 1.4) * (kCutoff + kSkin);
+    std::vector<Vec3> positions;
+    for (std::uint64_t p = 0; p < kCount; ++p) positions.push_back(clouds::randomVector(41, p).cwiseProduct(half));
+    return positions;
+}
+
+}  // namespace
+
+TEST_CASE("Rows hold neighbors whose places are too far apart for half words", "[neighbor-list]") {
+    const std::vector<Vec3> positions = slab();
+    std::vector<NeighborList> lists;
+    for (const std::string& name : instructionSets()) {
+        const OnInstructionSet only(name);
+        lists.emplace_back();
+        build(lists.back(), positions, kCutoff, kSkin);
+        checkSame(lists.back(), lists.front());
+    }
+    const NeighborList& list = lists.front();
+    std::size_t wide = 0;
+    for (const RowPart& part : list.rows.parts) {
+        wide += part.isWide() ? 1U : 0U;
+        CHECK(part.narrow.empty() == part.isWide());
+    }
+    CHECK(wide > 0);
+    CHECK(wide < list.rows.parts.size());
+    CHECK(list.fronts.size() == list.rows.parts.size());
+    for (std::size_t seat = 0; seat < list.count(); seat += 1999) {
+        const std::uint32_t p = particleIn(list, seat);
+        INFO("particle " << p);
+        CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, seat)));
+        CHECK(isWithin(rowOf(list, seat), neighborsOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
+    }
+}
+
+TEST_CASE("Rows of either width take the place of the other's", "[neighbor-list]") {
+    const std::vector<Vec3> cloud = clouds::strewn(110000, 8.0).position;
+    const std::vector<Vec3> flat = slab();
+    NeighborList expected[2];
+    build(expected[0], flat, kCutoff, kSkin);
+    build(expected[1], cloud, 0.1 * kCutoff, 0.1 * kSkin);
+    NeighborList list;
+    for (int round = 0; round < 2; ++round) {
+        build(list, flat, kCutoff, kSkin);
+        checkSame(list, expected[0]);
+        build(list, cloud, 0.1 * kCutoff, 0.1 * kSkin);
+        checkSame(list, expected[1]);
+    }
+    for (const RowPart& part : list.rows.parts)
+        CHECK((part.isWide() ? part.narrow.capacity() : part.wide.capacity()) == 0);
+}
+
+TEST_CASE("A list built again is that of the new positions", "[neighbor-list]") {
+    NeighborList list;
+    for (const std::size_t count : {3001U, 50U, 2000U}) {  // fewer, with longer rows, and more again
+        const std::vector<Vec3> positions = clouds::strewn(count, 1.5).position;
+        NeighborList expected;
+        build(expected, positions, kCutoff, kSkin);
+        build(list, positions, kCutoff, kSkin);
+        checkSame(list, expected);
+    }
+}
+
+TEST_CASE("The same rows for any number of threads", "[neighbor-list]") {
+    const std::vector<Vec3> positions = clouds::strewn(3000, 2.5).position;
+    NeighborList expected;
+    build(expected, positions, kCutoff, kSkin);
+    for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
+        NeighborList list;
+        clouds::onThreads(threads, [&] { build(list, positions, kCutoff, kSkin); });
+        checkSame(list, expected);
+    }
+}
+
+TEST_CASE("The same rows with every kind of vectors", "[neighbor-list]") {
+    for (const std::vector<Vec3>& positions :
+         {clouds::strewn(1000, 1.5).position, clouds::strewn(1, 1.0).position, clouds::strewn(37, 0.1).position,
+          clouds::strewn(1200, 0.5).position, clouds::strewn(2000, 4.0).position, clouds::strewn(100, 40.0).position,
+          hardPositions()}) {
+        NeighborList expected;
+        build(expected, positions, kCutoff, kSkin);
+        for (const std::string& name : instructionSets()) {
+            const OnInstructionSet only(name);
+            NeighborList list;
+            build(list, positions, kCutoff, kSkin);
+            INFO(positions.size() << " with " << name);
+            checkSame(list, expected);
+        }
+    }
+}
+
+TEST_CASE("Rows are as complete in worlds of any size", "[neighbor-list]") {
+    for (const double unit : {1e-30, 1e30}) {  // squares of neither are numbers of float
+        std::vector<Vec3> positions = clouds::strewn(200, 1.0).position;
+        NeighborList expected;
+        build(expected, positions, kCutoff, kSkin);
+        for (Vec3& position : positions) position *= unit;
+        NeighborList list;
+        build(list, positions, kCutoff * unit, kSkin * unit);
+        for (std::size_t seat = 0; seat < list.count(); ++seat)
+            CHECK(rowOf(list, seat) == rowOf(expected, expected.seatOf(particleIn(list, seat))));
+    }
+}

@@ -1,0 +1,194 @@
+// The cell grid finds every pair within its width exactly once, wherever the particles are.
+#include "engine/neighbors/cell_grid.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include "tests/catch.h"
+
+#include "engine/core/instruction_sets.h"
+#include "engine/neighbors/cell_axes.h"
+#include "tests/engine/clouds.h"
+
+using namespace engine;
+
+namespace {
+
+/// Every particle that the grid offers as a candidate for those in a run; fails on one that is offered twice.
+std::set<std::uint32_t> candidates(const CellGrid& grid, const CellRun& run) {
+    std::set<std::uint32_t> found;
+    const Neighborhood around = neighborhood(grid, run);
+    for (int r = 0; r < around.count; ++r) {
+        const CellRange range = around.ranges[static_cast<std::size_t>(r)];
+        for (std::uint32_t slot = range.begin; slot < range.end; ++slot) CHECK(found.insert(grid.order[slot]).second);
+    }
+    return found;
+}
+
+void checkOffered(const std::vector<Vec3>& positions, double width, std::size_t p,
+                  const std::set<std::uint32_t>& found) {
+    for (std::uint32_t i = 0; i < positions.size(); ++i)
+        if (squaredLength(positions[p] - positions[i]) < width * width) {
+            INFO("particle " << p << " misses " << i);
+            CHECK(found.count(i) == 1);
+        }
+}
+
+constexpr std::uint32_t kMostParticles = 12;
+constexpr std::uint32_t kMostCells = 5;
+
+void checkComplete(const std::vector<Vec3>& positions, double width) {
+    CellGrid grid;
+    build(grid, positions, width);
+    CHECK(grid.cellCount() <= std::max<std::size_t>(64, 2 * positions.size()));
+    for (std::size_t p = 0; p < positions.size(); ++p)
+        checkOffered(positions, width, p, candidates(grid, {grid.cellOf[p], grid.cellOf[p]}));
+    for (std::uint32_t place = 0; place < positions.size(); ++place)
+        CHECK(cellOfPlace(grid, place) == grid.cellOf[grid.order[place]]);
+    for (std::uint32_t cell = 0; cell < grid.cellCount(); ++cell) {
+        const CellRun run = runFrom(grid, cell, kMostParticles, kMostCells);
+        CHECK(run.first == cell);
+        CHECK(run.last < cell + kMostCells);
+        if (run.last > cell) CHECK(grid.start[run.last + 1] - grid.start[cell] <= kMostParticles);
+        const auto found = candidates(grid, run);
+        for (std::uint32_t slot = grid.start[cell]; slot < grid.start[run.last + 1]; ++slot)
+            checkOffered(positions, width, grid.order[slot], found);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Every pair within the width is found once", "[neighbors]") {
+    checkComplete(clouds::strewn(300, 1.5).position, 0.6);   // dense
+    checkComplete(clouds::strewn(300, 6.0).position, 0.6);   // more cells wanted than allowed
+    checkComplete(clouds::strewn(50, 0.2).position, 0.6);    // all in one or two cells
+    checkComplete(clouds::strewn(200, 40.0).position, 0.6);  // thin
+}
+
+TEST_CASE("Flat and linear arrangements have fewer than three cells across", "[neighbors]") {
+    std::vector<Vec3> flat = clouds::strewn(200, 3.0).position;
+    for (Vec3& position : flat) position.z() = 0.0;
+    checkComplete(flat, 0.6);
+    for (Vec3& position : flat) position.y() = 0.0;
+    checkComplete(flat, 0.6);
+}
+
+TEST_CASE("Particles on cell faces and far outliers are found", "[neighbors]") {
+    std::vector<Vec3> positions;
+    for (int x = -3; x <= 3; ++x)
+        for (int y = -3; y <= 3; ++y) positions.emplace_back(0.6 * x, 0.6 * y, 0.0);
+    positions.emplace_back(1e7, 0.0, 0.0);
+    positions.emplace_back(1e7 + 0.1, 0.0, 0.0);
+    positions.emplace_back(-1e7, 9e6, -5e6);
+    checkComplete(positions, 0.6);
+}
+
+TEST_CASE("The order within a cell is that of the indices", "[neighbors]") {
+    CellGrid grid;
+    build(grid, clouds::strewn(500, 1.0).position, 0.5);
+    for (std::size_t cell = 0; cell < grid.cellCount(); ++cell)
+        CHECK(std::is_sorted(grid.order.begin() + grid.start[cell], grid.order.begin() + grid.start[cell + 1]));
+}
+
+TEST_CASE("Runs are as long as they may be, and end before the end of a row", "[neighbors]") {
+    std::vector<Vec3> positions;
+    for (int x = 0; x < 12; ++x) positions.emplace_back(x + 0.5, 0.5, 0.5);  // one a cell
+    CellGrid grid;
+    build(grid, positions, 1.0);
+    const auto cellsFrom = [&](std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells) {
+        const CellRun run = runFrom(grid, cell, mostParticles, mostCells);
+        return run.last - run.first + 1;
+    };
+    CHECK(cellsFrom(0, 100, 100) == 1);
+    const auto last = static_cast<std::uint32_t>(grid.dimensions[0]) - 1;
+    REQUIRE(last >= 8);
+    CHECK(cellsFrom(1, 100, 100) == last - 1);
+    CHECK(cellsFrom(1, 100, 6) == 6);
+    CHECK(cellsFrom(1, 3, 100) == 3);
+    CHECK(cellsFrom(1, 0, 100) == 1);
+    CHECK(cellsFrom(last, 100, 100) == 1);
+}
+
+TEST_CASE("What comes into sight on the way through the cells is in the rows next to them", "[neighbors]") {
+    const std::vector<Vec3> positions = clouds::strewn(3000, 2.4).position;
+    CellGrid grid;
+    build(grid, positions, 0.6);
+    const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
+    const auto rows = static_cast<std::uint32_t>(grid.dimensions[1]);
+    std::set<std::uint32_t> seen;
+    constexpr std::uint32_t kStep = 3;
+    for (std::uint32_t first = 0; first + kStep <= grid.cellCount(); first += kStep) {
+        std::set<std::uint32_t> ahead;
+        for (const CellRange& range : frontOf(grid, first, first + kStep - 1)) {
+            CHECK(range.begin <= range.end);
+            CHECK(range.end <= positions.size());
+            // One cell before the first and one behind the last; where that is beyond a row's end, wherever.
+            if (first % nx + kStep < nx && range.begin < range.end) {
+                const std::uint32_t firstCell = grid.cellOf[grid.order[range.begin]];
+                CHECK(grid.cellOf[grid.order[range.end - 1]] - firstCell < kStep + 2);
+            }
+            for (std::uint32_t place = range.begin; place < range.end; ++place) ahead.insert(grid.order[place]);
+        }
+        for (std::uint32_t cell = first; cell < first + kStep; ++cell)
+            for (const std::uint32_t p : candidates(grid, {cell, cell})) {
+                // A layer's first row comes upon its own as well; its last and the ends of rows wrap round.
+                const std::uint32_t row = first / nx % rows;
+                const auto away = static_cast<std::int64_t>(grid.cellOf[p] % nx) - cell % nx;
+                const bool isInside = row > 1 && row + 2 < rows && std::abs(away) <= 1;
+                if (isInside && seen.count(p) == 0) CHECK(ahead.count(p) == 1);
+                seen.insert(p);
+            }
+    }
+}
+
+TEST_CASE("Cells are those of the plain twin with every kind of vectors", "[neighbors]") {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Vec3> positions = clouds::strewn(203, 3.0).position;
+    for (int k = -6; k <= 6; ++k) positions.emplace_back(0.6 * k, -0.6 * k, 0.6 * (k % 3));  // on faces
+    for (const double far : {1e3, -1e8, 1e300, std::numeric_limits<double>::infinity(), kNan})
+        for (int axis = 0; axis < 3; ++axis) {
+            positions.push_back(clouds::randomVector(61, positions.size()));
+            positions.back()[axis] = far;
+            for (int k = 0; k < 9; ++k) positions.push_back(clouds::randomVector(62, positions.size()));
+        }
+    // As many cells as are needed, too few, and one; begun at, before and behind where the index is 0.
+    for (const std::int64_t size : {12, 5, 1})
+        for (const double lowest : {-3.0, 0.0, 2.0}) {
+            const CellAxes axes{CellAxis(0.6, size, lowest), CellAxis(0.6, size + 2, lowest),
+                                CellAxis(0.6, size, lowest - 1.0)};
+            std::vector<std::uint32_t> expected;
+            for (const Vec3& position : positions) {
+                expected.push_back(cellAt(axes, position));
+                CHECK(expected.back() < static_cast<std::uint32_t>(size * size * (size + 2)));
+            }
+            for (const std::string& name : instructionSets()) {
+                const OnInstructionSet only(name);
+                std::vector<std::uint32_t> cells(positions.size());
+                findCells(axes, positions.data(), positions.size(), cells.data());
+                INFO(name << ", " << size << " cells from " << lowest << " m");
+                CHECK(cells == expected);
+            }
+        }
+}
+
+TEST_CASE("No particles, no cells to visit", "[neighbors]") {
+    CellGrid grid;
+    build(grid, {}, 0.6);
+    CHECK(grid.order.empty());
+    CHECK(neighborhood(grid, {}).count == 0);
+}
+
+TEST_CASE("Positions that are no numbers or beyond all cells do no harm to the others", "[neighbors]") {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Vec3> positions = clouds::strewn(100, 3.0).position;
+    const std::size_t sound = positions.size();
+    positions.emplace_back(1e300, 0.0, -1e300);
+    positions.emplace_back(kNan, 0.0, 0.0);
+    CellGrid grid;
+    build(grid, positions, 0.6);
+    for (std::size_t p = 0; p < sound; ++p) {
+        const auto found = candidates(grid, {grid.cellOf[p], grid.cellOf[p]});
+        for (std::uint32_t i = 0; i < sound; ++i)
+            if (squaredLength(positions[p] - positions[i]) < 0.36) CHECK(found.count(i) == 1);
+    }
+}

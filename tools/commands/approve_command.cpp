@@ -1,0 +1,48 @@
+// globular approve: actual pictures become goldens.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands/commands.h"
+#include "tools/compare/approve.h"
+#include "tools/system/json.h"
+
+namespace tools {
+namespace {
+
+struct ApproveOptions {
+    ApproveJob job;
+    bool json = false;
+    bool quiet = false;
+};
+
+void approve(const ApproveOptions& options) {
+    const std::vector<Approved> approved = approvePictures(options.job);
+    for (const Approved& picture : approved) {
+        if (options.json)
+            printJson(Json{{"event", "approved"}, {"name", picture.name}, {"new", picture.isNew}});
+        else if (!options.quiet)
+            fmt::print("{} {}\n", picture.isNew ? "new golden:" : "approved:", picture.name);
+    }
+    if (approved.empty() && !options.json && !options.quiet)
+        fmt::print("nothing to approve: the goldens are the same\n");
+}
+
+}  // namespace
+
+void addApproveCommand(const Command& program) {
+    const Command command =
+        program.command("approve", "actual pictures become goldens, each with where it comes from beside it");
+    const auto options = std::make_shared<ApproveOptions>();
+    command.option("ACTUAL", options->job.actual, "a PNG or a folder of PNGs").required();
+    command.option("EXPECTED", options->job.expected, "the golden one, or their folder").required();
+    command.option("NAME", options->job.names, "which, as compare prints them (default: all of ACTUAL)");
+    command.flag("--force", options->job.force, "also where another GL renderer drew the golden");
+    command.flag("--json", options->json, "one JSON object a line");
+    command.flag("--quiet", options->quiet, "print nothing");
+    command.example("globular approve out/liquid golden/liquid frame-00030.png");
+    command.run([options] { approve(*options); });
+}
+
+}  // namespace tools

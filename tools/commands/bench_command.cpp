@@ -1,0 +1,128 @@
+// globular bench: how fast the engine's parts run on this machine, with the hash of what they computed next to each
+// time.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/core/instruction_sets.h"
+#include "engine/forces/simd_forces.h"
+#include "scenes/build/library.h"
+#include "studies/bench/bench.h"
+#include "studies/bench/bench_frames.h"
+#include "tools/commands/commands.h"
+#include "tools/run/open_context.h"
+#include "tools/run/scene_options.h"
+#include "tools/system/json.h"
+#include "tools/system/standard_streams.h"
+#include "tools/system/threads.h"
+
+namespace tools {
+namespace {
+
+struct BenchOptions {
+    RunOptions run;
+    DrawOptions draw;            ///< its backend alone
+    std::string instructionSet;  ///< empty: the widest of the machine
+    studies::BenchSettings settings;
+};
+
+std::string_view nameOf(engine::Precision precision) {
+    return precision == engine::Precision::doubles ? "double" : "float";
+}
+
+Json jsonOf(const studies::BenchRow& row, int threads) {
+    Json json = {{"name", row.name},
+                 {"material", row.material},
+                 {"particles", row.particles},
+                 {"neighbors", row.neighbors},
+                 {"threads", threads},
+                 {"isa", engine::laneInstructionSet()},
+                 {"precision", nameOf(row.precision)},
+                 {"seconds", row.seconds},
+                 {"steps", row.steps}};
+    if (row.particles > 0) {
+        json["particle_steps_per_s"] = row.particleStepsPerSecond();
+        json["pairs_per_s"] = row.pairsPerSecond();
+        json["ns_per_pair"] = row.nanosecondsPerPair();
+        json["bytes_per_particle"] = row.bytesPerParticle;
+    } else {
+        json["rate_per_s"] = row.rate;
+    }
+    json["state_hash"] = row.stateHash;
+    return json;
+}
+
+void print(const studies::BenchRow& row) {
+    if (row.particles == 0) {
+        fmt::print("{:23} {:13} {:.4g} G{}/s\n", row.name, "", 1e-9 * row.rate, row.name == "copy" ? "B" : "FLOP");
+        return;
+    }
+    fmt::print("{:23} {:13} {:>9} {:10.1f} {:9} {:12.3f} {:10.2f} {:8.1f} {:8.2f} {:8.0f}  {}\n", row.name,
+               row.material, row.particles, row.neighbors, nameOf(row.precision), 1e3 * row.seconds,
+               1e-6 * row.particleStepsPerSecond(), 1e-6 * row.pairsPerSecond(), row.nanosecondsPerPair(),
+               row.bytesPerParticle, row.stateHash);
+}
+
+/// Whose frames are measured: one of each kind of material, and what the implicit steppers are for.
+constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
+
+void benchFrames(const BenchOptions& options, int threads,
+                 const std::function<void(const studies::BenchRow&)>& listener) {
+    const studies::BenchSettings& settings = options.settings;
+    std::optional<render::Context> context;
+    for (const char* name : kFrameScenes) {
+        const bool draws = settings.wants(studies::kDrawFrame, name);
+        if (!draws && !settings.wants(studies::kSimulateFrame, name)) continue;
+        if (draws && !context) context.emplace(openContext(backendOf(options.draw), threads));
+        const studies::NamedScene subject{name, scenes::loadScene(scenes::resolveScene(name, sceneFolders()), {})};
+        for (const studies::BenchRow& row : studies::benchFrames(subject, draws ? &*context : nullptr, settings.rounds))
+            if (settings.wants(row.name, name)) listener(row);
+    }
+}
+
+void bench(const BenchOptions& options) {
+    const int threads = threadCount(options.run);
+    const bool isText = !options.run.json;
+    if (!options.instructionSet.empty()) engine::useInstructionSet(options.instructionSet);
+    if (isText) {
+        fmt::print("{} threads, {}; medians of {} rounds\n", threads, engine::laneInstructionSet(),
+                   options.settings.rounds);
+        fmt::print("{:23} {:13} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
+                   "particles", "neighbors", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");
+    }
+    const auto tell = [&](const studies::BenchRow& row) {
+        if (isText)
+            print(row);
+        else
+            printJson(jsonOf(row, threads));
+        requirePrinted();
+    };
+    onThreads(threads, [&] {
+        runBench(options.settings, tell);
+        benchFrames(options, threads, tell);
+    });
+}
+
+}  // namespace
+
+void addBenchCommand(const Command& program) {
+    const Command command =
+        program.command("bench", "how fast forces, lists, steps and whole frames run, with hashes of the results");
+    const auto options = std::make_shared<BenchOptions>();
+    command.option("--filter", options->settings.filter, "only rows whose name and material contain this text")
+        .of("TEXT");
+    command.option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)").of("N");
+    command.option("--rounds", options->settings.rounds, "how often each is timed (default: 5)").aboveZero();
+    command.option("--isa", options->instructionSet, "the vectors to run on (default: the widest of the machine)")
+        .oneOf(engine::instructionSets());
+    command.option("--gl", options->draw.backend, "OpenGL backend: osmesa or egl (default: osmesa)").of("NAME");
+    addTo(command, options->run);
+    command.example("globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
+    command.run([options] { bench(*options); });
+}
+
+}  // namespace tools

@@ -1,0 +1,254 @@
+// globular check: validates a scene and says what would run, what it would need, and how long it would take.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/run/run_memory.h"
+#include "engine/stepping/step_bound.h"
+#include "engine/stepping/steppers.h"
+#include "scenes/view/frame_steps.h"
+#include "tools/commands/commands.h"
+#include "tools/run/scene_options.h"
+#include "tools/system/json.h"
+#include "tools/system/threads.h"
+
+namespace tools {
+namespace {
+
+struct CheckOptions {
+    RunOptions run;
+    SceneOptions scene;
+};
+
+/// Births that the schedules allow up to the last frame, if none has to wait.
+std::uint64_t plannedBirths(const scenes::Scene& scene) {
+    constexpr double kOnTime = 1e-9;  // as for the births themselves, s
+    std::uint64_t sum = 0;
+    for (const engine::Emitter& emitter : scene.setup.emitters) {
+        const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
+        // Due at `until` is too late, due at the last frame is not.
+        const double end = std::min(lastFrame + kOnTime, emitter.until - 2.0 * kOnTime);
+        if (end < emitter.start) continue;
+        const double events = std::floor((end - emitter.start) / emitter.interval) + 1.0;
+        const double schedules = emitter.pick == engine::Pick::all ? static_cast<double>(emitter.sites.size()) : 1.0;
+        sum += static_cast<std::uint64_t>(std::min(static_cast<double>(emitter.limit), events * schedules));
+    }
+    return sum;
+}
+
+/// The particles at the start and one of each emitter: every kind that the run will have.
+engine::Particles everyKind(const scenes::Scene& scene) {
+    engine::Particles particles = scene.setup.initial;
+    for (const engine::Emitter& emitter : scene.setup.emitters) {
+        const engine::Material& material = scene.setup.materials[emitter.material];
+        engine::append(particles, {.radius = material.radius, .mass = material.mass, .material = emitter.material});
+    }
+    return particles;
+}
+
+/// Bytes a particle takes at most while a frame is in flight: of the run as it goes, and as spheres to draw. Of a run
+/// that has any.
+std::size_t bytesPerParticle(const engine::Simulation& simulation) {
+    constexpr std::size_t kFramesInFlight = 4;
+    return engine::mostBytes(simulation) / simulation.particles.count() + kFramesInFlight * sizeof(render::Sphere);
+}
+
+/// How the beginning of the run went.
+struct Preview {
+    engine::Simulation simulation;
+    std::string unstable;  ///< why the run does not come further; empty: it does
+    int frames = 0;        ///< that were simulated
+    double seconds = 0.0;  ///< of wall clock, births and looks included
+    double particleFrames = 0.0;
+    std::size_t mostParticles = 0;     ///< at the end of a frame
+    std::size_t bytesPerParticle = 0;  ///< then
+};
+
+void noteMemory(Preview& preview) {
+    const std::size_t count = preview.simulation.particles.count();
+    if (count == 0 || count < preview.mostParticles) return;
+    preview.mostParticles = count;
+    preview.bytesPerParticle = bytesPerParticle(preview.simulation);
+}
+
+/// Simulates until a share of the work of a short run is done: what is predicted is what happened so far.
+Preview simulateBeginning(const scenes::Scene& scene) {
+    constexpr double kSecondsEnough = 2.0;  // chosen: as long as one likes to wait for a check
+    Preview preview;
+    preview.simulation = engine::start(scene.setup);
+    noteMemory(preview);
+    const auto start = std::chrono::steady_clock::now();
+    while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
+        try {
+            scenes::advanceToFrame(scene, preview.simulation, preview.frames + 1);
+        } catch (const engine::InstabilityError& error) {
+            preview.unstable = error.what();
+            break;
+        }
+        ++preview.frames;
+        preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
+        noteMemory(preview);
+    }
+    return preview;
+}
+
+/// Steps, stepper, error and time, extrapolated from the beginning.
+Json predictionJson(const scenes::Scene& scene, double meanParticles) {
+    const Preview preview = simulateBeginning(scene);
+    const engine::Simulation& simulation = preview.simulation;
+    const double framesLeft = scenes::frameCount(scene) - 1 - preview.frames;
+    const double perFrame = static_cast<double>(simulation.steps.count) / std::max(1, preview.frames);
+    Json json;
+    json["unstable"] = preview.unstable.empty() ? Json(nullptr) : Json(preview.unstable);
+    json["from_frames"] = preview.frames;
+    json["stepper"] = engine::nameOf(simulation.stepper);
+    json["step"] = perFrame > 0.0 ? 1.0 / scene.fps / perFrame : 0.0;
+    json["steps"] = static_cast<std::int64_t>(static_cast<double>(simulation.steps.count) + framesLeft * perFrame);
+    const auto& limits = simulation.steps.limitedBy;
+    json["limited_by"] =
+        engine::nameOf(static_cast<engine::StepLimit>(std::max_element(limits.begin(), limits.end()) - limits.begin()));
+    const engine::AutoState& automatic = simulation.automatic;
+    json["error"] =
+        automatic.looks > 0 ? Json(automatic.errorSum / static_cast<double>(automatic.looks)) : Json(nullptr);
+    json["seconds_simulating"] =
+        preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
+    json["bytes_per_particle"] = preview.bytesPerParticle;
+    return json;
+}
+
+Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
+    engine::StepperKind stepper = scene.setup.stepper;
+    for (const engine::StepperKind kind : engine::kSteppers)
+        if (engine::nameOf(kind) == stepperName) stepper = kind;
+    const auto bound = engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.scenery},
+                                         scene.setup.initial, stepper);
+    if (!bound) return nullptr;
+    return {{"seconds", bound->seconds},
+            {"limited_by", bound->byDamping ? "damping" : "stiffness"},
+            {"particle", bound->particle}};
+}
+
+/// As a scene's keys have them.
+Json materialJson(const engine::Material& material) {
+    return {{"name", material.name},         {"b1", material.repulsion},      {"bd", material.damping},
+            {"cr", material.repulsionReach}, {"cd", material.dampingReach},   {"radius", material.radius},
+            {"mass", material.mass},         {"core", material.coreFraction}, {"friction", material.friction}};
+}
+
+Json checkJson(const scenes::Scene& scene) {
+    const engine::ForceTerms terms =
+        engine::termsFor({scene.setup.materials, scene.setup.gravity, scene.setup.scenery}, everyKind(scene));
+    const std::uint64_t births = plannedBirths(scene);
+    const std::uint64_t most = scene.setup.initial.count() + births;
+    const int frames = scenes::frameCount(scene);
+    // Births come evenly, so that half of them are there on average; in a bounded world fewer, nobody knows how many.
+    const double meanParticles = static_cast<double>(scene.setup.initial.count()) + 0.5 * static_cast<double>(births);
+
+    Json json;
+    json["scene"] = scene.title;
+    json["source"] = scene.sourceName;
+    json["frames"] = frames;
+    json["fps"] = scene.fps;
+    json["particles_at_start"] = scene.setup.initial.count();
+    json["particles_at_most"] = most;
+    json["kernel"] = scene.setup.forces == engine::ForceMethod::grid ? "cell grid" : "every pair";
+    json["terms"] = Json::array({"repulsion"});
+    if (terms.pair.attraction) json["terms"].push_back("attraction");
+    if (terms.pair.damping) json["terms"].push_back("damping");
+    if (terms.pair.friction) json["terms"].push_back("friction");
+    json["materials"] = Json::array();
+    for (const engine::Material& material : scene.setup.materials) json["materials"].push_back(materialJson(material));
+    json["uniform"] = terms.uniform;
+    json["cutoff"] = terms.cutoff;
+    json["obstacles"] = scene.setup.scenery.colliders.size();
+    json["stepper"] = engine::nameOf(scene.setup.stepper);
+    json["wanted_error"] =
+        scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);
+    json["predicted"] = predictionJson(scene, meanParticles);
+    json["step_bound_at_start"] = boundJson(scene, json["predicted"]["stepper"].get<std::string>());
+    json["bytes_per_particle"] = json["predicted"]["bytes_per_particle"];
+    json["memory_bytes"] = most * json["bytes_per_particle"].get<std::uint64_t>();
+    return json;
+}
+
+std::string boundText(const Json& json) {
+    const Json& bound = json["step_bound_at_start"];
+    if (bound.is_null()) return "none: no two particles act on each other at the start (obstacles are not counted)";
+    const double seconds = bound["seconds"].get<double>();
+    const bool isLonger = json["predicted"]["step"].get<double>() > seconds;
+    const bool rescued = json["stepper"].get<std::string>() != "symplectic-euler";
+    const char* verdict = !isLonger ? ""
+                          : rescued ? " -- the step is longer: expect steps that are taken back"
+                                    : " -- the step is longer: expect instability";
+    return fmt::format("{:.4g} s for the pairs at the start, limited by the {} of particle {}{}", seconds,
+                       bound["limited_by"].get<std::string>(), bound["particle"].get<std::size_t>(), verdict);
+}
+
+void printCheck(const Json& json) {
+    fmt::print("{}: {}\n", json["source"].get<std::string>(), json["scene"].get<std::string>());
+    fmt::print("frames     {} at {} a second\n", json["frames"].get<int>(), json["fps"].get<int>());
+    fmt::print("particles  {} at the start, {} at most\n", json["particles_at_start"].get<std::uint64_t>(),
+               json["particles_at_most"].get<std::uint64_t>());
+    std::string terms;
+    for (const Json& term : json["terms"]) terms += (terms.empty() ? "" : ", ") + term.get<std::string>();
+    fmt::print("kernel     {}; {}; {}; cutoff {:.4g} m\n", json["kernel"].get<std::string>(), terms,
+               json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair",
+               json["cutoff"].get<double>());
+    for (const Json& material : json["materials"]) {
+        const auto value = [&](const char* key) { return material[key].get<double>(); };
+        fmt::print(
+            "material   {}: b1 {:g}, bd {:g}, cr {:g}, cd {:g}, radius {:g} m, mass {:g} kg, core {:g}, friction "
+            "{:g}\n",
+            material["name"].get<std::string>(), value("b1"), value("bd"), value("cr"), value("cd"), value("radius"),
+            value("mass"), value("core"), value("friction"));
+    }
+    fmt::print("obstacles  {}\n", json["obstacles"].get<std::size_t>());
+    const Json& predicted = json["predicted"];
+    if (!predicted["unstable"].is_null())
+        fmt::print("stepper    {}; unstable after {} frames\n", json["stepper"].get<std::string>(),
+                   predicted["from_frames"].get<int>());
+    else
+        fmt::print("stepper    {}; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}\n",
+                   json["stepper"].get<std::string>(), predicted["from_frames"].get<int>(),
+                   predicted["stepper"].get<std::string>(), predicted["steps"].get<std::int64_t>(),
+                   predicted["step"].get<double>(), predicted["limited_by"].get<std::string>());
+    if (!predicted["error"].is_null())
+        fmt::print("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
+                   json["wanted_error"].get<double>(), predicted["error"].get<double>());
+    fmt::print("step bound {}\n", boundText(json));
+    fmt::print("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
+               json["bytes_per_particle"].get<std::size_t>());
+    if (predicted["unstable"].is_null())
+        fmt::print("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
+                   std::ceil(predicted["seconds_simulating"].get<double>()));
+}
+
+void check(const CheckOptions& options) {
+    const scenes::Scene scene = load(options.scene);
+    Json json;
+    onThreads(threadCount(options.run), [&] { json = checkJson(scene); });
+    if (options.run.json)
+        printJson(json);
+    else if (!options.run.quiet)
+        printCheck(json);
+    if (const Json& unstable = json["predicted"]["unstable"]; !unstable.is_null())
+        throw engine::InstabilityError(unstable.get<std::string>());
+}
+
+}  // namespace
+
+void addCheckCommand(const Command& program) {
+    const Command command = program.command("check", "validate a scene and say what would run");
+    const auto options = std::make_shared<CheckOptions>();
+    addTo(command, options->scene);
+    addTo(command, options->run);
+    command.example("globular check my-scene.toml");
+    command.run([options] { check(*options); });
+}
+
+}  // namespace tools

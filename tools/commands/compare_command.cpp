@@ -1,0 +1,187 @@
+// globular compare: pictures within limits of what they were, or which rule says that they are not. Exit code 0: all
+// are; 1: one is not; 2: trouble, nothing could be said of at least one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "render/output/png.h"
+#include "render/picture/system_error.h"
+#include "tools/commands/commands.h"
+#include "tools/compare/approve.h"
+#include "tools/compare/compare_pictures.h"
+#include "tools/pages/compare_page.h"
+#include "tools/pages/junit.h"
+#include "tools/system/exit_status.h"
+#include "tools/system/interrupt.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+#include "tools/system/standard_streams.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDifferent = 1;
+constexpr int kTrouble = 2;
+
+struct CompareOptions {
+    std::string actual, expected;
+    std::string profile = "vendor";
+    std::optional<int> threshold, largest;
+    std::optional<double> sharePercent, mean, ssim;
+    std::string mask, junit, report;
+    bool json = false;
+    bool quiet = false;
+};
+
+render::CompareLimits limitsOf(const CompareOptions& options) {
+    render::CompareLimits limits = render::limitsOf(options.profile);
+    limits.threshold = options.threshold.value_or(limits.threshold);
+    limits.largest = options.largest.value_or(limits.largest);
+    if (options.sharePercent) limits.share = *options.sharePercent / 100.0;
+    limits.mean = options.mean.value_or(limits.mean);
+    limits.ssim = options.ssim.value_or(limits.ssim);
+    return limits;
+}
+
+render::Image readMask(const std::string& path) {
+    if (path.empty()) return {};
+    render::Image mask = render::decodePng(readFile(path), path);
+    const bool allBlack = std::all_of(mask.rgb.begin(), mask.rgb.end(), [](std::uint8_t value) { return value == 0; });
+    if (allBlack) throw render::SystemError(fmt::format("{} is black: no pixel would count", path));
+    return mask;
+}
+
+std::string numbers(const render::PictureMetrics& metrics, int threshold) {
+    std::string text =
+        fmt::format("largest {}, {:.3f} % off by more than {}, mean {:.4f}, SSIM {:.5f}, PSNR {:.2f} dB",
+                    metrics.largest, 100.0 * metrics.share(), threshold, metrics.mean, metrics.ssim, metrics.psnr());
+    for (const render::PixelDifference& pixel : metrics.worst)
+        text += fmt::format("\n    ({}, {}): {} {} {} instead of {} {} {}", pixel.x, pixel.y, pixel.actual[0],
+                            pixel.actual[1], pixel.actual[2], pixel.expected[0], pixel.expected[1], pixel.expected[2]);
+    return text;
+}
+
+void print(const PictureResult& result, const render::CompareLimits& limits) {
+    fmt::print("{}: {} ({})\n", result.name, nameOf(result.status), result.rule());
+    for (const std::string& reason : result.reasons) fmt::print("  {}\n", reason);
+    if (result.comparison && result.comparison->metrics.differing > 0)
+        fmt::print("  {}\n", numbers(result.comparison->metrics, limits.threshold));
+    if (result.explanation) fmt::print("  {}\n", result.explanation->text);
+}
+
+void printSummary(const CompareOptions& options, const CompareCounts& counts, const std::string& approval) {
+    if (options.json) {
+        Json json = {{"event", "done"},
+                     {"pictures", counts.pictures},
+                     {"identical", counts.identical},
+                     {"within_limits", counts.withinLimits},
+                     {"different", counts.different},
+                     {"missing", counts.missing},
+                     {"extra", counts.extra},
+                     {"unreadable", counts.unreadable}};
+        if (!approval.empty()) json["approve"] = approval;
+        printJson(json);
+    } else if (!options.quiet) {
+        fmt::print(
+            "{} pictures: {} identical, {} within limits ({}), {} different, {} missing, {} without a golden, {} "
+            "unreadable\n",
+            counts.pictures, counts.identical, counts.withinLimits, options.profile, counts.different, counts.missing,
+            counts.extra, counts.unreadable);
+        if (!options.report.empty())
+            fmt::print("to look at them: {}\n", (fs::path(options.report) / "index.html").string());
+        if (!approval.empty()) fmt::print("to approve: {}\n", approval);
+    }
+}
+
+bool canBeApproved(const PictureResult& result) {
+    return result.status == PictureStatus::different || result.status == PictureStatus::extra;
+}
+
+void printResult(const CompareOptions& options, const PictureResult& result, const render::CompareLimits& limits) {
+    if (options.json) {
+        Json json = {{"event", "picture"}};
+        json.update(resultJson(result));
+        printJson(json);
+    } else if (!options.quiet && (!result.passed() || result.explanation)) {
+        print(result, limits);
+    }
+}
+
+void compareAll(const CompareOptions& options) {
+    const CompareJob job{options.actual, options.expected, limitsOf(options), readMask(options.mask)};
+    JunitReport junit;
+    ComparePage page;
+    std::vector<std::string> failed;
+    const InterruptWatch watch;
+    const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
+        if (watch.signal() != 0) throw Ended(128 + watch.signal(), "");
+        if (canBeApproved(result)) failed.push_back(result.name);
+        printResult(options, result, job.limits);
+        if (!options.junit.empty()) junit.add(result);
+        if (!options.report.empty())
+            page.add(result, canBeApproved(result) ? approvalLine(options.actual, options.expected, {result.name})
+                                                   : std::string{});
+    });
+    const std::string approval = approvalLine(options.actual, options.expected, failed);
+    if (!options.junit.empty()) writeFile(options.junit, junit.text(counts));
+    if (!options.report.empty()) {
+        createFolder(options.report);
+        writeFile(fs::path(options.report) / "index.html",
+                  page.html({options.actual, options.expected, options.profile, job.limits, counts, approval}));
+    }
+    printSummary(options, counts, approval);
+    requirePrinted();
+    if (counts.unreadable > 0) throw Ended(kTrouble, "");
+    if (counts.failed() > 0) throw Ended(kDifferent, "");
+}
+
+void compareOrTrouble(const CompareOptions& options) {
+    try {
+        compareAll(options);
+    } catch (const Ended&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Ended(kTrouble, error.what());
+    }
+}
+
+void addLimits(const Command& command, CompareOptions& options) {
+    command
+        .option("--profile", options.profile,
+                "strict: the same bytes; vendor: the last bits of another OpenGL driver; loose: the same at a glance")
+        .oneOf({"strict", "vendor", "loose"})
+        .showDefault();
+    command.option("--threshold", options.threshold, "a pixel is noticeable when a channel is off by more")
+        .within(0, 255);
+    command.option("--max-share", options.sharePercent, "how many pixels may be noticeable, in percent")
+        .within(0.0, 100.0);
+    command.option("--max-difference", options.largest, "how far any channel may be off").within(0, 255);
+    command.option("--max-mean", options.mean, "mean difference over all channels, at most").within(0.0, 255.0);
+    command.option("--min-ssim", options.ssim, "structural similarity, at least").within(-1.0, 1.0);
+}
+
+}  // namespace
+
+void addCompareCommand(const Command& program) {
+    const Command command =
+        program.command("compare", "pictures against what they should be; exit code 0 same, 1 different, 2 trouble");
+    const auto options = std::make_shared<CompareOptions>();
+    command.option("ACTUAL", options->actual, "a PNG, a folder of PNGs, or an MP4").required();
+    command.option("EXPECTED", options->expected, "the golden one, or their folder").required();
+    addLimits(command, *options);
+    command.option("--mask", options->mask, "a PNG whose black pixels do not count").of("FILE.png");
+    command.option("--report", options->report, "also write DIR/index.html, one page to look at everything").of("DIR");
+    command.option("--junit", options->junit, "also write the results for CI systems").of("FILE.xml");
+    command.flag("--json", options->json, "results as JSON, one object a line");
+    command.flag("--quiet", options->quiet, "only the exit code");
+    command.example("globular compare out/liquid golden/liquid --report out/report");
+    command.run([options] { compareOrTrouble(*options); });
+}
+
+}  // namespace tools

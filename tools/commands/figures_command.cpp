@@ -1,0 +1,130 @@
+// globular figures: the paper's figures as stills, strips, videos and one page that shows them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/stepping/steppers.h"
+#include "render/output/png.h"
+#include "tools/commands/commands.h"
+#include "tools/pages/figures_page.h"
+#include "tools/run/render_loop.h"
+#include "tools/run/stills.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FiguresOptions {
+    RunOptions run;
+    DrawOptions draw;  ///< of which the backend is the user's
+    std::string folder = "out/figures";
+    std::vector<int> numbers;
+};
+
+/// The still and the strip, in the best quality; the frames between their moments are simulated but not drawn.
+void drawPictures(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
+    const MomentsJob job{.scene = &scene,
+                         .backend = backendOf(options.draw),
+                         .threads = threadCount(options.run),
+                         .talk = options.run.talk(),
+                         .title = fmt::format("figure {} pictures", entry.number)};
+    const MomentPictures pictures = drawMoments(job, {scenes::stillFrame(scene), scenes::stripFrames(scene)});
+    writeFile(entry.stillPath, render::encodePng(pictures.still));
+    writeFile(entry.stripPath, render::encodePng(pictures.strip));
+}
+
+FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
+    RenderJob job;
+    job.scene = &scene;
+    job.frames = {0, scenes::frameCount(scene) - 1};
+    job.videoPath = entry.videoPath;
+    job.backend = backendOf(options.draw);
+    job.threads = threadCount(options.run);
+    job.talk = options.run.talk();
+    job.title = fmt::format("figure {}", entry.number);
+    FinishedRun result = renderFrames(job);
+    if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
+    return result;
+}
+
+/// The columns of Table 1 and what else decides the motion.
+std::string constantsOf(const scenes::Scene& scene, std::size_t particleCount) {
+    const engine::Material& m = scene.setup.materials.front();
+    return fmt::format(
+        "{} particles, r = {} m, m = {} kg, b1 = {} N m^4, b_d = {} kg/s, c_r = {}, c_d = {}, {} at {} s",
+        particleCount, m.radius, m.mass, m.repulsion, m.damping, m.repulsionReach, m.dampingReach,
+        engine::nameOf(scene.setup.stepper), scene.setup.step);
+}
+
+FigureEntry makeFigure(int number, const FiguresOptions& options) {
+    const std::string name = fmt::format("figure-{}", number);
+    const scenes::Scene scene = load({name, {}, {}});
+    const fs::path folder = options.folder;
+    FigureEntry entry;
+    entry.number = number;
+    entry.title = scene.title;
+    entry.description = scene.description;
+    entry.stillPath = (folder / (name + ".png")).string();
+    entry.videoPath = (folder / (name + ".mp4")).string();
+    entry.stripPath = (folder / fmt::format("strip-{}.png", number)).string();
+    for (const int frame : scenes::stripFrames(scene)) entry.stripTimes.push_back(scenes::frameTime(scene, frame));
+    entry.stillTime = scenes::frameTime(scene, scenes::stillFrame(scene));
+    for (const scenes::EffectiveValue& value : scene.values) {
+        if (value.origin == scenes::Origin::fallback) continue;
+        entry.parameters.emplace_back(value.path, value.unit.empty() ? value.text : value.text + " " + value.unit);
+    }
+    entry.command = fmt::format("globular render {} -o out/{} --video out/{}.mp4", name, name, name);
+
+    drawPictures(scene, options, entry);
+    FinishedRun result = renderVideo(scene, options, entry);
+    entry.stateHash = result.report.stateHash;
+    entry.constants = constantsOf(scene, result.simulation.particles.count());
+    writeFile(folder / (name + ".json"), indentedText(runJson(scene, result.simulation, result.report)));
+    return entry;
+}
+
+void makeFigures(const FiguresOptions& options) {
+    createFolder(options.folder);
+    std::vector<FigureEntry> entries;
+    for (const int number : options.numbers) {
+        entries.push_back(makeFigure(number, options));
+        const FigureEntry& entry = entries.back();
+        if (options.run.json)
+            printJson(Json{{"event", "figure"},
+                           {"figure", number},
+                           {"still", entry.stillPath},
+                           {"strip", entry.stripPath},
+                           {"video", entry.videoPath},
+                           {"state_hash", entry.stateHash}});
+        else if (!options.run.quiet)
+            fmt::print("figure {}: {}, {}, {}\n", number, entry.stillPath, entry.stripPath, entry.videoPath);
+    }
+    const fs::path page = fs::path(options.folder) / "index.html";
+    writeFile(page, figuresPage(entries));
+    if (options.run.talk() == Talk::normal) fmt::print("all of it: {}\n", page.string());
+}
+
+}  // namespace
+
+void addFiguresCommand(const Command& program) {
+    const Command command =
+        program.command("figures", "the paper's figures: stills, strips, videos, and a page that shows them");
+    const auto options = std::make_shared<FiguresOptions>();
+    command.option("FIGURE", options->numbers, "which figures (default: all four)").within(1, 4);
+    command.option("-o,--output", options->folder, "folder to write to (default: out/figures)").of("DIR");
+    command.option("--gl", options->draw.backend, "OpenGL backend: osmesa or egl (default: osmesa)").of("NAME");
+    addTo(command, options->run);
+    command.example("globular figures 1 3 -o out/figures");
+    command.run([options] {
+        if (options->numbers.empty()) options->numbers = {1, 2, 3, 4};
+        makeFigures(*options);
+    });
+}
+
+}  // namespace tools

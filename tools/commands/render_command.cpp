@@ -1,0 +1,79 @@
+// globular render: simulate and draw a scene to PNG frames, a run.json and a video.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands/commands.h"
+#include "tools/run/render_loop.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+    RunOptions run;
+    SceneOptions scene;
+    DrawOptions draw;
+    FolderFlags folder;
+    std::string video;
+    std::string frames;
+};
+
+void printSummary(const RenderOptions& options, const fs::path& folder, const Json& json) {
+    if (options.run.json) {
+        printJson(Json{{"event", "done"}, {"folder", folder.string()}, {"run", json}});
+    } else if (!options.run.quiet) {
+        fmt::print("{} frames in {}{}\n", json["frames"].get<int>(), folder.string(),
+                   options.video.empty() ? "" : ", video " + options.video);
+        fmt::print("{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), state {}\n",
+                   json["particles"].get<std::size_t>(), json["steps"]["count"].get<std::uint64_t>(),
+                   json["seconds"]["all"].get<double>(), json["seconds"]["simulating"].get<double>(),
+                   json["seconds"]["drawing"].get<double>(), json["seconds"]["encoding"].get<double>(),
+                   json["state_hash"].get<std::string>());
+    }
+}
+
+void render(const RenderOptions& options) {
+    const scenes::Scene scene = load(options.scene, overridesOf(options.draw));
+
+    RenderJob job;
+    job.scene = &scene;
+    job.frames = frameRange(options.frames, scenes::frameCount(scene));
+    job.quality = qualityOf(options.draw);
+    job.backend = backendOf(options.draw);
+    job.threads = threadCount(options.run);
+    job.talk = options.run.talk();
+    job.title = fs::path(scene.sourceName).stem().string();
+    job.videoPath = options.video;
+    job.folder = folderOf(options.folder, job.title);
+    const fs::path folder = job.folder->path;
+
+    if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
+    FinishedRun result = renderFrames(job);
+    const auto json = runJson(scene, result.simulation, result.report);
+    writeFile(folder / "run.json", indentedText(json));
+    requireWhole(result.report, folder);
+    printSummary(options, folder, json);
+}
+
+}  // namespace
+
+void addRenderCommand(const Command& program) {
+    const Command command = program.command("render", "simulate and draw a scene: PNG frames, run.json, a video");
+    const auto options = std::make_shared<RenderOptions>();
+    addTo(command, options->scene);
+    addTo(command, options->folder);
+    command.option("--video", options->video, "also write an MP4").of("FILE.mp4");
+    command.option("--frames", options->frames, "draw only frames A to B, counted from 0, or one").of("A-B");
+    addTo(command, options->draw);
+    addTo(command, options->run);
+    command.example("globular render liquid -o out/liquid --video out/liquid.mp4");
+    command.run([options] { render(*options); });
+}
+
+}  // namespace tools

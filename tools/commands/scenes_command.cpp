@@ -1,0 +1,33 @@
+// globular scenes: the built-in scenes by name.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "scenes/build/library.h"
+#include "tools/commands/commands.h"
+#include "tools/run/scene_options.h"
+#include "tools/system/json.h"
+
+namespace tools {
+
+void addScenesCommand(const Command& program) {
+    const Command command = program.command("scenes", "the built-in scenes");
+    const auto json = std::make_shared<bool>(false);
+    command.flag("--json", *json, "one JSON object a line");
+    command.example("globular scenes");
+    command.run([json] {
+        const auto list = scenes::listScenes(sceneFolders());
+        std::size_t width = 0;
+        for (const auto& scene : list) width = std::max(width, scene.name.size());
+        for (const auto& scene : list) {
+            if (*json)
+                printJson(Json{{"name", scene.name}, {"title", scene.title}, {"path", scene.path}});
+            else
+                fmt::print("{:<{}}  {}\n", scene.name, width, scene.title);
+        }
+    });
+}
+
+}  // namespace tools

@@ -1,0 +1,91 @@
+// globular simulate: particle states only, one PLY file a frame.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "scenes/model/particle_file.h"
+#include "tools/commands/commands.h"
+#include "tools/run/frame_sequence.h"
+#include "tools/run/run_report.h"
+#include "tools/run/scene_options.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+#include "tools/system/progress.h"
+#include "tools/system/stopwatch.h"
+#include "tools/system/threads.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SimulateOptions {
+    RunOptions run;
+    SceneOptions scene;
+    FolderFlags folder;
+    std::string frames;
+    std::string format = "ply";
+};
+
+FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const FolderOptions& options,
+                           Progress& progress) {
+    FrameFolder folder(options, kStateNames, sceneIdentity(scene));
+    FrameSequence sequence(scene, frames, &folder, options.checkpointSeconds);
+    while (const auto frame = sequence.next()) {
+        std::string ply;
+        const Stopwatch watch(sequence.report().seconds.encoding);
+        if (frame->isWanted && !frame->isKept) ply = scenes::encodeParticles(sequence.simulation().particles);
+        sequence.store(*frame, {reinterpret_cast<const std::uint8_t*>(ply.data()), ply.size()});
+        if (!frame->isWanted) continue;
+        ++sequence.report().frames;
+        progress.frameDone(frame->number, frame->time);
+    }
+    sequence.finish();
+    return sequence.take();
+}
+
+void simulate(const SimulateOptions& options) {
+    const scenes::Scene scene = load(options.scene);
+    const FrameRange frames = frameRange(options.frames, scenes::frameCount(scene));
+    const std::string name = fs::path(scene.sourceName).stem().string();
+    const FolderOptions folderOptions = folderOf(options.folder, name);
+    const fs::path folder = folderOptions.path;
+    const int threads = threadCount(options.run);
+
+    Progress progress(name, frames.last - frames.first + 1, options.run.talk());
+    FinishedRun run;
+    double seconds = 0.0;
+    {
+        const Stopwatch watch(seconds);
+        onThreads(threads, [&] { run = simulateFrames(scene, frames, folderOptions, progress); });
+    }
+    run.report.seconds.all = seconds;
+    run.report.threads = threads;
+    const auto json = runJson(scene, run.simulation, run.report);
+    writeFile(folder / "run.json", indentedText(json));
+    requireWhole(run.report, folder);
+    if (options.run.json)
+        printJson(Json{{"event", "done"}, {"folder", folder.string()}, {"run", json}});
+    else if (!options.run.quiet)
+        fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", run.report.frames, folder.string(),
+                   run.simulation.particles.count(), run.simulation.steps.count, run.report.seconds.all,
+                   run.report.stateHash);
+}
+
+}  // namespace
+
+void addSimulateCommand(const Command& program) {
+    const Command command = program.command("simulate", "particle states only: one PLY file a frame, and run.json");
+    const auto options = std::make_shared<SimulateOptions>();
+    addTo(command, options->scene);
+    addTo(command, options->folder);
+    command.option("--format", options->format, "ply: binary little-endian PLY").oneOf({"ply"});
+    command.option("--frames", options->frames, "write only frames A to B, counted from 0, or one").of("A-B");
+    addTo(command, options->run);
+    command.example("globular simulate powder -o out/states --frames 0-59");
+    command.run([options] { simulate(*options); });
+}
+
+}  // namespace tools

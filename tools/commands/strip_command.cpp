@@ -1,0 +1,78 @@
+// globular strip: several moments of a scene side by side in one picture.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "render/output/png.h"
+#include "tools/commands/commands.h"
+#include "tools/run/scene_options.h"
+#include "tools/run/stills.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StripOptions {
+    RunOptions run;
+    SceneOptions scene;
+    DrawOptions draw;
+    std::string times;
+    std::string output;
+};
+
+scenes::Scene loadFor(const StripOptions& options) {
+    scenes::Overrides overrides = overridesOf(options.draw);
+    if (!options.times.empty())
+        overrides.emplace_back(fmt::format("still.strip=[{}]", options.times), "--times " + options.times);
+    return load(options.scene, overrides);
+}
+
+void printResult(const StripOptions& options, const fs::path& path, const Json& json) {
+    if (options.run.json)
+        printJson(json);
+    else if (!options.run.quiet)
+        fmt::print("{} panels in {}\n", json["times"].size(), path.string());
+}
+
+void drawStrip(const StripOptions& options) {
+    const scenes::Scene scene = loadFor(options);
+    MomentsJob job;
+    job.scene = &scene;
+    job.quality = qualityOf(options.draw);
+    job.backend = backendOf(options.draw);
+    job.threads = threadCount(options.run);
+    job.talk = options.run.talk();
+    job.title = fs::path(scene.sourceName).stem().string();
+    const fs::path path =
+        options.output.empty() ? fs::path("out") / (job.title + "-strip.png") : fs::path(options.output);
+
+    const std::vector<int> frames = scenes::stripFrames(scene);
+    const MomentPictures pictures = drawMoments(job, {std::nullopt, frames});
+    if (path.has_parent_path()) createFolder(path.parent_path());
+    writeFile(path, render::encodePng(pictures.strip));
+    Json json{{"event", "done"}, {"strip", path.string()}, {"times", Json::array()}};
+    for (const int frame : frames) json["times"].push_back(scenes::frameTime(scene, frame));
+    json["state_hash"] = pictures.stateHash;
+    printResult(options, path, json);
+}
+
+}  // namespace
+
+void addStripCommand(const Command& program) {
+    const Command command = program.command("strip", "several moments of a scene side by side in one picture");
+    const auto options = std::make_shared<StripOptions>();
+    addTo(command, options->scene);
+    command.option("--times", options->times, "moments in seconds (default: the scene's still.strip)").of("T,T,...");
+    command.option("-o,--output", options->output, "the picture to write (default: out/NAME-strip.png)").of("FILE.png");
+    addTo(command, options->draw);
+    addTo(command, options->run);
+    command.example("globular strip liquid --times 0.5,1,2 --size 480x270 -o out/liquid.png");
+    command.run([options] { drawStrip(*options); });
+}
+
+}  // namespace tools

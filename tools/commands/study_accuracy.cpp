@@ -1,0 +1,244 @@
+// globular study accuracy: every stepper over a range of steps against a reference; tables, plots and a page.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "engine/stepping/steppers.h"
+#include "scenes/model/limits.h"
+#include "scenes/text/input_error.h"
+#include "studies/accuracy/accuracy.h"
+#include "studies/accuracy/accuracy_csv.h"
+#include "studies/accuracy/accuracy_plot.h"
+#include "tools/commands/commands.h"
+#include "tools/pages/accuracy_page.h"
+#include "tools/run/scene_options.h"
+#include "tools/system/gnuplot.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+#include "tools/system/parse_number.h"
+#include "tools/system/shell_words.h"
+#include "tools/system/standard_streams.h"
+#include "tools/system/threads.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyAccuracyOptions {
+    RunOptions run;
+    std::vector<std::string> scenes;
+    std::vector<std::string> overrides;
+    std::string folder = "out/study-accuracy";
+    double from = -1.0;   ///< s; negative: of each scene
+    double window = 0.0;  ///< s; 0: kWindow
+    bool quick = false;
+};
+
+/// Long enough for an impact, short enough that collisions afterward do not multiply its errors, s.
+constexpr double kWindow = 0.2;
+
+/// Where a scene is on its way to what its still shows, as a share of the still's time.
+constexpr double kFromShare = 0.4;
+
+/// One study: a scene over a window.
+struct Subject {
+    std::string name;  ///< in tables and file names: "liquid", "hard-honey", "powder-2s"
+    scenes::Scene scene;
+    double from = 0.0;    ///< s
+    double window = 0.0;  ///< s
+};
+
+/// Refuses what is shorter than a frame, and what would never end.
+void requireFrames(const Subject& subject, const std::string& text) {
+    const double fps = subject.scene.fps;
+    const double most = scenes::Limits().frames;
+    if (!(std::lround(std::min(subject.window * fps, most)) >= 1))
+        throw scenes::InputError(
+            {{text, 0, 0,
+              fmt::format("a window of {:g} s is shorter than a frame of {:g} s", subject.window, 1.0 / fps)}});
+    if (!((subject.from + subject.window) * fps <= most))
+        throw scenes::InputError({{text, 0, 0,
+                                   fmt::format("a window that ends at {:g} s is beyond the {:g} frames that a run may "
+                                               "have, {:g} s here",
+                                               subject.from + subject.window, most, most / fps)}});
+}
+
+/// Of "SCENE" or "SCENE:SECONDS".
+Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) {
+    Subject subject;
+    subject.window = options.window > 0.0 ? options.window : kWindow;
+    std::string scene = text;
+    std::string suffix;
+    if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
+        const std::string seconds = text.substr(colon + 1);
+        subject.window = numberIn<double>(seconds).value_or(0.0);
+        if (!(subject.window > 0.0))
+            throw scenes::InputError({{text, 0, 0, "after the colon comes how long to run, in seconds: powder:2"}});
+        scene = text.substr(0, colon);
+        suffix = "-" + seconds + "s";
+    }
+    subject.name = (scene.ends_with(".toml") ? fs::path(scene).stem().string() : scene) + suffix;
+    std::replace(subject.name.begin(), subject.name.end(), '/', '-');
+    subject.scene = load({scene, options.overrides, {}});
+    subject.from = options.from >= 0.0 ? options.from : kFromShare * subject.scene.stillTime;
+    requireFrames(subject, text);
+    return subject;
+}
+
+studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccuracyOptions& options) {
+    const scenes::Scene& scene = subject.scene;
+    studies::AccuracySettings settings;
+    settings.firstFrame = static_cast<int>(std::lround(subject.from * scene.fps));
+    settings.frameCount = static_cast<int>(std::lround(subject.window * scene.fps));
+    if (options.quick) {
+        settings.stepsPerFrame = {4, 8, 16, 32};
+        settings.errors = {1e-1, 1e-2};
+        settings.rounds = 1;
+        settings.runLimit = 20.0;
+        settings.referenceBudget = 20.0;
+    }
+    std::vector<double>& errors = settings.errors;
+    const double own = scene.setup.error;
+    if (scene.setup.stepper == engine::StepperKind::automatic && std::ranges::find(errors, own) == errors.end())
+        errors.insert(std::ranges::lower_bound(errors, own, std::greater{}), own);
+    return settings;
+}
+
+/// A line for each run that is done.
+studies::RunListener reporter(const std::string& name, Talk talk) {
+    return [name, talk](const studies::WindowRun& run, std::string_view purpose) {
+        const std::string stepper = studies::nameOf(run.variant);
+        if (talk == Talk::json)
+            printJson(Json{{"event", purpose},
+                           {"scene", name},
+                           {"stepper", stepper},
+                           {"asked", run.variant.asked},
+                           {"ending", studies::nameOf(run.ending)},
+                           {"seconds", run.seconds}});
+        else if (talk == Talk::normal)
+            say(fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper, run.variant.asked,
+                            run.steps.count, run.seconds, studies::nameOf(run.ending)));
+    };
+}
+
+std::vector<Subject> subjectsOf(const StudyAccuracyOptions& options) {
+    std::vector<Subject> subjects;
+    std::set<std::string> names;
+    for (const std::string& text : options.scenes) {
+        subjects.push_back(subjectOf(text, options));
+        if (!names.insert(subjects.back().name).second)
+            throw scenes::InputError({{text, 0, 0, "two scenes would share its files"}});
+    }
+    return subjects;
+}
+
+studies::SceneAccuracy measure(const Subject& subject, const StudyAccuracyOptions& options) {
+    studies::SceneAccuracy accuracy;
+    try {
+        onThreads(threadCount(options.run), [&] {
+            accuracy = studies::measureAccuracy(subject.name, subject.scene, settingsFor(subject, options),
+                                                reporter(subject.name, options.run.talk()));
+        });
+    } catch (const engine::InstabilityError& error) {
+        throw engine::InstabilityError(subject.name + ": " + error.what());
+    }
+    return accuracy;
+}
+
+std::string commandOf(const StudyAccuracyOptions& options) {
+    std::vector<std::string> words = {"globular", "study", "accuracy"};
+    words.insert(words.end(), options.scenes.begin(), options.scenes.end());
+    for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
+    std::string command = shellLine(words);
+    if (options.from >= 0.0) command += fmt::format(" --from {:g}", options.from);
+    if (options.window > 0.0) command += fmt::format(" --window {:g}", options.window);
+    if (options.quick) command += " --quick";
+    return command + fmt::format(" --threads {}", threadCount(options.run));
+}
+
+void writeTables(const fs::path& folder, const std::vector<studies::SceneAccuracy>& results) {
+    writeFile(folder / "accuracy.csv", studies::accuracyCsv(results));
+    writeFile(folder / "orders.csv", studies::ordersCsv(results));
+    writeFile(folder / "auto.csv", studies::autosCsv(results));
+    writeFile(folder / "references.csv", studies::referencesCsv(results));
+}
+
+AccuracySection plotted(const fs::path& folder, const studies::SceneAccuracy& accuracy) {
+    AccuracySection section{accuracy, drawPlot(studies::plotScript(accuracy, studies::CostAxis::seconds)),
+                            drawPlot(studies::plotScript(accuracy, studies::CostAxis::passes))};
+    writeFile(folder / (accuracy.name + "-seconds.svg"), section.secondsPlot);
+    writeFile(folder / (accuracy.name + "-evaluations.svg"), section.passesPlot);
+    return section;
+}
+
+std::string ratio(const std::optional<studies::HandPicked>& picked, double cost) {
+    return picked ? fmt::format("{:.2f}", cost / picked->cost) : "-";
+}
+
+/// The verdict on the automatic stepper, for the terminal.
+void print(const studies::SceneAccuracy& accuracy) {
+    fmt::print("{}: reference {} at {:.3g} s, resolves {:.1e} radii\n", accuracy.name,
+               engine::nameOf(accuracy.reference.variant.stepper), accuracy.reference.variant.asked,
+               accuracy.reference.resolution);
+    for (const studies::OrderRow& row : accuracy.orders)
+        if (row.order) fmt::print("  {:17} order {:.2f}\n", engine::nameOf(row.stepper), *row.order);
+    fmt::print("  auto: asked  obtained  seconds  over best hand-picked at the error obtained, asked; in passes\n");
+    for (const studies::AutoRow& row : accuracy.autos)
+        fmt::print("      {:7g}  {:8.1e}  {:7.3g}  {:>5} {:>5}  {:>5} {:>5}\n", row.asked, row.obtained, row.seconds,
+                   ratio(row.secondsAtObtained, row.seconds), ratio(row.secondsAtAsked, row.seconds),
+                   ratio(row.passesAtObtained, row.passes), ratio(row.passesAtAsked, row.passes));
+}
+
+void study(const StudyAccuracyOptions& options) {
+    const fs::path folder = options.folder;
+    const std::vector<Subject> subjects = subjectsOf(options);
+    createFolder(folder);
+    std::vector<studies::SceneAccuracy> results;
+    for (const Subject& subject : subjects) {
+        results.push_back(measure(subject, options));
+        writeTables(folder, results);  // what a later scene cannot undo
+    }
+    std::vector<AccuracySection> sections;
+    for (const studies::SceneAccuracy& accuracy : results) sections.push_back(plotted(folder, accuracy));
+    const fs::path page = folder / "index.html";
+    writeFile(page, accuracyPage(sections, {commandOf(options), threadCount(options.run), options.quick}));
+    if (options.run.json) printJson(Json{{"event", "done"}, {"page", page.string()}});
+    if (options.run.talk() != Talk::normal) return;
+    for (const studies::SceneAccuracy& accuracy : results) print(accuracy);
+    fmt::print("all of it: {}\n", page.string());
+}
+
+}  // namespace
+
+void addStudyAccuracy(const Command& program) {
+    const Command command = program.command("accuracy", "speed against error: every stepper against a reference");
+    const auto options = std::make_shared<StudyAccuracyOptions>();
+    command.option("SCENE", options->scenes,
+                   "scene files or names, with an own window as powder:2 (default: liquid solid powder fountain honey; "
+                   "powder:2 too unless quick)");
+    command.option("-o,--output", options->folder, "folder to write to (default: out/study-accuracy)").of("DIR");
+    command.option("--set", options->overrides, "change a key of every scene").of("KEY=VALUE").oneAtATime();
+    command.option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
+        .atLeastZero();
+    command.option("--window", options->window, "how long they run, s (default: 0.2)").aboveZero();
+    command.flag("--quick", options->quick, "a coarse look: fewer runs, timed once");
+    addTo(command, options->run);
+    command.example("globular study accuracy liquid powder -o out/accuracy --threads 2");
+    command.run([options] {
+        if (options->scenes.empty()) {
+            options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
+            // Long enough for chaos: statistics instead of positions.
+            if (!options->quick) options->scenes.emplace_back("powder:2");
+        }
+        study(*options);
+    });
+}
+
+}  // namespace tools

@@ -1,0 +1,113 @@
+// Everything is checked first, then written.
+#include "tools/compare/approve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "render/output/png.h"
+#include "render/picture/system_error.h"
+#include "scenes/text/input_error.h"
+#include "tools/compare/picture_pairs.h"
+#include "tools/run/manifest.h"
+#include "tools/run/picture_provenance.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+#include "tools/system/shell_words.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A picture on its way to becoming a golden.
+struct Candidate {
+    std::string name;
+    fs::path from, to;
+};
+
+std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set) {
+    std::vector<Candidate> candidates;
+    std::vector<scenes::Problem> problems;
+    if (set.decoded)
+        throw render::SystemError("frames of a video are no goldens; approve the PNG files it was made of");
+    if (set.single && !job.names.empty())
+        throw scenes::InputError({{job.names.front(), 0, 0, "names are of pictures in a folder"}});
+    for (const std::string& name : job.names)
+        if (!set.single && set.pictures.count(name) == 0)
+            problems.push_back({name, 0, 0, fmt::format("there is no such picture in {}", job.actual.string())});
+    if (!problems.empty()) throw scenes::InputError(problems);
+    for (const auto& [name, path] : set.pictures) {
+        const bool chosen =
+            set.single || job.names.empty() || std::find(job.names.begin(), job.names.end(), name) != job.names.end();
+        if (chosen) candidates.push_back({name, path, set.single ? job.expected : job.expected / name});
+    }
+    if (candidates.empty())
+        throw render::SystemError(fmt::format("there are no pictures to approve in {}", job.actual.string()));
+    return candidates;
+}
+
+std::string sidecarText(const Candidate& candidate, const std::vector<std::uint8_t>& bytes) {
+    const render::Image image = render::decodePng(bytes, candidate.from.string());
+    return indentedText(sidecarJson(factsOf(candidate.from, bytes), checksumOf(bytes), image.width, image.height));
+}
+
+/// Why the picture must not replace its golden; empty if it may.
+std::string refusal(const Candidate& candidate) {
+    const fs::path path = sidecarPath(candidate.to);
+    if (!fs::exists(path)) return {};
+    const nlohmann::json sidecar = readJson(path);
+    if (!sidecar.is_object() || !sidecar.contains("png"))
+        return fmt::format("its sidecar would replace {}, which is none; --force replaces it", path.string());
+    // The sidecar's word counts even where the golden was changed by hand.
+    if (!sidecar.contains("gl_renderer") || !sidecar["gl_renderer"].is_string()) return {};
+    const std::string before = sidecar["gl_renderer"].get<std::string>();
+    const std::string now = factsOf(candidate.from, readFile(candidate.from)).glRenderer;
+    if (now == before) return {};
+    return fmt::format("drawn by {}, the golden by {}; --force approves it all the same",
+                       now.empty() ? "an unknown GL renderer" : now, before);
+}
+
+bool stands(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+    return fs::exists(path) && readFile(path) == bytes;
+}
+
+}  // namespace
+
+std::vector<Approved> approvePictures(const ApproveJob& job) {
+    if (!fs::exists(job.actual))
+        throw render::SystemError(fmt::format("there is no file or folder {}", job.actual.string()));
+    const std::vector<Candidate> candidates = candidatesOf(job, picturesOf(job.actual));
+    std::vector<scenes::Problem> refusals;
+    std::map<std::string, std::string> sidecars;
+    for (const Candidate& candidate : candidates) {
+        sidecars[candidate.name] = sidecarText(candidate, readFile(candidate.from));
+        const std::string why = job.force ? std::string{} : refusal(candidate);
+        if (!why.empty()) refusals.push_back({candidate.from.string(), 0, 0, why});
+    }
+    if (!refusals.empty()) throw scenes::InputError(refusals);
+
+    std::vector<Approved> approved;
+    for (const Candidate& candidate : candidates) {
+        const std::vector<std::uint8_t> bytes = readFile(candidate.from);
+        const std::string& sidecar = sidecars[candidate.name];
+        if (stands(candidate.to, bytes) && stands(sidecarPath(candidate.to), {sidecar.begin(), sidecar.end()}))
+            continue;
+        approved.push_back({candidate.name, !fs::exists(candidate.to)});
+        if (candidate.to.has_parent_path()) createFolder(candidate.to.parent_path());
+        writeFile(candidate.to, bytes);
+        writeFile(sidecarPath(candidate.to), sidecar);
+    }
+    return approved;
+}
+
+std::string approvalLine(const fs::path& actual, const fs::path& expected, const std::vector<std::string>& names) {
+    if (names.empty() || actual.extension() == ".mp4") return {};
+    std::vector<std::string> words = {"globular", "approve", actual.string(), expected.string()};
+    words.insert(words.end(), names.begin(), names.end());
+    return shellLine(words);
+}
+
+}  // namespace tools

@@ -1,0 +1,28 @@
+// The page of the accuracy study: plots, tables, and how to have them again, in one HTML file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/accuracy/accuracy.h"
+
+namespace tools {
+
+/// A scene's results and its two plots as SVG.
+struct AccuracySection {
+    studies::SceneAccuracy accuracy;
+    std::string secondsPlot;
+    std::string passesPlot;
+};
+
+/// How the study was run.
+struct StudyFacts {
+    std::string command;
+    int threads = 1;
+    bool isTimedOnce = false;  ///< each run, instead of in rounds
+};
+
+/// The page as HTML, plots embedded.
+std::string accuracyPage(const std::vector<AccuracySection>& sections, const StudyFacts& facts);
+
+}  // namespace tools

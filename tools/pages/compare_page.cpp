@@ -1,0 +1,122 @@
+// Results to JSON with data URIs, put into the page.
+#include "tools/pages/compare_page.h"
+
+#include <algorithm>
+
+#include "render/compare/difference_image.h"
+#include "render/output/png.h"
+#include "tools/pages/html.h"
+#include "tools/system/json.h"
+
+namespace tools {
+namespace {
+
+std::string inlined(const std::vector<std::uint8_t>& png) {
+    return dataUri("image/png", png);
+}
+
+/// What can be seen of a result, by the names that the page's script knows.
+Json imagesOf(const PictureResult& result) {
+    Json images = Json::object();
+    if (result.actual.image) images["actual"] = inlined(result.actual.bytes);
+    if (result.expected.image && result.status != PictureStatus::identical)
+        images["expected"] = inlined(result.expected.bytes);
+    if (!result.comparison || result.comparison->rule == render::CompareRule::size ||
+        result.comparison->metrics.differing == 0)
+        return images;
+    images["difference"] =
+        inlined(render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
+    images["heat"] = inlined(render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
+    return images;
+}
+
+std::size_t byteCount(const Json& images) {
+    std::size_t bytes = 0;
+    for (const auto& image : images) bytes += image.get_ref<const std::string&>().size();
+    return bytes;
+}
+
+/// JSON within a script element: nothing in it may look like the end of the element.
+std::string inScript(const Json& json) {
+    std::string text;
+    for (const char c : compactText(json)) {
+        if (c == '<')
+            text += "\\u003c";
+        else
+            text += c;
+    }
+    return text;
+}
+
+/// The template with each @NAME@ replaced.
+std::string filled(std::string_view page, const std::map<std::string, std::string>& values) {
+    std::string text;
+    while (!page.empty()) {
+        const std::size_t open = page.find('@');
+        text += page.substr(0, open);
+        if (open == std::string_view::npos) break;
+        const std::size_t close = page.find('@', open + 1);
+        text += values.at(std::string(page.substr(open + 1, close - open - 1)));
+        page.remove_prefix(close + 1);
+    }
+    return text;
+}
+
+Json headingJson(const PageHeading& heading) {
+    const render::CompareLimits& limits = heading.limits;
+    return {{"actual", heading.actual},
+            {"expected", heading.expected},
+            {"profile", heading.profile},
+            {"version", GLOBULAR_VERSION},
+            {"limits",
+             {{"threshold", limits.threshold},
+              {"share", limits.share},
+              {"largest", limits.largest},
+              {"mean", limits.mean},
+              {"ssim", limits.ssim}}},
+            {"counts", {{"pictures", heading.counts.pictures}, {"failed", heading.counts.failed()}}},
+            {"approve", heading.approval}};
+}
+
+}  // namespace
+
+void ComparePage::add(const PictureResult& result, const std::string& approval) {
+    Json json = resultJson(result);
+    json["approve"] = approval;
+    noteRun(result.actual, json["actual"]);
+    noteRun(result.expected, json["expected"]);
+    inlinePictures(result, json);
+    entries_.push_back({result.status, std::move(json)});
+}
+
+void ComparePage::inlinePictures(const PictureResult& result, Json& json) {
+    std::size_t& spent = result.passed() ? passedBytes_ : failedBytes_;
+    if (spent > (result.passed() ? kPassedBytes : kFailedBytes)) return;
+    Json images = imagesOf(result);
+    spent += byteCount(images);
+    json["images"] = std::move(images);
+}
+
+void ComparePage::noteRun(const PictureSide& side, Json& json) {
+    if (side.path.empty()) return;
+    const std::filesystem::path path = side.path.parent_path() / "run.json";
+    auto known = runs_.find(path.string());
+    if (known == runs_.end()) known = runs_.emplace(path.string(), readJson(path)).first;
+    if (!known->second.is_null()) json["run"] = path.string();
+}
+
+std::string ComparePage::html(const PageHeading& heading) const {
+    std::vector<const Entry*> sorted;
+    for (const Entry& entry : entries_) sorted.push_back(&entry);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Entry* a, const Entry* b) { return a->status < b->status; });
+    Json data = headingJson(heading);
+    data["runs"] = runs_;
+    data["pictures"] = Json::array();
+    for (const Entry* entry : sorted) data["pictures"].push_back(entry->json);
+    return filled(pageSource("compare.html"), {{"STYLE", std::string(pageSource("compare.css"))},
+                                               {"SCRIPT", std::string(pageSource("compare.js"))},
+                                               {"DATA", inScript(data)}});
+}
+
+}  // namespace tools

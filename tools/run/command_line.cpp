@@ -1,0 +1,135 @@
+// Commands and flags by CLI11.
+#include "tools/run/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+
+namespace tools {
+namespace {
+
+/// CLI11's own names all of the largest double when a value is too small.
+CLI::Validator numberThat(const std::function<bool(double)>& holds, const std::string& words) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            double value = 0.0;
+            return CLI::detail::lexical_cast(text, value) && holds(value) ? "" : text + " must be a number " + words;
+        },
+        "");
+}
+
+}  // namespace
+
+Flag& Flag::required() {
+    option_->required();
+    return *this;
+}
+
+Flag& Flag::of(const std::string& placeholder) {
+    option_->type_name(placeholder);
+    return *this;
+}
+
+Flag& Flag::within(int least, int most) {
+    option_->check(CLI::Range(least, most));
+    return *this;
+}
+
+Flag& Flag::within(double least, double most) {
+    // CLI11's own lets pass what is no number.
+    option_->check(numberThat([=](double value) { return value >= least && value <= most; },
+                              fmt::format("from {:g} to {:g}", least, most)));
+    return *this;
+}
+
+Flag& Flag::atLeastZero() {
+    option_->check(numberThat([](double value) { return value >= 0.0; }, ">= 0"));
+    return *this;
+}
+
+Flag& Flag::aboveZero() {
+    option_->check(numberThat([](double value) { return value > 0.0; }, "> 0"));
+    return *this;
+}
+
+Flag& Flag::oneOf(const std::vector<std::string>& names) {
+    option_->check(CLI::IsMember(names));
+    return *this;
+}
+
+Flag& Flag::oneAtATime() {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+Flag& Flag::showDefault() {
+    option_->capture_default_str();
+    return *this;
+}
+
+Flag& Flag::notWith(const Flag& other) {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Command Command::command(const std::string& name, const std::string& help) const {
+    return Command(*app_->add_subcommand(name, help));
+}
+
+template <class Value>
+Flag Command::option(const std::string& names, Value& value, const std::string& help) const {
+    return Flag(*app_->add_option(names, value, help));
+}
+
+template Flag Command::option(const std::string&, std::string&, const std::string&) const;
+template Flag Command::option(const std::string&, std::filesystem::path&, const std::string&) const;
+template Flag Command::option(const std::string&, int&, const std::string&) const;
+template Flag Command::option(const std::string&, double&, const std::string&) const;
+template Flag Command::option(const std::string&, std::optional<int>&, const std::string&) const;
+template Flag Command::option(const std::string&, std::optional<double>&, const std::string&) const;
+template Flag Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
+template Flag Command::option(const std::string&, std::vector<int>&, const std::string&) const;
+template Flag Command::option(const std::string&, std::vector<std::size_t>&, const std::string&) const;
+
+Flag Command::flag(const std::string& names, bool& value, const std::string& help) const {
+    return Flag(*app_->add_flag(names, value, help));
+}
+
+void Command::example(const std::string& text, const std::string& notes) const {
+    app_->footer((notes.empty() ? "" : notes + "\n") + "Example: " + text);
+}
+
+void Command::run(std::function<void()> action) const {
+    app_->callback(std::move(action));
+}
+
+void Command::needsCommand() const {
+    app_->require_subcommand(1);
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& help, const std::string& version)
+    : app_(std::make_unique<CLI::App>(help, name)) {
+    app_->set_version_flag("--version", version);
+    app_->require_subcommand(0, 1);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::program() const {
+    return Command(*app_);
+}
+
+bool CommandLine::run(int argc, char** argv) const {
+    try {
+        app_->parse(argc, argv);
+        return !app_->get_subcommands().empty();
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) throw UsageError(error.what());
+        app_->exit(error);  // --help, --version
+        return true;
+    }
+}
+
+}  // namespace tools

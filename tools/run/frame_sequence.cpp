@@ -1,0 +1,119 @@
+// Frames before the first wanted one are gone through one by one too, so that a signal or a kill costs little there.
+#include "tools/run/frame_sequence.h"
+
+#include <algorithm>
+
+#include "engine/forces/diagnostics.h"
+#include "engine/run/checkpoint.h"
+#include "scenes/view/frame_steps.h"
+#include "tools/system/json.h"
+#include "tools/system/stopwatch.h"
+
+namespace tools {
+namespace {
+
+/// Chosen: the error of a fixed step is sampled on at most this many frames of a run, which costs three frames each.
+constexpr int kErrorSamples = 8;
+
+int sampleStride(const FrameRange& frames) {
+    return (frames.last - frames.first + kErrorSamples) / kErrorSamples;
+}
+
+/// Which frames are sampled depends on it.
+Json rangeOf(const FrameRange& frames) {
+    return {frames.first, frames.last};
+}
+
+}  // namespace
+
+FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, FrameFolder* folder,
+                             double checkpointSeconds)
+    : scene_(scene),
+      frames_(frames),
+      folder_(folder),
+      checkpointSeconds_(checkpointSeconds),
+      lastCheckpoint_(std::chrono::steady_clock::now()) {
+    if (folder_ != nullptr) interrupts_.emplace();
+    if (folder_ == nullptr || !goOn()) run_.simulation = engine::start(scene_.setup);
+}
+
+/// From the newest checkpoint before the first frame that has to be made; where none has, from the last frame's own.
+/// False where there is none.
+bool FrameSequence::goOn() {
+    int firstToMake = frames_.first;
+    while (firstToMake <= frames_.last && folder_->isKept(firstToMake)) ++firstToMake;
+    auto restart = folder_->restart(scene_.setup, firstToMake - 1);
+    if (!restart) return false;
+    position_ = restart->frame;
+    run_.simulation = std::move(restart->simulation);
+    if (restart->report.value("range", Json()) == rangeOf(frames_)) run_.report.errors = decodeErrors(restart->report);
+    run_.report.resumedFrom = restart->frame;
+    next_ = std::min(frames_.first, position_ + 1);
+    return true;
+}
+
+std::optional<SequencedFrame> FrameSequence::next() {
+    if (next_ > frames_.last) return std::nullopt;
+    // Frames that are only passed on cost little, and a film of some of them would be worth less than the one there is.
+    if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
+    if (run_.report.interruptedBy != 0) return std::nullopt;
+    SequencedFrame frame;
+    frame.number = next_;
+    frame.time = scenes::frameTime(scene_, frame.number);
+    frame.isWanted = frame.number >= frames_.first;
+    frame.isKept = frame.isWanted && folder_ != nullptr && folder_->isKept(frame.number);
+    const bool isNew = frame.number > position_;
+    if (isNew && !advanceTo(frame.number)) return std::nullopt;
+    ++next_;
+    if (folder_ == nullptr) return frame;
+    if (frame.isWanted && frame.number == position_)
+        run_.report.stateHash = engine::stateHash(run_.simulation.particles);
+    if (frame.isWanted && !frame.isKept) frame.stateHash = run_.report.stateHash;
+    if (isNew && isCheckpointDue()) {
+        frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
+        frame.report = checkpointReport();
+        lastCheckpoint_ = std::chrono::steady_clock::now();
+    }
+    return frame;
+}
+
+/// False where the simulation became unstable: the frames before are still on their way to their files.
+bool FrameSequence::advanceTo(int frame) {
+    const Stopwatch watch(run_.report.seconds.simulating);
+    try {
+        scenes::advanceToFrame(scene_, run_.simulation, frame);
+    } catch (const engine::InstabilityError& error) {
+        run_.report.unstable = error.what();
+        return false;
+    }
+    position_ = frame;
+    if (frame >= frames_.first && (frame - frames_.first) % sampleStride(frames_) == 0)
+        addSample(run_.report.errors, scene_, run_.simulation);
+    return true;
+}
+
+Json FrameSequence::checkpointReport() const {
+    Json report = encodeErrors(run_.report.errors);
+    report["range"] = rangeOf(frames_);
+    return report;
+}
+
+bool FrameSequence::isCheckpointDue() const {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - lastCheckpoint_;
+    return since.count() >= checkpointSeconds_;
+}
+
+void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes) {
+    if (frame.isWanted && !frame.isKept) folder_->write(frame.number, bytes, frame.stateHash);
+    if (!frame.checkpoint.empty()) folder_->writeCheckpoint(frame.number, frame.checkpoint, frame.report);
+}
+
+void FrameSequence::finish() {
+    // Of an unstable run the simulation is within a frame that is not there.
+    if (!run_.report.unstable.empty()) return;
+    if (folder_ != nullptr && position_ >= 0)
+        folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation), checkpointReport());
+    run_.report.stateHash = engine::stateHash(run_.simulation.particles);
+}
+
+}  // namespace tools

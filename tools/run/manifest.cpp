@@ -1,0 +1,95 @@
+// The manifest as JSON.
+#include "tools/run/manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/core/hash.h"
+#include "render/picture/system_error.h"
+#include "tools/system/json.h"
+#include "tools/system/parse_number.h"
+
+namespace tools {
+namespace {
+
+/// Changed whenever the meaning of a field is.
+constexpr int kFormat = 1;
+
+int frameNumber(const std::string& text) {
+    const auto number = numberIn(text);
+    if (!number || *number < 0) throw render::SystemError(fmt::format("\"{}\" is no frame number", text));
+    return *number;
+}
+
+/// What is no whole number, or a huge one, would not survive the conversion.
+int frameIn(const Json& json) {
+    if (!json.is_number_integer() || json < 0 || json > std::numeric_limits<int>::max())
+        throw render::SystemError(fmt::format("{} is no frame number", compactText(json)));
+    return json.get<int>();
+}
+
+Manifest parsed(const Json& json) {
+    if (json.at("format") != kFormat)
+        throw render::SystemError(fmt::format("its format is {}, not {}", compactText(json.at("format")), kFormat));
+    Manifest manifest;
+    manifest.identity = json.at("run");
+    if (!manifest.identity.is_object()) throw render::SystemError("\"run\" is no object");
+    for (const auto& [number, frame] : json.at("frames").items())
+        manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
+                                                frame.at("state_hash").get<std::string>()};
+    for (const Json& checkpoint : json.at("checkpoints")) {
+        if (!checkpoint.at("report").is_object()) throw render::SystemError("a checkpoint's report is no object");
+        manifest.checkpoints[frameIn(checkpoint.at("frame"))] = {checkpoint.at("checksum").get<std::string>(),
+                                                                 checkpoint.at("report")};
+    }
+    return manifest;
+}
+
+std::string textOf(const Json& identity, const std::string& key) {
+    return identity.contains(key) ? compactText(identity[key]) : "nothing";
+}
+
+}  // namespace
+
+std::string checksumOf(std::span<const std::uint8_t> bytes) {
+    return engine::hexadecimal(engine::fnv1aOf(bytes));
+}
+
+std::string encodeManifest(const Manifest& manifest) {
+    Json checkpoints = Json::array();
+    for (const auto& [frame, checkpoint] : manifest.checkpoints)
+        checkpoints.push_back({{"frame", frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
+    // A line a frame, one after the other: a tree of them all would take many times their memory.
+    std::string frames;
+    for (const auto& [number, frame] : manifest.frames)
+        frames += fmt::format("{}\n  \"{:05}\": {}", frames.empty() ? "" : ",", number,
+                              compactText({{"checksum", frame.checksum}, {"state_hash", frame.stateHash}}));
+    return fmt::format("{{\n \"format\": {},\n \"run\": {},\n \"checkpoints\": {},\n \"frames\": {{{}\n }}\n}}\n",
+                       kFormat, compactText(manifest.identity), compactText(checkpoints), frames);
+}
+
+Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name) {
+    try {
+        return parsed(parsedJson(text));
+    } catch (const std::exception& error) {
+        throw render::SystemError(fmt::format("{} is no manifest of frames: {}", name, error.what()));
+    }
+}
+
+std::string differences(const Json& there, const Json& here) {
+    std::vector<std::string> keys;
+    for (const Json* identity : {&there, &here})
+        for (const auto& item : identity->items())
+            if (std::find(keys.begin(), keys.end(), item.key()) == keys.end()) keys.push_back(item.key());
+    std::string text;
+    for (const std::string& key : keys) {
+        if (textOf(there, key) == textOf(here, key)) continue;
+        text += fmt::format("{}{}: {} there, {} here", text.empty() ? "" : "; ", key, textOf(there, key),
+                            textOf(here, key));
+    }
+    return text;
+}
+
+}  // namespace tools

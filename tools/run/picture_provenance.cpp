@@ -1,0 +1,147 @@
+// JSON that may be absent, broken or about another picture.
+#include "tools/run/picture_provenance.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "render/picture/system_error.h"
+#include "tools/run/manifest.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string textIn(const nlohmann::json& json, const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+/// What sidecars, manifests and run.json say in the same words.
+PictureFacts commonFacts(const nlohmann::json& json, const fs::path& source) {
+    PictureFacts facts;
+    facts.source = source.string();
+    facts.sceneHash = textIn(json, "scene_hash");
+    facts.version = textIn(json, "version");
+    facts.glRenderer = textIn(json, "gl_renderer");
+    facts.quality = textIn(json, "quality");
+    return facts;
+}
+
+/// "00012" of frame-00012.png, as manifests number frames; empty for other names.
+std::string frameKey(const fs::path& picture) {
+    const std::string stem = picture.stem().string();
+    return stem.starts_with("frame-") ? stem.substr(6) : std::string{};
+}
+
+PictureFacts aboutOtherBytes(const fs::path& source) {
+    PictureFacts facts;
+    facts.note = fmt::format("{} is about another picture than the one that is there", source.string());
+    return facts;
+}
+
+/// Without a source when the file is no sidecar or manifest that knows the picture.
+PictureFacts sidecarFacts(const fs::path& picture, const std::string& checksum) {
+    const fs::path path = sidecarPath(picture);
+    const nlohmann::json json = readJson(path);
+    if (!json.is_object() || textIn(json, "png").empty()) return {};
+    if (textIn(json, "png") != checksum) return aboutOtherBytes(path);
+    PictureFacts facts = commonFacts(json, path);
+    facts.stateHash = textIn(json, "state_hash");
+    return facts;
+}
+
+PictureFacts manifestFacts(const fs::path& picture, const std::string& checksum) {
+    const fs::path path = picture.parent_path() / "manifest.json";
+    const nlohmann::json json = readJson(path);
+    if (!json.is_object() || !json.contains("frames") || !json["frames"].is_object()) return {};
+    const auto frame = json["frames"].find(frameKey(picture));
+    if (frame == json["frames"].end() || !frame->is_object()) return {};
+    if (textIn(*frame, "checksum") != checksum) return aboutOtherBytes(path);
+    PictureFacts facts = commonFacts(json.value("run", nlohmann::json::object()), path);
+    facts.stateHash = textIn(*frame, "state_hash");
+    return facts;
+}
+
+PictureFacts runFacts(const fs::path& picture) {
+    const fs::path path = picture.parent_path() / "run.json";
+    const nlohmann::json json = readJson(path);
+    if (!json.is_object() || textIn(json, "scene_hash").empty()) return {};
+    return commonFacts(json, path);
+}
+
+Json textOrNull(const std::string& text) {
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
+/// "; GL renderer A instead of B" where both are known and differ.
+std::string changeOf(const char* what, const std::string& actual, const std::string& expected) {
+    if (actual.empty() || expected.empty() || actual == expected) return {};
+    return fmt::format("; {} {} instead of {}", what, actual, expected);
+}
+
+std::string whyUnknown(const char* side, const PictureFacts& facts) {
+    if (!facts.stateHash.empty()) return {};
+    return fmt::format("; the {} picture's state is not recorded{}", side, facts.note.empty() ? "" : ": " + facts.note);
+}
+
+}  // namespace
+
+fs::path sidecarPath(const fs::path& picture) {
+    fs::path path = picture;
+    return path.replace_extension(".json");
+}
+
+nlohmann::json readJson(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return nullptr;
+    try {
+        return sortedJsonOrNull(readFile(path));
+    } catch (const render::SystemError&) {
+        return nullptr;
+    }
+}
+
+PictureFacts factsOf(const fs::path& picture, std::span<const std::uint8_t> bytes) {
+    const std::string checksum = checksumOf(bytes);
+    std::string note;
+    for (PictureFacts facts : {sidecarFacts(picture, checksum), manifestFacts(picture, checksum), runFacts(picture)}) {
+        if (note.empty()) note = facts.note;
+        if (facts.source.empty()) continue;
+        facts.note = note;
+        return facts;
+    }
+    PictureFacts none;
+    none.note = note;
+    return none;
+}
+
+Json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height) {
+    return {{"format", 1},
+            {"png", checksum},
+            {"scene_hash", textOrNull(facts.sceneHash)},
+            {"state_hash", textOrNull(facts.stateHash)},
+            {"version", textOrNull(facts.version)},
+            {"gl_renderer", textOrNull(facts.glRenderer)},
+            {"quality", textOrNull(facts.quality)},
+            {"size", {width, height}}};
+}
+
+Explanation explain(const PictureFacts& actual, const PictureFacts& expected) {
+    const std::string others = changeOf("scene", actual.sceneHash, expected.sceneHash) +
+                               changeOf("GL renderer", actual.glRenderer, expected.glRenderer) +
+                               changeOf("quality", actual.quality, expected.quality) +
+                               changeOf("version", actual.version, expected.version);
+    if (actual.stateHash.empty() || expected.stateHash.empty())
+        return {Cause::unknown, "whether the simulation or the renderer changed is not known" +
+                                    whyUnknown("actual", actual) + whyUnknown("expected", expected) + others};
+    if (actual.stateHash != expected.stateHash)
+        return {Cause::simulation, fmt::format("the simulation changed: state {} instead of {}{}", actual.stateHash,
+                                               expected.stateHash, others)};
+    return {Cause::renderer, fmt::format("the drawing changed: the state is the same, {}{}", actual.stateHash, others)};
+}
+
+}  // namespace tools

@@ -1,0 +1,171 @@
+// An oneTBB pipeline of in-order stages. With one thread its stages take turns.
+#include "tools/run/render_loop.h"
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "render/output/partial_film.h"
+#include "render/output/png.h"
+#include "render/output/video.h"
+#include "render/renderer.h"
+#include "scenes/view/frame_view.h"
+#include "tools/run/frame_sequence.h"
+#include "tools/run/open_context.h"
+#include "tools/system/json.h"
+#include "tools/system/output_file.h"
+#include "tools/system/stopwatch.h"
+#include "tools/system/threads.h"
+
+namespace tools {
+namespace {
+
+/// Frames in flight: one a stage, and one to even out their times.
+constexpr std::size_t kTokens = 4;
+
+/// A frame on its way through the stages.
+struct FrameInFlight {
+    SequencedFrame frame;
+    std::optional<render::View> view;    ///< of a frame that is to be drawn, until it is
+    std::optional<render::Image> image;  ///< of one that was drawn
+    render::Image old;                   ///< of a frame that is done
+};
+
+/// What decides the bytes of the frames of a run.
+Json identityOf(const RenderJob& job, const std::string& glRenderer) {
+    constexpr std::array kNames = {"draft", "normal", "final"};
+    Json identity = sceneIdentity(*job.scene);
+    identity["size"] = {job.scene->size.width, job.scene->size.height};
+    identity["quality"] = kNames[static_cast<std::size_t>(job.quality)];
+    identity["gl_renderer"] = glRenderer;
+    return identity;
+}
+
+/// The four calls between a scene and its files, one method a stage.
+class Run {
+ public:
+    explicit Run(const RenderJob& job)
+        : job_(job),
+          context_(openContext(job.backend, job.threads)),
+          folder_(openFolder(job, context_.rendererName())),
+          renderer_(context_, job.scene->size, job.quality),
+          frames_(*job.scene, job.frames, folder_.get(), job.folder ? job.folder->checkpointSeconds : 0.0),
+          progress_(job.title, job.frames.last - job.frames.first + 1, job.talk) {
+        report().threads = job.threads;
+        report().glRenderer = context_.rendererName();
+        if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
+    }
+
+    FinishedRun all() {
+        {
+            const Stopwatch watch(report().seconds.all);
+            onThreads(job_.threads, [this] { runPipeline(); });
+            frames_.finish();
+            if (video_ && report().frames > 0) video_->finish();
+        }
+        return frames_.take();
+    }
+
+ private:
+    static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
+        if (!job.folder) return nullptr;
+        // Before frames of another run are removed for a film that cannot be made.
+        if (!job.videoPath.empty() && job.folder->existing == Existing::overwrite) requireFilm(videoOptions(job));
+        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
+    }
+
+    static void requireFilm(const render::VideoOptions& options) {
+        render::requireEncoder(options);
+        const render::PartialFilm begun(options.path);
+    }
+
+    static render::VideoOptions videoOptions(const RenderJob& job) {
+        render::VideoOptions options;
+        options.path = job.videoPath;
+        options.size = job.scene->size;
+        options.fps = job.scene->fps;
+        return options;
+    }
+
+    void runPipeline() {
+        constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+        const auto simulates = tbb::make_filter<void, FrameInFlight*>(
+            kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); });
+        const auto draws = tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder, [this](FrameInFlight* frame) {
+            draw(*frame);
+            return frame;
+        });
+        const auto encodes =
+            tbb::make_filter<FrameInFlight*, void>(kInOrder, [this](FrameInFlight* frame) { encode(*frame); });
+        tbb::parallel_pipeline(kTokens, simulates & draws & encodes);
+    }
+
+    FrameInFlight* simulate(tbb::flow_control& flow) {
+        auto frame = frames_.next();
+        if (!frame) {
+            flow.stop();
+            return nullptr;
+        }
+        // Stages are in order, so the frame that was here before has left them.
+        FrameInFlight& flight = flights_[started_++ % kTokens];
+        if (flight.image) flight.old = std::move(*flight.image);
+        flight.frame = std::move(*frame);
+        flight.image.reset();
+        if (flight.frame.isWanted && !flight.frame.isKept)
+            flight.view = scenes::frameView(*job_.scene, frames_.simulation());
+        return &flight;
+    }
+
+    void draw(FrameInFlight& flight) {
+        if (!flight.view) return;
+        const Stopwatch watch(report().seconds.drawing);
+        // Isolated: a thread that waits for others here must not take up a frame's simulation and hold the context
+        // meanwhile.
+        tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view, std::move(flight.old)); });
+        flight.view.reset();
+    }
+
+    void encode(FrameInFlight& flight) {
+        const Stopwatch watch(report().seconds.encoding);
+        const SequencedFrame& frame = flight.frame;
+        std::vector<std::uint8_t> png;
+        if (flight.image && folder_) png = render::encodePng(*flight.image);
+        if (folder_) frames_.store(frame, png);
+        if (!frame.isWanted) return;
+        if (video_) video_->add(flight.image ? *flight.image : kept(frame.number));
+        ++report().frames;
+        progress_.frameDone(frame.number, frame.time);
+    }
+
+    /// A frame that an earlier run has drawn.
+    render::Image kept(int frame) const {
+        const std::filesystem::path path = folder_->pathOf(frame);
+        return render::decodePng(readFile(path), path.string());
+    }
+
+    RunReport& report() { return frames_.report(); }
+
+    const RenderJob& job_;
+    render::Context context_;
+    std::unique_ptr<FrameFolder> folder_;
+    render::Renderer renderer_;
+    FrameSequence frames_;
+    std::array<FrameInFlight, kTokens> flights_;
+    std::size_t started_ = 0;
+    std::unique_ptr<render::VideoWriter> video_;
+    Progress progress_;
+};
+
+}  // namespace
+
+FinishedRun renderFrames(const RenderJob& job) {
+    return Run(job).all();
+}
+
+}  // namespace tools

@@ -1,0 +1,167 @@
+// The fields of run.json.
+#include "tools/run/run_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "engine/error_control/error_estimate.h"
+#include "engine/error_control/long_error_estimate.h"
+#include "engine/forces/diagnostics.h"
+#include "engine/stepping/steppers.h"
+#include "render/cpu/metaballs/metaball_cast.h"
+#include "render/picture/system_error.h"
+#include "tools/system/exit_status.h"
+#include "tools/system/json.h"
+
+namespace tools {
+namespace {
+
+/// More frames than any run has.
+constexpr int kMostSamples = 1 << 30;
+
+/// Exit codes of programs that a signal ended, as shells have them, come after this.
+constexpr int kSignaled = 128;
+
+Json vectorJson(const engine::Vec3& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+/// Counts under their names, those that are not zero, the largest first.
+template <class Names, std::size_t size>
+Json sharesJson(const std::array<std::uint64_t, size>& counts, const Names& nameOfIndex) {
+    std::vector<std::size_t> indices;
+    for (std::size_t index = 0; index < size; ++index)
+        if (counts[index] > 0) indices.push_back(index);
+    std::stable_sort(indices.begin(), indices.end(), [&](auto a, auto b) { return counts[a] > counts[b]; });
+    Json json = Json::object();
+    for (const std::size_t index : indices) json[std::string(nameOfIndex(index))] = counts[index];
+    return json;
+}
+
+Json stepsJson(const engine::StepStatistics& steps) {
+    return {{"count", steps.count},
+            {"shortest", steps.shortest},
+            {"longest", steps.longest},
+            {"limited_by", sharesJson(steps.limitedBy,
+                                      [](std::size_t i) { return engine::nameOf(static_cast<engine::StepLimit>(i)); })},
+            {"taken_by", sharesJson(steps.takenBy,
+                                    [](std::size_t i) { return engine::nameOf(static_cast<engine::StepperKind>(i)); })},
+            {"rejected", steps.rejected},
+            {"force_evaluations", steps.forceEvaluations},
+            {"matrix_products", steps.products}};
+}
+
+/// What the automatic stepper measured itself, else what the run's sampled frames say.
+ErrorSamples errorsOf(const engine::Simulation& simulation, const ErrorSamples& samples) {
+    if (simulation.setup.stepper != engine::StepperKind::automatic) return samples;
+    const engine::AutoState& state = simulation.automatic;
+    return {static_cast<int>(state.looks), state.errorSum, state.largestError};
+}
+
+Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples) {
+    const ErrorSamples errors = errorsOf(simulation, samples);
+    if (errors.count == 0) return nullptr;
+    Json json = {{"position", errors.sum / errors.count},
+                 {"largest", errors.largest},
+                 {"unit", "radii per second of motion, rms over the particles"},
+                 {"obtained", "frames run again at half the step: mean and largest over the samples"},
+                 {"samples", errors.count}};
+    if (simulation.setup.stepper == engine::StepperKind::automatic) {
+        json["obtained"] = fmt::format(
+            "frames run again at half the step, times what up to {} s of motion make of an error: mean and largest "
+            "over "
+            "the samples",
+            engine::kFarSeconds);
+        json["wanted"] = simulation.setup.error;
+        json["force_evaluations_spent"] = simulation.automatic.trials;
+    }
+    return json;
+}
+
+Json energyJson(const engine::Energy& energy) {
+    return {{"kinetic", energy.kinetic},
+            {"pairs", energy.pairs},
+            {"contacts", energy.contacts},
+            {"gravity", energy.gravity},
+            {"total", energy.total()}};
+}
+
+}  // namespace
+
+Json encodeErrors(const ErrorSamples& errors) {
+    return {{"count", errors.count}, {"sum", errors.sum}, {"largest", errors.largest}};
+}
+
+ErrorSamples decodeErrors(const Json& json) {
+    const auto isNumber = [&](const char* key) { return json.contains(key) && json[key].is_number(); };
+    if (!isNumber("count") || !json["count"].is_number_integer() || !isNumber("sum") || !isNumber("largest")) return {};
+    const auto count = json["count"].get<std::int64_t>();
+    if (count < 0 || count > kMostSamples) return {};
+    return {static_cast<int>(count), json["sum"].get<double>(), json["largest"].get<double>()};
+}
+
+void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation) {
+    if (simulation.setup.stepper == engine::StepperKind::automatic) return;
+    try {
+        const double next = simulation.time + 1.0 / scene.fps;
+        const double error = engine::measure(simulation, {next, simulation.stepper, simulation.setup.step}).error;
+        ++samples.count;
+        samples.sum += error;
+        samples.largest = std::max(samples.largest, error);
+    } catch (const engine::InstabilityError&) {
+        // The run itself will say so when it gets there.
+    }
+}
+
+void requireWhole(const RunReport& report, const std::string& folder) {
+    if (!report.unstable.empty()) throw engine::InstabilityError(report.unstable);
+    if (report.interruptedBy == 0) return;
+    throw Ended(kSignaled + report.interruptedBy,
+                fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume, and "
+                            "without --overwrite, goes on from there",
+                            report.frames, folder));
+}
+
+Json sceneIdentity(const scenes::Scene& scene) {
+    return {{"scene", scene.title},
+            {"scene_hash", scene.sceneHash},
+            {"version", GLOBULAR_VERSION},
+            {"seed", scene.seed},
+            {"fps", scene.fps}};
+}
+
+Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report) {
+    Json json = sceneIdentity(scene);
+    json["source"] = scene.sourceName;
+    json["threads"] = report.threads;
+    json["instruction_set"] = render::castInstructionSet();
+    json["gl_renderer"] = report.glRenderer.empty() ? Json(nullptr) : Json(report.glRenderer);
+    json["particles"] = engine::largestCount(simulation);
+    json["births"] = engine::birthCount(simulation);
+    json["refused_births"] = engine::refusalCount(simulation);
+    json["deaths"] = simulation.deaths;
+    json["frames"] = report.frames;
+    json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
+    json["interrupted"] = report.interruptedBy != 0;
+    json["stepper"] = engine::nameOf(scene.setup.stepper);
+    json["steps"] = stepsJson(simulation.steps);
+    json["seconds"] = {{"simulating", report.seconds.simulating},
+                       {"drawing", report.seconds.drawing},
+                       {"encoding", report.seconds.encoding},
+                       {"all", report.seconds.all}};
+    json["error_estimate"] = errorJson(simulation, report.errors);
+    if (report.unstable.empty()) {
+        json["energy"] = energyJson(engine::energy(simulation.evaluator, simulation.particles));
+        json["linear_momentum"] = vectorJson(engine::linearMomentum(simulation.particles));
+        json["angular_momentum"] = vectorJson(engine::angularMomentum(simulation.particles));
+    } else {
+        json["unstable"] = report.unstable;
+    }
+    json["state_hash"] = report.stateHash;
+    return json;
+}
+
+}  // namespace tools

@@ -1,0 +1,76 @@
+// One pass over the frames that are wanted, in order of time.
+#include "tools/run/stills.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "engine/forces/diagnostics.h"
+#include "render/overlay/panel_strip.h"
+#include "render/renderer.h"
+#include "scenes/model/limits.h"
+#include "scenes/text/input_error.h"
+#include "scenes/view/frame_steps.h"
+#include "scenes/view/frame_view.h"
+#include "scenes/view/overlay_view.h"
+#include "tools/run/open_context.h"
+#include "tools/system/threads.h"
+
+namespace tools {
+namespace {
+
+/// Leaves to a panel what a reader needs there.
+void trimOverlay(const scenes::Scene& scene, const std::vector<int>& frames, int frame, render::Overlay& overlay) {
+    overlay.stamp.clear();
+    if (frame != frames.back()) overlay.colorBar.reset();
+    if (frame != frames.front() && scene.camera.keys.size() == 1) overlay.scaleBar.reset();
+}
+
+MomentPictures drawAll(const MomentsJob& job, const Moments& moments) {
+    const scenes::Scene& scene = *job.scene;
+    std::set<int> frames(moments.stripFrames.begin(), moments.stripFrames.end());
+    if (moments.stillFrame) frames.insert(*moments.stillFrame);
+    render::Context context = openContext(job.backend, job.threads);
+    render::Renderer renderer(context, scene.size, job.quality);
+    engine::Simulation simulation = engine::start(scene.setup);
+    Progress progress(job.title, static_cast<int>(frames.size()), job.talk);
+    MomentPictures pictures;
+    std::vector<render::Panel> panels;
+    for (const int frame : frames) {
+        scenes::advanceToFrame(scene, simulation, frame);
+        render::View view = scenes::frameView(scene, simulation);
+        if (frame == moments.stillFrame) pictures.still = renderer.draw(view);
+        if (std::binary_search(moments.stripFrames.begin(), moments.stripFrames.end(), frame)) {
+            trimOverlay(scene, moments.stripFrames, frame, view.overlay);
+            panels.push_back({renderer.draw(view), scenes::timeText(scene, simulation.time)});
+        }
+        progress.frameDone(frame, simulation.time);
+    }
+    if (!panels.empty()) pictures.strip = render::joinPanels(panels);
+    pictures.stateHash = engine::stateHash(simulation.particles);
+    return pictures;
+}
+
+/// A strip is drawn panel by panel, and takes few bytes a pixel; but all its panels are held at once.
+void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
+    const double most = 16.0 * scenes::Limits().pixels;
+    const double pixels = static_cast<double>(panels) * scene.size.width * scene.size.height;
+    if (pixels <= most) return;
+    throw scenes::InputError(
+        {{scene.sourceName, 0, 0,
+          fmt::format("a strip of {} panels of {} x {} pixels is larger than the {:.0f} pixels that "
+                      "one may have",
+                      panels, scene.size.width, scene.size.height, most)}});
+}
+
+}  // namespace
+
+MomentPictures drawMoments(const MomentsJob& job, const Moments& moments) {
+    requireStripSize(*job.scene, moments.stripFrames.size());
+    MomentPictures pictures;
+    onThreads(job.threads, [&] { pictures = drawAll(job, moments); });
+    return pictures;
+}
+
+}  // namespace tools
