@@ -1,4 +1,4 @@
-// The 64-bit FNV-1a hash, by which states and scenes are recognzed.
+// The 64-bit FNV-1a hash, by which states and scenes are recognized.
 #pragma once
 
 #include <cstdint>

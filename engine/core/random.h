@@ -6,7 +6,7 @@
 
 namespace engine {
 
-/// The finalzer of SplitMix64 (Steele, Lea and Flood 2014): a bijection that scatters neighboring keys.
+/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): a bijection that scatters neighboring keys.
 inline std::uint64_t scatter(std::uint64_t key) {
     key += 0x9E3779B97F4A7C15ULL;
     key = (key ^ (key >> 30)) * 0xBF58476D1CE4E5B9ULL;

@@ -18,7 +18,7 @@ enum class ForceMethod {
     grid        ///< pairs of neighboring cells, threaded
 };
 
-/// The pair forces of equation 1, in newtons, by every pair in double. The oracle of every faster way; never optimzed.
+/// The pair forces of equation 1, in newtons, by every pair in double. The oracle of every faster way; never optimized.
 /// Shape:  velocities and forces as particles.position; velocities are those the damping sees (m/s).
 void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                          std::vector<Vec3>& forces);

@@ -20,7 +20,7 @@ Vec3 jitterOf(const Packing& packing, std::uint64_t place) {
     return packing.jitter * packing.spacing * offset;
 }
 
-/// Calls visit(position) for the face-centerd cubic lattice around a center that fills a box of the given half extent.
+/// Calls visit(position) for the face-centered cubic lattice around a center that fills a box of the given half extent.
 /// A lattice of cube edge a = sqrt(2) spacing has a point wherever the sum of its half-edge coordinates is even.
 template <class Visit>
 void forEachLatticePoint(const Vec3& center, const Vec3& halfExtent, double spacing, const Visit& visit) {

@@ -16,10 +16,10 @@ struct Packing {
     std::uint64_t seed = 1;  ///< of the jitter
 };
 
-/// Face-centerd cubic positions inside a ball, in meters.
+/// Face-centered cubic positions inside a ball, in meters.
 std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing& packing);
 
-/// Face-centerd cubic positions inside an axis-aligned box, in meters.
+/// Face-centered cubic positions inside an axis-aligned box, in meters.
 std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const Packing& packing);
 
 /// A cubic lattice of counts[0] x counts[1] x counts[2] positions around a center, in meters.

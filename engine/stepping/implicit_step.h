@@ -6,7 +6,7 @@
 namespace engine {
 
 /// Half a drift, a kick, half a drift, with swept contacts.
-/// The kick is the implicit midpoint rule, linearzed at the positions x in the middle. With w the mean of the old and
+/// The kick is the implicit midpoint rule, linearized at the positions x in the middle. With w the mean of the old and
 /// the new velocity and d = w - v:
 ///     M (v' - v)/h = F(x) - C w - (h/2) K d      =>      (M + h/2 C + h^2/4 K) d = h/2 (F - C v),  v' = v + 2 d
 /// where F - C v is the whole pair force and gravity at x and v, C the damping along every pair, and K the stiffness

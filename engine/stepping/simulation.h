@@ -25,7 +25,7 @@ enum class StepperKind {
     velocityVerlet,    ///< second order; damping from the predicted velocity
     leapfrog,          ///< the same with damping from the velocity in the middle: order 1, for longer steps
     implicitDamping,   ///< second order; damping by the implicit midpoint rule
-    linearlyImplicit,  ///< second order; damping and stiffness by the linearzed implicit midpoint rule
+    linearlyImplicit,  ///< second order; damping and stiffness by the linearized implicit midpoint rule
     automatic          ///< whichever but the paper's is cheapest at the wanted error
 };
 

@@ -10,7 +10,7 @@ namespace render {
 
 struct Panel {
     Image image;
-    std::string text;  ///< UTF-8, centerd below
+    std::string text;  ///< UTF-8, centered below
 };
 
 /// The panels from left to right on white, with thin separators. Shape: at least one panel, all of one size.

@@ -12,7 +12,7 @@ namespace scenes {
 enum class Form {
     header,  ///< [physics] or [[body]]
     pair,    ///< key = value
-    other    ///< neither can be recognzed
+    other    ///< neither can be recognized
 };
 
 struct Statement {

@@ -1,4 +1,4 @@
-// A face-centerd packing cut to the number of particles.
+// A face-centered packing cut to the number of particles.
 #include "studies/common/blocks.h"
 
 #include <cmath>

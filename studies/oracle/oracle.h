@@ -1,5 +1,5 @@
 // The oracle of pictures: a slow, exact, obvious ray caster in double precision. It shares nothing with render/ but the
-// input, render/picture/view.h, whose comments are the shading model that it realzes. Used by the renderer's tests and
+// input, render/picture/view.h, whose comments are the shading model that it realizes. Used by the renderer's tests and
 // by the study of pictures.
 //
 // Conventions where view.h leaves room:

@@ -96,7 +96,7 @@ inline double coverOfBox(const ShadedPoint& shaded, const render::BoxObstacle& b
     return softEdge(inside / std::max(width, 1e-12));
 }
 
-/// The place that a share of a quadratic B-spline, three wide and centerd on 0, lies below; by bisection.
+/// The place that a share of a quadratic B-spline, three wide and centered on 0, lies below; by bisection.
 inline double splineQuantile(double share) {
     const auto below = [](double x) {
         if (x < -0.5) return (x + 1.5) * (x + 1.5) * (x + 1.5) / 6.0;

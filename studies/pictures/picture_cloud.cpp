@@ -13,7 +13,7 @@ constexpr double kLength = 11.0;  // m, of the tank
 constexpr double kDepth = 3.6;
 constexpr double kSplash = 0.025;  // share of the particles
 
-/// Numbers from a hash of a counter (the finalzer of SplitMix64), uniform in [0, 1).
+/// Numbers from a hash of a counter (the finalizer of SplitMix64), uniform in [0, 1).
 class Shaker {
  public:
     double next() {

@@ -7,7 +7,7 @@
 
 namespace studies {
 
-/// Pair forces of LAMMPS: Lennard-Jones in its optimzed form, and dissipative particle dynamics, which is damped along
+/// Pair forces of LAMMPS: Lennard-Jones in its optimized form, and dissipative particle dynamics, which is damped along
 /// the pair like ours.
 enum class PeerForce { lennardJones, dissipative };
 

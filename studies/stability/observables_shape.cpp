@@ -41,7 +41,7 @@ double meanNearestDistance(const std::vector<Vec3>& positions) {
     return sum / static_cast<double>(positions.size());
 }
 
-/// The given number of face-centerd cubic sites nearest to one of them, neighbors 1 apart.
+/// The given number of face-centered cubic sites nearest to one of them, neighbors 1 apart.
 std::vector<Vec3> roundLattice(std::size_t count) {
     // Two sites to the cube of 2^(1/2): a ball of this radius holds twice as many as are wanted.
     const double radius = 1.0 + std::cbrt(2.0 * static_cast<double>(count) * 3.0 / (4.0 * 3.14159) / std::sqrt(2.0));
@@ -94,7 +94,7 @@ double fragments(const Trial& trial) {
     return static_cast<double>(particles.count() - *std::max_element(members.begin(), members.end()));
 }
 
-/// Mean distance to the nearest neighbor at the end, over that in the face-centerd cubic ball of as many particles
+/// Mean distance to the nearest neighbor at the end, over that in the face-centered cubic ball of as many particles
 /// that has the least energy. The particles must be alike.
 double spacing(const Trial& trial) {
     const Particles& particles = trial.run.frames.back();

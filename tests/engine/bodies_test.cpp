@@ -18,7 +18,7 @@ double nearestDistance(const std::vector<Vec3>& positions) {
 
 }  // namespace
 
-TEST_CASE("A ball is filled with a face-centerd cubic packing", "[bodies]") {
+TEST_CASE("A ball is filled with a face-centered cubic packing", "[bodies]") {
     const Vec3 center(1, 2, 3);
     const auto positions = ballPositions(center, 1.5, {.spacing = 0.3});
     for (const Vec3& position : positions) CHECK((position - center).norm() <= 1.5 + 1e-8);  // the slack of the surface
@@ -35,7 +35,7 @@ TEST_CASE("A box is filled up to its faces", "[bodies]") {
     CHECK(nearestDistance(positions) == Approx(0.3).epsilon(1e-12));  // rounding
 }
 
-TEST_CASE("A grid has the counts asked for and is centerd", "[bodies]") {
+TEST_CASE("A grid has the counts asked for and is centered", "[bodies]") {
     const auto positions = gridPositions(Vec3(0, 1, 0), {4, 5, 1}, {.spacing = 0.5});
     CHECK(positions.size() == 20);
     Vec3 mean = Vec3::Zero();

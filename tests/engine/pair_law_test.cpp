@@ -149,7 +149,7 @@ TEST_CASE("Coincident particles part along a direction drawn from their ids", "[
         CHECK(there[axis] == -back[axis]);
         lengthSq += there[axis] * there[axis];
     }
-    CHECK(std::sqrt(lengthSq) == Approx(kCoincidentShare * 0.3).epsilon(8 * kEps));  // a normalzation's roundings
+    CHECK(std::sqrt(lengthSq) == Approx(kCoincidentShare * 0.3).epsilon(8 * kEps));  // a normalization's roundings
     CHECK(coincidentSeparation(3, 9, 0.3) != there);
 }
 

@@ -197,7 +197,7 @@ TEST_CASE("oracle: the ground lies behind what stands on it and ends at the hori
 }
 
 TEST_CASE("oracle: the shadow of a ball on the ground is the analytic ellipse, for every kind of ball") {
-    // Light from (0.6, 0.8, 0): the shadow of a ball of radius r at height y is centerd at x - y 0.6/0.8 and has the
+    // Light from (0.6, 0.8, 0): the shadow of a ball of radius r at height y is centered at x - y 0.6/0.8 and has the
     // half axes r/0.8 along x and r along z.
     render::View view;
     view.ground = render::Ground{};
