@@ -93,10 +93,10 @@ struct Renderer::Parts {
         timed(times.color, [&] { pass.takeMean(view, 9, pixels); });
     }
 
-    std::vector<SurfacePoint> surfaces(const View& view) {
+    std::vector<VisiblePoint> visiblePoints(const View& view) {
         const Sampling sampling{.sparse = quality != Quality::final};
         cast(view, sampling);
-        return pass.surfaces(view, sampling);
+        return pass.visiblePoints(view, sampling);
     }
 
     void prepare(const View& view) {
@@ -176,11 +176,11 @@ Image Renderer::draw(const View& view, Image old) {
     return image;
 }
 
-std::vector<SurfacePoint> Renderer::surfaces(const View& view) {
+std::vector<VisiblePoint> Renderer::visiblePoints(const View& view) {
     requireFinite(view);
     parts_->times = {};
     parts_->prepare(view);
-    return parts_->surfaces(view);
+    return parts_->visiblePoints(view);
 }
 
 const DrawTimes& Renderer::times() const {

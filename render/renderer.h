@@ -28,7 +28,7 @@ class Renderer {
     Image draw(const View& view, Image old = {});
 
     /// The surfaces that a picture of the view shows, row by row from the top left; found as for the picture.
-    std::vector<SurfacePoint> surfaces(const View& view);
+    std::vector<VisiblePoint> visiblePoints(const View& view);
 
     /// Of the last picture drawn.
     const DrawTimes& times() const;

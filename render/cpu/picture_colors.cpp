@@ -52,7 +52,7 @@ glm::vec2 placeOfOne(const PictureJob& job) {
 /// Things on the pixels of one tile along the Z curve.
 void placeTile(const PictureJob& job, std::size_t tile, std::span<const std::int32_t, kTilePixels> seen,
                SurfacePoints& points) {
-    const glm::vec2 first = cornerOf(*job.contents.solids.tiles, tile) + placeOfOne(job);
+    const glm::vec2 first = tileCorner(*job.contents.solids.tiles, tile) + placeOfOne(job);
     points.count = kTilePixels;
     for (std::size_t k = 0; k < kTilePixels; ++k) points.seen[k] = seen[kZCurve[k]];
     for (std::size_t k = 0; k < kTilePixels; ++k) points.x[k] = first.x + kZPlaces.column[k];
@@ -106,7 +106,7 @@ class TileColors {
     /// Colors edge pixels, whose things are the first of these; returns how many.
     std::size_t mixEdges(std::span<const EdgePixel> pixels, std::span<const EdgeThing> things) {
         static const std::array<glm::vec2, 16> kMiddles = middles();
-        const glm::vec2 corner = cornerOf(*job_.contents.solids.tiles, tile_);
+        const glm::vec2 corner = tileCorner(*job_.contents.solids.tiles, tile_);
         SurfacePoints points;
         points.count = 0;
         for (const EdgePixel& pixel : pixels) {
@@ -210,18 +210,18 @@ void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass
     });
 }
 
-std::vector<SurfacePoint> surfacePoints(const PictureJob& job) {
+std::vector<VisiblePoint> visiblePoints(const PictureJob& job) {
     const CellLists& tiles = *job.contents.solids.tiles;
     const CameraFrame& frame = job.surfaces.frame;
-    std::vector<SurfacePoint> found(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+    std::vector<VisiblePoint> found(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
     tbb::parallel_for(std::size_t{0}, tiles.begin.size() - 1, [&](std::size_t tile) {
         SurfacePoints points;
         placeTile(job, tile, TileSamples(job.contents, job.offsets, tile).seen(), points);
-        const glm::ivec2 corner(cornerOf(tiles, tile));
+        const glm::ivec2 corner(tileCorner(tiles, tile));
         for (std::size_t k = 0; k < kTilePixels; ++k) {
             const glm::ivec2 at = corner + glm::ivec2(kZCurve[k] % kTileSize, kZCurve[k] / kTileSize);
             if (at.x >= frame.width || at.y >= frame.height) continue;
-            SurfacePoint& point = found[static_cast<std::size_t>(at.y * frame.width + at.x)];
+            VisiblePoint& point = found[static_cast<std::size_t>(at.y * frame.width + at.x)];
             point.normal = {points.normal[0][k], points.normal[1][k], points.normal[2][k]};
             point.depth = points.seen[k] == kSeesBackground ? -1.0F : points.depth[k];
         }

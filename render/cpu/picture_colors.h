@@ -35,6 +35,6 @@ void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass
                 std::span<PixelColor> pixels);
 
 /// What the job's first sample of each pixel of the picture meets, row by row.
-std::vector<SurfacePoint> surfacePoints(const PictureJob& job);
+std::vector<VisiblePoint> visiblePoints(const PictureJob& job);
 
 }  // namespace render

@@ -16,7 +16,7 @@ namespace render {
 namespace {
 
 // Whether any term of the shading model looks at openness.
-bool asksForOpenness(const View& view) {
+bool needsSkyVisibility(const View& view) {
     const Surface& surface = view.surface;
     return !view.particles.empty() && (view.ambient.occlusion > 0.0F || surface.reflection > 0.0F ||
                                        surface.translucency > 0.0F || surface.absorption > 0.0F);
@@ -46,9 +46,9 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
         tbb::parallel_invoke([&] { timed(times.bin, [&] { bin(view); }); },
                              [&] { timed(times.shadow, [&] { findShadows(view); }); });
     };
-    tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findOpenness(view); }); }, placeBalls);
+    tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findSkyVisibility(view); }); }, placeBalls);
     timed(times.bin, [&] {
-        looks_ = looksOf(view, drawn_, particleOpen_);
+        sphereAttributes_ = sphereAttributes(view, drawn_, particleSky_);
         findBoxes(view);
         findGround(view);
     });
@@ -57,25 +57,25 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
 void PicturePass::findGround(const View& view) {
     groundTiles_.assign(sphereTiles_.begin.size() - 1, {});
     if (view.ground) {
-        const Dimmers dimmers{light_, lightGrid_, depthMap_, opens_ ? &openMap_ : nullptr, meanRadius_};
-        groundTiles_ = groundTiles(frame_, view.ground->height - frame_.eye.y, dimmingOf(view, dimmers));
+        const Occluders occluders{light_, lightGrid_, depthMap_, needsSkyVisibility_ ? &skyMap_ : nullptr, meanRadius_};
+        groundTiles_ = groundTiles(frame_, view.ground->height - frame_.eye.y, occluderBoundsOf(view, occluders));
     }
 }
 
-void PicturePass::findOpenness(const View& view) {
-    opens_ = asksForOpenness(view);
-    openGrid_ = opens_ ? opennessGrid(view.particles, std::move(openGrid_)) : OpennessGrid{};
-    openMap_ = OpennessMap{};
-    particleOpen_ = opens_ ? opennessOf(view.particles, openGrid_) : std::vector<Openness>{};
-    if (!opens_) return;
-    if (view.ground) openMap_ = opennessAtHeight(openGrid_, view.ground->height);
+void PicturePass::findSkyVisibility(const View& view) {
+    needsSkyVisibility_ = needsSkyVisibility(view);
+    skyGrid_ = needsSkyVisibility_ ? skyVisibilityGrid(view.particles, std::move(skyGrid_)) : SkyVisibilityGrid{};
+    skyMap_ = SkyVisibilityMap{};
+    particleSky_ = needsSkyVisibility_ ? particleSkyVisibility(view.particles, skyGrid_) : std::vector<SkyVisibility>{};
+    if (!needsSkyVisibility_) return;
+    if (view.ground) skyMap_ = skyVisibilityAtHeight(skyGrid_, view.ground->height);
 }
 
 void PicturePass::bin(const View& view) {
     viewSpheres_.resize(drawn_.spheres.size());
     for (std::size_t k = 0; k < viewSpheres_.size(); ++k)
         viewSpheres_[k] = {frame_.toView(drawn_.spheres[k].center + frame_.eye), drawn_.spheres[k].radius};
-    spherePixels_ = touchedPixels(frame_, viewSpheres_);
+    spherePixels_ = pixelBounds(frame_, viewSpheres_);
     sphereTiles_ = binToTiles(frame_, viewSpheres_, spherePixels_);
     lineList_ = projectEdges(frame_, view.edges);
     if (castsField_) binnedField_ = binField(frame_, {view, skin_, {}});
@@ -113,7 +113,7 @@ void PicturePass::findBoxes(const View& view) {
 
 void PicturePass::castField(const View& view, const Sampling& sampling) {
     if (!castsField_) return;
-    castPicture(frame_, {view, skin_, particleOpen_}, binnedField_,
+    castPicture(frame_, {view, skin_, particleSky_}, binnedField_,
                 {sampling.offset, sampling.samples > 1, sampling.sparse}, field_);
 }
 
@@ -131,9 +131,9 @@ Obstruction PicturePass::obstructionOf(const View& view) const {
     if (view.light.shadows) obstruction.boxes = view.boxObstacles;
     obstruction.softness = view.light.softness;
     obstruction.meanRadius = meanRadius_;
-    if (opens_ && view.ambient.occlusion > 0.0F) {
-        obstruction.open = &openGrid_;
-        obstruction.ground = &openMap_;
+    if (needsSkyVisibility_ && view.ambient.occlusion > 0.0F) {
+        obstruction.open = &skyGrid_;
+        obstruction.ground = &skyMap_;
     }
     return obstruction;
 }
@@ -145,14 +145,14 @@ auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visi
     if (view.ground) solids.ground = view.ground->height - frame_.eye.y;
     const Surfaces surfaces{frame_,
                             drawn_.spheres,
-                            looks_,
+                            sphereAttributes_,
                             drawn_.firstObstacle,
                             view.boxObstacles,
                             solids.ground,
                             view.ground.value_or(Ground{}).color,
                             field_.samples,
                             light_.toLight,
-                            opens_};
+                            needsSkyVisibility_};
     const Obstruction obstruction = obstructionOf(view);
     const bool dims = castsShadows(view) || obstruction.open != nullptr;
     const TileContents contents{solids, castsField_ ? &field_ : nullptr, lineList_, boxTiles_, groundTiles_};
@@ -186,7 +186,7 @@ void PicturePass::colorPlain(const View& view, std::span<PixelColor> pixels) {
     backdrop.frame.eye = glm::vec3(0.0F);
     backdrop.background = view.background;
     if (view.ground) {
-        backdrop.ground = undimmedGround(shading_, view.ground->color);
+        backdrop.ground = unoccludedGround(shading_, view.ground->color);
         backdrop.groundHeight = view.ground->height - frame_.eye.y;
         backdrop.groundCenter = shading_.groundCenter;
         backdrop.fadeDistance = shading_.fadeDistance;
@@ -194,8 +194,8 @@ void PicturePass::colorPlain(const View& view, std::span<PixelColor> pixels) {
     plain_.color(backdrop, classes_, sphereTiles_.columns, pixels);
 }
 
-std::vector<SurfacePoint> PicturePass::surfaces(const View& view, const Sampling& sampling) {
-    return withJob(view, sampling, [](const PictureJob& job) { return surfacePoints(job); });
+std::vector<VisiblePoint> PicturePass::visiblePoints(const View& view, const Sampling& sampling) {
+    return withJob(view, sampling, [](const PictureJob& job) { return render::visiblePoints(job); });
 }
 
 }  // namespace render

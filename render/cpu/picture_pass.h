@@ -49,11 +49,11 @@ class PicturePass {
     void takeMean(const View& view, int samplings, std::span<PixelColor> pixels);
 
     /// What the first of these rays through each pixel meets, row by row.
-    std::vector<SurfacePoint> surfaces(const View& view, const Sampling& sampling);
+    std::vector<VisiblePoint> visiblePoints(const View& view, const Sampling& sampling);
 
  private:
     void bin(const View& view);
-    void findOpenness(const View& view);
+    void findSkyVisibility(const View& view);
     void findShadows(const View& view);
     void castDepths(const View& view, glm::vec2 shift);
     void findBoxes(const View& view);
@@ -66,7 +66,7 @@ class PicturePass {
 
     CameraFrame frame_;
     DrawnSpheres drawn_;
-    std::vector<SphereLook> looks_;
+    std::vector<SphereAttributes> sphereAttributes_;
     std::vector<ViewSphere> viewSpheres_;
     std::vector<Rect> spherePixels_;
     CellLists sphereTiles_;
@@ -79,12 +79,12 @@ class PicturePass {
     int depthMapTexels_ = 1024;
     glm::vec2 depthMapShift_{0.0F};
     DepthMap depthMap_;
-    bool opens_ = false;  // the look asks for openness
-    std::vector<Openness> particleOpen_;
+    bool needsSkyVisibility_ = false;  // the look asks for openness
+    std::vector<SkyVisibility> particleSky_;
     std::vector<SkinBall> skin_;  // of metaballs
     BinnedField binnedField_;     // for the camera
-    OpennessGrid openGrid_;
-    OpennessMap openMap_;
+    SkyVisibilityGrid skyGrid_;
+    SkyVisibilityMap skyMap_;
     float meanRadius_ = 0.0F;
     FieldPicture field_;
     Shading shading_;

@@ -50,12 +50,12 @@ bool TileContents::isBackground(std::size_t tile) const {
 }
 
 bool TileContents::isGround(std::size_t tile) const {
-    return isEmpty(tile) && (ground[tile].kind == GroundKind::plain || ground[tile].kind == GroundKind::dimmed);
+    return isEmpty(tile) && (ground[tile].kind == GroundKind::plain || ground[tile].kind == GroundKind::occluded);
 }
 
 TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile)
     : contents_(contents), tile_(tile), samples_(rays_.data(), offsets.size()) {
-    const glm::vec2 corner = cornerOf(*contents.solids.tiles, tile);
+    const glm::vec2 corner = tileCorner(*contents.solids.tiles, tile);
     for (std::size_t s = 0; s < offsets.size(); ++s)
         placeRays(corner + 0.5F + offsets[s], samples_[s].x, samples_[s].y);
     look();
@@ -107,7 +107,7 @@ bool TileSamples::fieldFills() const {
 /// Whether the ground fills the tile behind spheres and nothing else, and no line asks for its depth.
 bool TileSamples::isSpheresOnGround() const {
     const GroundKind ground = contents_.ground[tile_].kind;
-    if (ground != GroundKind::plain && ground != GroundKind::dimmed) return false;
+    if (ground != GroundKind::plain && ground != GroundKind::occluded) return false;
     if (contents_.boxes[tile_] != 0 || contents_.hasLines(tile_)) return false;
     return !contents_.hasField(tile_);
 }

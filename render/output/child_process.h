@@ -12,10 +12,10 @@
 namespace render {
 
 /// Chosen: no frame takes an encoder as long, s, nor does the end of a long film.
-inline constexpr std::chrono::duration<double> kPatience{120.0};
+inline constexpr std::chrono::duration<double> kProgressTimeout{120.0};
 
 /// Of what takes as long as it takes and tells nothing on the way, s.
-inline constexpr std::chrono::duration<double> kEndlessPatience{1e6};
+inline constexpr std::chrono::duration<double> kNoTimeout{1e6};
 
 /// A running program. Its output goes to an unnamed file, because a pipe that nobody reads fills up and stops both
 /// sides.
@@ -24,7 +24,7 @@ class ChildProcess {
     /// arguments[0] is the program, looked up on PATH; no shell is involved. A child that takes no input or does not
     /// end for longer than `patience` is killed. Throws SystemError when it cannot be started.
     explicit ChildProcess(const std::vector<std::string>& arguments,
-                          std::chrono::duration<double> patience = kPatience);
+                          std::chrono::duration<double> patience = kProgressTimeout);
     /// Kills the child if it still runs.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;

@@ -16,8 +16,8 @@ struct VideoOptions {
     std::string path;  ///< the finished film; written to path + ".partial" and renamed when whole
     PictureSize size;
     int fps = 30;
-    std::string ffmpeg = "ffmpeg";                       ///< the program, looked up on PATH
-    std::chrono::duration<double> patience = kPatience;  ///< with a program that does not go on, s
+    std::string ffmpeg = "ffmpeg";                              ///< the program, looked up on PATH
+    std::chrono::duration<double> patience = kProgressTimeout;  ///< with a program that does not go on, s
 };
 
 /// Throws SystemError: ffmpeg cannot be started, or has no libx264. Distributions that leave it out of ffmpeg let a

@@ -9,9 +9,9 @@ namespace render {
 
 namespace {
 
-std::size_t indexOf(const Stencil& stencil, int x, int y) {
-    return static_cast<std::size_t>(y - stencil.top) * static_cast<std::size_t>(stencil.width) +
-           static_cast<std::size_t>(x - stencil.left);
+std::size_t indexOf(const CoverageMask& mask, int x, int y) {
+    return static_cast<std::size_t>(y - mask.top) * static_cast<std::size_t>(mask.width) +
+           static_cast<std::size_t>(x - mask.left);
 }
 
 /// Length of what the interval from low to high has of the pixel that begins at a whole number.
@@ -19,7 +19,7 @@ double overlap(double low, double high, int pixel) {
     return std::max(0.0, std::min(high, pixel + 1.0) - std::max(low, static_cast<double>(pixel)));
 }
 
-int mixed(int below, int above, int share) {
+int lerp(int below, int above, int share) {
     return (below * (255 - share) + above * share + 127) / 255;
 }
 
@@ -50,43 +50,43 @@ std::uint8_t srgbByte(float linear) {
 
 }  // namespace
 
-Stencil stencilAround(const Box& box) {
-    Stencil stencil;
-    stencil.left = static_cast<int>(std::floor(box.left));
-    stencil.top = static_cast<int>(std::floor(box.top));
-    stencil.width = std::max(0, static_cast<int>(std::ceil(box.right)) - stencil.left);
-    stencil.height = std::max(0, static_cast<int>(std::ceil(box.bottom)) - stencil.top);
-    stencil.coverage.assign(static_cast<std::size_t>(stencil.width) * static_cast<std::size_t>(stencil.height), 0);
-    return stencil;
+CoverageMask emptyMask(const Box& box) {
+    CoverageMask mask;
+    mask.left = static_cast<int>(std::floor(box.left));
+    mask.top = static_cast<int>(std::floor(box.top));
+    mask.width = std::max(0, static_cast<int>(std::ceil(box.right)) - mask.left);
+    mask.height = std::max(0, static_cast<int>(std::ceil(box.bottom)) - mask.top);
+    mask.coverage.assign(static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height), 0);
+    return mask;
 }
 
-void coverBox(Stencil& stencil, const Box& box) {
-    const int x0 = std::max(stencil.left, static_cast<int>(std::floor(box.left)));
-    const int x1 = std::min(stencil.left + stencil.width, static_cast<int>(std::ceil(box.right)));
-    const int y0 = std::max(stencil.top, static_cast<int>(std::floor(box.top)));
-    const int y1 = std::min(stencil.top + stencil.height, static_cast<int>(std::ceil(box.bottom)));
+void coverBox(CoverageMask& mask, const Box& box) {
+    const int x0 = std::max(mask.left, static_cast<int>(std::floor(box.left)));
+    const int x1 = std::min(mask.left + mask.width, static_cast<int>(std::ceil(box.right)));
+    const int y0 = std::max(mask.top, static_cast<int>(std::floor(box.top)));
+    const int y1 = std::min(mask.top + mask.height, static_cast<int>(std::ceil(box.bottom)));
     for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x) {
             const double share = overlap(box.left, box.right, x) * overlap(box.top, box.bottom, y);
-            std::uint8_t& at = stencil.coverage[indexOf(stencil, x, y)];
+            std::uint8_t& at = mask.coverage[indexOf(mask, x, y)];
             at = static_cast<std::uint8_t>(std::min(255L, at + std::lround(255.0 * share)));
         }
     }
 }
 
-Stencil widened(const Stencil& stencil, int radius) {
+CoverageMask widened(const CoverageMask& mask, int radius) {
     const int margin = radius + 1;
-    Stencil wide = stencilAround({static_cast<double>(stencil.left - margin), static_cast<double>(stencil.top - margin),
-                                  static_cast<double>(stencil.left + stencil.width + margin),
-                                  static_cast<double>(stencil.top + stencil.height + margin)});
+    CoverageMask wide = emptyMask({static_cast<double>(mask.left - margin), static_cast<double>(mask.top - margin),
+                                   static_cast<double>(mask.left + mask.width + margin),
+                                   static_cast<double>(mask.top + mask.height + margin)});
     const std::vector<Neighbor> disc = discOf(radius);
-    for (int y = stencil.top; y < stencil.top + stencil.height; ++y) {
-        for (int x = stencil.left; x < stencil.left + stencil.width; ++x) {
-            const int coverage = stencil.coverage[indexOf(stencil, x, y)];
+    for (int y = mask.top; y < mask.top + mask.height; ++y) {
+        for (int x = mask.left; x < mask.left + mask.width; ++x) {
+            const int coverage = mask.coverage[indexOf(mask, x, y)];
             if (coverage == 0) continue;
             for (const Neighbor& next : disc) {
                 std::uint8_t& at = wide.coverage[indexOf(wide, x + next.dx, y + next.dy)];
-                at = std::max(at, static_cast<std::uint8_t>(mixed(0, coverage, next.share)));
+                at = std::max(at, static_cast<std::uint8_t>(lerp(0, coverage, next.share)));
             }
         }
     }
@@ -97,18 +97,18 @@ Bytes srgbBytes(const glm::vec3& linear) {
     return {srgbByte(linear.x), srgbByte(linear.y), srgbByte(linear.z)};
 }
 
-void paint(Image& image, const Stencil& stencil, const Bytes& color, int opacity) {
-    const int x1 = std::min(stencil.left + stencil.width, image.width);
-    const int y1 = std::min(stencil.top + stencil.height, image.height);
-    for (int y = std::max(stencil.top, 0); y < y1; ++y) {
-        for (int x = std::max(stencil.left, 0); x < x1; ++x) {
-            const int share = mixed(0, stencil.coverage[indexOf(stencil, x, y)], opacity);
+void paint(Image& image, const CoverageMask& mask, const Bytes& color, int opacity) {
+    const int x1 = std::min(mask.left + mask.width, image.width);
+    const int y1 = std::min(mask.top + mask.height, image.height);
+    for (int y = std::max(mask.top, 0); y < y1; ++y) {
+        for (int x = std::max(mask.left, 0); x < x1; ++x) {
+            const int share = lerp(0, mask.coverage[indexOf(mask, x, y)], opacity);
             if (share == 0) continue;
             std::uint8_t* pixel =
                 image.rgb.data() +
                 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
             for (int channel = 0; channel < 3; ++channel)
-                pixel[channel] = static_cast<std::uint8_t>(mixed(pixel[channel], color[channel], share));
+                pixel[channel] = static_cast<std::uint8_t>(lerp(pixel[channel], color[channel], share));
         }
     }
 }

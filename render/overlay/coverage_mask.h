@@ -12,7 +12,7 @@ namespace render {
 
 /// A rectangle of pixels, each covered from 0 (not at all) to 255 (wholly). It may reach beyond the picture.
 /// Holds:  coverage.size() == width * height, row by row from the top left.
-struct Stencil {
+struct CoverageMask {
     int left = 0;
     int top = 0;
     int width = 0;
@@ -29,13 +29,13 @@ struct Box {
 };
 
 /// Nothing covered yet; contains the box.
-Stencil stencilAround(const Box& box);
+CoverageMask emptyMask(const Box& box);
 
 /// Adds a rectangle; pixels at its sides are covered by their share.
-void coverBox(Stencil& stencil, const Box& box);
+void coverBox(CoverageMask& mask, const Box& box);
 
-/// Everything within a radius in pixels of what the stencil covers, with a soft edge one pixel wide.
-Stencil widened(const Stencil& stencil, int radius);
+/// Everything within a radius in pixels of what the mask covers, with a soft edge one pixel wide.
+CoverageMask widened(const CoverageMask& mask, int radius);
 
 /// 8-bit sRGB, as in an Image.
 using Bytes = glm::tvec3<std::uint8_t>;
@@ -43,8 +43,8 @@ using Bytes = glm::tvec3<std::uint8_t>;
 /// The nearest bytes of a linear color.
 Bytes srgbBytes(const glm::vec3& linear);
 
-/// Lays a color over the picture where the stencil covers it; opacity from 0 to 255. What is beyond the picture is
+/// Lays a color over the picture where the mask covers it; opacity from 0 to 255. What is beyond the picture is
 /// left out.
-void paint(Image& image, const Stencil& stencil, const Bytes& color, int opacity = 255);
+void paint(Image& image, const CoverageMask& mask, const Bytes& color, int opacity = 255);
 
 }  // namespace render

@@ -1,5 +1,5 @@
 // Where things stand: the stamp in the upper left corner, the scale bar in the lower left, the color bar in the lower
-// right. Every length follows from the height of the text. Each part is a stencil that is painted twice: widened, as a
+// right. Every length follows from the height of the text. Each part is a mask that is painted twice: widened, as a
 // halo, then as it is.
 #include "render/overlay/draw_overlay.h"
 
@@ -37,15 +37,15 @@ double luminance(const glm::vec3& linear) {
     return dot(linear, glm::vec3(0.2126F, 0.7152F, 0.0722F));
 }
 
-void paintHalo(const Canvas& canvas, const Stencil& stencil) {
+void paintHalo(const Canvas& canvas, const CoverageMask& mask) {
     // 0.18 is as far from white as from black to the eye: middle gray.
     const glm::vec3 halo(luminance(canvas.overlay.ink) > 0.18 ? 0.0F : 1.0F);
     const int radius = std::max(1, static_cast<int>(std::lround(canvas.em / 12.0)));
-    paint(canvas.image, widened(stencil, radius), srgbBytes(halo), kHaloOpacity);
+    paint(canvas.image, widened(mask, radius), srgbBytes(halo), kHaloOpacity);
 }
 
-void paintInk(const Canvas& canvas, const Stencil& stencil) {
-    paint(canvas.image, stencil, srgbBytes(canvas.overlay.ink));
+void paintInk(const Canvas& canvas, const CoverageMask& mask) {
+    paint(canvas.image, mask, srgbBytes(canvas.overlay.ink));
 }
 
 Box around(const Box& a, const Box& b) {
@@ -55,10 +55,10 @@ Box around(const Box& a, const Box& b) {
 void drawStamp(const Canvas& canvas) {
     const int baseline = canvas.margin + static_cast<int>(std::lround(kCapital * canvas.em));
     const TextPlace place{static_cast<double>(canvas.margin), baseline, canvas.em};
-    Stencil stencil = stencilAround(textBox(canvas.overlay.stamp, place));
-    coverText(stencil, canvas.overlay.stamp, place);
-    paintHalo(canvas, stencil);
-    paintInk(canvas, stencil);
+    CoverageMask mask = emptyMask(textBox(canvas.overlay.stamp, place));
+    coverText(mask, canvas.overlay.stamp, place);
+    paintHalo(canvas, mask);
+    paintInk(canvas, mask);
 }
 
 /// Pixels that a length takes at the distance of the camera's target.
@@ -80,15 +80,15 @@ void drawScaleBar(const Canvas& canvas, const Camera& camera) {
     const double middle = left + 0.5 * (length - textWidth(bar.text, canvas.em));
     const TextPlace place{std::max(left, middle), static_cast<int>(bottom - foot - std::round(0.25 * canvas.em)),
                           canvas.em};
-    Stencil stencil = stencilAround(around(textBox(bar.text, place), {left, bottom - foot, left + length, bottom}));
-    coverText(stencil, bar.text, place);
+    CoverageMask mask = emptyMask(around(textBox(bar.text, place), {left, bottom - foot, left + length, bottom}));
+    coverText(mask, bar.text, place);
     // No pixel is covered twice, so that the shares of those at the right end add up to the length.
-    coverBox(stencil, {left, bottom - line, left + length, bottom});
+    coverBox(mask, {left, bottom - line, left + length, bottom});
     const double width = std::min(line, 0.5 * length);
-    coverBox(stencil, {left, bottom - foot, left + width, bottom - line});
-    coverBox(stencil, {left + length - width, bottom - foot, left + length, bottom - line});
-    paintHalo(canvas, stencil);
-    paintInk(canvas, stencil);
+    coverBox(mask, {left, bottom - foot, left + width, bottom - line});
+    coverBox(mask, {left + length - width, bottom - foot, left + length, bottom - line});
+    paintHalo(canvas, mask);
+    paintInk(canvas, mask);
 }
 
 glm::vec3 colorAt(const std::vector<glm::vec3>& colors, double place) {
@@ -103,10 +103,10 @@ void paintColors(const Canvas& canvas, const Box& bar) {
     const auto rows = static_cast<int>(bar.bottom - bar.top);
     for (int row = 0; row < rows; ++row) {
         const Box line{bar.left, bar.top + row, bar.right, bar.top + row + 1.0};
-        Stencil stencil = stencilAround(line);
-        coverBox(stencil, line);
+        CoverageMask mask = emptyMask(line);
+        coverBox(mask, line);
         const double place = 1.0 - (row + 0.5) / rows;
-        paint(canvas.image, stencil, srgbBytes(colorAt(canvas.overlay.colorBar->colors, place)));
+        paint(canvas.image, mask, srgbBytes(colorAt(canvas.overlay.colorBar->colors, place)));
     }
 }
 
@@ -121,7 +121,7 @@ Box colorBarBox(const Canvas& canvas) {
 }
 
 /// Frame, ticks with their texts to the right, title above, all the way to the right margin.
-Stencil colorBarLines(const Canvas& canvas, const Box& bar) {
+CoverageMask colorBarLines(const Canvas& canvas, const Box& bar) {
     const ColorBar& colorBar = *canvas.overlay.colorBar;
     const double w = canvas.hairline;
     const int lift = static_cast<int>(std::lround(0.5 * kCapital * canvas.em));  // from the middle of digits down
@@ -129,24 +129,24 @@ Stencil colorBarLines(const Canvas& canvas, const Box& bar) {
     const double titleLeft = std::min(bar.left, end - textWidth(colorBar.title, canvas.em));
     const TextPlace title{titleLeft, static_cast<int>(bar.top - std::round(canvas.em)), canvas.em};
     const Box all{bar.left - w, bar.top - canvas.em, end + canvas.em, bar.bottom + canvas.em};
-    Stencil stencil = stencilAround(around(all, textBox(colorBar.title, title)));
-    coverText(stencil, colorBar.title, title);
-    coverBox(stencil, {bar.left - w, bar.top - w, bar.right + w, bar.top});
-    coverBox(stencil, {bar.left - w, bar.bottom, bar.right + w, bar.bottom + w});
-    coverBox(stencil, {bar.left - w, bar.top, bar.left, bar.bottom});
-    coverBox(stencil, {bar.right, bar.top, bar.right + w, bar.bottom});
+    CoverageMask mask = emptyMask(around(all, textBox(colorBar.title, title)));
+    coverText(mask, colorBar.title, title);
+    coverBox(mask, {bar.left - w, bar.top - w, bar.right + w, bar.top});
+    coverBox(mask, {bar.left - w, bar.bottom, bar.right + w, bar.bottom + w});
+    coverBox(mask, {bar.left - w, bar.top, bar.left, bar.bottom});
+    coverBox(mask, {bar.right, bar.top, bar.right + w, bar.bottom});
     for (const Tick& tick : colorBar.ticks) {
         const double row =
             std::clamp(std::round(bar.bottom - tick.place * (bar.bottom - bar.top) - 0.5 * w), bar.top, bar.bottom - w);
-        coverBox(stencil, {bar.right + w, row, bar.right + std::round(0.3 * canvas.em), row + w});
-        coverText(stencil, tick.text, {bar.right + 0.6 * canvas.em, static_cast<int>(row) + lift, canvas.em});
+        coverBox(mask, {bar.right + w, row, bar.right + std::round(0.3 * canvas.em), row + w});
+        coverText(mask, tick.text, {bar.right + 0.6 * canvas.em, static_cast<int>(row) + lift, canvas.em});
     }
-    return stencil;
+    return mask;
 }
 
 void drawColorBar(const Canvas& canvas) {
     const Box bar = colorBarBox(canvas);
-    const Stencil lines = colorBarLines(canvas, bar);
+    const CoverageMask lines = colorBarLines(canvas, bar);
     paintHalo(canvas, lines);
     paintColors(canvas, bar);
     paintInk(canvas, lines);

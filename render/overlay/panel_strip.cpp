@@ -38,9 +38,9 @@ void place(const Image& panel, int left, Image& strip) {
 void label(const std::string& text, double center, int baseline, double largestEm, int width, Image& strip) {
     const double em = largestEm * std::min(1.0, width / textWidth(text, largestEm));
     const TextPlace at{std::round(center - 0.5 * textWidth(text, em)), baseline, em};
-    Stencil stencil = stencilAround(textBox(text, at));
-    coverText(stencil, text, at);
-    paint(strip, stencil, kInk);
+    CoverageMask mask = emptyMask(textBox(text, at));
+    coverText(mask, text, at);
+    paint(strip, mask, kInk);
 }
 
 }  // namespace

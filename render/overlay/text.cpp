@@ -78,7 +78,7 @@ double layOut(std::string_view text, double em, const Visit& visit) {
     return at;
 }
 
-void coverGlyph(Stencil& stencil, int glyph, const TextPlace& place) {
+void coverGlyph(CoverageMask& mask, int glyph, const TextPlace& place) {
     const float scale = stbtt_ScaleForMappingEmToPixels(&font(), static_cast<float>(place.em));
     const int column = static_cast<int>(std::floor(place.left));
     const auto shift = static_cast<float>(place.left - column);
@@ -94,10 +94,10 @@ void coverGlyph(Stencil& stencil, int glyph, const TextPlace& place) {
     stbtt_MakeGlyphBitmapSubpixel(&font(), bitmap.data(), width, height, width, scale, scale, shift, 0.0F, glyph);
     for (int row = 0; row < height; ++row) {
         for (int k = 0; k < width; ++k) {
-            const int x = column + x0 + k - stencil.left;
-            const int y = place.baseline + y0 + row - stencil.top;
-            if (x < 0 || y < 0 || x >= stencil.width || y >= stencil.height) continue;
-            std::uint8_t& at = stencil.coverage[static_cast<std::size_t>(y * stencil.width + x)];
+            const int x = column + x0 + k - mask.left;
+            const int y = place.baseline + y0 + row - mask.top;
+            if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) continue;
+            std::uint8_t& at = mask.coverage[static_cast<std::size_t>(y * mask.width + x)];
             const int sum = at + bitmap[static_cast<std::size_t>(row * width + k)];
             at = static_cast<std::uint8_t>(std::min(sum, 255));
         }
@@ -116,9 +116,9 @@ Box textBox(std::string_view text, const TextPlace& place) {
             place.left + textWidth(text, place.em) + 0.25 * place.em, place.baseline + 0.5 * place.em};
 }
 
-void coverText(Stencil& stencil, std::string_view text, const TextPlace& place) {
+void coverText(CoverageMask& mask, std::string_view text, const TextPlace& place) {
     layOut(text, place.em, [&](int glyph, double at) {
-        coverGlyph(stencil, glyph, {place.left + at, place.baseline, place.em});
+        coverGlyph(mask, glyph, {place.left + at, place.baseline, place.em});
     });
 }
 

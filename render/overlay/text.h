@@ -21,7 +21,7 @@ double textWidth(std::string_view text, double em);
 /// A box that holds every pixel of the line; of scripts with taller marks than accents some may reach beyond it.
 Box textBox(std::string_view text, const TextPlace& place);
 
-/// Adds a line of text to what the stencil covers; what does not fit on the stencil is left out.
-void coverText(Stencil& stencil, std::string_view text, const TextPlace& place);
+/// Adds a line of text to what the mask covers; what does not fit on the mask is left out.
+void coverText(CoverageMask& mask, std::string_view text, const TextPlace& place);
 
 }  // namespace render

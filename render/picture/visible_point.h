@@ -7,7 +7,7 @@ namespace render {
 
 /// What the ray through a pixel's middle meets first; of metaballs, in draft and normal quality, what its neighbors
 /// tell.
-struct SurfacePoint {
+struct VisiblePoint {
     glm::vec3 normal{0.0F};  ///< unit length, world axes
     float depth = -1.0F;     ///< view depth, m; -1: nothing is met
 };

@@ -35,7 +35,7 @@ struct Trilinear {
 };
 
 // In sides of a cube, from the middle of the first.
-glm::vec3 placeIn(const OpennessGrid& grid, glm::vec3 place) {
+glm::vec3 placeIn(const SkyVisibilityGrid& grid, glm::vec3 place) {
     return (place - grid.origin) / grid.side;
 }
 
@@ -47,7 +47,7 @@ Trilinear cubesAround(glm::vec3 at) {
 
 // Calls visit(cell, weight) for the eight cubes around a place.
 template <typename Visit>
-void forCorners(const OpennessGrid& grid, const Trilinear& at, const Visit& visit) {
+void forCorners(const SkyVisibilityGrid& grid, const Trilinear& at, const Visit& visit) {
     const std::size_t first = grid.cellIndex(at.x, at.y, at.z);
     const auto row = static_cast<std::size_t>(grid.cells.x);
     const std::size_t slice = row * static_cast<std::size_t>(grid.cells.y);
@@ -65,7 +65,7 @@ void forCorners(const OpennessGrid& grid, const Trilinear& at, const Visit& visi
 }
 
 // Size and place of a grid around the particles, its corners at multiples of the side.
-void fitTo(std::span<const Sphere> particles, OpennessGrid& grid) {
+void fitTo(std::span<const Sphere> particles, SkyVisibilityGrid& grid) {
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(std::numeric_limits<float>::lowest());
     for (const Sphere& particle : particles) {
@@ -90,14 +90,14 @@ struct Filling {
     std::size_t margin = 0;
     std::vector<float> values;
 
-    explicit Filling(const OpennessGrid& grid)
+    explicit Filling(const SkyVisibilityGrid& grid)
         : margin(grid.cellIndex(0, 0, kReach)), values(grid.cellIndex(0, 0, grid.cells.z) + 2 * margin, 0.0F) {}
 
     float* at(std::size_t cell) { return &values[margin + cell]; }
     const float* at(std::size_t cell) const { return &values[margin + cell]; }
 };
 
-Filling filling(const OpennessGrid& grid, std::span<const Sphere> particles) {
+Filling filling(const SkyVisibilityGrid& grid, std::span<const Sphere> particles) {
     Filling full(grid);
     for (const Sphere& particle : particles) {
         const float share = particle.radius / grid.side;
@@ -109,7 +109,7 @@ Filling filling(const OpennessGrid& grid, std::span<const Sphere> particles) {
 }
 
 // Weights 1/4, 1/2, 1/4 along one axis; nothing lies at the border.
-void blur(const OpennessGrid& grid, std::ptrdiff_t stride, const Filling& from, Filling& to) {
+void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const Filling& from, Filling& to) {
     const std::ptrdiff_t count = grid.cells.x;
     tbb::parallel_for(1, grid.cells.z - 1, [&](int z) {
         for (int y = 1; y < grid.cells.y - 1; ++y) {
@@ -136,9 +136,9 @@ void lookAlong(const float* full, std::ptrdiff_t stride, std::span<float> open) 
 
 }  // namespace
 
-OpennessGrid opennessGrid(std::span<const Sphere> particles, OpennessGrid old) {
+SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibilityGrid old) {
     if (particles.empty()) return {};
-    OpennessGrid grid = std::move(old);
+    SkyVisibilityGrid grid = std::move(old);
     fitTo(particles, grid);
     const auto row = static_cast<std::size_t>(grid.cells.x);
     const std::size_t slice = row * static_cast<std::size_t>(grid.cells.y);
@@ -164,15 +164,15 @@ OpennessGrid opennessGrid(std::span<const Sphere> particles, OpennessGrid old) {
     return grid;
 }
 
-OpennessMap opennessAtHeight(const OpennessGrid& grid, float height) {
-    OpennessMap map;
+SkyVisibilityMap skyVisibilityAtHeight(const SkyVisibilityGrid& grid, float height) {
+    SkyVisibilityMap map;
     map.side = grid.side;
     map.origin = {grid.origin.x, grid.origin.z};
     map.columns = grid.cells.x;
     map.rows = grid.cells.z;
     map.values.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), 1.0F);
     constexpr std::size_t kUp = 2;
-    const float at = (height - grid.origin.y) / grid.side + kOpennessAhead;
+    const float at = (height - grid.origin.y) / grid.side + kSkySampleOffset;
     const float floor = std::floor(at);
     const int y = static_cast<int>(std::clamp(floor, -2.0F, 1e6F));
     if (grid.cells.x == 0 || y < 0 || y + 1 >= grid.cells.y) return map;

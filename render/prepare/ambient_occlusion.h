@@ -14,12 +14,12 @@
 namespace render {
 
 /// Openness along +x, -x, +y, -y, +z, -z; 1 is open.
-using Openness = std::array<float, 6>;
+using SkyVisibility = std::array<float, 6>;
 
-inline constexpr Openness kOpen = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+inline constexpr SkyVisibility kUnoccluded = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
 
 /// Values at the middles of cubes, x fastest; empty without particles.
-struct OpennessGrid {
+struct SkyVisibilityGrid {
     glm::vec3 origin{0.0F};  ///< middle of the first cube, world
     float side = 1.0F;       ///< m
     glm::ivec3 cells{0};
@@ -33,7 +33,7 @@ struct OpennessGrid {
 };
 
 /// A slice of the grid at one height, along +y: what the ground receives.
-struct OpennessMap {
+struct SkyVisibilityMap {
     glm::vec2 origin{0.0F};  ///< middle of the first cell, x and z
     float side = 1.0F;
     int columns = 0;
@@ -43,15 +43,15 @@ struct OpennessMap {
 
 /// old: one that is no longer used, whose memory is taken.
 /// Holds:  the result depends on the view's particles alone, bit for bit, not on the number of threads.
-OpennessGrid opennessGrid(std::span<const Sphere> particles, OpennessGrid old = {});
+SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibilityGrid old = {});
 
 /// Sides of a cube that a place is moved along the direction it looks in.
-inline constexpr float kOpennessAhead = 0.75F;
+inline constexpr float kSkySampleOffset = 0.75F;
 
 /// At each particle's center; kOpen outside of the grid.
 /// Holds:  a particle's values depend on its center and the grid alone, bit for bit, not on the number of lanes.
-std::vector<Openness> opennessOf(std::span<const Sphere> particles, const OpennessGrid& grid);
+std::vector<SkyVisibility> particleSkyVisibility(std::span<const Sphere> particles, const SkyVisibilityGrid& grid);
 
-OpennessMap opennessAtHeight(const OpennessGrid& grid, float height);
+SkyVisibilityMap skyVisibilityAtHeight(const SkyVisibilityGrid& grid, float height);
 
 }  // namespace render

@@ -23,7 +23,7 @@ std::uint32_t packedOpen(float x, float y, float z) {
     return bitsOf(x, 1023.0F) | bitsOf(y, 1023.0F) << 10 | bitsOf(z, 1023.0F) << 20;
 }
 
-SphereLook particleLook(glm::vec3 color, const Openness& open) {
+SphereAttributes particleLook(glm::vec3 color, const SkyVisibility& open) {
     return {packedColor(color), packedOpen(open[0], open[2], open[4]), packedOpen(open[1], open[3], open[5])};
 }
 
@@ -46,16 +46,17 @@ DrawnSpheres drawnSpheres(const View& view) {
     return drawn;
 }
 
-std::vector<SphereLook> looksOf(const View& view, const DrawnSpheres& drawn, std::span<const Openness> open) {
-    std::vector<SphereLook> looks(drawn.sources.size());
+std::vector<SphereAttributes> sphereAttributes(const View& view, const DrawnSpheres& drawn,
+                                               std::span<const SkyVisibility> open) {
+    std::vector<SphereAttributes> looks(drawn.sources.size());
     const auto firstObstacle = static_cast<std::size_t>(drawn.firstObstacle);
     constexpr std::size_t kChunk = 2048;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, looks.size(), kChunk), [&](const auto& range) {
         for (std::size_t k = range.begin(); k < range.end(); ++k) {
             const std::uint32_t source = drawn.sources[k];
             looks[k] = k < firstObstacle
-                           ? particleLook(view.particles[source].color, open.empty() ? kOpen : open[source])
-                           : SphereLook{packedColor(view.sphereObstacles[source].color)};
+                           ? particleLook(view.particles[source].color, open.empty() ? kUnoccluded : open[source])
+                           : SphereAttributes{packedColor(view.sphereObstacles[source].color)};
         }
     });
     return looks;

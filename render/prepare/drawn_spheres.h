@@ -12,10 +12,10 @@
 namespace render {
 
 /// What a sphere looks like, packed.
-struct SphereLook {
-    std::uint32_t color = 0;     ///< square roots, 11 + 11 + 10 bits
-    std::uint32_t openPlus = 0;  ///< openness along +x, +y, +z, 10 bits each
-    std::uint32_t openMinus = 0;
+struct SphereAttributes {
+    std::uint32_t color = 0;    ///< square roots, 11 + 11 + 10 bits
+    std::uint32_t skyPlus = 0;  ///< openness along +x, +y, +z, 10 bits each
+    std::uint32_t skyMinus = 0;
     std::uint32_t unused = 0;  ///< lanes load four numbers at once
 };
 
@@ -29,6 +29,7 @@ struct DrawnSpheres {
 DrawnSpheres drawnSpheres(const View& view);
 
 /// Of each drawn sphere; open: of each particle of the view, or empty.
-std::vector<SphereLook> looksOf(const View& view, const DrawnSpheres& drawn, std::span<const Openness> open);
+std::vector<SphereAttributes> sphereAttributes(const View& view, const DrawnSpheres& drawn,
+                                               std::span<const SkyVisibility> open);
 
 }  // namespace render

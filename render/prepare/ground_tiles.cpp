@@ -46,25 +46,25 @@ struct Bounds {
     }
 };
 
-GroundKind kindOf(const std::array<Corner, 4>& corners, const Dimming& dimming) {
+GroundKind kindOf(const std::array<Corner, 4>& corners, const OccluderBounds& occluderBounds) {
     int seen = 0;
     Bounds onLight;
     Bounds onGround;
     for (const Corner& corner : corners) {
         seen += corner.isGround() ? 1 : 0;
-        onLight.add(glm::vec2(dimming.light.toLightSpace(corner.place)));
+        onLight.add(glm::vec2(occluderBounds.light.toLightSpace(corner.place)));
         onGround.add({corner.place.x, corner.place.z});
     }
     if (seen == 0) return GroundKind::none;
     // Its piece has no end.
     if (seen < 4) return GroundKind::horizon;
-    const bool dimmed =
-        onLight.overlaps(dimming.shadowLow, dimming.shadowHigh) || onGround.overlaps(dimming.openLow, dimming.openHigh);
-    return dimmed ? GroundKind::dimmed : GroundKind::plain;
+    const bool occluded = onLight.overlaps(occluderBounds.shadowLow, occluderBounds.shadowHigh) ||
+                          onGround.overlaps(occluderBounds.skyMapLow, occluderBounds.skyMapHigh);
+    return occluded ? GroundKind::occluded : GroundKind::plain;
 }
 
-GroundTile groundTile(const std::array<Corner, 4>& corners, const Dimming& dimming, bool perspective) {
-    const GroundKind kind = kindOf(corners, dimming);
+GroundTile groundTile(const std::array<Corner, 4>& corners, const OccluderBounds& occluderBounds, bool perspective) {
+    const GroundKind kind = kindOf(corners, occluderBounds);
     // In parallel projection the ground comes up to the rays' beginnings.
     if (kind == GroundKind::horizon && !perspective) return {kind, 0.0F};
     // The inverse of the depth, or the depth itself, is linear on the picture: the depth is least at a corner.
@@ -74,7 +74,7 @@ GroundTile groundTile(const std::array<Corner, 4>& corners, const Dimming& dimmi
 
 }  // namespace
 
-std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Dimming& dimming) {
+std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const OccluderBounds& occluderBounds) {
     const int columns = (frame.width + kTileSize - 1) / kTileSize;
     const int rows = (frame.height + kTileSize - 1) / kTileSize;
     std::vector<Corner> corners;
@@ -88,7 +88,7 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
             tiles.push_back(groundTile({corners[first], corners[first + 1], corners[below], corners[below + 1]},
-                                       dimming, frame.perspective));
+                                       occluderBounds, frame.perspective));
         }
     }
     return tiles;

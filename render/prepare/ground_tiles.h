@@ -14,18 +14,18 @@
 namespace render {
 
 /// What may dim the ground, positions relative to the eye. Empty bounds (low above high) dim nothing.
-struct Dimming {
+struct OccluderBounds {
     LightBasis light;
     glm::vec2 shadowLow{1.0F};  ///< bounds of all that casts shadows, on the light's plane, soft edges included
     glm::vec2 shadowHigh{-1.0F};
-    glm::vec2 openLow{1.0F};  ///< bounds of the map of openness, x and z
-    glm::vec2 openHigh{-1.0F};
+    glm::vec2 skyMapLow{1.0F};  ///< bounds of the map of openness, x and z
+    glm::vec2 skyMapHigh{-1.0F};
 };
 
 enum class GroundKind : std::uint8_t {
     none,
     plain,
-    dimmed,
+    occluded,
     horizon  ///< ends in it, and may be dimmed
 };
 
@@ -36,6 +36,6 @@ struct GroundTile {
 
 /// Row by row. height: of the ground over the eye.
 /// Holds:  a tile called none shows no ground, one called plain no ground within the bounds.
-std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Dimming& dimming);
+std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const OccluderBounds& occluderBounds);
 
 }  // namespace render

@@ -73,8 +73,8 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     grid.columns = std::clamp(static_cast<int>((high.x - low.x) / grid.cellSize) + 1, 1, kMostCellsPerSide);
     grid.rows = std::clamp(static_cast<int>((high.y - low.y) / grid.cellSize) + 1, 1, kMostCellsPerSide);
 
-    std::vector<BinItem> items(spheres.size());
-    const std::vector<std::uint32_t> order = orderByKey(keys);
+    std::vector<CellItem> items(spheres.size());
+    const std::vector<std::uint32_t> order = indicesByKey(keys);
     for (std::size_t place = 0; place < order.size(); ++place) {
         const glm::vec3 at = seen[order[place]];
         const float reach = margin * spheres[order[place]].radius;
@@ -84,7 +84,7 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
                          cellOf(at.x + reach, low.x, grid.cellSize, grid.columns),
                          cellOf(at.y + reach, low.y, grid.cellSize, grid.rows)}};
     }
-    const CellLists lists = binItems(items, grid.columns, grid.rows);
+    const CellLists lists = binIntoCells(items, grid.columns, grid.rows);
     grid.cells.resize(lists.begin.size() - 1);
     LightSpheres& listed = grid.spheres;
     for (std::vector<float>* values : {&listed.u, &listed.v, &listed.height, &listed.radius})

@@ -19,7 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-void openParticles(const OpennessGrid& grid, std::span<const Sphere> particles, std::span<Openness> open) {
+void skyVisibilityOfBatch(const SkyVisibilityGrid& grid, std::span<const Sphere> particles,
+                          std::span<SkyVisibility> open) {
     const D d;
     using Lanes = std::array<float, kTileSize>;
     for (std::size_t first = 0; first < particles.size(); first += hn::Lanes(d)) {
@@ -29,10 +30,11 @@ void openParticles(const OpennessGrid& grid, std::span<const Sphere> particles, 
             for (std::size_t axis = 0; axis < 3; ++axis)
                 center[axis][lane] = particles[first + lane].center[static_cast<int>(axis)];
         const Vec3 at =
-            placeInGrid(grid, glm::vec3(0.0F),
-                        {hn::Load(d, center[0].data()), hn::Load(d, center[1].data()), hn::Load(d, center[2].data())});
+            gridPosition(grid, glm::vec3(0.0F),
+                         {hn::Load(d, center[0].data()), hn::Load(d, center[1].data()), hn::Load(d, center[2].data())});
         alignas(64) std::array<Lanes, 6> values;
-        for (std::size_t side = 0; side < 6; ++side) hn::Store(openInGrid(grid, side, at), d, values[side].data());
+        for (std::size_t side = 0; side < 6; ++side)
+            hn::Store(skyVisibilityInGrid(grid, side, at), d, values[side].data());
         for (std::size_t lane = 0; lane < count; ++lane)
             for (std::size_t side = 0; side < 6; ++side) open[first + lane][side] = values[side][lane];
     }
@@ -46,14 +48,14 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-HWY_EXPORT(openParticles);
+HWY_EXPORT(skyVisibilityOfBatch);
 
-std::vector<Openness> opennessOf(std::span<const Sphere> particles, const OpennessGrid& grid) {
-    std::vector<Openness> open(particles.size(), kOpen);
+std::vector<SkyVisibility> particleSkyVisibility(std::span<const Sphere> particles, const SkyVisibilityGrid& grid) {
+    std::vector<SkyVisibility> open(particles.size(), kUnoccluded);
     if (grid.cells.x == 0) return open;
     constexpr std::size_t kChunk = 1024;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, particles.size(), kChunk), [&](const auto& range) {
-        HWY_DYNAMIC_DISPATCH(openParticles)
+        HWY_DYNAMIC_DISPATCH(skyVisibilityOfBatch)
         (grid, particles.subspan(range.begin(), range.size()), std::span(open).subspan(range.begin(), range.size()));
     });
     return open;

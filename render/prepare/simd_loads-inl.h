@@ -1,10 +1,10 @@
 // Four numbers from a place of each lane: loads of 128 bits and shuffles take less time than as many gathers.
 // Included once per instruction set, by Highway's rules; the guard below is theirs.
-#if defined(RENDER_LANE_FOURS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RENDER_LANE_FOURS_INL_H_
-#undef RENDER_LANE_FOURS_INL_H_
+#if defined(RENDER_SIMD_LOADS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_SIMD_LOADS_INL_H_
+#undef RENDER_SIMD_LOADS_INL_H_
 #else
-#define RENDER_LANE_FOURS_INL_H_
+#define RENDER_SIMD_LOADS_INL_H_
 #endif
 
 #include <array>
@@ -19,33 +19,34 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-struct Fours {
+struct Float4 {
     V x, y, z, w;
 };
 
 #if HWY_TARGET != HWY_SCALAR
 /// What fills 128 bits from the places of every fourth lane, block by block.
 template <class Tag, class Number>
-HWY_INLINE hn::Vec<Tag> everyFourth(Tag tag, const Number* numbers, const std::int32_t* places) {
+HWY_INLINE hn::Vec<Tag> loadEveryFourth(Tag tag, const Number* numbers, const std::int32_t* places) {
     constexpr std::size_t kBlocks = hn::MaxLanes(Tag()) * sizeof(Number) / 16;
     if constexpr (kBlocks <= 1) {
         return hn::LoadU(tag, numbers + places[0]);
     } else {
         const hn::Half<Tag> half;
-        return hn::Combine(tag, everyFourth(half, numbers, places + 2 * kBlocks), everyFourth(half, numbers, places));
+        return hn::Combine(tag, loadEveryFourth(half, numbers, places + 2 * kBlocks),
+                           loadEveryFourth(half, numbers, places));
     }
 }
 
 /// Shape:  128 bits from each place on, which are read.
 template <class Number>
-HWY_INLINE Fours blocksFrom(const Number* numbers, VI places) {
+HWY_INLINE Float4 gatherBlocks(const Number* numbers, VI places) {
     const DI di;
     const D d;
     alignas(64) std::array<std::int32_t, kTileSize> at;
     hn::Store(places, di, at.data());
     const hn::Repartition<Number, D> tag;
     const hn::Repartition<double, D> twos;
-    const auto from = [&](std::size_t lane) { return hn::BitCast(d, everyFourth(tag, numbers, at.data() + lane)); };
+    const auto from = [&](std::size_t lane) { return hn::BitCast(d, loadEveryFourth(tag, numbers, at.data() + lane)); };
     const auto lower = [&](V p, V q) { return hn::BitCast(twos, hn::InterleaveLower(d, p, q)); };
     const auto upper = [&](V p, V q) { return hn::BitCast(twos, hn::InterleaveUpper(d, p, q)); };
     const V a = from(0), b = from(1), c = from(2), e = from(3);
@@ -57,29 +58,30 @@ HWY_INLINE Fours blocksFrom(const Number* numbers, VI places) {
 #endif
 
 /// Shape:  numbers from each place on, of which there are four and more.
-HWY_INLINE Fours foursFrom(const float* numbers, VI places) {
+HWY_INLINE Float4 gather4(const float* numbers, VI places) {
 #if HWY_TARGET == HWY_SCALAR
     const float* four = numbers + hn::GetLane(places);
-    return {all(four[0]), all(four[1]), all(four[2]), all(four[3])};
+    return {splat(four[0]), splat(four[1]), splat(four[2]), splat(four[3])};
 #else
-    return blocksFrom(numbers, places);
+    return gatherBlocks(numbers, places);
 #endif
 }
 
 /// Six small numbers from each place on, of which there are eight and more.
-struct Sixes {
+struct Int6 {
     VI of[6];
 };
 
-HWY_INLINE Sixes sixesFrom(const std::uint16_t* numbers, VI places) {
+HWY_INLINE Int6 gather6(const std::uint16_t* numbers, VI places) {
 #if HWY_TARGET == HWY_SCALAR
     const std::uint16_t* six = numbers + hn::GetLane(places);
-    return {{allOf(six[0]), allOf(six[1]), allOf(six[2]), allOf(six[3]), allOf(six[4]), allOf(six[5])}};
+    return {
+        {splatInt(six[0]), splatInt(six[1]), splatInt(six[2]), splatInt(six[3]), splatInt(six[4]), splatInt(six[5])}};
 #else
     const DI di;
-    const Fours pairs = blocksFrom(numbers, places);
+    const Float4 pairs = gatherBlocks(numbers, places);
     const hn::RebindToUnsigned<D> du;
-    const auto first = [&](V pair) { return hn::And(hn::BitCast(di, pair), allOf(0xffff)); };
+    const auto first = [&](V pair) { return hn::And(hn::BitCast(di, pair), splatInt(0xffff)); };
     const auto second = [&](V pair) { return hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, pair))); };
     return {{first(pairs.x), second(pairs.x), first(pairs.y), second(pairs.y), first(pairs.z), second(pairs.z)}};
 #endif

@@ -1,9 +1,9 @@
 // Rays of a camera on lanes, shared by the kernels that are compiled once per instruction set.
-#if defined(RENDER_LANE_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RENDER_LANE_RAYS_INL_H_
-#undef RENDER_LANE_RAYS_INL_H_
+#if defined(RENDER_SIMD_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_SIMD_RAYS_INL_H_
+#undef RENDER_SIMD_RAYS_INL_H_
 #else
-#define RENDER_LANE_RAYS_INL_H_
+#define RENDER_SIMD_RAYS_INL_H_
 #endif
 
 #include <array>
@@ -32,62 +32,62 @@ struct Vec3 {
     V x, y, z;
 };
 
-HWY_INLINE V all(float value) {
+HWY_INLINE V splat(float value) {
     return hn::Set(D(), value);
 }
 
-HWY_INLINE VI allOf(std::int32_t value) {
+HWY_INLINE VI splatInt(std::int32_t value) {
     return hn::Set(DI(), value);
 }
 
-HWY_INLINE Vec3 uniform(glm::vec3 v) {
-    return {all(v.x), all(v.y), all(v.z)};
+HWY_INLINE Vec3 splat(glm::vec3 v) {
+    return {splat(v.x), splat(v.y), splat(v.z)};
 }
 
-HWY_INLINE V dotted(const Vec3& a, const Vec3& b) {
+HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-HWY_INLINE Vec3 chosen(M mask, const Vec3& yes, const Vec3& no) {
+HWY_INLINE Vec3 select(M mask, const Vec3& yes, const Vec3& no) {
     return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 /// The place at this parameter of a line.
-HWY_INLINE Vec3 along(const Vec3& origin, V t, const Vec3& direction) {
+HWY_INLINE Vec3 pointOnRay(const Vec3& origin, V t, const Vec3& direction) {
     return {hn::Add(origin.x, hn::Mul(t, direction.x)), hn::Add(origin.y, hn::Mul(t, direction.y)),
             hn::Add(origin.z, hn::Mul(t, direction.z))};
 }
 
-HWY_INLINE V clamped(V value, float low, float high) {
-    return hn::Min(hn::Max(value, all(low)), all(high));
+HWY_INLINE V clamp(V value, float low, float high) {
+    return hn::Min(hn::Max(value, splat(low)), splat(high));
 }
 
 /// Of lanes of integers, for lanes of floats.
-HWY_INLINE M laneMask(hn::Mask<DI> mask) {
+HWY_INLINE M floatMask(hn::Mask<DI> mask) {
     return hn::RebindMask(D(), mask);
 }
 
 /// The least of these lanes, in each; no lanes: as much as a float holds.
-HWY_INLINE V leastOf(V values, M lanes) {
-    return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, all(std::numeric_limits<float>::max())));
+HWY_INLINE V minOfLanes(V values, M lanes) {
+    return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, splat(std::numeric_limits<float>::max())));
 }
 
 /// A bit for each lane.
-HWY_INLINE std::uint32_t bitsOf(M mask) {
+HWY_INLINE std::uint32_t maskBits(M mask) {
     std::array<std::uint8_t, 8> bytes{};
     hn::StoreMaskBits(D(), mask, bytes.data());
     return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
 }
 
 /// Where rays through these pixels cross the plane at view depth 1 (parallel projection: any plane).
-struct Plane {
+struct ImagePoint {
     V x, y;
 };
 
-HWY_INLINE Plane planeAt(const CameraFrame& frame, V x, V y) {
-    const V one = all(1.0F);
-    return {hn::Mul(hn::Sub(hn::Mul(x, all(2.0F / static_cast<float>(frame.width))), one), all(frame.halfWidth)),
-            hn::Mul(hn::Sub(one, hn::Mul(y, all(2.0F / static_cast<float>(frame.height)))), all(frame.halfHeight))};
+HWY_INLINE ImagePoint imagePointAt(const CameraFrame& frame, V x, V y) {
+    const V one = splat(1.0F);
+    return {hn::Mul(hn::Sub(hn::Mul(x, splat(2.0F / static_cast<float>(frame.width))), one), splat(frame.halfWidth)),
+            hn::Mul(hn::Sub(one, hn::Mul(y, splat(2.0F / static_cast<float>(frame.height)))), splat(frame.halfHeight))};
 }
 
 /// In world axes, relative to the eye; the direction's component along `forward` is 1.
@@ -95,14 +95,14 @@ struct WorldRay {
     Vec3 origin, direction;
 };
 
-HWY_INLINE WorldRay worldRay(const CameraFrame& frame, const Plane& at) {
-    const Vec3 right = uniform(frame.right);
-    const Vec3 up = uniform(frame.up);
+HWY_INLINE WorldRay worldRay(const CameraFrame& frame, const ImagePoint& at) {
+    const Vec3 right = splat(frame.right);
+    const Vec3 up = splat(frame.up);
     const Vec3 off{hn::Add(hn::Mul(at.x, right.x), hn::Mul(at.y, up.x)),
                    hn::Add(hn::Mul(at.x, right.y), hn::Mul(at.y, up.y)),
                    hn::Add(hn::Mul(at.x, right.z), hn::Mul(at.y, up.z))};
-    if (!frame.perspective) return {off, uniform(frame.forward)};
-    return {uniform(glm::vec3(0.0F)), along(uniform(frame.forward), all(1.0F), off)};
+    if (!frame.perspective) return {off, splat(frame.forward)};
+    return {splat(glm::vec3(0.0F)), pointOnRay(splat(frame.forward), splat(1.0F), off)};
 }
 
 }  // namespace HWY_NAMESPACE

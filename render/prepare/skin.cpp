@@ -16,10 +16,10 @@ namespace render {
 
 namespace {
 
-SkinBall smoothed(const CrowdSum& sum, glm::vec3 center) {
+SkinBall smoothed(const DensitySum& sum, glm::vec3 center) {
     // crowd^(-3/4): between a sum, which swells where many overlap, and a mean, which sinks in at the border.
-    const float root = std::sqrt(sum.crowd);
-    return {center + kSkinPull * sum.pull / sum.crowd, 1.0F / (root * std::sqrt(root))};
+    const float root = std::sqrt(sum.density);
+    return {center + kSkinPull * sum.weightedOffset / sum.density, 1.0F / (root * std::sqrt(root))};
 }
 
 }  // namespace
@@ -35,9 +35,9 @@ std::vector<SkinBall> skinOf(const View& view) {
     constexpr std::size_t kChunk = 128;
     tbb::parallel_for(std::size_t{0}, (balls.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
         const std::size_t first = chunk * kChunk;
-        std::array<CrowdSum, kChunk> room;
-        const std::span<CrowdSum> sums = std::span(room).first(std::min(kChunk, balls.size() - first));
-        crowdSums(cells, view.field.reach, first, sums);
+        std::array<DensitySum, kChunk> room;
+        const std::span<DensitySum> sums = std::span(room).first(std::min(kChunk, balls.size() - first));
+        densitySums(cells, view.field.reach, first, sums);
         for (std::size_t k = 0; k < sums.size(); ++k) {
             const std::uint32_t index = cells.index[first + k];
             const Sphere& particle = view.particles[index];

@@ -41,7 +41,7 @@ SkinCells skinCells(std::span<const Sphere> particles, float reach) {
     for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];
     std::vector<std::uint32_t> next(cells.begin.begin(), cells.begin.end() - 1);
     for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius})
-        values->resize(particles.size() + kCrowdBlock);
+        values->resize(particles.size() + kDensityBlock);
     cells.index.resize(particles.size());
     for (std::size_t k = 0; k < particles.size(); ++k) {
         const Sphere& particle = particles[k];

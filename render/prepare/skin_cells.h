@@ -15,7 +15,7 @@ namespace render {
 
 /// Particles that lanes take at a time. The vectors below hold so many numbers more than there are particles, so that
 /// whole blocks can be read from any place.
-inline constexpr std::size_t kCrowdBlock = 16;
+inline constexpr std::size_t kDensityBlock = 16;
 
 struct SkinCells {
     glm::vec3 low{0.0F};

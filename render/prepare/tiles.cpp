@@ -56,11 +56,11 @@ struct RowLists {
     }
 };
 
-RowLists rowLists(std::span<const BinItem> items, int columns, int rows) {
+RowLists rowLists(std::span<const CellItem> items, int columns, int rows) {
     RowLists lists;
     // An item adds one where it begins and takes it away where it ends; sums along the rows do the rest.
     std::vector<std::size_t> next(static_cast<std::size_t>(rows) + 1, 0);
-    for (const BinItem& item : items) {
+    for (const CellItem& item : items) {
         const Rect& cells = item.cells;
         if (cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= columns || cells.y1 >= rows || cells.x1 < cells.x0 ||
             cells.y1 < cells.y0)
@@ -73,7 +73,7 @@ RowLists rowLists(std::span<const BinItem> items, int columns, int rows) {
     std::exclusive_scan(next.begin(), next.end(), lists.begin.begin(), std::size_t{0});
     lists.items.resize(lists.begin.back());
     next = lists.begin;
-    for (const BinItem& item : items)
+    for (const CellItem& item : items)
         for (int row = item.cells.y0; row <= item.cells.y1; ++row)
             lists.items[next[static_cast<std::size_t>(row)]++] = {item.index, item.cells.x0, item.cells.x1};
     return lists;
@@ -92,7 +92,7 @@ void countPerCell(std::span<const RowItem> items, std::span<std::uint32_t> cells
 
 }  // namespace
 
-std::vector<std::uint32_t> orderByKey(std::span<const float> keys) {
+std::vector<std::uint32_t> indicesByKey(std::span<const float> keys) {
     std::vector<KeyedPlace> items(keys.size());
     for (std::size_t place = 0; place < keys.size(); ++place) {
         items[place] = {sortable(keys[place]), static_cast<std::uint32_t>(place)};
@@ -106,7 +106,7 @@ std::vector<std::uint32_t> orderByKey(std::span<const float> keys) {
     return order;
 }
 
-CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
+CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows) {
     CellLists lists;
     lists.columns = columns;
     lists.rows = rows;
@@ -143,14 +143,14 @@ CellLists binItems(std::span<const BinItem> items, int columns, int rows) {
 CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<const Rect> pixels) {
     std::vector<float> nearest(spheres.size());
     for (std::size_t k = 0; k < spheres.size(); ++k) nearest[k] = spheres[k].center.z - spheres[k].radius;
-    std::vector<BinItem> items;
+    std::vector<CellItem> items;
     items.reserve(spheres.size());
-    for (const std::uint32_t index : orderByKey(nearest)) {
+    for (const std::uint32_t index : indicesByKey(nearest)) {
         const Rect& at = pixels[index];
         if (at.x1 < at.x0) continue;
         items.push_back({index, {at.x0 / kTileSize, at.y0 / kTileSize, at.x1 / kTileSize, at.y1 / kTileSize}});
     }
-    return binItems(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
+    return binIntoCells(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
 }
 
 }  // namespace render

@@ -27,23 +27,23 @@ struct CellLists {
 };
 
 /// The top left corner of a tile in pixels of the picture.
-inline glm::vec2 cornerOf(const CellLists& tiles, std::size_t tile) {
+inline glm::vec2 tileCorner(const CellLists& tiles, std::size_t tile) {
     const auto columns = static_cast<std::size_t>(tiles.columns);
     return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
 }
 
 /// An item's place in the grid.
-struct BinItem {
+struct CellItem {
     std::uint32_t index = 0;  ///< what is written to the lists
     Rect cells;               ///< within the grid
 };
 
 /// Lists every cell's items in the order of `items`.
 /// Holds:  the result depends on nothing but the arguments; throws SystemError beyond 2^31 entries.
-CellLists binItems(std::span<const BinItem> items, int columns, int rows);
+CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows);
 
 /// Order of places by rising key, equal keys by place.
-std::vector<std::uint32_t> orderByKey(std::span<const float> keys);
+std::vector<std::uint32_t> indicesByKey(std::span<const float> keys);
 
 /// A sphere in some camera's view coordinates.
 struct ViewSphere {
@@ -53,7 +53,7 @@ struct ViewSphere {
 
 /// The pixels that each sphere may touch, one pixel of margin included; none (an empty rectangle) where it is out of
 /// sight. One that reaches the eye's plane, or almost, may touch every pixel.
-std::vector<Rect> touchedPixels(const CameraFrame& frame, std::span<const ViewSphere> spheres);
+std::vector<Rect> pixelBounds(const CameraFrame& frame, std::span<const ViewSphere> spheres);
 
 /// The spheres of each 16-pixel tile, front to back: by rising (center's depth - radius). pixels: as touchedPixels has
 /// them.

@@ -46,14 +46,14 @@ void addColors(const render::Image& image, const ExactWindow& exact, Sums& sums)
     sums.similarity += metrics.ssim;
 }
 
-void addSurfaces(const render::View& view, render::PictureSize size, std::span<const render::SurfacePoint> surfaces,
+void addSurfaces(const render::View& view, render::PictureSize size, std::span<const render::VisiblePoint> surfaces,
                  const ExactWindow& exact, Sums& sums) {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(view.camera.target) - glm::dvec3(view.camera.eye));
     const double radius = meanRadius(view);
     for (std::size_t k = 0; k < exact.picture.kinds.size(); ++k) {
         const int x = exact.window.x + static_cast<int>(k) % exact.window.width;
         const int y = exact.window.y + static_cast<int>(k) / exact.window.width;
-        const render::SurfacePoint& seen = surfaces[static_cast<std::size_t>(y * size.width + x)];
+        const render::VisiblePoint& seen = surfaces[static_cast<std::size_t>(y * size.width + x)];
         const oracle::Hit::Kind kind = exact.picture.kinds[k];
         ++sums.pixels;
         const bool hit = kind != oracle::Hit::Kind::none;
@@ -76,7 +76,7 @@ void addSurfaces(const render::View& view, render::PictureSize size, std::span<c
 
 }  // namespace
 
-PictureError errorOf(const render::Image& image, std::span<const render::SurfacePoint> surfaces,
+PictureError errorOf(const render::Image& image, std::span<const render::VisiblePoint> surfaces,
                      const render::View& view, std::span<const ExactWindow> exact) {
     Sums sums;
     for (const ExactWindow& window : exact) {

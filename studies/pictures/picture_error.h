@@ -29,7 +29,7 @@ struct ExactWindow {
 
 /// The errors of a picture of a view, and of the surfaces that it shows, in the windows.
 /// A hit is right within a tenth of the particles' mean radius.
-PictureError errorOf(const render::Image& image, std::span<const render::SurfacePoint> surfaces,
+PictureError errorOf(const render::Image& image, std::span<const render::VisiblePoint> surfaces,
                      const render::View& view, std::span<const ExactWindow> exact);
 
 }  // namespace studies

@@ -190,7 +190,7 @@ void measureSubject(const PictureSettings& settings, render::Context& context, c
     for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
         PictureRow row = measureQuality(settings, context, subject, quality, frames);
         render::Renderer renderer(context, subject.size, quality);
-        row.error = errorOf(renderer.draw(view), renderer.surfaces(view), view, exact);
+        row.error = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
         rows.push_back(row);
         listener(rows);
     }

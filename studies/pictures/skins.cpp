@@ -91,7 +91,7 @@ render::View levelPool(const render::View& cloud) {
 double bumpsOf(render::Renderer& renderer, const render::View& pool) {
     double squares = 0.0;
     long hits = 0;
-    for (const render::SurfacePoint& point : renderer.surfaces(pool)) {
+    for (const render::VisiblePoint& point : renderer.visiblePoints(pool)) {
         if (point.depth < 0.0F) continue;
         const double tilt = std::acos(std::clamp(double(point.normal.y), -1.0, 1.0));
         squares += tilt * tilt;

@@ -28,7 +28,7 @@ using Samples = std::array<render::TileRays, 4>;
 
 void placeRays(const render::CellLists& tiles, std::size_t tile, Samples& samples) {
     for (std::size_t s = 0; s < samples.size(); ++s) {
-        const glm::vec2 first = render::cornerOf(tiles, tile) + 0.5F + render::kFourSamples[s];
+        const glm::vec2 first = render::tileCorner(tiles, tile) + 0.5F + render::kFourSamples[s];
         for (std::size_t k = 0; k < kTilePixels; ++k) {
             samples[s].x[k] = first.x + static_cast<float>(k % render::kTileSize);
             samples[s].y[k] = first.y + static_cast<float>(k / render::kTileSize);
@@ -82,7 +82,7 @@ TEST_CASE("Spheres on the ground, in it and under it hide it where its depth say
             const render::CameraFrame frame = render::cameraFrame(camera, {96, 96});
             for (const float lowest : {-0.5F, 0.0F, 0.2F}) {
                 const std::vector<render::ViewSphere> spheres = spheresNear(frame, -seen.eye, lowest);
-                const std::vector<render::Rect> pixels = render::touchedPixels(frame, spheres);
+                const std::vector<render::Rect> pixels = render::pixelBounds(frame, spheres);
                 const render::CellLists tiles = render::binToTiles(frame, spheres, pixels);
                 const Counts counts = compared({frame, spheres, pixels, &tiles, {}, -seen.eye});
                 CAPTURE(seen.eye, lowest, static_cast<int>(projection));

@@ -164,38 +164,38 @@ TEST_CASE("A strength of zero leaves the picture as it was") {
     }
 }
 
-TEST_CASE("Openness: a lone particle sees the sky, one in a block does not, one on top sees it upwards") {
+TEST_CASE("SkyVisibility: a lone particle sees the sky, one in a block does not, one on top sees it upwards") {
     const auto openOf = [](const std::vector<render::Sphere>& particles, glm::vec3 place) {
         const std::vector<render::Sphere> there{{place, 0.1F, {}}};
-        return render::opennessOf(there, render::opennessGrid(particles)).front();
+        return render::particleSkyVisibility(there, render::skyVisibilityGrid(particles)).front();
     };
     // Its own volume, 0.52 of a cube, reaches a cube's width beyond its own cube at most.
     for (const float value : openOf({{{0.3F, 1.0F, 0.2F}, 0.1F, {}}}, {0.3F, 1.0F, 0.2F})) CHECK(value > 0.8F);
     std::vector<render::Sphere> block;
     for (int k = 0; k < 12 * 12 * 12; ++k) block.push_back({0.2F * glm::vec3(k % 12, k / 12 % 12, k / 144), 0.1F, {}});
     for (const float value : openOf(block, {1.1F, 1.1F, 1.1F})) CHECK(value < 0.3F);
-    const render::Openness top = openOf(block, {1.1F, 2.2F, 1.1F});
+    const render::SkyVisibility top = openOf(block, {1.1F, 2.2F, 1.1F});
     CHECK(top[2] > 0.8F);
     CHECK(top[3] < 0.3F);
-    CHECK(openOf(block, {50.0F, 1.0F, 1.0F}) == render::kOpen);
-    CHECK(openOf({}, {0.0F, 0.0F, 0.0F}) == render::kOpen);
+    CHECK(openOf(block, {50.0F, 1.0F, 1.0F}) == render::kUnoccluded);
+    CHECK(openOf({}, {0.0F, 0.0F, 0.0F}) == render::kUnoccluded);
 }
 
-TEST_CASE("Openness is the same in the memory of another scene's") {
+TEST_CASE("SkyVisibility is the same in the memory of another scene's") {
     std::vector<render::Sphere> block;
     for (int k = 0; k < 12 * 12 * 12; ++k) block.push_back({0.2F * glm::vec3(k % 12, k / 12 % 12, k / 144), 0.1F, {}});
     const std::span all(block);
     for (const auto& [now, before] : {std::pair{all, all.first(7)}, std::pair{all.first(7), all}}) {
-        const render::OpennessGrid fresh = render::opennessGrid(now);
-        const render::OpennessGrid reused = render::opennessGrid(now, render::opennessGrid(before));
+        const render::SkyVisibilityGrid fresh = render::skyVisibilityGrid(now);
+        const render::SkyVisibilityGrid reused = render::skyVisibilityGrid(now, render::skyVisibilityGrid(before));
         CHECK(reused.cells == fresh.cells);
         CHECK(reused.origin == fresh.origin);
         CHECK(reused.values == fresh.values);
     }
-    CHECK(render::opennessGrid({}, render::opennessGrid(block)).cells == glm::ivec3(0));
+    CHECK(render::skyVisibilityGrid({}, render::skyVisibilityGrid(block)).cells == glm::ivec3(0));
 }
 
-TEST_CASE("Openness does not depend on where the cubes lie by more than a little") {
+TEST_CASE("SkyVisibility does not depend on where the cubes lie by more than a little") {
     std::vector<render::Sphere> block;
     for (int k = 0; k < 10 * 10 * 10; ++k) block.push_back({0.2F * glm::vec3(k % 10, k / 10 % 10, k / 100), 0.1F, {}});
     float least = 1.0F;
@@ -204,7 +204,7 @@ TEST_CASE("Openness does not depend on where the cubes lie by more than a little
         std::vector<render::Sphere> moved = block;
         const glm::vec3 off(0.011F * static_cast<float>(shift), 0.007F * static_cast<float>(shift), 0.0F);
         for (render::Sphere& particle : moved) particle.center += off;
-        const render::Openness open = render::opennessOf(moved, render::opennessGrid(moved))[905];
+        const render::SkyVisibility open = render::particleSkyVisibility(moved, render::skyVisibilityGrid(moved))[905];
         least = std::min(least, open[0]);
         most = std::max(most, open[0]);
     }
@@ -221,7 +221,7 @@ TEST_CASE("Thread counts change neither openness nor skin") {
     for (const std::size_t threads : {1U, 2U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const std::vector<render::SkinBall> skin = render::skinOf(view);
-        const std::vector<float> values = render::opennessGrid(view.particles).values[3];
+        const std::vector<float> values = render::skyVisibilityGrid(view.particles).values[3];
         if (first.empty()) first = skin;
         if (open.empty()) open = values;
         CHECK(open == values);
@@ -299,14 +299,14 @@ TEST_CASE("In a smooth skin a lone ball keeps its place and radius, and a flat p
     render::Renderer renderer(context, kSize, Quality::draft);
     const auto meanSlant = [&] {
         double sum = 0.0;
-        for (const render::SurfacePoint& point : renderer.surfaces(view)) {
+        for (const render::VisiblePoint& point : renderer.visiblePoints(view)) {
             REQUIRE(point.depth > 0.0F);
             sum += 1.0 - double(point.normal.y);
         }
         return sum / kPixels;
     };
     const double smooth = meanSlant();
-    const double height = 6.0 - double(renderer.surfaces(view)[kSize.width * 37 + 60].depth);
+    const double height = 6.0 - double(renderer.visiblePoints(view)[kSize.width * 37 + 60].depth);
     view.field.skin = render::Skin::plain;
     const double plain = meanSlant();
     CAPTURE(smooth, plain, height);

@@ -147,11 +147,11 @@ TEST_CASE("What a ray meets does not depend on the rays that it is cast with") {
         int differing = 0;
         for (std::size_t tile = 0; tile + 1 < field.tiles.begin.size(); ++tile) {
             render::RayBlock together;
-            render::placeRays(together, render::cornerOf(field.tiles, tile), render::kZCurve, {});
+            render::placeRays(together, render::tileCorner(field.tiles, tile), render::kZCurve, {});
             render::castBlock(cast, tile, together);
             for (std::size_t k = 0; k < together.count; ++k) {
                 render::RayBlock alone;
-                render::placeRays(alone, render::cornerOf(field.tiles, tile), std::array{render::kZCurve[k]}, {});
+                render::placeRays(alone, render::tileCorner(field.tiles, tile), std::array{render::kZCurve[k]}, {});
                 render::castBlock(cast, tile, alone);
                 const bool isHit = together.depth[k] >= 0.0F;
                 hits += isHit ? 1 : 0;
@@ -233,7 +233,7 @@ TEST_CASE("Every instruction set gives the same bits") {
     view.particles.push_back({view.camera.eye, 0.3F, {0.1F, 0.2F, 0.3F}});  // and a ray that starts inside
     const render::CameraFrame frame = render::cameraFrame(view.camera, {200, 150});
     const render::LightBasis light = render::lightBasis(view.light.toLight);
-    std::vector<render::Openness> open;
+    std::vector<render::SkyVisibility> open;
     for (std::size_t k = 0; k < view.particles.size(); ++k) {
         const float part = 0.001F * static_cast<float>(k);
         open.push_back({part, 1.0F - part, 0.5F, 0.5F + part, 0.9F, 0.1F});

@@ -52,12 +52,12 @@ Bounds changed(const Image& image, std::uint8_t gray) {
     });
 }
 
-Image stencilled(const std::string& text, double em) {
+Image textImage(const std::string& text, double em) {
     Image image = plain(static_cast<int>(2.0 * em), static_cast<int>(2.0 * em), 0);
     const render::TextPlace place{std::round(0.5 * em), static_cast<int>(1.5 * em), em};
-    render::Stencil stencil = render::stencilAround({0.0, 0.0, 2.0 * em, 2.0 * em});
-    render::coverText(stencil, text, place);
-    render::paint(image, stencil, {255, 255, 255});
+    render::CoverageMask mask = render::emptyMask({0.0, 0.0, 2.0 * em, 2.0 * em});
+    render::coverText(mask, text, place);
+    render::paint(image, mask, {255, 255, 255});
     return image;
 }
 
@@ -147,7 +147,7 @@ TEST_CASE("Text is as high as the picture asks") {
     CHECK(render::overlayEm(1080, 1920, 2.0) == Approx(64.8));
     for (const double em : {11.0, 21.6, 32.4, 64.0}) {
         INFO(em);
-        const Image letter = stencilled("H", em);
+        const Image letter = textImage("H", em);
         const Bounds ink = boundsOf(letter, [&](int x, int y) { return byteAt(letter, x, y) > 127; });
         // DejaVu Sans: capitals are 1493 of 2048 units high.
         CHECK(std::abs(ink.bottom - ink.top + 1 - 1493.0 / 2048.0 * em) <= 1.0);
@@ -169,7 +169,7 @@ TEST_CASE("Letters stand upright and face the reader") {
         return static_cast<double>(inked) / all;
     };
     const auto quarters = [&](const std::string& letter) {
-        const Image image = stencilled(letter, 64.0);
+        const Image image = textImage(letter, 64.0);
         const Bounds box = boundsOf(image, [&](int x, int y) { return byteAt(image, x, y) > 127; });
         return std::vector<double>{share(image, box, false, false), share(image, box, true, false),
                                    share(image, box, false, true), share(image, box, true, true)};
@@ -199,14 +199,14 @@ TEST_CASE("The stamp says the time") {
         for (const char candidate : alphabet) {
             const std::string one(1, candidate);
             const double width = render::textWidth(one, em);
-            render::Stencil stencil =
-                render::stencilAround({place.left, 0.0, place.left + std::max(width, 0.6 * em), 3.0 * em});
-            render::coverText(stencil, one, place);
+            render::CoverageMask mask =
+                render::emptyMask({place.left, 0.0, place.left + std::max(width, 0.6 * em), 3.0 * em});
+            render::coverText(mask, one, place);
             double sum = 0.0;
-            for (int y = 0; y < stencil.height; ++y)
+            for (int y = 0; y < mask.height; ++y)
                 for (int x = 0; x < static_cast<int>(width); ++x)
-                    sum += std::abs(stencil.coverage.at(static_cast<std::size_t>(y * stencil.width + x)) -
-                                    static_cast<int>(byteAt(image, stencil.left + x, y)));
+                    sum += std::abs(mask.coverage.at(static_cast<std::size_t>(y * mask.width + x)) -
+                                    static_cast<int>(byteAt(image, mask.left + x, y)));
             sum /= std::max(1.0, std::floor(width));
             if (sum < least) {
                 least = sum;

@@ -89,7 +89,7 @@ std::vector<Change> changes() {
             {"no ground", [](render::View& v) { v.ground.reset(); }}};
 }
 
-bool same(const std::vector<render::SurfacePoint>& a, const std::vector<render::SurfacePoint>& b) {
+bool same(const std::vector<render::VisiblePoint>& a, const std::vector<render::VisiblePoint>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
         return one.normal == other.normal && one.depth == other.depth;
     });
@@ -111,9 +111,9 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
             const render::Image alone = drawn(view, kSize, quality);
             CHECK((renderer.draw(view).rgb == alone.rgb));
             // Another view's surfaces in between, which leave its tiles and its frame in the pass.
-            const std::vector<render::SurfacePoint> surfaces = renderer.surfaces(before);
+            const std::vector<render::VisiblePoint> surfaces = renderer.visiblePoints(before);
             if (quality == Quality::draft)
-                CHECK(same(surfaces, render::Renderer(context, kSize, quality).surfaces(before)));
+                CHECK(same(surfaces, render::Renderer(context, kSize, quality).visiblePoints(before)));
             CHECK((renderer.draw(view).rgb == alone.rgb));
         }
     }

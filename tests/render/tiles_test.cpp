@@ -11,10 +11,10 @@
 #include "render/prepare/tiles.h"
 #include "tests/render/pictures.h"
 
-TEST_CASE("orderByKey sorts by key, equal keys by place") {
+TEST_CASE("indicesByKey sorts by key, equal keys by place") {
     const std::vector<float> keys = {3.0F, -1.0F, 0.0F, -0.5F, 3.0F, -1e30F, 1e-30F};
-    CHECK(render::orderByKey(keys) == std::vector<std::uint32_t>{5, 1, 3, 2, 6, 0, 4});
-    CHECK(render::orderByKey({}).empty());
+    CHECK(render::indicesByKey(keys) == std::vector<std::uint32_t>{5, 1, 3, 2, 6, 0, 4});
+    CHECK(render::indicesByKey({}).empty());
 }
 
 TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to back") {
@@ -27,7 +27,7 @@ TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to
         const render::CameraFrame frame = render::cameraFrame(view.camera, size);
         std::vector<render::ViewSphere> spheres;
         for (const render::Sphere& s : view.particles) spheres.push_back({frame.toView(s.center), s.radius});
-        const render::CellLists lists = render::binToTiles(frame, spheres, render::touchedPixels(frame, spheres));
+        const render::CellLists lists = render::binToTiles(frame, spheres, render::pixelBounds(frame, spheres));
         REQUIRE(lists.columns == 6);
         REQUIRE(lists.rows == 4);
         int met = 0;
@@ -105,7 +105,7 @@ TEST_CASE("The pixels that spheres may touch are their projection and a margin o
             spheres.back().center.z = radius * between(1.0002, 1.1);
             if (k % 5 == 1) spheres.back().center.x = radius * between(0.98, 1.02);
         }
-        const std::vector<render::Rect> touched = render::touchedPixels(frame, spheres);
+        const std::vector<render::Rect> touched = render::pixelBounds(frame, spheres);
         REQUIRE(touched.size() == spheres.size());
         int seen = 0;
         int hidden = 0;
@@ -153,20 +153,20 @@ TEST_CASE("Each cell lists the items that have it, in their order") {
     const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
     for (const auto& [columns, rows] : {std::pair{1, 1}, std::pair{7, 5}, std::pair{1, 40}, std::pair{33, 2}}) {
         for (const std::uint32_t count : {0U, 1U, 200U}) {
-            std::vector<render::BinItem> items;
+            std::vector<render::CellItem> items;
             for (std::uint32_t k = 0; k < count; ++k) {
                 const int x = below(columns);
                 const int y = below(rows);
                 items.push_back({1000 - k, {x, y, x + below(columns - x), y + below(rows - y)}});
             }
             items.push_back({1, {0, 0, columns - 1, rows - 1}});
-            const render::CellLists lists = render::binItems(items, columns, rows);
+            const render::CellLists lists = render::binIntoCells(items, columns, rows);
             REQUIRE(lists.begin.size() == static_cast<std::size_t>(columns * rows) + 1);
             CHECK(lists.begin.back() == lists.items.size());
             for (int row = 0; row < rows; ++row) {
                 for (int column = 0; column < columns; ++column) {
                     std::vector<std::uint32_t> expected;
-                    for (const render::BinItem& item : items)
+                    for (const render::CellItem& item : items)
                         if (column >= item.cells.x0 && column <= item.cells.x1 && row >= item.cells.y0 &&
                             row <= item.cells.y1)
                             expected.push_back(item.index);
@@ -179,12 +179,12 @@ TEST_CASE("Each cell lists the items that have it, in their order") {
     }
     for (const render::Rect outside : {render::Rect{0, 0, 4, 2}, render::Rect{-1, 0, 1, 2}, render::Rect{0, 0, 1, 3},
                                        render::Rect{0, -1, 1, 2}, render::Rect{2, 0, 1, 2}, render::Rect{0, 2, 1, 1}})
-        CHECK_THROWS_AS(render::binItems(std::vector{render::BinItem{0, outside}}, 4, 3), std::logic_error);
+        CHECK_THROWS_AS(render::binIntoCells(std::vector{render::CellItem{0, outside}}, 4, 3), std::logic_error);
 }
 
 TEST_CASE("Lists stay short: a small sphere touches few tiles") {
     const render::CameraFrame frame = render::cameraFrame(render::Camera{}, {1280, 720});
     const std::vector<render::ViewSphere> spheres(1000, {{0.05F, 0.05F, 10.0F}, 0.05F});
     // 0.1 m at 10 m are 10 pixels here, with a pixel of margin 12: at most 2 x 2 tiles.
-    CHECK(render::binToTiles(frame, spheres, render::touchedPixels(frame, spheres)).items.size() <= 4000);
+    CHECK(render::binToTiles(frame, spheres, render::pixelBounds(frame, spheres)).items.size() <= 4000);
 }

@@ -73,7 +73,7 @@ TEST_CASE("The error of a picture is small for the right view and large for anot
     const std::vector<ExactWindow> exact = exactPicture(view);
     render::Context context(render::Backend::osmesa);
     render::Renderer renderer(context, kSize, Quality::draft);
-    const PictureError right = errorOf(renderer.draw(view), renderer.surfaces(view), view, exact);
+    const PictureError right = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
     CHECK(right.pixels == 160 * 90);
     CHECK(right.wrongHits <= 4.0 / 14400.0);  // outlines, where single precision decides otherwise
     CHECK(right.depth < 1e-4);                // radii: 1e-7 of 12 m over 0.2 m
@@ -81,7 +81,7 @@ TEST_CASE("The error of a picture is small for the right view and large for anot
     CHECK(right.ssim > 0.98);
     render::View moved = view;
     moved.camera.eye.x += 0.3F;
-    const PictureError wrong = errorOf(renderer.draw(moved), renderer.surfaces(moved), moved, exact);
+    const PictureError wrong = errorOf(renderer.draw(moved), renderer.visiblePoints(moved), moved, exact);
     CHECK(wrong.wrongHits > 0.2);
     CHECK(wrong.ssim < 0.9);
     CHECK(wrong.rmse > 2.0 * right.rmse);

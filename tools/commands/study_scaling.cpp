@@ -90,7 +90,7 @@ LammpsRun runLammps(const std::string& script, int ranks) {
     std::vector<std::string> arguments = {"mpirun", "--bind-to", "none", "-np", fmt::format("{}", ranks)};
     if (geteuid() == 0) arguments.emplace_back("--allow-run-as-root");
     for (const char* argument : {"lmp", "-log", "none"}) arguments.emplace_back(argument);
-    render::ChildProcess lammps(arguments, render::kEndlessPatience);
+    render::ChildProcess lammps(arguments, render::kNoTimeout);
     lammps.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
     const std::string ended = lammps.wait();
     constexpr std::size_t kMostBytes = 1U << 20;

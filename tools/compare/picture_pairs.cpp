@@ -41,7 +41,7 @@ PictureSet framesOf(const fs::path& video) {
         {"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-i", "file:" + video.string(),
          "-fps_mode", "passthrough", "-sws_flags", "accurate_rnd+full_chroma_int+bitexact", "-pix_fmt", "rgb24",
          "-start_number", "0", pattern},
-        render::kEndlessPatience);
+        render::kNoTimeout);
     if (const std::string ending = ffmpeg.wait(); !ending.empty())
         throw render::SystemError(
             fmt::format("ffmpeg cannot decode {}: {}: {}", video.string(), ending, ffmpeg.output()));

@@ -93,7 +93,7 @@ class Heights {
 
     void castFirst(std::size_t tile) {
         RayBlock block;
-        placeRays(block, cornerOf(field_.tiles, tile), kZCurve, glm::vec2(-0.25F));
+        placeRays(block, tileCorner(field_.tiles, tile), kZCurve, glm::vec2(-0.25F));
         castBlock(cast_, tile, block);
         for (std::size_t k = 0; k < kBlockRays; ++k) {
             const auto column = static_cast<std::size_t>(block.x[k]);
@@ -106,7 +106,7 @@ class Heights {
     void findBetween(std::size_t tile) {
         RayBlock block;
         block.count = 0;
-        const glm::ivec2 corner(cornerOf(field_.tiles, tile));
+        const glm::ivec2 corner(tileCorner(field_.tiles, tile));
         for (const std::uint8_t place : kZCurve) {
             const auto column = static_cast<std::size_t>(corner.x + place % kTileSize);
             const auto row = static_cast<std::size_t>(corner.y + place / kTileSize);

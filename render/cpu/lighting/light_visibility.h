@@ -22,9 +22,9 @@ struct Obstruction {
     const DepthMap* field = nullptr;     ///< null where no metaballs do
     std::span<const BoxObstacle> boxes;  ///< that cast shadows
     float softness = 0.0F;
-    float meanRadius = 0.0F;              ///< of the particles
-    const OpennessGrid* open = nullptr;   ///< null where the look does not ask for occlusion
-    const OpennessMap* ground = nullptr;  ///< likewise
+    float meanRadius = 0.0F;                   ///< of the particles
+    const SkyVisibilityGrid* open = nullptr;   ///< null where the look does not ask for occlusion
+    const SkyVisibilityMap* ground = nullptr;  ///< likewise
 };
 
 /// Shares for each point.

@@ -17,21 +17,21 @@ struct Cover {
     }
 };
 
-Cover shadowsOf(const View& view, const Dimmers& dimmers) {
+Cover shadowsOf(const View& view, const Occluders& occluders) {
     Cover cover;
-    const LightGrid& grid = dimmers.spheres;
+    const LightGrid& grid = occluders.spheres;
     if (!grid.empty()) cover.add(grid.origin, grid.origin + grid.cellSize * glm::vec2(grid.columns, grid.rows));
-    const DepthMap& map = dimmers.field;
+    const DepthMap& map = occluders.field;
     // A texel more on each side: the map may be shifted.
     if (!map.empty())
         cover.add(map.origin - map.texelSize, map.origin + map.texelSize * glm::vec2(map.columns + 1, map.rows + 1));
     for (const BoxObstacle& box : view.boxObstacles) {
         // Half the width of an edge: a soft one's, or a pixel's, which far away is wider than anything.
         const glm::vec3 size = box.maximum - box.minimum;
-        const float edge = view.light.softness * dimmers.meanRadius + 0.5F * length(size);
+        const float edge = view.light.softness * occluders.meanRadius + 0.5F * length(size);
         for (int corner = 0; corner < 8; ++corner) {
             const glm::vec3 at = box.minimum + size * glm::vec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-            const glm::vec2 on(dimmers.light.toLightSpace(at - view.camera.eye));
+            const glm::vec2 on(occluders.light.toLightSpace(at - view.camera.eye));
             cover.add(on - edge, on + edge);
         }
     }
@@ -40,20 +40,20 @@ Cover shadowsOf(const View& view, const Dimmers& dimmers) {
 
 }  // namespace
 
-Dimming dimmingOf(const View& view, const Dimmers& dimmers) {
-    Dimming dimming;
-    dimming.light = dimmers.light;
+OccluderBounds occluderBoundsOf(const View& view, const Occluders& occluders) {
+    OccluderBounds occluderBounds;
+    occluderBounds.light = occluders.light;
     if (view.light.shadows) {
-        const Cover cover = shadowsOf(view, dimmers);
-        dimming.shadowLow = cover.low;
-        dimming.shadowHigh = cover.high;
+        const Cover cover = shadowsOf(view, occluders);
+        occluderBounds.shadowLow = cover.low;
+        occluderBounds.shadowHigh = cover.high;
     }
-    if (dimmers.open != nullptr && view.ambient.occlusion > 0.0F) {
-        const OpennessMap& map = *dimmers.open;
-        dimming.openLow = map.origin - glm::vec2(view.camera.eye.x, view.camera.eye.z);
-        dimming.openHigh = dimming.openLow + map.side * glm::vec2(map.columns, map.rows);
+    if (occluders.open != nullptr && view.ambient.occlusion > 0.0F) {
+        const SkyVisibilityMap& map = *occluders.open;
+        occluderBounds.skyMapLow = map.origin - glm::vec2(view.camera.eye.x, view.camera.eye.z);
+        occluderBounds.skyMapHigh = occluderBounds.skyMapLow + map.side * glm::vec2(map.columns, map.rows);
     }
-    return dimming;
+    return occluderBounds;
 }
 
 }  // namespace render

@@ -10,14 +10,14 @@
 namespace render {
 
 /// What casts shadows and what closes the sky, of one view.
-struct Dimmers {
+struct Occluders {
     LightBasis light;
     const LightGrid& spheres;
     const DepthMap& field;
-    const OpennessMap* open;  ///< null where the look does not ask for it
-    float meanRadius = 0.0F;  ///< of the particles, m
+    const SkyVisibilityMap* open;  ///< null where the look does not ask for it
+    float meanRadius = 0.0F;       ///< of the particles, m
 };
 
-Dimming dimmingOf(const View& view, const Dimmers& dimmers);
+OccluderBounds occluderBoundsOf(const View& view, const Occluders& occluders);
 
 }  // namespace render

@@ -22,11 +22,11 @@ namespace render {
 /// All that may be seen, positions relative to the eye in world axes.
 struct Surfaces {
     CameraFrame frame;
-    std::span<const ViewSphere> spheres;  ///< particles first
-    std::span<const SphereLook> looks;    ///< of each
-    std::int32_t firstObstacle = 0;       ///< index of the first that is none
-    std::span<const BoxObstacle> boxes;   ///< in the world
-    std::optional<float> ground;          ///< height
+    std::span<const ViewSphere> spheres;      ///< particles first
+    std::span<const SphereAttributes> looks;  ///< of each
+    std::int32_t firstObstacle = 0;           ///< index of the first that is none
+    std::span<const BoxObstacle> boxes;       ///< in the world
+    std::optional<float> ground;              ///< height
     glm::vec3 groundColor{0.0F};
     std::span<const FieldSample> field;
     glm::vec3 toLight{0.0F, 1.0F, 0.0F};

@@ -74,7 +74,7 @@ class TileBalls {
                 reach_[place] = ball.reach;
             }
             const Vec3 center{hn::LoadU(d, &x_[copied_]), hn::LoadU(d, &y_[copied_]), hn::LoadU(d, &z_[copied_])};
-            hn::StoreU(hn::Sqrt(dotted(center, center)), d, &distance_[copied_]);
+            hn::StoreU(hn::Sqrt(dot(center, center)), d, &distance_[copied_]);
         }
     }
 
@@ -92,11 +92,12 @@ struct Bundle {
     float widen = 0.0F;  ///< of the directions
 
     /// at: where the group's rays cross the plane; rays: those of its lanes that are cast.
-    Bundle(const CameraFrame& frame, const Plane& at, M rays) {
+    Bundle(const CameraFrame& frame, const ImagePoint& at, M rays) {
         // Centers are known to some 1e-7 of their distance, and the kernels see the rounding of their squares.
         constexpr float kRounding = 1e-5F;
-        const glm::vec2 least(hn::GetLane(leastOf(at.x, rays)), hn::GetLane(leastOf(at.y, rays)));
-        const glm::vec2 most(-hn::GetLane(leastOf(hn::Neg(at.x), rays)), -hn::GetLane(leastOf(hn::Neg(at.y), rays)));
+        const glm::vec2 least(hn::GetLane(minOfLanes(at.x, rays)), hn::GetLane(minOfLanes(at.y, rays)));
+        const glm::vec2 most(-hn::GetLane(minOfLanes(hn::Neg(at.x), rays)),
+                             -hn::GetLane(minOfLanes(hn::Neg(at.y), rays)));
         const glm::vec2 middle = 0.5F * (least + most);
         const glm::vec2 half = most - middle;
         const float spread = std::sqrt(dot(half, half)) * (1.0F + kRounding);
@@ -119,17 +120,17 @@ class Sieve {
     /// A bit for each of the vector of balls from this one on.
     std::uint32_t met(std::size_t first) const {
         const D d;
-        const Vec3 direction = uniform(bundle_.direction);
+        const Vec3 direction = splat(bundle_.direction);
         const TileBalls::Vector balls = balls_.from(first);
-        const Vec3 off{hn::Sub(balls.center.x, all(bundle_.origin.x)), hn::Sub(balls.center.y, all(bundle_.origin.y)),
-                       balls.center.z};
-        const V closest = hn::Mul(dotted(off, direction), all(inverseSquare_));
-        const Vec3 away = along(off, hn::Neg(closest), direction);
-        const V limit = hn::Add(hn::Add(balls.reach, all(bundle_.apart)),
-                                hn::Mul(all(bundle_.widen), hn::Add(balls.reach, balls.distance)));
-        const M met = hn::And(hn::Lt(dotted(away, away), hn::Mul(limit, limit)),
-                              hn::Ge(hn::Add(off.z, balls.reach), all(begin_)));
-        return bitsOf(hn::And(met, hn::FirstN(d, balls_.size() - first)));
+        const Vec3 off{hn::Sub(balls.center.x, splat(bundle_.origin.x)),
+                       hn::Sub(balls.center.y, splat(bundle_.origin.y)), balls.center.z};
+        const V closest = hn::Mul(dot(off, direction), splat(inverseSquare_));
+        const Vec3 away = pointOnRay(off, hn::Neg(closest), direction);
+        const V limit = hn::Add(hn::Add(balls.reach, splat(bundle_.apart)),
+                                hn::Mul(splat(bundle_.widen), hn::Add(balls.reach, balls.distance)));
+        const M met =
+            hn::And(hn::Lt(dot(away, away), hn::Mul(limit, limit)), hn::Ge(hn::Add(off.z, balls.reach), splat(begin_)));
+        return maskBits(hn::And(met, hn::FirstN(d, balls_.size() - first)));
     }
 
  private:

@@ -49,7 +49,7 @@ BinnedField binField(const CameraFrame& frame, const Skinned& skin) {
     // A dwarf among giants may not make every ray crawl: a tenth of the mean radius is as small as it gets.
     const double mean = sum / static_cast<double>(std::max<std::size_t>(field.balls.size(), 1));
     field.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / skin.view.field.reach;
-    field.tiles = binToTiles(frame, reaches, touchedPixels(frame, reaches));
+    field.tiles = binToTiles(frame, reaches, pixelBounds(frame, reaches));
     return field;
 }
 
@@ -57,7 +57,7 @@ std::vector<BallLook> ballLooks(const Skinned& skin, const BinnedField& field) {
     std::vector<BallLook> looks(field.particles.size());
     tbb::parallel_for(std::size_t{0}, looks.size(), [&](std::size_t place) {
         const std::size_t k = field.particles[place];
-        looks[place] = {skin.view.particles[k].color, skin.open.empty() ? kOpen : skin.open[k]};
+        looks[place] = {skin.view.particles[k].color, skin.open.empty() ? kUnoccluded : skin.open[k]};
     });
     return looks;
 }

@@ -17,8 +17,8 @@ namespace render {
 /// The particles of a view as metaballs.
 struct Skinned {
     const View& view;
-    std::span<const SkinBall> balls;  ///< one a particle
-    std::span<const Openness> open;   ///< likewise, or empty
+    std::span<const SkinBall> balls;      ///< one a particle
+    std::span<const SkyVisibility> open;  ///< likewise, or empty
 };
 
 struct BinnedField {

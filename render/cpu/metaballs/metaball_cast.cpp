@@ -66,7 +66,7 @@ struct Sample {
     Value value;
 };
 
-Sample chosen(M mask, const Sample& yes, const Sample& no) {
+Sample select(M mask, const Sample& yes, const Sample& no) {
     return {
         hn::IfThenElse(mask, yes.depth, no.depth),
         {hn::IfThenElse(mask, yes.value.field, no.value.field), hn::IfThenElse(mask, yes.value.slope, no.value.slope)}};
@@ -81,12 +81,12 @@ struct Root {
 class Group {
  public:
     /// at: where its rays cross the plane; open, from: as cast() has them.
-    Group(const FieldCast& cast, TileBalls& balls, NearBalls& near, const Plane& at, M open, V from)
+    Group(const FieldCast& cast, TileBalls& balls, NearBalls& near, const ImagePoint& at, M open, V from)
         : cast_(cast),
           balls_(balls),
           near_(near),
           start_(balls.size() == 0 ? 0.0F : std::max(0.0F, balls.nearDepth(0))),
-          begin_(sampleBefore(hn::GetLane(leastOf(from, open)))),
+          begin_(sampleBefore(hn::GetLane(minOfLanes(from, open)))),
           sieve_(balls, Bundle(cast.frame, at, open), depthOf(begin_)) {
         const D d;
         near_.prepare(balls.size(), hn::Lanes(d));
@@ -133,15 +133,15 @@ class Group {
             if (!hn::AllFalse(d, suspect)) {
                 const Sample peak = sampleAt(peakBetween(t, ahead));
                 const M sliver = hn::And(suspect, hn::Ge(peak.value.field, threshold));
-                reached = chosen(sliver, peak, reached);
+                reached = select(sliver, peak, reached);
                 met = hn::Or(met, sliver);
             }
             most_ = hn::Max(most_, hn::IfThenElseZero(begun, there.value.field));
             // Without a branch, which would be mistaken too often.
             firstFound_ = hn::AllFalse(d, found) ? first_ : firstFound_;
             // A ray that begins between the samples begins within the surface.
-            low = chosen(met, chosen(begun, here, there), low);
-            high = chosen(met, reached, high);
+            low = select(met, select(begun, here, there), low);
+            high = select(met, reached, high);
             found = hn::Or(found, met);
             open = hn::AndNot(met, hn::And(open, hn::Le(there.depth, to)));
             t = ahead;
@@ -177,7 +177,7 @@ class Group {
             const BallLook& own = cast_.looks[near_.index[b]];
             for (int channel = 0; channel < 3; ++channel)
                 c[channel] = hn::Add(c[channel], hn::Mul(share, hn::Set(d, own.color[channel])));
-            if (!cast_.openness) continue;
+            if (!cast_.skyVisibility) continue;
             for (std::size_t side = 0; side < 6; ++side)
                 open[side] = hn::Add(open[side], hn::Mul(share, hn::Set(d, own.open[side])));
         }
@@ -189,7 +189,7 @@ class Group {
             hn::StoreU(n[axis], d, &block.normal[axis][place]);
             hn::StoreU(hn::Mul(c[axis], share), d, &block.color[axis][place]);
         }
-        if (!cast_.openness) return;
+        if (!cast_.skyVisibility) return;
         for (V& value : open) value = hn::Mul(value, share);
         lookAround(n, open, place, block);
     }
@@ -422,7 +422,7 @@ void castBlock(const FieldCast& cast, std::size_t tile, RayBlock& block) {
     for (std::size_t place = 0; place < block.count; place += lanes) {
         const M open = hn::FirstN(d, std::min(lanes, block.count - place));
         const V from = hn::Load(d, &block.from[place]);
-        const Plane at = planeAt(cast.frame, hn::Load(d, &block.x[place]), hn::Load(d, &block.y[place]));
+        const ImagePoint at = imagePointAt(cast.frame, hn::Load(d, &block.x[place]), hn::Load(d, &block.y[place]));
         Group group(cast, balls, near, at, open, from);
         const V depth = group.cast(open, from, hn::Load(d, &block.to[place]));
         hn::StoreU(depth, d, &block.depth[place]);

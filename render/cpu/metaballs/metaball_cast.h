@@ -25,7 +25,7 @@ struct FieldBall {
 /// What it lends to the surface around it.
 struct BallLook {
     glm::vec3 color{0.0F};
-    Openness open = kOpen;
+    SkyVisibility open = kUnoccluded;
 };
 
 /// What all rays of one picture share.
@@ -35,8 +35,8 @@ struct FieldCast {
     std::span<const BallLook> looks;   ///< one a ball; or none, which leaves normal, color and open unwritten
     const CellLists* tiles = nullptr;  ///< of the balls' reaches, front to back
     float threshold = 0.5F;
-    float step = 0.05F;     ///< view depth between samples of the field, m
-    bool openness = false;  ///< writes open
+    float step = 0.05F;          ///< view depth between samples of the field, m
+    bool skyVisibility = false;  ///< writes open
 };
 
 inline constexpr std::size_t kBlockRays = 256;

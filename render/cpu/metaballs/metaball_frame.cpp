@@ -20,7 +20,7 @@ void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const st
                 FieldPicture& picture) {
     const std::size_t out = slot * kBlockRays;
     PackedBlock packed;
-    packBlock(cast.frame, block, cast.openness, packed.data());
+    packBlock(cast.frame, block, cast.skyVisibility, packed.data());
     for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed[k];
     for (std::size_t k = 0; k < block.count; ++k) picture.depths[out + places[k]] = packed[k].depth();
 }
@@ -28,7 +28,7 @@ void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const st
 /// Packs a block of all pixels of a tile, row by row.
 void putTile(const FieldCast& cast, const RayBlock& block, std::size_t slot, FieldPicture& picture) {
     const std::size_t out = slot * kBlockRays;
-    packBlock(cast.frame, block, cast.openness, &picture.samples[out]);
+    packBlock(cast.frame, block, cast.skyVisibility, &picture.samples[out]);
     for (std::size_t k = 0; k < kBlockRays; ++k) picture.depths[out + k] = picture.samples[out + k].depth();
 }
 
@@ -85,13 +85,13 @@ void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 off
     picture.coarse.resize(picture.outlines.size());
     picture.forSlots([&](std::size_t tile, std::size_t slot) {
         RayBlock block;
-        placeRays(block, cornerOf(tiles, tile), kCoarsePlaces, offset);
+        placeRays(block, tileCorner(tiles, tile), kCoarsePlaces, offset);
         castBlock(cast, tile, block);
-        picture.coarse[slot].put(block, cast.openness);
+        picture.coarse[slot].put(block, cast.skyVisibility);
     });
     picture.forSlots([&](std::size_t tile, std::size_t slot) {
         const CoarseHits& hits = withBorder(picture, tiles, tile);
-        const glm::vec2 corner = cornerOf(tiles, tile);
+        const glm::vec2 corner = tileCorner(tiles, tile);
         RayBlock block;
         std::array<bool, kBlockRays> isRough;
         fillBetween(cast, hits, smoothness, pixelMiddle(corner, 0) + offset, block, isRough);
@@ -120,7 +120,7 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const BinnedFiel
     FieldCast cast = fieldCast(frame, skin.view, field);
     const std::vector<BallLook> looks = ballLooks(skin, field);
     cast.looks = looks;
-    cast.openness = !skin.open.empty();
+    cast.skyVisibility = !skin.open.empty();
     const std::size_t tileCount = field.tiles.begin.size() - 1;
     picture.slots.assign(tileCount, -1);
     std::int32_t slotCount = 0;
@@ -133,7 +133,7 @@ void castPicture(const CameraFrame& frame, const Skinned& skin, const BinnedFiel
     } else {
         picture.forSlots([&](std::size_t tile, std::size_t slot) {
             RayBlock block;
-            placeRays(block, cornerOf(field.tiles, tile), kZCurve, sampling.offset);
+            placeRays(block, tileCorner(field.tiles, tile), kZCurve, sampling.offset);
             castBlock(cast, tile, block);
             putSamples(cast, block, kZCurve, slot, picture);
         });

@@ -27,6 +27,6 @@ using PackedBlock = std::array<FieldSample, kBlockRays>;
 /// Packs the rays of a block that was cast from this camera, openness as 0 where it is not asked for. packed: with room
 /// for kBlockRays; those beyond the block's count are packed to nothing of use. Holds:  the same bits on every
 /// instruction set.
-void packBlock(const CameraFrame& frame, const RayBlock& block, bool openness, FieldSample* packed);
+void packBlock(const CameraFrame& frame, const RayBlock& block, bool skyVisibility, FieldSample* packed);
 
 }  // namespace render

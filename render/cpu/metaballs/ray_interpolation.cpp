@@ -42,11 +42,12 @@ struct ViewRays {
 };
 
 ViewRays viewRays(const CameraFrame& frame, V x, V y) {
-    const V one = all(1.0F);
-    const V zero = all(0.0F);
-    const V atX = hn::Mul(hn::Sub(hn::Mul(x, all(2.0F / static_cast<float>(frame.width))), one), all(frame.halfWidth));
+    const V one = splat(1.0F);
+    const V zero = splat(0.0F);
+    const V atX =
+        hn::Mul(hn::Sub(hn::Mul(x, splat(2.0F / static_cast<float>(frame.width))), one), splat(frame.halfWidth));
     const V atY =
-        hn::Mul(hn::Sub(one, hn::Mul(y, all(2.0F / static_cast<float>(frame.height)))), all(frame.halfHeight));
+        hn::Mul(hn::Sub(one, hn::Mul(y, splat(2.0F / static_cast<float>(frame.height)))), splat(frame.halfHeight));
     if (frame.perspective) return {{zero, zero, zero}, {atX, atY, one}};
     return {{atX, atY, zero}, {zero, zero, one}};
 }
@@ -65,13 +66,13 @@ V tangentDepth(const ViewRays& rays, const Side& side) {
     const Vec3 off{hn::Sub(hn::Add(o.x, hn::Mul(side.depth, v.x)), rays.origin.x),
                    hn::Sub(hn::Add(o.y, hn::Mul(side.depth, v.y)), rays.origin.y),
                    hn::Sub(hn::Add(o.z, hn::Mul(side.depth, v.z)), rays.origin.z)};
-    return hn::Div(dotted(side.normal, off), dotted(side.normal, rays.direction));
+    return hn::Div(dot(side.normal, off), dot(side.normal, rays.direction));
 }
 
 M faces(const ViewRays& rays, const Side& side) {
-    const V toward = hn::Neg(dotted(side.normal, rays.direction));
-    const V least = hn::Mul(all(kLeastFacing * kLeastFacing), dotted(rays.direction, rays.direction));
-    return hn::And(hn::Gt(toward, all(0.0F)), hn::Gt(hn::Mul(toward, toward), least));
+    const V toward = hn::Neg(dot(side.normal, rays.direction));
+    const V least = hn::Mul(splat(kLeastFacing * kLeastFacing), dot(rays.direction, rays.direction));
+    return hn::And(hn::Gt(toward, splat(0.0F)), hn::Gt(hn::Mul(toward, toward), least));
 }
 
 struct Between {
@@ -80,20 +81,20 @@ struct Between {
 };
 
 Between depthBetween(const CameraFrame& frame, const ViewRays& rays, const Side& a, const Side& b, float most) {
-    const V zero = all(0.0F);
-    const V half = all(0.5F);
+    const V zero = splat(0.0F);
+    const V half = splat(0.5F);
     const V fromA = tangentDepth(rays, a);
     const V fromB = tangentDepth(rays, b);
     // The inverse of depth is linear on the picture in perspective, depth itself in parallel projection.
     const V sum = hn::Add(a.depth, b.depth);
     const V chord =
-        frame.perspective ? hn::Div(hn::Mul(all(2.0F), hn::Mul(a.depth, b.depth)), sum) : hn::Mul(half, sum);
+        frame.perspective ? hn::Div(hn::Mul(splat(2.0F), hn::Mul(a.depth, b.depth)), sum) : hn::Mul(half, sum);
     const V tangents = hn::Mul(half, hn::Add(fromA, fromB));
-    const V limit = all(most);
+    const V limit = splat(most);
     const M isHit = hn::And(hn::Ge(a.depth, zero), hn::Ge(b.depth, zero));
     const M isEven =
         hn::And(hn::Lt(hn::Abs(hn::Sub(fromA, fromB)), limit), hn::Lt(hn::Abs(hn::Sub(tangents, chord)), limit));
-    const M isStraight = hn::Ge(dotted(a.normal, b.normal), all(kLeastCosine));
+    const M isStraight = hn::Ge(dot(a.normal, b.normal), splat(kLeastCosine));
     return {hn::Mul(half, hn::Add(chord, tangents)),
             hn::And(hn::And(isHit, isEven), hn::And(isStraight, hn::And(faces(rays, a), faces(rays, b))))};
 }
@@ -106,24 +107,24 @@ struct Surface {
 
 /// The mean of the hits at these places, normals of unit length; without a depth.
 template <std::size_t kCount>
-Surface meanOf(const CoarseHits& coarse, const std::array<std::size_t, kCount>& places, bool openness) {
+Surface meanOf(const CoarseHits& coarse, const std::array<std::size_t, kCount>& places, bool skyVisibility) {
     const auto sumOf = [&](const std::array<CoarseHits::Values, 3>& values) {
         Vec3 sum = hitsFrom(values, places[0]);
         for (std::size_t i = 1; i < kCount; ++i) sum = plus(sum, hitsFrom(values, places[i]));
         return sum;
     };
-    const V share = all(1.0F / static_cast<float>(kCount));
+    const V share = splat(1.0F / static_cast<float>(kCount));
     Surface mean;
     mean.normal = sumOf(coarse.normal);
     mean.normal =
-        times(mean.normal, hn::Div(all(1.0F), hn::Sqrt(hn::Max(dotted(mean.normal, mean.normal), all(1e-30F)))));
+        times(mean.normal, hn::Div(splat(1.0F), hn::Sqrt(hn::Max(dot(mean.normal, mean.normal), splat(1e-30F)))));
     mean.color = times(sumOf(coarse.color), share);
-    if (openness) mean.open = times(sumOf(coarse.open), share);
+    if (skyVisibility) mean.open = times(sumOf(coarse.open), share);
     return mean;
 }
 
 M misses(const CoarseHits& coarse, std::size_t at, float most) {
-    return hn::And(hn::Lt(hitsFrom(coarse.depth, at), all(0.0F)), hn::Lt(hitsFrom(coarse.most, at), all(most)));
+    return hn::And(hn::Lt(hitsFrom(coarse.depth, at), splat(0.0F)), hn::Lt(hitsFrom(coarse.most, at), splat(most)));
 }
 
 /// Writes what two rays beside each other have, of as many pairs as there are lanes, to their rows of the tile.
@@ -156,7 +157,7 @@ class Filling {
         const std::size_t first = k / kCoarseSide * 2 * kTileSize + k % kCoarseSide * 2;
         putRow(own, beside, first, block);
         putRow(under, middle, first + kTileSize, block);
-        putPairs(all(1.0F), isBeside, first, good);
+        putPairs(splat(1.0F), isBeside, first, good);
         putPairs(isBelow, isMiddle, first + kTileSize, good);
     }
 
@@ -166,7 +167,7 @@ class Filling {
         const ViewRays rays = raysAt(k, off);
         const Between found =
             depthBetween(cast_.frame, rays, side(k, a, glm::vec2(0.0F)), side(k, b, 2.0F * off), smoothness_.depth);
-        Surface mean = meanOf<2>(coarse_, {a, b}, cast_.openness);
+        Surface mean = meanOf<2>(coarse_, {a, b}, cast_.skyVisibility);
         finish(found, hn::And(missed(a), missed(b)), mean, good);
         return mean;
     }
@@ -180,17 +181,17 @@ class Filling {
         };
         const Between falling = between(first, {0.0F, 0.0F}, below + 1, {2.0F, 2.0F});
         const Between rising = between(first + 1, {2.0F, 0.0F}, below, {0.0F, 2.0F});
-        Surface mean = meanOf<4>(coarse_, {first, first + 1, below, below + 1}, cast_.openness);
+        Surface mean = meanOf<4>(coarse_, {first, first + 1, below, below + 1}, cast_.skyVisibility);
         const M allMissed =
             hn::And(hn::And(missed(first), missed(first + 1)), hn::And(missed(below), missed(below + 1)));
-        finish({hn::Mul(all(0.5F), hn::Add(falling.depth, rising.depth)), hn::And(falling.good, rising.good)},
+        finish({hn::Mul(splat(0.5F), hn::Add(falling.depth, rising.depth)), hn::And(falling.good, rising.good)},
                allMissed, mean, good);
         return mean;
     }
 
     static void finish(const Between& found, M missed, Surface& mean, V& good) {
-        mean.depth = hn::IfThenElse(missed, all(-1.0F), found.depth);
-        good = hn::IfThenElseZero(hn::Or(missed, found.good), all(1.0F));
+        mean.depth = hn::IfThenElse(missed, splat(-1.0F), found.depth);
+        good = hn::IfThenElseZero(hn::Or(missed, found.good), splat(1.0F));
     }
 
     void putRow(const Surface& left, const Surface& right, std::size_t first, RayBlock& block) const {
@@ -202,17 +203,17 @@ class Filling {
         };
         put(left.normal, right.normal, block.normal);
         put(left.color, right.color, block.color);
-        if (cast_.openness) put(left.open, right.open, block.open);
+        if (cast_.skyVisibility) put(left.open, right.open, block.open);
     }
 
     /// Rays so many pixels from the cast ones.
     ViewRays raysAt(std::size_t k, glm::vec2 off) const {
         const V lane = hn::Iota(D(), static_cast<float>(k % kCoarseSide));
-        const V wraps = hn::IfThenElseZero(hn::Ge(lane, all(static_cast<float>(kCoarseSide))), all(1.0F));
-        const V column = hn::Sub(lane, hn::Mul(wraps, all(static_cast<float>(kCoarseSide))));
-        const V row = hn::Add(wraps, all(static_cast<float>(k / kCoarseSide)));
+        const V wraps = hn::IfThenElseZero(hn::Ge(lane, splat(static_cast<float>(kCoarseSide))), splat(1.0F));
+        const V column = hn::Sub(lane, hn::Mul(wraps, splat(static_cast<float>(kCoarseSide))));
+        const V row = hn::Add(wraps, splat(static_cast<float>(k / kCoarseSide)));
         const auto pixel = [](V place, float first, float offPixel) {
-            return hn::Add(hn::Add(hn::Mul(all(2.0F), place), all(offPixel)), all(first));
+            return hn::Add(hn::Add(hn::Mul(splat(2.0F), place), splat(offPixel)), splat(first));
         };
         return viewRays(cast_.frame, pixel(column, corner_.x, off.x), pixel(row, corner_.y, off.y));
     }
@@ -263,7 +264,7 @@ constexpr std::array<std::uint8_t, kCoarseSide * kCoarseSide> coarsePlaces() {
 
 constexpr std::array<std::uint8_t, kCoarseSide* kCoarseSide> kCoarsePlaces = coarsePlaces();
 
-void CoarseHits::put(const RayBlock& block, bool openness) {
+void CoarseHits::put(const RayBlock& block, bool skyVisibility) {
     constexpr std::size_t kHalf = kCoarseSide / 2;
     for (std::size_t k = 0; k < kCoarsePlaces.size(); k += kHalf) {
         const std::size_t place = kCoarsePlaces[k];
@@ -276,7 +277,7 @@ void CoarseHits::put(const RayBlock& block, bool openness) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             take(block.normal[axis], normal[axis]);
             take(block.color[axis], color[axis]);
-            if (openness) take(block.open[axis], open[axis]);
+            if (skyVisibility) take(block.open[axis], open[axis]);
         }
     }
 }

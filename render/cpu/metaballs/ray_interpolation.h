@@ -26,7 +26,7 @@ struct CoarseHits {
     std::array<Values, 3> normal{}, color{}, open{};  ///< of hits; open: where it is asked for
 
     /// Takes a block of rays that go through kCoarsePlaces.
-    void put(const RayBlock& block, bool openness);
+    void put(const RayBlock& block, bool skyVisibility);
     /// No hits, and no field, in the column and the row after the tile.
     void clearBorder();
     void putBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,

@@ -22,7 +22,7 @@ std::array<std::uint32_t, kTilePixels> marksOf(const BorderedDepths& depths, flo
         const V own = hn::LoadU(d, at);
         auto found = hn::Zero(du);
         for (const MarkedSide& side : sides) {
-            const M differs = hn::Gt(hn::Abs(hn::Sub(hn::LoadU(d, at + side.step), own)), all(jump));
+            const M differs = hn::Gt(hn::Abs(hn::Sub(hn::LoadU(d, at + side.step), own)), splat(jump));
             found = hn::Or(found, hn::IfThenElseZero(hn::RebindMask(du, differs), hn::Set(du, side.mark)));
         }
         hn::StoreU(found, du, &marks[place]);

@@ -107,7 +107,7 @@ class OutlineCast {
         : cast_(cast),
           radius_(radius),
           tile_(tile),
-          corner_(cornerOf(*cast.tiles, tile)),
+          corner_(tileCorner(*cast.tiles, tile)),
           depths_(picture, *cast.tiles, tile),
           outlines_(outlines) {
         block_.count = 0;
@@ -142,7 +142,7 @@ class OutlineCast {
     void flush() {
         castBlock(cast_, tile_, block_);
         PackedBlock packed;
-        packBlock(cast_.frame, block_, cast_.openness, packed.data());
+        packBlock(cast_.frame, block_, cast_.skyVisibility, packed.data());
         for (std::size_t k = 0; k < block_.count; ++k) {
             if (depths_.isMiddles(samples_[k].pixel, packed[k].depth(), jump())) continue;
             outlines_.samples.push_back(samples_[k]);

@@ -48,7 +48,7 @@ float shareInFront(std::span<const TileRays> samples, std::size_t place, float d
 
 LineCover lineCover(const Solids& solids, const LineList& lines, std::size_t tile, std::span<const TileRays> samples,
                     glm::vec2 where) {
-    const glm::vec2 corner = cornerOf(lines.tiles, tile) + where;
+    const glm::vec2 corner = tileCorner(lines.tiles, tile) + where;
     LineCover over{};
     for (std::size_t k = lines.tiles.begin[tile]; k < lines.tiles.begin[tile + 1]; ++k) {
         const ScreenLine& line = lines.lines[lines.tiles.items[k]];

@@ -74,7 +74,7 @@ bool touches(const ScreenLine& line, int column, int row) {
     return length(center - (from + t * along)) <= reach;
 }
 
-void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame, std::vector<BinItem>& items) {
+void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame, std::vector<CellItem>& items) {
     const float reach = 0.5F * line.width + 1.5F;
     // Conversion rounds toward zero, below which all is zero.
     const auto tileOf = [](float at, int count) {
@@ -95,14 +95,15 @@ void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& 
 
 LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges) {
     LineList list;
-    std::vector<BinItem> items;
+    std::vector<CellItem> items;
     for (const Edge& edge : edges) {
         const auto line = screenLine(frame, edge);
         if (!line) continue;
         addTouched(*line, static_cast<std::uint32_t>(list.lines.size()), frame, items);
         list.lines.push_back(*line);
     }
-    list.tiles = binItems(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
+    list.tiles =
+        binIntoCells(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
     return list;
 }
 

@@ -100,8 +100,8 @@ void lookAtFlats(const Solids& solids, Flats flats, TileRays& rays) {
     const D d;
     const DI di;
     for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
-        const WorldRay ray =
-            worldRay(solids.frame, planeAt(solids.frame, hn::Load(d, &rays.x[place]), hn::Load(d, &rays.y[place])));
+        const WorldRay ray = worldRay(
+            solids.frame, imagePointAt(solids.frame, hn::Load(d, &rays.x[place]), hn::Load(d, &rays.y[place])));
         Seen seen{hn::Set(d, kFarDepth), hn::Set(di, kSeesBackground)};
         if (flats.ground && solids.ground) seen.add(depthOfGround(ray, *solids.ground), hn::Set(di, kSeesGround));
         if (flats.boxes) {
@@ -127,7 +127,8 @@ struct SphereRays {
         for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
             V most = hn::Zero(d);
             for (std::size_t s = 0; s < samples.size(); ++s) {
-                const Plane at = planeAt(frame, hn::Load(d, &samples[s].x[place]), hn::Load(d, &samples[s].y[place]));
+                const ImagePoint at =
+                    imagePointAt(frame, hn::Load(d, &samples[s].x[place]), hn::Load(d, &samples[s].y[place]));
                 hn::Store(at.x, d, &x[s][place]);
                 hn::Store(at.y, d, &y[s][place]);
                 const V square = hn::Add(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)), one);
@@ -245,7 +246,7 @@ void hideBehindGround(const Solids& solids, float height, TileRays& rays) {
     const D d;
     const DI di;
     for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
-        const Plane at = planeAt(solids.frame, hn::Load(d, &rays.x[place]), hn::Load(d, &rays.y[place]));
+        const ImagePoint at = imagePointAt(solids.frame, hn::Load(d, &rays.x[place]), hn::Load(d, &rays.y[place]));
         const M isNearer = hn::Le(depthOfGround(worldRay(solids.frame, at), height), hn::Load(d, &rays.depth[place]));
         const VI seen = hn::Load(di, &rays.seen[place]);
         hn::Store(hn::IfThenElse(hn::RebindMask(di, isNearer), hn::Set(di, kSeesGround), seen), di, &rays.seen[place]);

@@ -1,9 +1,9 @@
 // Colors on lanes: their arithmetic, what the ground fades into, and sRGB; shared by the kernels that color pixels.
-#if defined(RENDER_LANE_COLORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RENDER_LANE_COLORS_INL_H_
-#undef RENDER_LANE_COLORS_INL_H_
+#if defined(RENDER_SIMD_COLORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_SIMD_COLORS_INL_H_
+#undef RENDER_SIMD_COLORS_INL_H_
 #else
-#define RENDER_LANE_COLORS_INL_H_
+#define RENDER_SIMD_COLORS_INL_H_
 #endif
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace render {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE V mixedBy(float a, float b, V part) {
-    return hn::Add(all(a), hn::Mul(part, all(b - a)));
+    return hn::Add(splat(a), hn::Mul(part, splat(b - a)));
 }
 
 HWY_INLINE Vec3 mixedBy(glm::vec3 a, glm::vec3 b, V part) {
@@ -36,16 +36,16 @@ HWY_INLINE Vec3 times(const Vec3& a, V b) {
 
 /// a toward b.
 HWY_INLINE Vec3 mixedBy(const Vec3& a, const Vec3& b, V part) {
-    const V rest = hn::Sub(all(1.0F), part);
+    const V rest = hn::Sub(splat(1.0F), part);
     return plus(times(a, rest), times(b, part));
 }
 
 /// How much of the background shows through the ground at these places (view.h).
 HWY_INLINE V fadeAt(const Vec3& position, glm::vec3 center, float distance) {
-    const Vec3 off = times(plus(position, uniform(-center)), all(1.0F / distance));
-    const V square = dotted(off, off);
-    const V fade = hn::Min(hn::Mul(square, square), all(1.0e30F));
-    return hn::Div(fade, hn::Add(all(1.0F), fade));
+    const Vec3 off = times(plus(position, splat(-center)), splat(1.0F / distance));
+    const V square = dot(off, off);
+    const V fade = hn::Min(hn::Mul(square, square), splat(1.0e30F));
+    return hn::Div(fade, hn::Add(splat(1.0F), fade));
 }
 
 // 1.055 c^(1/2.4) - 0.055 is a smooth function of y = c^(1/4), two square roots away: a polynomial of degree 5 in y
@@ -56,12 +56,12 @@ HWY_INLINE VI encoded(V linear) {
     const V square = hn::Sqrt(linear);
     const V y = hn::Sqrt(square);
     const auto curve = [&](float high, float middle, float low) {
-        return hn::Add(hn::Add(hn::Mul(all(high), linear), hn::Mul(all(middle), square)), all(low));
+        return hn::Add(hn::Add(hn::Mul(splat(high), linear), hn::Mul(splat(middle), square)), splat(low));
     };
     const V bent =
         hn::Add(curve(0.2727522F, 1.2442140F, -0.0616297F), hn::Mul(y, curve(-0.0627590F, -0.5575557F, 0.1649740F)));
-    const V value = hn::IfThenElse(hn::Le(linear, all(0.0031308F)), hn::Mul(all(12.92F), linear), bent);
-    return hn::ConvertTo(DI(), hn::Add(hn::Mul(value, all(255.0F)), all(0.5F)));
+    const V value = hn::IfThenElse(hn::Le(linear, splat(0.0031308F)), hn::Mul(splat(12.92F), linear), bent);
+    return hn::ConvertTo(DI(), hn::Add(hn::Mul(value, splat(255.0F)), splat(0.5F)));
 }
 
 /// As PixelColor (shade.h) has them; color: linear, from 0 to 1.

@@ -13,10 +13,10 @@ namespace render {
 namespace HWY_NAMESPACE {
 
 Vec3 groundOver(const Backdrop& backdrop, V x, V y, const Vec3& background) {
-    const WorldRay ray = worldRay(backdrop.frame, planeAt(backdrop.frame, x, y));
-    const V depth = hn::Div(hn::Sub(all(backdrop.groundHeight), ray.origin.y), ray.direction.y);
-    const V fade = fadeAt(along(ray.origin, depth, ray.direction), backdrop.groundCenter, backdrop.fadeDistance);
-    return mixedBy(uniform(backdrop.ground), background, fade);
+    const WorldRay ray = worldRay(backdrop.frame, imagePointAt(backdrop.frame, x, y));
+    const V depth = hn::Div(hn::Sub(splat(backdrop.groundHeight), ray.origin.y), ray.direction.y);
+    const V fade = fadeAt(pointOnRay(ray.origin, depth, ray.direction), backdrop.groundCenter, backdrop.fadeDistance);
+    return mixedBy(splat(backdrop.ground), background, fade);
 }
 
 /// A tile at this place of the picture; rowLength: pixels.
@@ -24,14 +24,14 @@ void colorPlainTile(const Backdrop& backdrop, TileClass shown, glm::ivec2 corner
                     PixelColor* to) {
     const Background& background = backdrop.background;
     const auto unit = [](const Vec3& color) {
-        return Vec3{clamped(color.x, 0.0F, 1.0F), clamped(color.y, 0.0F, 1.0F), clamped(color.z, 0.0F, 1.0F)};
+        return Vec3{clamp(color.x, 0.0F, 1.0F), clamp(color.y, 0.0F, 1.0F), clamp(color.z, 0.0F, 1.0F)};
     };
     for (int row = 0; row < kTileSize; ++row, to += rowLength) {
-        const V y = all(static_cast<float>(corner.y + row) + 0.5F);
-        const V down = hn::Mul(y, all(1.0F / static_cast<float>(backdrop.frame.height)));
+        const V y = splat(static_cast<float>(corner.y + row) + 0.5F);
+        const V down = hn::Mul(y, splat(1.0F / static_cast<float>(backdrop.frame.height)));
         const Vec3 behind = mixedBy(background.top, background.bottom, down);
         for (std::size_t column = 0; column < kTileSize; column += hn::Lanes(D())) {
-            const V x = hn::Add(hn::Iota(D(), static_cast<float>(corner.x) + 0.5F), all(static_cast<float>(column)));
+            const V x = hn::Add(hn::Iota(D(), static_cast<float>(corner.x) + 0.5F), splat(static_cast<float>(column)));
             const bool isGround = shown == TileClass::ground;
             storePacked(unit(isGround ? groundOver(backdrop, x, y, behind) : behind), to + column);
         }

@@ -25,111 +25,111 @@ struct ShadedPoints {
 };
 
 V positive(V value) {
-    return hn::Max(value, all(0.0F));
+    return hn::Max(value, splat(0.0F));
 }
 
 Vec3 skyToward(const Ambient& ambient, V up) {
-    return mixedBy(ambient.ground, ambient.sky, hn::Add(all(0.5F), hn::Mul(all(0.5F), up)));
+    return mixedBy(ambient.ground, ambient.sky, hn::Add(splat(0.5F), hn::Mul(splat(0.5F), up)));
 }
 
 Vec3 fresnel(const Surface& surface, const Vec3& albedo, V cosine) {
-    const V specular = all(surface.specular);
+    const V specular = splat(surface.specular);
     Vec3 headOn{specular, specular, specular};
-    if (surface.metal > 0.0F) headOn = mixedBy(headOn, albedo, all(surface.metal));
-    const V away = hn::Sub(all(1.0F), positive(cosine));
+    if (surface.metal > 0.0F) headOn = mixedBy(headOn, albedo, splat(surface.metal));
+    const V away = hn::Sub(splat(1.0F), positive(cosine));
     const V square = hn::Mul(away, away);
     const V part = hn::Mul(hn::Mul(square, square), away);
-    const Vec3 rest{hn::Sub(all(1.0F), headOn.x), hn::Sub(all(1.0F), headOn.y), hn::Sub(all(1.0F), headOn.z)};
+    const Vec3 rest{hn::Sub(splat(1.0F), headOn.x), hn::Sub(splat(1.0F), headOn.y), hn::Sub(splat(1.0F), headOn.z)};
     return plus(headOn, times(rest, part));
 }
 
 /// Without the light's color and what of it arrives.
 Vec3 glint(const Shading& shading, const ShadedPoints& at) {
-    const Vec3 sum = plus(uniform(shading.light.toLight), at.toEye);
-    const Vec3 halfway = times(sum, hn::Div(all(1.0F), hn::Sqrt(dotted(sum, sum))));
-    V peak = positive(dotted(at.normal, halfway));
+    const Vec3 sum = plus(splat(shading.light.toLight), at.toEye);
+    const Vec3 halfway = times(sum, hn::Div(splat(1.0F), hn::Sqrt(dot(sum, sum))));
+    V peak = positive(dot(at.normal, halfway));
     float gloss = 1.0F;
     for (int squaring = 0; squaring < shading.surface.glossExponent; ++squaring) {
         peak = hn::Mul(peak, peak);
         gloss *= 2.0F;
     }
-    const V strength = hn::Mul(all((gloss + 8.0F) / 8.0F), peak);
-    return times(fresnel(shading.surface, at.albedo, dotted(at.toEye, halfway)), strength);
+    const V strength = hn::Mul(splat((gloss + 8.0F) / 8.0F), peak);
+    return times(fresnel(shading.surface, at.albedo, dot(at.toEye, halfway)), strength);
 }
 
 Vec3 surroundingsToward(const Surroundings& around, V up) {
-    const Vec3 above = mixedBy(around.horizon, around.top, hn::Mul(up, hn::Sub(all(2.0F), up)));
-    const Vec3 below = mixedBy(around.horizon, around.bottom, hn::Min(all(1.0F), hn::Mul(all(-4.0F), up)));
-    return chosen(hn::Gt(up, all(0.0F)), above, below);
+    const Vec3 above = mixedBy(around.horizon, around.top, hn::Mul(up, hn::Sub(splat(2.0F), up)));
+    const Vec3 below = mixedBy(around.horizon, around.bottom, hn::Min(splat(1.0F), hn::Mul(splat(-4.0F), up)));
+    return select(hn::Gt(up, splat(0.0F)), above, below);
 }
 
 Vec3 mirrored(const Shading& shading, const ShadedPoints& at) {
-    const V cosine = dotted(at.normal, at.toEye);
-    const V up = hn::Sub(hn::Mul(hn::Mul(all(2.0F), cosine), at.normal.y), at.toEye.y);
+    const V cosine = dot(at.normal, at.toEye);
+    const V up = hn::Sub(hn::Mul(hn::Mul(splat(2.0F), cosine), at.normal.y), at.toEye.y);
     const Vec3 seen = times(fresnel(shading.surface, at.albedo, cosine), surroundingsToward(shading.surroundings, up));
-    return times(seen, hn::Mul(all(shading.surface.reflection), at.openMirrored));
+    return times(seen, hn::Mul(splat(shading.surface.reflection), at.openMirrored));
 }
 
 /// What a matt body sends back of light and sky.
 Vec3 bodyColor(const Shading& shading, const ShadedPoints& at) {
     const Surface& surface = shading.surface;
-    const Vec3 lightColor = uniform(shading.light.color);
-    const V facing = dotted(at.normal, uniform(shading.light.toLight));
+    const Vec3 lightColor = splat(shading.light.color);
+    const V facing = dot(at.normal, splat(shading.light.toLight));
     V cosine = positive(facing);
     if (surface.roughness > 0.0F) {
-        const V seen = hn::Add(hn::Add(cosine, positive(dotted(at.normal, at.toEye))), all(0.2F));
-        const V dust = hn::Sub(hn::Div(all(2.2F), seen), all(1.0F));
-        cosine = hn::Mul(cosine, hn::Add(all(1.0F), hn::Mul(at.isParticle, hn::Mul(all(surface.roughness), dust))));
+        const V seen = hn::Add(hn::Add(cosine, positive(dot(at.normal, at.toEye))), splat(0.2F));
+        const V dust = hn::Sub(hn::Div(splat(2.2F), seen), splat(1.0F));
+        cosine = hn::Mul(cosine, hn::Add(splat(1.0F), hn::Mul(at.isParticle, hn::Mul(splat(surface.roughness), dust))));
     }
     Vec3 ambient = skyToward(shading.ambient, at.normal.y);
     if (shading.ambient.occlusion > 0.0F)
-        ambient =
-            times(ambient, hn::Sub(all(1.0F), hn::Mul(all(shading.ambient.occlusion), hn::Sub(all(1.0F), at.open))));
+        ambient = times(ambient,
+                        hn::Sub(splat(1.0F), hn::Mul(splat(shading.ambient.occlusion), hn::Sub(splat(1.0F), at.open))));
     Vec3 light = plus(ambient, times(lightColor, hn::Mul(cosine, at.lit)));
     if (surface.translucency > 0.0F) {
-        const V behind = hn::Add(all(0.25F), positive(hn::Neg(facing)));
+        const V behind = hn::Add(splat(0.25F), positive(hn::Neg(facing)));
         const Vec3 through = plus(skyToward(shading.ambient, hn::Neg(at.normal.y)), times(lightColor, behind));
-        const V share = hn::Mul(hn::Mul(at.isParticle, all(surface.translucency)), at.openBehind);
+        const V share = hn::Mul(hn::Mul(at.isParticle, splat(surface.translucency)), at.openBehind);
         light = plus(light, times(through, share));
     }
     Vec3 body = at.albedo;
     if (surface.absorption > 0.0F) {
-        const V deep = hn::Mul(all(surface.absorption), hn::Sub(all(1.0F), at.openBehind));
+        const V deep = hn::Mul(splat(surface.absorption), hn::Sub(splat(1.0F), at.openBehind));
         body = mixedBy(body, times(body, body), hn::Mul(at.isParticle, deep));
     }
     const Vec3 color = times(body, light);
     if (surface.metal == 0.0F) return color;
-    return times(color, hn::Sub(all(1.0F), hn::Mul(at.isParticle, all(surface.metal))));
+    return times(color, hn::Sub(splat(1.0F), hn::Mul(at.isParticle, splat(surface.metal))));
 }
 
 /// Smooth, for what is brighter than 0.7; below 1, and whiter the brighter it was.
 Vec3 shoulder(const Vec3& color) {
-    const V one = all(1.0F);
+    const V one = splat(1.0F);
     const V peak = hn::Max(color.x, hn::Max(color.y, color.z));
-    const V kept = hn::Sub(one, hn::Div(all(0.09F), hn::Max(hn::Sub(peak, all(0.4F)), all(0.3F))));
-    const V over = hn::Mul(all(0.06F), hn::Sub(peak, kept));
+    const V kept = hn::Sub(one, hn::Div(splat(0.09F), hn::Max(hn::Sub(peak, splat(0.4F)), splat(0.3F))));
+    const V over = hn::Mul(splat(0.06F), hn::Sub(peak, kept));
     const V white = hn::Sub(one, hn::Div(one, hn::Add(one, over)));
-    const Vec3 bent = mixedBy(times(color, hn::Div(kept, hn::Max(peak, all(0.7F)))), {kept, kept, kept}, white);
-    return chosen(hn::Gt(peak, all(0.7F)), bent, color);
+    const Vec3 bent = mixedBy(times(color, hn::Div(kept, hn::Max(peak, splat(0.7F)))), {kept, kept, kept}, white);
+    return select(hn::Gt(peak, splat(0.7F)), bent, color);
 }
 
 Vec3 surfaceColor(const Shading& shading, const ShadedPoints& at) {
     const Surface& surface = shading.surface;
     Vec3 color = bodyColor(shading, at);
     // Obstacles and ground are matt.
-    if (!hn::AllFalse(D(), hn::Gt(at.isParticle, all(0.0F)))) {
+    if (!hn::AllFalse(D(), hn::Gt(at.isParticle, splat(0.0F)))) {
         if (surface.specular > 0.0F || surface.metal > 0.0F) {
-            const auto faces = hn::Gt(dotted(at.normal, uniform(shading.light.toLight)), all(0.0F));
+            const auto faces = hn::Gt(dot(at.normal, splat(shading.light.toLight)), splat(0.0F));
             const V share = hn::IfThenElseZero(faces, hn::Mul(at.isParticle, at.lit));
-            color = plus(color, times(times(uniform(shading.light.color), glint(shading, at)), share));
+            color = plus(color, times(times(splat(shading.light.color), glint(shading, at)), share));
         }
         if (surface.reflection > 0.0F) color = plus(color, times(mirrored(shading, at), at.isParticle));
         if (surface.glow > 0.0F) {
-            const V share = hn::Mul(at.isParticle, all(surface.glow));
+            const V share = hn::Mul(at.isParticle, splat(surface.glow));
             color = plus(color, times(times(at.albedo, at.albedo), share));
         }
     }
-    return shading.exposure > 0.0F ? shoulder(times(color, all(shading.exposure))) : color;
+    return shading.exposure > 0.0F ? shoulder(times(color, splat(shading.exposure))) : color;
 }
 
 Vec3 loaded(const std::array<std::array<float, kTilePixels>, 3>& values, std::size_t place) {
@@ -140,14 +140,14 @@ Vec3 loaded(const std::array<std::array<float, kTilePixels>, 3>& values, std::si
 ShadedPoints shadedPoints(const Surfaces& surfaces, const SurfacePoints& points, const LightReach* reach, VI seen,
                           std::size_t place) {
     const D d;
-    const V one = all(1.0F);
+    const V one = splat(1.0F);
     const CameraFrame& frame = surfaces.frame;
-    const M isField = laneMask(hn::Gt(seen, allOf(kSeesField - 1)));
-    const M isOwn = laneMask(hn::And(hn::Gt(seen, allOf(-1)), hn::Lt(seen, allOf(surfaces.firstObstacle))));
+    const M isField = floatMask(hn::Gt(seen, splatInt(kSeesField - 1)));
+    const M isOwn = floatMask(hn::And(hn::Gt(seen, splatInt(-1)), hn::Lt(seen, splatInt(surfaces.firstObstacle))));
     const M isParticle = hn::Or(isField, isOwn);
     const Vec3 direction =
-        worldRay(frame, planeAt(frame, hn::Load(d, &points.x[place]), hn::Load(d, &points.y[place]))).direction;
-    const Vec3 toEye = times(direction, hn::Div(all(-1.0F), hn::Sqrt(dotted(direction, direction))));
+        worldRay(frame, imagePointAt(frame, hn::Load(d, &points.x[place]), hn::Load(d, &points.y[place]))).direction;
+    const Vec3 toEye = times(direction, hn::Div(splat(-1.0F), hn::Sqrt(dot(direction, direction))));
     const V lit = reach != nullptr ? hn::Load(d, &reach->light[place]) : one;
     const V sky = reach != nullptr ? hn::Load(d, &reach->sky[place]) : one;
     const Vec3 open = surfaces.opens ? loaded(points.open, place) : Vec3{one, one, one};
@@ -169,25 +169,25 @@ void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints
     for (std::size_t place = 0; place < points.count; place += hn::Lanes(d)) {
         const VI seen = hn::Load(DI(), &points.seen[place]);
         Vec3 color = surfaceColor(shading, shadedPoints(surfaces, points, reach, seen, place));
-        const M isGround = laneMask(hn::Eq(seen, allOf(kSeesGround)));
-        const M isBackground = laneMask(hn::Eq(seen, allOf(kSeesBackground)));
+        const M isGround = floatMask(hn::Eq(seen, splatInt(kSeesGround)));
+        const M isBackground = floatMask(hn::Eq(seen, splatInt(kSeesBackground)));
         if (!hn::AllFalse(d, hn::Or(isGround, isBackground))) {
-            const V down = hn::Mul(hn::Load(d, &points.y[place]), all(1.0F / height));
+            const V down = hn::Mul(hn::Load(d, &points.y[place]), splat(1.0F / height));
             const V fade = hn::IfThenElseZero(
                 isGround, fadeAt(loaded(points.position, place), shading.groundCenter, shading.fadeDistance));
-            const V share = hn::IfThenElse(isBackground, all(1.0F), fade);
+            const V share = hn::IfThenElse(isBackground, splat(1.0F), fade);
             color = mixedBy(color, mixedBy(background.top, background.bottom, down), share);
         }
-        hn::Store(clamped(color.x, 0.0F, 1.0F), d, &colors.rgb[0][place]);
-        hn::Store(clamped(color.y, 0.0F, 1.0F), d, &colors.rgb[1][place]);
-        hn::Store(clamped(color.z, 0.0F, 1.0F), d, &colors.rgb[2][place]);
+        hn::Store(clamp(color.x, 0.0F, 1.0F), d, &colors.rgb[0][place]);
+        hn::Store(clamp(color.y, 0.0F, 1.0F), d, &colors.rgb[1][place]);
+        hn::Store(clamp(color.z, 0.0F, 1.0F), d, &colors.rgb[2][place]);
     }
 }
 
-glm::vec3 undimmedGround(const Shading& shading, glm::vec3 albedo) {
-    const V one = all(1.0F);
-    const Vec3 up = uniform({0.0F, 1.0F, 0.0F});
-    const Vec3 color = surfaceColor(shading, {up, uniform(albedo), up, all(0.0F), one, one, one, one});
+glm::vec3 unoccludedGround(const Shading& shading, glm::vec3 albedo) {
+    const V one = splat(1.0F);
+    const Vec3 up = splat({0.0F, 1.0F, 0.0F});
+    const Vec3 color = surfaceColor(shading, {up, splat(albedo), up, splat(0.0F), one, one, one, one});
     return {hn::GetLane(color.x), hn::GetLane(color.y), hn::GetLane(color.z)};
 }
 
@@ -195,7 +195,7 @@ void packColors(const PointColors& colors, PixelColor* pixels) {
     const D d;
     for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
         // A mean of ones may be a little more.
-        const auto channel = [&](std::size_t k) { return hn::Min(hn::Load(d, &colors.rgb[k][place]), all(1.0F)); };
+        const auto channel = [&](std::size_t k) { return hn::Min(hn::Load(d, &colors.rgb[k][place]), splat(1.0F)); };
         storePacked({channel(0), channel(1), channel(2)}, pixels + place);
     }
 }
@@ -209,7 +209,7 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 
 HWY_EXPORT(shade);
-HWY_EXPORT(undimmedGround);
+HWY_EXPORT(unoccludedGround);
 HWY_EXPORT(packColors);
 
 Shading shadingOf(const View& view) {
@@ -226,8 +226,8 @@ void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints
     HWY_DYNAMIC_DISPATCH(shade)(shading, surfaces, points, reach, colors);
 }
 
-glm::vec3 undimmedGround(const Shading& shading, glm::vec3 albedo) {
-    return HWY_DYNAMIC_DISPATCH(undimmedGround)(shading, albedo);
+glm::vec3 unoccludedGround(const Shading& shading, glm::vec3 albedo) {
+    return HWY_DYNAMIC_DISPATCH(unoccludedGround)(shading, albedo);
 }
 
 void packColors(const PointColors& colors, PixelColor* pixels) {

@@ -44,6 +44,6 @@ using PixelColor = std::uint32_t;
 void packColors(const PointColors& colors, PixelColor* pixels);
 
 /// The ground's color where nothing dims it, before it fades. A matt surface looks the same from everywhere.
-glm::vec3 undimmedGround(const Shading& shading, glm::vec3 albedo);
+glm::vec3 unoccludedGround(const Shading& shading, glm::vec3 albedo);
 
 }  // namespace render
