@@ -9,7 +9,7 @@
 #include <malloc.h>
 #endif
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"

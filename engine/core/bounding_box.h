@@ -14,13 +14,24 @@
 namespace engine {
 
 struct Extent {
-    Vec3 low;
-    Vec3 high;
+    Vec3 low;   ///< smallest coordinates
+    Vec3 high;  ///< largest coordinates
 
     /// Of nobody.
     static Extent empty() {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return {Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+    }
+
+    /// The box that contains every vector.
+    static Extent unbounded() {
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        return {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
+    }
+
+    /// Whether a vector is inside or on the surface; a NaN is not.
+    bool contains(const Vec3& vector) const {
+        return (vector.array() >= low.array()).all() && (vector.array() <= high.array()).all();
     }
 
     Vec3 middle() const { return 0.5 * (low + high); }

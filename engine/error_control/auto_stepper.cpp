@@ -10,9 +10,10 @@
 #include "engine/error_control/checked_steps.h"
 #include "engine/error_control/error_estimate.h"
 #include "engine/error_control/long_error_estimate.h"
+#include "engine/error_control/step_cost.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_audit.h"
-#include "engine/stepping/step_cost.h"
+#include "engine/stepping/step_cache.h"
 #include "engine/stepping/steppers.h"
 
 namespace engine {
@@ -94,7 +95,7 @@ void forget(AutoChoice& choice) {
 
 /// To be called before a candidate runs.
 void tolerate(Simulation& simulation, const AutoChoice& choice) {
-    simulation.toleratedAcceleration = acceptableResidual(simulation) / std::max(1.0, choice.growth);
+    simulation.cache->toleratedAcceleration = acceptableResidual(simulation) / std::max(1.0, choice.growth);
 }
 
 /// Measures a candidate and updates what is known of it, again and again while its step has to become much shorter, the
@@ -312,10 +313,10 @@ bool isReachable(const AutoState& state, StepperKind inUse) {
 }
 
 void advanceAutomatically(Simulation& simulation, double time) {
-    giveBirth(simulation);
+    emitDue(simulation);
     const AutoState& state = simulation.automatic;
     if (simulation.particles.count() == 0) {
-        simulation.toleratedAcceleration = 0.0;  // of particles that are no more
+        simulation.cache->toleratedAcceleration = 0.0;  // of particles that are no more
         advanceAudited(simulation, time, time - simulation.time, StepLimit::frame);
         return;
     }

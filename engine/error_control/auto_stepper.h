@@ -3,7 +3,7 @@
 // just meets the wanted error. Called by advance().
 #pragma once
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/error_control/step_cost.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
-#include "engine/stepping/step_cost.h"
+#include "engine/stepping/step_cache.h"
 #include "engine/stepping/steppers.h"
 
 namespace engine {
@@ -22,19 +23,20 @@ constexpr std::size_t kHistory = 4;
 
 /// The energy of the state as it stands; the forces come with it.
 void establishEnergy(Simulation& simulation) {
-    requireSound(simulation, 0.0);
+    requireValid(simulation, 0.0);
     Particles& particles = simulation.particles;
-    const double pairEnergy = simulation.evaluator.evaluateFree(particles, particles.velocity, simulation.forces);
+    const double pairEnergy =
+        simulation.cache->evaluator.evaluateFree(particles, particles.velocity, simulation.cache->forces);
     ++simulation.steps.forceEvaluations;
-    simulation.forcesCurrent = true;
+    simulation.cache->forcesCurrent = true;
     noteEnergy(simulation, pairEnergy);
 }
 
 /// The implicit steppers know the energy in the middle of a step only. What ends an interval can be seen and is never
 /// taken back, so its last step is judged by its end too.
 void lookAtEnd(Simulation& simulation) {
-    if (isVerlet(simulation.stepper) || std::isnan(*simulation.energy)) return;
-    if (!isSound(simulation.particles)) return noteUnsound(simulation);
+    if (isVerlet(simulation.stepper) || std::isnan(*simulation.cache->energy)) return;
+    if (!isValid(simulation.particles)) return markInvalid(simulation);
     establishEnergy(simulation);
 }
 
@@ -43,17 +45,8 @@ void lookAtEnd(Simulation& simulation) {
 double nextStop(const Simulation& simulation, double time) {
     double stop = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
-        stop = std::min(stop, nextBirth(simulation.setup.emitters[e], simulation.emitters[e]));
+        stop = std::min(stop, nextEmission(simulation.setup.emitters[e], simulation.emitters[e]));
     return stop < time - kSameMoment ? stop : time;
-}
-
-void record(Simulation& simulation, double h, StepLimit limit) {
-    StepStatistics& steps = simulation.steps;
-    steps.shortest = steps.count == 0 ? h : std::min(steps.shortest, h);
-    steps.longest = std::max(steps.longest, h);
-    ++steps.count;
-    ++steps.limitedBy[static_cast<std::size_t>(limit)];
-    ++steps.takenBy[static_cast<std::size_t>(simulation.stepper)];
 }
 
 /// The states of the last few steps, the latest at the end.
@@ -83,8 +76,8 @@ class History {
 bool advanceAudited(Simulation& simulation, double time, double longest, StepLimit why, double mostPasses) {
     History history;
     int refused = 0;
-    giveBirth(simulation);
-    if (!simulation.energy) establishEnergy(simulation);
+    emitDue(simulation);
+    if (!simulation.cache->energy) establishEnergy(simulation);
     const double passesBefore = passesOf(simulation);
     while (simulation.time < time) {
         if (passesOf(simulation) - passesBefore > mostPasses) return false;
@@ -108,9 +101,9 @@ bool advanceAudited(Simulation& simulation, double time, double longest, StepLim
             continue;
         }
         refused = 0;
-        record(simulation, h, restriction.seconds < longest ? restriction.reason : why);
+        record(simulation.steps, h, restriction.seconds < longest ? restriction.reason : why, simulation.stepper);
         simulation.time = count == 1.0 ? stop : simulation.time + h;
-        giveBirth(simulation);
+        emitDue(simulation);
         if (++restriction.passed % kPatience == 0) restriction.seconds *= 2.0;
     }
     return true;

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "engine/error_control/checked_steps.h"
-#include "engine/stepping/step_cost.h"
+#include "engine/error_control/step_cost.h"
+#include "engine/stepping/step_cache.h"
 #include "engine/stepping/steppers.h"
+#include "engine/stepping/symplectic_euler.h"
 
 namespace engine {
 namespace {
@@ -22,15 +24,15 @@ constexpr double kMostChange = 3.0;
 bool run(Simulation& simulation, const Look& look, double step, double mostPasses) {
     if (simulation.stepper != look.stepper) {
         simulation.stepper = look.stepper;
-        simulation.energy.reset();  // steppers know it at different moments of a step
+        simulation.cache->energy.reset();  // steppers know it at different moments of a step
         simulation.restriction = {};
     }
     simulation.steps = {};
     if (look.stepper != StepperKind::symplecticEuler)
         return advanceAudited(simulation, look.time, step, StepLimit::error, mostPasses);
     simulation.setup.step = step;
-    simulation.setup.world.reset();  // the two runs are compared particle by particle: nobody leaves them
-    advance(simulation, look.time);
+    // Unlike advance(), this removes no particles: the two runs are compared particle by particle.
+    advanceInEqualSteps(simulation, look.time);
     return true;
 }
 
@@ -71,7 +73,7 @@ Trial measure(const Simulation& simulation, const Look& look, Simulation* finer)
     trial.spent += passesOf(there);
     if (finer == nullptr) return trial;
     *finer = std::move(there);
-    finer->implicit = {};  // several may be kept
+    finer->cache->implicit = {};  // several may be kept
     return trial;
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

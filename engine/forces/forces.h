@@ -9,14 +9,9 @@
 #include "engine/forces/pair_matrix.h"
 #include "engine/forces/pair_sums.h"
 #include "engine/forces/pair_traversal.h"
-#include "engine/state/particles.h"
+#include "engine/state/setup.h"
 
 namespace engine {
-
-enum class ForceMethod {
-    reference,  ///< every pair, serial: the paper's way
-    grid        ///< pairs of neighboring cells, threaded
-};
 
 /// The pair forces of equation 1, in newtons, by every pair in double. The oracle of every faster way; never optimized.
 /// Shape:  velocities and forces as particles.position; velocities are those the damping sees (m/s).

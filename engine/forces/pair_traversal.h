@@ -14,11 +14,9 @@
 #include "engine/law/pair_law.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/neighbor_rows.h"
+#include "engine/state/setup.h"
 
 namespace engine {
-
-/// Arithmetic of the pair forces; the state is always in double.
-enum class Precision { doubles, singles };
 
 /// Particles sorted for visiting, their neighbors, and the constants of their pairs. Kept between visits: most of them
 /// find the list still good.

@@ -7,7 +7,9 @@
 #include <type_traits>
 
 #include "engine/core/hash.h"
+#include "engine/run/advance.h"
 #include "engine/run/state_validation.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
@@ -173,14 +175,14 @@ template <class Archive, class Of>
 void exchange(Archive& archive, Of& simulation) {
     exchangeParticles(archive, simulation.particles);
     exchangeEmitters(archive, simulation.emitters);
-    archive(simulation.deaths);
-    archive(simulation.mostBeforeDeaths);
+    archive(simulation.removedCount);
+    archive(simulation.largestCountBeforeRemoval);
     archive(simulation.time);
     archive(simulation.stepper);
-    archive(simulation.forces);
-    archive(simulation.forcesCurrent);
-    exchangeOptional(archive, simulation.energy);
-    archive(simulation.kinetic);
+    archive(simulation.cache->forces);
+    archive(simulation.cache->forcesCurrent);
+    exchangeOptional(archive, simulation.cache->energy);
+    archive(simulation.cache->kinetic);
     archive(simulation.restriction.seconds);
     archive(simulation.restriction.reason);
     archive(simulation.restriction.passed);
@@ -206,8 +208,8 @@ std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation) {
     writer(kFormat);
     writer(shapeOf(simulation));
     exchange(writer, simulation);
-    writer(simulation.evaluator.list().builtAt);
-    writer(simulation.evaluator.list().reach);
+    writer(simulation.cache->evaluator.list().builtAt);
+    writer(simulation.cache->evaluator.list().reach);
     return writer.finish();
 }
 
@@ -229,7 +231,7 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     reader.finish();
     require(isInWorld(builtAt) && (builtAt.empty() || (std::isfinite(reach) && reach > kLeastReach)),
             "its neighbor list is not one");
-    simulation.evaluator.restoreList(builtAt, reach);
+    simulation.cache->evaluator.restoreList(builtAt, reach);
     return simulation;
 }
 

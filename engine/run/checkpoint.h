@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

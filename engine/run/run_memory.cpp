@@ -2,6 +2,7 @@
 #include "engine/run/run_memory.h"
 
 #include "engine/error_control/auto_stepper.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
@@ -23,9 +24,9 @@ std::size_t bytesBefore(const Simulation& simulation) {
 
 /// The implicit steppers' matrix and the vectors of its solver.
 std::size_t bytesOfMatrix(const Simulation& simulation) {
-    const bool hasFriction = termsFor(simulation.evaluator.law(), simulation.particles).pair.friction;
+    const bool hasFriction = termsFor(simulation.cache->evaluator.law(), simulation.particles).pair.friction;
     const bool hasObstacles = !simulation.setup.scenery.colliders.empty();
-    const LaneRows& rows = simulation.evaluator.list().rows;
+    const LaneRows& rows = simulation.cache->evaluator.list().rows;
     const std::size_t entries = (hasFriction ? 2 : 1) * sizeof(double) * roomOf(rows);
     const std::size_t own = hasObstacles ? sizeof(Matrix3) : 0;
     constexpr std::size_t kVectors = 5 * sizeof(Vec3);
@@ -36,7 +37,7 @@ std::size_t bytesOfMatrix(const Simulation& simulation) {
 }  // namespace
 
 std::size_t mostBytes(const Simulation& simulation) {
-    const std::size_t run = bytesOfState(simulation) + bytesOf(simulation.evaluator.list());
+    const std::size_t run = bytesOfState(simulation) + bytesOf(simulation.cache->evaluator.list());
     const std::size_t before = bytesBefore(simulation);
     switch (simulation.setup.stepper) {
         case StepperKind::symplecticEuler:

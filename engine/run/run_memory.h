@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

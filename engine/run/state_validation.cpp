@@ -6,6 +6,8 @@
 
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/checked_steps.h"
+#include "engine/stepping/state_checks.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
@@ -19,7 +21,7 @@ bool haveEqualLengths(const Simulation& simulation) {
     const std::size_t count = particles.count();
     return particles.velocity.size() == count && particles.radius.size() == count && particles.mass.size() == count &&
            particles.birthTime.size() == count && particles.material.size() == count && particles.id.size() == count &&
-           (!simulation.forcesCurrent || simulation.forces.size() == count);
+           (!simulation.cache->forcesCurrent || simulation.cache->forces.size() == count);
 }
 
 /// Whether a particle still is what the set-up made it: one of those at the start, or one of an emitter.
@@ -39,10 +41,11 @@ bool isOfSetup(const Simulation& simulation, std::size_t p) {
 
 bool areOfSetup(const Simulation& simulation) {
     const std::size_t everBorn = simulation.setup.initial.count() + birthCount(simulation);
-    if (simulation.deaths > 0 && !simulation.setup.world) return false;
-    if (simulation.mostBeforeDeaths > everBorn || (simulation.mostBeforeDeaths > 0) != (simulation.deaths > 0))
+    if (simulation.removedCount > 0 && !simulation.setup.world) return false;
+    if (simulation.largestCountBeforeRemoval > everBorn ||
+        (simulation.largestCountBeforeRemoval > 0) != (simulation.removedCount > 0))
         return false;
-    if (simulation.particles.nextId != everBorn || simulation.particles.count() + simulation.deaths != everBorn)
+    if (simulation.particles.nextId != everBorn || simulation.particles.count() + simulation.removedCount != everBorn)
         return false;
     for (std::size_t p = 0; p < simulation.particles.count(); ++p)
         if (!isOfSetup(simulation, p)) return false;
@@ -53,7 +56,7 @@ bool areOnSchedule(const Simulation& simulation) {
     for (std::size_t e = 0; e < simulation.emitters.size(); ++e) {
         const Emitter& emitter = simulation.setup.emitters[e];
         const EmitterState& state = simulation.emitters[e];
-        if (!isReachable(emitter, state) || nextBirth(emitter, state) <= simulation.time) return false;
+        if (!isReachable(emitter, state) || nextEmission(emitter, state) <= simulation.time) return false;
     }
     return true;
 }

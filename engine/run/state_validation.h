@@ -2,7 +2,7 @@
 // what the engine indexes by, or how many steps it takes, must not be up to a file.
 #pragma once
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

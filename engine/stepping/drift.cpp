@@ -6,6 +6,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/law/obstacle_surfaces.h"
+#include "engine/stepping/step_cache.h"
 #include "engine/stepping/swept_contact.h"
 
 namespace engine {
@@ -41,41 +42,42 @@ constexpr double kMargin = 1e-3;
 }  // namespace
 
 bool isClear(const Simulation& simulation, std::size_t p) {
-    return p < simulation.clearance.size() && simulation.clearance[p] >= 0.0;
+    return p < simulation.cache->clearance.size() && simulation.cache->clearance[p] >= 0.0;
 }
 
 void prepareDrift(Simulation& simulation) {
-    simulation.evaluator.forgetMoves();  // each particle goes its own way now, maybe before any evaluation
+    simulation.cache->evaluator.forgetMoves();  // each particle goes its own way now, maybe before any evaluation
     if (simulation.setup.scenery.colliders.empty()) return;
-    simulation.swept.resize(simulation.particles.count());
-    simulation.clearance.resize(simulation.particles.count(), kUnknown);
-    simulation.companions.resize(simulation.particles.count(), kNobody);
-    copy(simulation.particles.position, simulation.startPositions);
+    simulation.cache->swept.resize(simulation.particles.count());
+    simulation.cache->clearance.resize(simulation.particles.count(), kUnknown);
+    simulation.cache->companions.resize(simulation.particles.count(), kNobody);
+    copy(simulation.particles.position, simulation.cache->startPositions);
     // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
-    simulation.startCutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
+    simulation.cache->startCutoff = termsFor(simulation.cache->evaluator.law(), simulation.particles).cutoff;
     // Verlet has the forces of the start, and with them its list, where forces need one.
-    simulation.startIsListed = (isVerlet(simulation.stepper) && simulation.evaluator.needsList()) ||
-                               covers(simulation.evaluator.list(), simulation.startPositions, simulation.startCutoff);
+    simulation.cache->startIsListed =
+        (isVerlet(simulation.stepper) && simulation.cache->evaluator.needsList()) ||
+        covers(simulation.cache->evaluator.list(), simulation.cache->startPositions, simulation.cache->startCutoff);
 }
 
 Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
     const Scenery& scenery = simulation.setup.scenery;
     if (scenery.colliders.empty()) return Vec3::Zero();
-    simulation.swept[p] = 0;
+    simulation.cache->swept[p] = 0;
     const double way = h * std::sqrt(squaredLength(simulation.particles.velocity[p]));
-    if (way <= simulation.clearance[p]) return Vec3::Zero();
+    if (way <= simulation.cache->clearance[p]) return Vec3::Zero();
     const Flight flight = flightOf(simulation, p);
     const Contacts contacts = contactsAhead(scenery, flight, h, isVerlet(simulation.stepper));
-    simulation.clearance[p] = contacts.gap - kMargin * flight.radius;
+    simulation.cache->clearance[p] = contacts.gap - kMargin * flight.radius;
     // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
     // what the whole heap does.
     const auto isAlone = [&] {
-        return simulation.startIsListed &&
-               simulation.evaluator.isAlone(simulation.startPositions, simulation.startCutoff, p,
-                                            simulation.companions[p]);
+        return simulation.cache->startIsListed &&
+               simulation.cache->evaluator.isAlone(simulation.cache->startPositions, simulation.cache->startCutoff, p,
+                                                   simulation.cache->companions[p]);
     };
     if (!contacts.needsSweep && !(way > contacts.gap && isAlone())) return contacts.force;
-    simulation.swept[p] = 1;
+    simulation.cache->swept[p] = 1;
     return Vec3::Zero();
 }
 
@@ -84,12 +86,12 @@ void driftSwept(Simulation& simulation, std::size_t p, double h) {
     fly(simulation.setup.scenery, flight, h);
     simulation.particles.position[p] = flight.position;
     simulation.particles.velocity[p] = flight.velocity;
-    simulation.clearance[p] = kUnknown;
+    simulation.cache->clearance[p] = kUnknown;
 }
 
 Vec3 slowContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
     const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty() || simulation.swept[p] || isClear(simulation, p)) return Vec3::Zero();
+    if (scenery.colliders.empty() || simulation.cache->swept[p] || isClear(simulation, p)) return Vec3::Zero();
     return contactForce(scenery, probeOf(simulation, p, velocity));
 }
 
@@ -97,7 +99,7 @@ ContactAnswer slowContact(const Simulation& simulation, std::size_t p, const Vec
     const Scenery& scenery = simulation.setup.scenery;
     if (scenery.colliders.empty() || isClear(simulation, p)) return {};
     ContactAnswer answer = contactForceAndEnergy(scenery, probeOf(simulation, p, velocity));
-    if (simulation.swept[p]) answer.force = Vec3::Zero();
+    if (simulation.cache->swept[p]) answer.force = Vec3::Zero();
     return answer;
 }
 
@@ -106,11 +108,11 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     const Scenery& scenery = simulation.setup.scenery;
     const MatrixWeights weights{0.5 * h, 0.25 * h * h};
     matrix.own.resize(scenery.colliders.empty() ? 0 : particles.count());
-    const std::vector<std::uint32_t>& order = simulation.evaluator.order();
+    const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
     inParallel(matrix.own.size(), grainAmong(scenery), [&](std::size_t place) {
         matrix.own[place] = Matrix3::Zero();
         const std::size_t p = order[place];
-        if (simulation.swept[p] || isClear(simulation, p)) return;
+        if (simulation.cache->swept[p] || isClear(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);
         forEachTouched(scenery, probe.position, probe.radius, [&](const Surface& surface) {
             const Contact contact = contactWith(surface, scenery.law, probe);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/stepping/simulation.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 
@@ -24,10 +24,10 @@ void driftSwept(Simulation& simulation, std::size_t p, double h);
 /// Moves a particle for h seconds.
 inline void drift(Simulation& simulation, std::size_t p, double h) {
     const bool hasContacts = !simulation.setup.scenery.colliders.empty();
-    if (hasContacts && simulation.swept[p]) return driftSwept(simulation, p, h);
+    if (hasContacts && simulation.cache->swept[p]) return driftSwept(simulation, p, h);
     const Vec3 way = h * simulation.particles.velocity[p];
     simulation.particles.position[p] += way;
-    if (hasContacts) simulation.clearance[p] -= std::sqrt(squaredLength(way));
+    if (hasContacts) simulation.cache->clearance[p] -= std::sqrt(squaredLength(way));
 }
 
 /// The obstacles' force (N) on a particle of that velocity (m/s); zero where it is swept.

@@ -8,23 +8,25 @@
 #include "engine/stepping/drift.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
 
 /// Solves for d, in the matrix's order.
 void solveForChange(Simulation& simulation, double h) {
-    ImplicitScratch& scratch = simulation.implicit;
-    const std::vector<std::uint32_t>& order = simulation.evaluator.order();
+    ImplicitScratch& scratch = simulation.cache->implicit;
+    const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
     scratch.rightHandSide.resize(order.size());
     const Vec3 fall = 0.5 * h * simulation.setup.gravity;
     inParallel(order.size(), kParticleGrain, [&](std::size_t place) {
-        scratch.rightHandSide[place] = 0.5 * h * simulation.forces[order[place]] - scratch.matrix.mass[place] * fall;
+        scratch.rightHandSide[place] =
+            0.5 * h * simulation.cache->forces[order[place]] - scratch.matrix.mass[place] * fall;
         if (!scratch.matrix.own.empty()) scratch.rightHandSide[place] -= scratch.matrix.own[place] * fall;
     });
     const double mass = sumOver(order.size(), [&](std::size_t place) { return scratch.matrix.mass[place]; });
     const Tolerance tolerance = {simulation.setup.solverTolerance,
-                                 0.5 * h * simulation.toleratedAcceleration * std::sqrt(mass)};
+                                 0.5 * h * simulation.cache->toleratedAcceleration * std::sqrt(mass)};
     const int products = solve(scratch.matrix, scratch.rightHandSide, tolerance, scratch.change, scratch.solver);
     inParallel(order.size(), kParticleGrain, [&](std::size_t place) { scratch.change[place] += fall; });
     simulation.steps.products += static_cast<std::uint64_t>(products);
@@ -32,15 +34,16 @@ void solveForChange(Simulation& simulation, double h) {
 
 void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     Particles& particles = simulation.particles;
-    const double pairEnergy =
-        simulation.evaluator.assemble(particles, weights, simulation.forces, simulation.implicit.matrix, h);
+    const double pairEnergy = simulation.cache->evaluator.assemble(particles, weights, simulation.cache->forces,
+                                                                   simulation.cache->implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
-    inParallel(particles.count(), grainAmong(simulation.setup.scenery),
-               [&](std::size_t p) { simulation.forces[p] += slowContactForce(simulation, p, particles.velocity[p]); });
-    addContacts(simulation, h, simulation.implicit.matrix);
+    inParallel(particles.count(), grainAmong(simulation.setup.scenery), [&](std::size_t p) {
+        simulation.cache->forces[p] += slowContactForce(simulation, p, particles.velocity[p]);
+    });
+    addContacts(simulation, h, simulation.cache->implicit.matrix);
     solveForChange(simulation, h);
-    const std::vector<std::uint32_t>& order = simulation.evaluator.order();
-    const std::vector<Vec3>& change = simulation.implicit.change;
+    const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
+    const std::vector<Vec3>& change = simulation.cache->implicit.change;
     const auto addChange = [&] {
         inParallel(order.size(), kParticleGrain,
                    [&](std::size_t place) { particles.velocity[order[place]] += change[place]; });
@@ -62,14 +65,14 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
         drift(simulation, p, 0.5 * h);
         particles.velocity[p] *= decay;
     });
-    if (!isSound(particles)) return noteUnsound(simulation);
+    if (!isValid(particles)) return markInvalid(simulation);
     kick(simulation, h, weights);
     inParallel(particles.count(), grain, [&](std::size_t p) {
         particles.velocity[p] *= decay;
         drift(simulation, p, 0.5 * h);
     });
-    simulation.forcesCurrent = false;
-    simulation.evaluator.forgetMoves();
+    simulation.cache->forcesCurrent = false;
+    simulation.cache->evaluator.forgetMoves();
 }
 
 }  // namespace engine

@@ -1,7 +1,8 @@
 // The implicit steppers; called by takeStep.
 #pragma once
 
-#include "engine/stepping/simulation.h"
+#include "engine/forces/pair_matrix.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

@@ -74,7 +74,7 @@ class Kicker {
     bool move(const Numbers& all, std::size_t first, Range& range) const {
         const V mass = hn::LoadU(kTag, all.mass + first);
         const V perMass = hn::Div(h_, mass);
-        auto areSound = hn::FirstN(kTag, lanes());
+        auto areValid = hn::FirstN(kTag, lanes());
         for (std::size_t k = 0; k < kAxes; ++k) {
             const std::size_t at = kAxes * first + k * lanes();
             V force = hn::LoadU(kTag, all.force + at);
@@ -85,12 +85,12 @@ class Kicker {
             const V position = hn::Add(hn::LoadU(kTag, all.position + at), hn::Mul(h_, velocity));
             hn::StoreU(velocity, kTag, all.velocity + at);
             hn::StoreU(position, kTag, all.position + at);
-            areSound = hn::And(areSound, isBelow(position, kWorldLimit));
-            areSound = hn::And(areSound, isBelow(velocity, kFastest));
+            areValid = hn::And(areValid, isBelow(position, kWorldLimit));
+            areValid = hn::And(areValid, isBelow(velocity, kFastest));
             range.low[k] = hn::Min(range.low[k], velocity);
             range.high[k] = hn::Max(range.high[k], velocity);
         }
-        return hn::AllTrue(kTag, areSound);
+        return hn::AllTrue(kTag, areValid);
     }
 
  private:
@@ -122,9 +122,9 @@ template <class D, bool addsWeight>
 Moved moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, std::size_t end) {
     const Kicker<D, addsWeight> kicker(step);
     typename Kicker<D, addsWeight>::Range range;
-    bool areSound = true;
-    for (; first + kicker.lanes() <= end; first += kicker.lanes()) areSound &= kicker.move(all, first, range);
-    return {areSound, range.extent()};
+    bool areValid = true;
+    for (; first + kicker.lanes() <= end; first += kicker.lanes()) areValid &= kicker.move(all, first, range);
+    return {areValid, range.extent()};
 }
 
 template <bool addsWeight>

@@ -20,11 +20,11 @@ struct KickDrift {
 
 /// What is known of particles that have been moved.
 struct Moved {
-    bool areSound = true;                 ///< all of them (soundness.h)
+    bool areValid = true;                 ///< all of them (soundness.h)
     Extent velocities = Extent::empty();  ///< the box around theirs, m/s, if they are sound
 
     void include(const Moved& others) {
-        areSound &= others.areSound;
+        areValid &= others.areValid;
         velocities.include(others.velocities);
     }
 };

@@ -1,23 +1,89 @@
-// However many are born at once, nobody looks at everybody: cost and memory are linear in the particles.
+// Every random number is a function of (seed, emitter, schedule, emission), so a few counters are the whole state of an
+// emitter, and a resumed run draws what the uninterrupted one would have drawn. Room is looked for in linked cells:
+// time and memory are linear in the particles, however many are emitted at once.
 #include "engine/stepping/population.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/core/random.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
 
-bool isBirthDue(const Simulation& simulation) {
+/// Chosen: how often in an interval an emission that has to wait is tried again. Each try ends a step.
+constexpr double kTriesPerInterval = 4.0;
+
+/// What a random number is for: its stream within the emitter.
+enum class Purpose : std::uint64_t { site = 0, jitterFirst = 1, jitterSecond = 2 };
+
+/// Identifies one emission of an emitter.
+struct Emission {
+    std::uint64_t schedule = 0;
+    std::uint64_t number = 0;
+};
+
+std::uint64_t drawBits(const EmissionContext& context, const Emission& emission, Purpose purpose) {
+    const std::uint64_t stream =
+        (context.emitterIndex << 40) ^ (emission.schedule << 2) ^ static_cast<std::uint64_t>(purpose);
+    return randomBits(context.seed, stream, emission.number);
+}
+
+Vec3 siteOf(const Emitter& emitter, const EmissionContext& context, const Emission& emission) {
+    if (emitter.pick == Pick::all) return emitter.sites[emission.schedule];
+    return emitter.sites[drawBits(context, emission, Purpose::site) % emitter.sites.size()];
+}
+
+/// Random displacement across the velocity, in units of the emitter's jitter.
+Vec3 jitterOf(const Emitter& emitter, const EmissionContext& context, const Emission& emission) {
+    if (emitter.jitter == 0.0) return Vec3::Zero();
+    const PlaneAxes plane = axesAcross(emitter.velocity);
+    return symmetricUnit(drawBits(context, emission, Purpose::jitterFirst)) * plane.first +
+           symmetricUnit(drawBits(context, emission, Purpose::jitterSecond)) * plane.second;
+}
+
+bool hasRoom(const Particles& particles, const LinkedCells& cells, const NewParticle& added, double clearance) {
+    if (clearance == 0.0) return true;
+    bool hasRoom = true;
+    cells.forEachNear(added.position, [&](std::size_t p) {
+        const double least = clearance * (particles.radius[p] + added.radius);
+        if (squaredLength(particles.position[p] - added.position) < least * least) hasRoom = false;
+    });
+    return hasRoom;
+}
+
+NewParticle particleOf(const Emitter& emitter, const EmissionContext& context, const Material& material,
+                       const Emission& emission) {
+    NewParticle particle;
+    particle.position =
+        siteOf(emitter, context, emission) + emitter.jitter * material.radius * jitterOf(emitter, context, emission);
+    particle.velocity = emitter.velocity;
+    particle.radius = material.radius;
+    particle.mass = material.mass;
+    particle.birthTime = context.time;
+    particle.material = emitter.material;
+    return particle;
+}
+
+/// Moves a particle along the free flight it has had since it was due, this many seconds ago.
+void flyFreely(NewParticle& particle, const Vec3& gravity, double duration) {
+    particle.position += duration * particle.velocity + 0.5 * duration * duration * gravity;
+    particle.velocity += duration * gravity;
+    particle.birthTime -= duration;
+}
+
+bool isEmissionDue(const Simulation& simulation) {
     for (std::size_t e = 0; e < simulation.emitters.size(); ++e)
-        if (nextBirth(simulation.setup.emitters[e], simulation.emitters[e]) <= simulation.time + kSameMoment)
+        if (nextEmission(simulation.setup.emitters[e], simulation.emitters[e]) <= simulation.time + kSameMoment)
             return true;
     return false;
 }
 
-/// The largest radius of the particles there are and of those that may be born, m.
+/// The largest radius of the particles there are and of those that may be emitted, m.
 double largestRadiusOf(const Simulation& simulation) {
     double largest = 0.0;
     for (const double radius : simulation.particles.radius) largest = std::max(largest, radius);
@@ -26,50 +92,81 @@ double largestRadiusOf(const Simulation& simulation) {
     return largest;
 }
 
-/// As far as any birth looks for room, and any newborn for what acts on it; 0 where neither is asked.
-double lookedAround(const Simulation& simulation) {
+/// Width of cells in which an emission finds all particles in its way, and the audit all that act on a new particle, m;
+/// 0 where neither is needed.
+double cellWidthFor(const Simulation& simulation) {
     const double largestRadius = largestRadiusOf(simulation);
-    double reach = simulation.energy ? reachOf(simulation.setup.materials) * 2.0 * largestRadius : 0.0;
+    double width = simulation.cache->energy ? reachOf(simulation.setup.materials) * 2.0 * largestRadius : 0.0;
     for (const Emitter& emitter : simulation.setup.emitters)
-        reach = std::max(reach, birthReach(emitter, largestRadius));
-    return reach;
+        width = std::max(width, clearanceDistance(emitter, largestRadius));
+    return width;
 }
 
 }  // namespace
 
-void giveBirth(Simulation& simulation) {
-    if (!isBirthDue(simulation)) return;
+double clearanceDistance(const Emitter& emitter, double largestRadius) {
+    return emitter.clearance * 2.0 * largestRadius;
+}
+
+std::size_t emit(const Emitter& emitter, EmitterState& state, const EmissionContext& context, const Material& material,
+                 Particles& particles, LinkedCells& cells) {
+    std::size_t emittedCount = 0;
+    for (std::size_t s = 0; s < state.schedules.size(); ++s) {
+        Schedule& schedule = state.schedules[s];
+        while (schedule.due <= context.time + kSameMoment && schedule.due < emitter.until - kSameMoment &&
+               state.births < emitter.limit) {
+            NewParticle particle = particleOf(emitter, context, material, {s, schedule.births});
+            flyFreely(particle, context.gravity, std::max(0.0, context.time - schedule.due));
+            if (!hasRoom(particles, cells, particle, emitter.clearance)) {
+                if (!schedule.delayed) ++state.refusals;
+                schedule.delayed = true;
+                schedule.due += emitter.interval / kTriesPerInterval;
+                continue;
+            }
+            append(particles, particle);
+            cells.add(particle.position);
+            // A delay shifts the schedule, or the particles that had to wait would come in a burst.
+            ++schedule.births;
+            if (schedule.delayed)
+                schedule.origin = schedule.due - static_cast<double>(schedule.births - 1) * emitter.interval;
+            schedule.due = dueTime(emitter, schedule);
+            schedule.delayed = false;
+            ++state.births;
+            ++emittedCount;
+        }
+    }
+    return emittedCount;
+}
+
+void emitDue(Simulation& simulation) {
+    if (!isEmissionDue(simulation)) return;
     const std::size_t first = simulation.particles.count();
-    const double reach = lookedAround(simulation);
+    const double width = cellWidthFor(simulation);
     LinkedCells cells;
-    if (reach > 0.0) cells = LinkedCells(reach, simulation.particles.position);
+    if (width > 0.0) cells = LinkedCells(width, simulation.particles.position);
     for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) {
         const Emitter& emitter = simulation.setup.emitters[e];
-        const BirthContext context{simulation.time, simulation.setup.gravity, simulation.setup.seed, e};
+        const EmissionContext context{simulation.time, simulation.setup.gravity, simulation.setup.seed, e};
         emit(emitter, simulation.emitters[e], context, simulation.setup.materials[emitter.material],
              simulation.particles, cells);
     }
     if (simulation.particles.count() == first) return;
-    requireSound(simulation, 0.0);  // a nozzle may stand anywhere
-    simulation.forcesCurrent = false;
-    noteBirths(simulation, first, cells);
+    requireValid(simulation, 0.0);  // an emitter may stand anywhere
+    simulation.cache->forcesCurrent = false;
+    addEnergyOfEmitted(simulation, first, cells);
 }
 
-void removeLeavers(Simulation& simulation) {
+void removeOutOfBounds(Simulation& simulation) {
     if (!simulation.setup.world) return;
-    const Bounds& world = *simulation.setup.world;
+    const Extent& world = *simulation.setup.world;
     Particles& particles = simulation.particles;
-    const auto stays = [&](std::size_t p) { return contains(world, particles.position[p]); };
+    const auto stays = [&](std::size_t p) { return world.contains(particles.position[p]); };
     if (largestOver(particles.count(), [&](std::size_t p) { return stays(p) ? 0.0 : 1.0; }) == 0.0) return;
-    const std::size_t before = particles.count();
+    const std::size_t countBefore = particles.count();
     keepWhere(particles, stays);
-    simulation.deaths += before - particles.count();
-    simulation.mostBeforeDeaths = std::max<std::uint64_t>(simulation.mostBeforeDeaths, before);
-    // All of it is by index.
-    simulation.forcesCurrent = false;
-    simulation.clearance.clear();
-    simulation.evaluator.forgetList();
-    simulation.energy.reset();
+    simulation.removedCount += countBefore - particles.count();
+    simulation.largestCountBeforeRemoval = std::max<std::uint64_t>(simulation.largestCountBeforeRemoval, countBefore);
+    simulation.cache->invalidate();
 }
 
 }  // namespace engine

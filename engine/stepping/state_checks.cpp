@@ -32,7 +32,7 @@ bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t e
 
 }  // namespace
 
-bool isSound(const Particles& particles) {
+bool isValid(const Particles& particles) {
     return holdsInRanges(particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
         return areBelow(particles.position, begin, end, kWorldLimit) &&
                areBelow(particles.velocity, begin, end, kFastest);
@@ -40,7 +40,7 @@ bool isSound(const Particles& particles) {
 }
 
 void reportInstability(const Simulation& simulation, double h) {
-    requireSound(simulation, h);
+    requireValid(simulation, h);
     std::size_t fastest = 0;
     const Particles& particles = simulation.particles;
     for (std::size_t p = 0; p < particles.count(); ++p)
@@ -48,11 +48,11 @@ void reportInstability(const Simulation& simulation, double h) {
     report(simulation, fastest, h);
 }
 
-void requireSound(const Simulation& simulation, double h) {
+void requireValid(const Simulation& simulation, double h) {
     const Particles& particles = simulation.particles;
-    if (isSound(particles)) return;
+    if (isValid(particles)) return;
     for (std::size_t p = 0; p < particles.count(); ++p)
-        if (!isSound(particles.position[p], particles.velocity[p])) report(simulation, p, h);
+        if (!isValid(particles.position[p], particles.velocity[p])) report(simulation, p, h);
 }
 
 }  // namespace engine

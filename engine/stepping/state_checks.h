@@ -4,9 +4,12 @@
 
 #include <cmath>
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
+
+/// A position further out than this counts as lost, m: beyond it the cell grid and float pictures lose their meaning.
+inline constexpr double kWorldLimit = 1e8;
 
 /// A speed whose square is a number still, m/s.
 inline constexpr double kFastest = 1e150;
@@ -17,12 +20,12 @@ inline bool areBelow(const Vec3& vector, double limit) {
 }
 
 /// Whether a particle is within the world and the square of its speed is a number.
-inline bool isSound(const Vec3& position, const Vec3& velocity) {
+inline bool isValid(const Vec3& position, const Vec3& velocity) {
     return areBelow(position, kWorldLimit) && areBelow(velocity, kFastest);
 }
 
 /// The same of all.
-bool isSound(const Particles& particles);
+bool isValid(const Particles& particles);
 
 /// Throws InstabilityError, naming the first particle that is not sound, or else the fastest one.
 /// Shape:  h is the length of the step that could not be taken, s.
@@ -30,6 +33,6 @@ bool isSound(const Particles& particles);
 
 /// Throws InstabilityError, naming the first particle whose position has left the world or whose speed is not finite.
 /// Shape:  h is the step that led here, s.
-void requireSound(const Simulation& simulation, double h);
+void requireValid(const Simulation& simulation, double h);
 
 }  // namespace engine

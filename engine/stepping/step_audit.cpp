@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "engine/core/parallel.h"
-#include "engine/forces/diagnostics.h"
 #include "engine/stepping/drift.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
@@ -27,7 +27,7 @@ double contactEnergyOf(const Simulation& simulation, std::size_t p) {
 double energyWithEarlier(const Simulation& simulation, std::size_t p, const LinkedCells& cells) {
     double energy = 0.0;
     cells.forEachNear(simulation.particles.position[p], [&](std::size_t i) {
-        if (i < p) energy += pairEnergyReference(simulation.evaluator.law(), simulation.particles, p, i);
+        if (i < p) energy += pairEnergyReference(simulation.cache->evaluator.law(), simulation.particles, p, i);
     });
     return energy;
 }
@@ -36,7 +36,7 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p, const Link
 bool mayGoFar(const Simulation& simulation) {
     if (simulation.particles.count() > 1) return false;
     return simulation.particles.count() == 0 || simulation.setup.scenery.colliders.empty() ||
-           simulation.swept[0] != 0 || isClear(simulation, 0);
+           simulation.cache->swept[0] != 0 || isClear(simulation, 0);
 }
 
 bool movedTooFar(const Simulation& simulation, const BeforeStep& kept) {
@@ -57,12 +57,13 @@ double energyAllowance(const Simulation& simulation) {
         const double speed = kSlow * particles.radius[p];
         return 0.5 * particles.mass[p] * speed * speed;
     });
-    return kEnergyAllowance * (simulation.kinetic + slow) + kRounding * std::abs(simulation.energy.value_or(0.0));
+    return kEnergyAllowance * (simulation.cache->kinetic + slow) +
+           kRounding * std::abs(simulation.cache->energy.value_or(0.0));
 }
 
 void noteEnergy(Simulation& simulation, const OwnEnergy& own, double pairEnergy) {
-    simulation.kinetic = own.kinetic;
-    simulation.energy = own.kinetic + own.potential + pairEnergy;
+    simulation.cache->kinetic = own.kinetic;
+    simulation.cache->energy = own.kinetic + own.potential + pairEnergy;
 }
 
 void noteEnergy(Simulation& simulation, double pairEnergy) {
@@ -72,16 +73,16 @@ void noteEnergy(Simulation& simulation, double pairEnergy) {
     noteEnergy(simulation, own, pairEnergy);
 }
 
-void noteUnsound(Simulation& simulation) {
-    simulation.energy = std::numeric_limits<double>::quiet_NaN();
+void markInvalid(Simulation& simulation) {
+    simulation.cache->energy = std::numeric_limits<double>::quiet_NaN();
 }
 
-void noteBirths(Simulation& simulation, std::size_t first, const LinkedCells& cells) {
-    if (!simulation.energy) return;
+void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedCells& cells) {
+    if (!simulation.cache->energy) return;
     for (std::size_t p = first; p < simulation.particles.count(); ++p) {
         const OwnEnergy own = ownEnergy(simulation, p, contactEnergyOf(simulation, p));
-        simulation.kinetic += own.kinetic;
-        *simulation.energy += own.kinetic + own.potential + energyWithEarlier(simulation, p, cells);
+        simulation.cache->kinetic += own.kinetic;
+        *simulation.cache->energy += own.kinetic + own.potential + energyWithEarlier(simulation, p, cells);
     }
 }
 
@@ -90,10 +91,10 @@ void keep(const Simulation& simulation, BeforeStep& kept) {
     kept.emitters = simulation.emitters;
     copy(simulation.particles.position, kept.position);
     copy(simulation.particles.velocity, kept.velocity);
-    kept.forcesCurrent = simulation.forcesCurrent;
-    if (kept.forcesCurrent) copy(simulation.forces, kept.forces);
-    kept.energy = simulation.energy;
-    kept.kinetic = simulation.kinetic;
+    kept.forcesCurrent = simulation.cache->forcesCurrent;
+    if (kept.forcesCurrent) copy(simulation.cache->forces, kept.forces);
+    kept.energy = simulation.cache->energy;
+    kept.kinetic = simulation.cache->kinetic;
     kept.allowance = energyAllowance(simulation);
     kept.steps = simulation.steps;
 }
@@ -104,16 +105,16 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
     simulation.emitters = kept.emitters;
     simulation.particles.position = kept.position;
     simulation.particles.velocity = kept.velocity;
-    simulation.clearance.clear();
-    simulation.evaluator.forgetMoves();
-    simulation.companions.clear();  // they are from before, and a run that is gone on with does not know them
-    simulation.forcesCurrent = kept.forcesCurrent;
+    simulation.cache->clearance.clear();
+    simulation.cache->evaluator.forgetMoves();
+    simulation.cache->companions.clear();  // they are from before, and a run that is gone on with does not know them
+    simulation.cache->forcesCurrent = kept.forcesCurrent;
     if (kept.forcesCurrent) {
-        simulation.forces = kept.forces;
-        simulation.evaluator.renewList(simulation.particles);  // who has forces has their list; see prepareDrift
+        simulation.cache->forces = kept.forces;
+        simulation.cache->evaluator.renewList(simulation.particles);  // who has forces has their list; see prepareDrift
     }
-    simulation.energy = kept.energy;
-    simulation.kinetic = kept.kinetic;
+    simulation.cache->energy = kept.energy;
+    simulation.cache->kinetic = kept.kinetic;
     const StepStatistics spent = simulation.steps;
     simulation.steps = kept.steps;
     simulation.steps.forceEvaluations = spent.forceEvaluations;
@@ -123,7 +124,7 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
 
 std::optional<StepLimit> objection(const Simulation& simulation, const BeforeStep& kept) {
     if (movedTooFar(simulation, kept)) return StepLimit::displacement;
-    if (kept.energy && !(*simulation.energy <= *kept.energy + kept.allowance)) return StepLimit::audit;
+    if (kept.energy && !(*simulation.cache->energy <= *kept.energy + kept.allowance)) return StepLimit::audit;
     return std::nullopt;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/neighbors/linked_cells.h"
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 
@@ -43,11 +43,11 @@ void noteEnergy(Simulation& simulation, const OwnEnergy& own, double pairEnergy)
 void noteEnergy(Simulation& simulation, double pairEnergy);
 
 /// Records that the state is not one to compute forces from; the step will be taken back.
-void noteUnsound(Simulation& simulation);
+void markInvalid(Simulation& simulation);
 
 /// Adds to the recorded energy what the particles from `first` on bring with them, J. The cells hold all particles and
 /// are at least as wide as the pairs' cutoff.
-void noteBirths(Simulation& simulation, std::size_t first, const LinkedCells& cells);
+void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedCells& cells);
 
 /// A state that a run can be taken back to, and what the step from it is judged by.
 struct BeforeStep {

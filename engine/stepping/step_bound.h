@@ -6,7 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "engine/stepping/simulation.h"
+#include "engine/forces/force_law.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

@@ -1,48 +1,13 @@
-// The steppers by name, and the paper's own.
+// The steppers by name and by order.
 #include "engine/stepping/steppers.h"
 
 #include <cmath>
-#include <mutex>
 
-#include "engine/core/exp_negative.h"
-#include "engine/core/parallel.h"
-#include "engine/forces/external_forces.h"
 #include "engine/stepping/implicit_step.h"
-#include "engine/stepping/kick_drift.h"
+#include "engine/stepping/symplectic_euler.h"
 #include "engine/stepping/velocity_verlet.h"
 
 namespace engine {
-
-bool symplecticEulerStep(Simulation& simulation, double h) {
-    Particles& particles = simulation.particles;
-    ForceEvaluator& evaluator = simulation.evaluator;
-    evaluator.evaluatePairs(particles, particles.velocity, simulation.forces, h);
-    ++simulation.steps.forceEvaluations;
-    const double decay = expNegative(simulation.setup.drag * h);
-    simulation.clearance.clear();
-    const bool hasObstacles = !evaluator.law().scenery.colliders.empty();
-    const KickDrift step{.h = h,
-                         .decay = decay,
-                         .gravity = evaluator.law().gravity,
-                         .forces = simulation.forces,
-                         .hasWeight = hasObstacles};
-    Moved moved;
-    std::mutex merging;
-    inRanges(particles.count(), grainAmong(evaluator.law().scenery), [&](std::size_t begin, std::size_t end) {
-        // Pairs, weight, obstacles: the order is part of the bits.
-        if (hasObstacles) addOuterForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.forces);
-        const Moved range = kickAndDrift(step, begin, end, particles);
-        const std::scoped_lock lock(merging);
-        moved.include(range);
-    });
-    if (!moved.areSound) {
-        evaluator.forgetMoves();
-        return false;
-    }
-    const Vec3 margin = Vec3::Constant(kDisplacementMargin);
-    evaluator.noteMoves({h * moved.velocities.low - margin, h * moved.velocities.high + margin});
-    return true;
-}
 
 void takeStep(Simulation& simulation, double h) {
     switch (simulation.stepper) {

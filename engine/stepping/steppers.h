@@ -5,16 +5,12 @@
 #include <array>
 #include <string_view>
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 
 /// Moves particles by one step of the simulation's stepper, h in seconds; its time is the caller's.
 void takeStep(Simulation& simulation, double h);
-
-/// The paper's own. Equations 7 and 8: v += F/M dt, then x += v dt with the new velocity. The drag multiplies v in
-/// between, as published. Returns whether all particles are sound after it.
-bool symplecticEulerStep(Simulation& simulation, double h);
 
 /// All of them, the automatic one last.
 inline constexpr std::array kSteppers = {StepperKind::symplecticEuler,  StepperKind::velocityVerlet,

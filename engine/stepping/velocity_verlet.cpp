@@ -6,6 +6,7 @@
 #include "engine/stepping/drift.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Returns the pair energy, J.
 double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities, double h) {
     ++simulation.steps.forceEvaluations;
-    return simulation.evaluator.evaluateFree(simulation.particles, velocities, simulation.forces, h);
+    return simulation.cache->evaluator.evaluateFree(simulation.particles, velocities, simulation.cache->forces, h);
 }
 
 /// What half a kick with this force (N) changes a particle's velocity by, m/s.
@@ -28,14 +29,14 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     const bool hasDrag = simulation.setup.drag > 0.0;
     const double decay = expNegative(simulation.setup.drag * h);
     // Before anything is swept: who is alone is read from the list, which a newborn is in now.
-    if (!simulation.forcesCurrent) evaluateForces(simulation, particles.velocity, h);
+    if (!simulation.cache->forcesCurrent) evaluateForces(simulation, particles.velocity, h);
     prepareDrift(simulation);
-    std::vector<Vec3>& predicted = simulation.predictedVelocities;
+    std::vector<Vec3>& predicted = simulation.cache->predictedVelocities;
     predicted.resize(particles.count());
     inParallel(particles.count(), grainAmong(simulation.setup.scenery), [&](std::size_t p) {
         Vec3& velocity = particles.velocity[p];
         const Vec3 contacts = chooseSwept(simulation, p, h);
-        const Vec3 change = halfKick(particles, p, h, simulation.forces[p] + contacts);
+        const Vec3 change = halfKick(particles, p, h, simulation.cache->forces[p] + contacts);
         velocity += change;
         drift(simulation, p, hasDrag ? 0.5 * h : h);
         if (hasDrag) {
@@ -44,15 +45,15 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
         }
         predicted[p] = velocity + (2.0 * lambda - 1.0) * change;
     });
-    if (!isSound(particles)) return noteUnsound(simulation);
+    if (!isValid(particles)) return markInvalid(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);
     // The second half of the kick, and what each particle's energy is after it: one loop for both.
     const OwnEnergy own = sumOver<OwnEnergy>(particles.count(), [&](std::size_t p) {
         const ContactAnswer contact = slowContact(simulation, p, predicted[p]);
-        particles.velocity[p] += halfKick(particles, p, h, simulation.forces[p] + contact.force);
+        particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contact.force);
         return ownEnergy(simulation, p, contact.energy);
     });
-    simulation.forcesCurrent = true;
+    simulation.cache->forcesCurrent = true;
     noteEnergy(simulation, own, pairEnergy);
 }
 

@@ -1,7 +1,7 @@
 // Velocity Verlet with swept contacts; called by takeStep.
 #pragma once
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "scenes/model/camera_path.h"
 #include "scenes/model/limits.h"
 #include "scenes/model/look.h"

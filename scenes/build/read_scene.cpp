@@ -39,12 +39,12 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 
-std::optional<engine::Bounds> buildWorld(Section& section, BuildContext& context) {
+std::optional<engine::Extent> buildWorld(Section& section, BuildContext& context) {
     if (!section.has("minimum") && !section.has("maximum")) return std::nullopt;
     checkCorners(section, context);
-    engine::Bounds world;
-    if (section.has("minimum")) world.minimum = section.vector("minimum");
-    if (section.has("maximum")) world.maximum = section.vector("maximum");
+    engine::Extent world = engine::Extent::unbounded();
+    if (section.has("minimum")) world.low = section.vector("minimum");
+    if (section.has("maximum")) world.high = section.vector("maximum");
     return world;
 }
 
@@ -52,7 +52,7 @@ std::optional<engine::Bounds> buildWorld(Section& section, BuildContext& context
 void checkWorld(const Section& section, const engine::Setup& setup, BuildContext& context) {
     if (!setup.world || !section.isSound()) return;
     const auto isInside = [&](const engine::Vec3& position, const char* what) {
-        if (contains(*setup.world, position)) return true;
+        if (setup.world->contains(position)) return true;
         context.problems.add(section.at(),
                              fmt::format("{} at [{}, {}, {}] is outside the world", what, numberText(position.x()),
                                          numberText(position.y()), numberText(position.z())));

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "scenes/model/camera_path.h"
 #include "scenes/model/limits.h"
 #include "scenes/model/look.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "scenes/text/override.h"
 
 namespace scenes {

@@ -1,7 +1,7 @@
 // From one frame of a scene to another. Every loop over frames goes through here, drawn or not.
 #pragma once
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "scenes/model/scene.h"
 
 namespace scenes {

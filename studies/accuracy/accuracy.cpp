@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/stepping/step_cost.h"
+#include "engine/error_control/step_cost.h"
 #include "engine/stepping/steppers.h"
 
 namespace studies {

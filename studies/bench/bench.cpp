@@ -7,8 +7,8 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
-#include "engine/forces/diagnostics.h"
 #include "engine/neighbors/verlet_skin.h"
+#include "engine/run/diagnostics.h"
 #include "engine/stepping/steppers.h"
 #include "studies/bench/machine_loops.h"
 #include "studies/common/blocks.h"

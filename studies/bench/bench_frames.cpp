@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "render/renderer.h"
 #include "scenes/view/frame_steps.h"
 #include "scenes/view/frame_view.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 
 namespace studies {
 

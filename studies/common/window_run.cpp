@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "engine/error_control/auto_stepper.h"
-#include "engine/stepping/step_cost.h"
+#include "engine/error_control/step_cost.h"
 #include "engine/stepping/steppers.h"
 #include "scenes/view/frame_steps.h"
 
@@ -100,7 +100,7 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
     run.steps = simulation.steps;
     run.lookPasses = simulation.automatic.trials;
     run.passes = engine::passesOf(simulation) + run.lookPasses;
-    if (run.ending == Ending::finished) run.energy = engine::energy(simulation.evaluator, simulation.particles);
+    if (run.ending == Ending::finished) run.energy = engine::energy(simulation);
     run.particles = std::move(simulation.particles);
     return run;
 }

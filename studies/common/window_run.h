@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/forces/diagnostics.h"
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
+#include "engine/run/diagnostics.h"
 #include "scenes/model/scene.h"
 
 namespace studies {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
+#include "engine/stepping/step_cache.h"
 #include "studies/common/blocks.h"
 #include "studies/common/order_fit.h"
 #include "studies/common/timing.h"
@@ -37,9 +38,9 @@ Simulation frozen(const Simulation& from, ForceMethod method, Precision precisio
     Simulation simulation = from;
     simulation.setup.emitters.clear();
     simulation.emitters.clear();
-    simulation.evaluator =
+    simulation.cache->evaluator =
         engine::ForceEvaluator({from.setup.materials, from.setup.gravity, from.setup.scenery}, method, precision);
-    simulation.forcesCurrent = false;
+    simulation.cache->forcesCurrent = false;
     return simulation;
 }
 

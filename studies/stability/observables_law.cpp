@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "studies/stability/observables.h"
 
 namespace studies {

@@ -6,6 +6,7 @@
 #include "engine/core/random.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_bound.h"
+#include "engine/stepping/step_cache.h"
 #include "engine/stepping/steppers.h"
 #include "scenes/text/input_error.h"
 #include "studies/common/infinity.h"
@@ -38,7 +39,7 @@ Simulation continued(const Run& run, StepperKind stepper) {
     simulation.setup.stepper = simulation.stepper = stepper;
     simulation.setup.emitters.clear();
     simulation.emitters.clear();
-    simulation.forcesCurrent = false;
+    simulation.cache->forcesCurrent = false;
     return simulation;
 }
 
@@ -59,7 +60,7 @@ bool isStable(const Simulation& state, double h) {
         for (int axis = 0; axis < 3; ++axis)
             other.particles.position[p][axis] +=
                 kApart * engine::symmetricUnit(engine::randomBits(1, static_cast<std::uint64_t>(axis), p));
-    other.evaluator.forgetMoves();
+    other.cache->evaluator.forgetMoves();
     const double before = rmsDistance(one.particles, other.particles);
     for (int step = 0; step < kSteps; ++step) {
         engine::takeStep(one, h);
@@ -90,7 +91,7 @@ engine::Particles endAfter(const scenes::Scene& scene, int steps) {
     const double h = scene.duration / steps;
     for (int step = 0; step < steps; ++step) {
         engine::takeStep(simulation, h);
-        engine::requireSound(simulation, h);
+        engine::requireValid(simulation, h);
     }
     return simulation.particles;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "scenes/model/scene.h"
 #include "studies/common/run.h"
 

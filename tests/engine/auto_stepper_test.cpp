@@ -6,7 +6,8 @@
 
 #include "engine/error_control/error_estimate.h"
 #include "engine/error_control/long_error_estimate.h"
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
+#include "engine/stepping/step_cache.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -149,7 +150,7 @@ TEST_CASE("Honey is stepped implicitly, plain liquid is not", "[auto-stepper]") 
     CHECK(afterFrames(fallingBlock(*materialPreset("liquid")), 6).stepper == StepperKind::velocityVerlet);
     const Simulation honey = afterFrames(fallingBlock(runs::honey()), 6);
     CHECK((honey.stepper == StepperKind::implicitDamping || honey.stepper == StepperKind::linearlyImplicit));
-    CHECK(honey.toleratedAcceleration > 0.0);
+    CHECK(honey.cache->toleratedAcceleration > 0.0);
 }
 
 TEST_CASE("What becomes of errors after a while is known of each candidate by itself", "[auto-stepper]") {
@@ -174,7 +175,7 @@ TEST_CASE("What the solver leaves out costs a small share of the wanted error, a
         setup.error = error;
         const auto run = [&](double tolerated) {
             Simulation simulation = start(setup);
-            simulation.toleratedAcceleration = tolerated;
+            simulation.cache->toleratedAcceleration = tolerated;
             advance(simulation, 0.5);
             return simulation;
         };
@@ -196,7 +197,7 @@ TEST_CASE("The solver never leaves out a force that drives alone", "[auto-steppe
     runs::addPair(setup, 0.8 * 2 * setup.materials[0].radius, 0.0);
     const auto movedBy = [&](double tolerated) {
         Simulation simulation = start(setup);
-        simulation.toleratedAcceleration = tolerated;
+        simulation.cache->toleratedAcceleration = tolerated;
         advance(simulation, 0.5);
         return runs::rmsDistance(simulation.particles, setup.initial);
     };

@@ -1,12 +1,13 @@
 // A run that is gone on with from a checkpoint is the run it was taken from, bit for bit; damaged bytes are refused.
 #include "engine/run/checkpoint.h"
+#include "engine/stepping/step_cache.h"
 
 #include <cstring>
 #include <limits>
 #include <string>
 
 #include "engine/core/hash.h"
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "tests/catch.h"
 #include "tests/engine/runs.h"
 
@@ -177,7 +178,7 @@ TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoin
     CHECK(complaintAfter([](Simulation& s) { s.particles.id.back() = 0; }) == particles);
     CHECK(complaintAfter([](Simulation& s) {
               truncate(s.particles, s.particles.count() - 1);
-              s.forcesCurrent = false;
+              s.cache->forcesCurrent = false;
           }) == particles);
 
     const std::string schedule = "a birth is not on its schedule";

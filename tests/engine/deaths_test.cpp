@@ -2,8 +2,8 @@
 #include "tests/catch.h"
 
 #include "engine/error_control/error_estimate.h"
-#include "engine/forces/diagnostics.h"
 #include "engine/run/checkpoint.h"
+#include "engine/run/diagnostics.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -20,8 +20,8 @@ Setup overflowing(StepperKind stepper) {
     emitter.velocity = Vec3(4.0, -4.0, 0.0);
     emitter.interval = 0.06;
     setup.emitters = {emitter};
-    setup.world = Bounds{};
-    setup.world->maximum.x() = 2.5;
+    setup.world = Extent::unbounded();
+    setup.world->high.x() = 2.5;
     return setup;
 }
 
@@ -30,13 +30,13 @@ Setup overflowing(StepperKind stepper) {
 TEST_CASE("Who is beyond the bounds leaves with the next interval; the others keep order and ids", "[deaths]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 0.01);
     for (const double x : {-3.0, 2.0, 3.0, 4.0, 2.0 + 1e-12}) append(setup.initial, {.position = Vec3(x, x, 0.0)});
-    setup.world = Bounds{};
-    setup.world->maximum = Vec3(3.5, 2.0, 1.0);  // a face belongs to it
+    setup.world = Extent::unbounded();
+    setup.world->high = Vec3(3.5, 2.0, 1.0);  // a face belongs to it
     Simulation simulation = start(setup);
     CHECK(simulation.particles.count() == 5);
     advance(simulation, runs::kFrame);
     CHECK(simulation.particles.id == std::vector<std::uint32_t>{0, 1});
-    CHECK(simulation.deaths == 3);
+    CHECK(simulation.removedCount == 3);
     append(simulation.particles, {.position = Vec3(-9.0, 0.0, 0.0)});
     CHECK(simulation.particles.id.back() == 5);  // of the dead nobody takes the place
     truncate(simulation.particles, 2);
@@ -50,7 +50,7 @@ TEST_CASE("The others go on as if nobody had been there", "[deaths]") {
         runs::addPacking(alone, {4, 4, 4});
         Setup accompanied = alone;
         append(accompanied.initial, {.position = Vec3(0.1, 50.0, 0.0), .radius = alone.initial.radius[0]});
-        accompanied.world = Bounds{Vec3::Constant(-40.0), Vec3::Constant(40.0)};
+        accompanied.world = Extent{Vec3::Constant(-40.0), Vec3::Constant(40.0)};
         Simulation expected = start(alone);
         Simulation actual = start(accompanied);
         advance(expected, 3.0 * runs::kFrame);
@@ -63,11 +63,11 @@ TEST_CASE("The others go on as if nobody had been there", "[deaths]") {
 TEST_CASE("A world of nobody stays one", "[deaths]") {
     Setup setup = overflowing(StepperKind::automatic);
     setup.emitters[0].limit = 3;
-    setup.world->maximum.y() = -1.0;
+    setup.world->high.y() = -1.0;
     Simulation simulation = start(setup);
     runs::advanceFrames(simulation, 0, 10);
     CHECK(simulation.particles.count() == 0);
-    CHECK(simulation.deaths == 3);
+    CHECK(simulation.removedCount == 3);
     CHECK(largestCount(simulation) >= 1);
 }
 
@@ -80,8 +80,8 @@ TEST_CASE("Births and deaths leave as many as there are, and none outside for lo
             most = std::max(most, simulation.particles.count());
         }
         INFO(nameOf(stepper));
-        CHECK(simulation.deaths > 20);
-        CHECK(simulation.particles.count() + simulation.deaths == birthCount(simulation));
+        CHECK(simulation.removedCount > 20);
+        CHECK(simulation.particles.count() + simulation.removedCount == birthCount(simulation));
         CHECK(largestCount(simulation) == most);
         for (const Vec3& position : simulation.particles.position)
             CHECK(position.x() < 2.5 + 10.0 * runs::kFrame);  // nothing moves at 10 m/s
@@ -93,7 +93,7 @@ TEST_CASE("Deaths keep a run's bits: any number of threads, and resumed", "[deat
         const Setup setup = overflowing(stepper);
         Simulation whole = start(setup);
         runs::advanceFrames(whole, 0, 36);
-        REQUIRE(whole.deaths > 0);
+        REQUIRE(whole.removedCount > 0);
         const std::vector<std::uint8_t> checkpoint = encodeCheckpoint(whole);
         runs::advanceFrames(whole, 36, 42);
         INFO(nameOf(stepper));
@@ -113,7 +113,7 @@ TEST_CASE("A look's two runs have all particles, whoever is beyond the bounds", 
         if (stepper == StepperKind::automatic) continue;
         Simulation bounded = start(overflowing(stepper));
         runs::advanceFrames(bounded, 0, 36);
-        bounded.setup.world->maximum.x() = bounded.particles.position[0].x() - 0.1;
+        bounded.setup.world->high.x() = bounded.particles.position[0].x() - 0.1;
         Simulation boundless = bounded;
         boundless.setup.world.reset();
         const Look look{.time = bounded.time + runs::kFrame, .stepper = stepper, .step = 0.004};
@@ -126,7 +126,7 @@ TEST_CASE("A checkpoint with deaths that cannot have been is refused", "[deaths]
     const Setup setup = overflowing(StepperKind::velocityVerlet);
     Simulation simulation = start(setup);
     runs::advanceFrames(simulation, 0, 36);
-    REQUIRE(simulation.deaths > 0);
+    REQUIRE(simulation.removedCount > 0);
     const auto isTaken = [&](const Setup& by, const auto& change) {
         Simulation other = simulation;
         change(other);
@@ -138,9 +138,9 @@ TEST_CASE("A checkpoint with deaths that cannot have been is refused", "[deaths]
         return true;
     };
     CHECK(isTaken(setup, [](Simulation&) {}));
-    CHECK_FALSE(isTaken(setup, [](Simulation& s) { ++s.deaths; }));
-    CHECK_FALSE(isTaken(setup, [](Simulation& s) { s.mostBeforeDeaths = birthCount(s) + 1; }));
-    CHECK_FALSE(isTaken(setup, [](Simulation& s) { s.mostBeforeDeaths = 0; }));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { ++s.removedCount; }));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { s.largestCountBeforeRemoval = birthCount(s) + 1; }));
+    CHECK_FALSE(isTaken(setup, [](Simulation& s) { s.largestCountBeforeRemoval = 0; }));
     CHECK_FALSE(isTaken(setup, [](Simulation& s) { ++s.particles.nextId; }));
     CHECK_FALSE(isTaken(setup, [](Simulation& s) { std::swap(s.particles.id[0], s.particles.id[1]); }));
     Setup boundless = setup;
@@ -156,8 +156,8 @@ TEST_CASE("A world that has emptied takes steps, births and checkpoints like one
         setup.gravity = Vec3(0.0, -9.8, 0.0);
         setup.scenery.colliders = {Plane{Vec3(0.0, -50.0, 0.0), Vec3::UnitY()}};
         runs::addPacking(setup, {2, 2, 2});
-        setup.world = Bounds{};
-        setup.world->minimum.y() = -0.5;
+        setup.world = Extent::unbounded();
+        setup.world->low.y() = -0.5;
         Emitter emitter;
         emitter.sites = discSites(Vec3(0.0, 1.5, 0.0), Vec3::UnitY(), 0.4, 0.25);
         emitter.start = 0.62;

@@ -1,5 +1,5 @@
 // Energy, momenta, hash, and the exponential of the drag.
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 
 #include <cmath>
 #include <limits>

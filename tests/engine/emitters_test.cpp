@@ -1,5 +1,5 @@
 // Births: on time, where they should be, never on top of another unless the scene wants it.
-#include "engine/stepping/emitters.h"
+#include "engine/stepping/population.h"
 
 #include <cmath>
 #include <set>

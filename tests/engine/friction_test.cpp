@@ -2,8 +2,9 @@
 #include <cmath>
 #include "tests/catch.h"
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "engine/stepping/step_audit.h"
+#include "engine/stepping/step_cache.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -55,8 +56,8 @@ TEST_CASE("A sliding grain stops where Coulomb's law says", "[friction]") {
             advance(simulation, 2.0);  // comes to rest on the floor
             const double from = simulation.particles.position[0].x();
             simulation.particles.velocity[0].x() = 2.0;
-            simulation.forcesCurrent = false;
-            simulation.energy.reset();
+            simulation.cache->forcesCurrent = false;
+            simulation.cache->energy.reset();
             advance(simulation, 4.0);
             const double way = simulation.particles.position[0].x() - from;
             INFO(nameOf(stepper) << ", friction " << friction << ": " << way << " m");
@@ -73,11 +74,11 @@ TEST_CASE("Friction keeps linear momentum and gains no energy", "[friction]") {
         double sum = 0.0;
         for (std::size_t p = 0; p < simulation.particles.count(); ++p)
             sum += simulation.particles.mass[p] * simulation.particles.velocity[p].norm();
-        double last = energy(simulation.evaluator, simulation.particles).total();
+        double last = energy(simulation).total();
         for (int frame = 1; frame <= 15; ++frame) {
             const std::uint64_t stepsBefore = simulation.steps.count;
             advance(simulation, frame / 30.0);
-            const Energy now = energy(simulation.evaluator, simulation.particles);
+            const Energy now = energy(simulation);
             const auto steps = static_cast<double>(simulation.steps.count - stepsBefore);
             INFO(nameOf(stepper) << ", frame " << frame << ": " << last << " J, then " << now.total() << " J");
             CHECK(now.total() <= last + steps * energyAllowance(simulation));

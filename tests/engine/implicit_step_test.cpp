@@ -4,7 +4,7 @@
 #include <cmath>
 #include "tests/catch.h"
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "engine/stepping/step_bound.h"
 #include "tests/engine/rounding.h"
 #include "tests/engine/runs.h"

@@ -6,11 +6,11 @@
 #include "tests/catch.h"
 
 #include "engine/core/instruction_sets.h"
-#include "engine/forces/diagnostics.h"
 #include "engine/forces/external_forces.h"
 #include "engine/forces/pack_particles.h"
 #include "engine/forces/pair_sums.h"
 #include "engine/forces/simd_forces.h"
+#include "engine/run/diagnostics.h"
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/steppers.h"
@@ -168,7 +168,7 @@ TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vecto
                 Moved moved = kickAndDrift(step, 0, split, actual);
                 moved.include(kickAndDrift(step, split, before.count(), actual));
                 INFO(name << ", split at " << split);
-                CHECK(moved.areSound);
+                CHECK(moved.areValid);
                 CHECK(moved.velocities.low == box.low);
                 CHECK(moved.velocities.high == box.high);
                 CHECK(actual.velocity == expected.velocity);
@@ -182,25 +182,25 @@ TEST_CASE("Kick and drift tell of whoever is not sound", "[lanes]") {
     constexpr std::size_t kCount = 11;  // some in vectors, some not
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3> none(kCount, Vec3::Zero());
-    const auto areSound = [&](double h, const std::vector<Vec3>& forces, Particles particles) {
-        return kickAndDrift({.h = h, .forces = forces}, 0, kCount, particles).areSound;
+    const auto areValid = [&](double h, const std::vector<Vec3>& forces, Particles particles) {
+        return kickAndDrift({.h = h, .forces = forces}, 0, kCount, particles).areValid;
     };
     const Particles sound = clouds::strewn(kCount, 1.0);
     for (const std::string& name : instructionSets()) {
         const OnInstructionSet only(name);
-        CHECK(areSound(1e-3, none, sound));
+        CHECK(areValid(1e-3, none, sound));
         for (std::size_t p = 0; p < kCount; ++p)
             for (Eigen::Index axis = 0; axis < 3; ++axis) {
                 INFO(name << ", particle " << p << ", axis " << axis);
                 std::vector<Vec3> forces = none;
                 forces[p][axis] = kNan;
-                CHECK_FALSE(areSound(1e-3, forces, sound));
+                CHECK_FALSE(areValid(1e-3, forces, sound));
                 Particles far = sound;
                 far.position[p][axis] = -1.1 * kWorldLimit;
-                CHECK_FALSE(areSound(1e-3, none, far));
+                CHECK_FALSE(areValid(1e-3, none, far));
                 Particles fast = sound;
                 fast.velocity[p][axis] = 2.0 * kFastest;
-                CHECK_FALSE(areSound(1e-160, none, fast));  // so short that it gets nowhere
+                CHECK_FALSE(areValid(1e-160, none, fast));  // so short that it gets nowhere
             }
     }
 }

@@ -3,7 +3,8 @@
 
 #include "tests/catch.h"
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
+#include "engine/stepping/step_cache.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -26,8 +27,8 @@ Simulation parting(double speed, double step, ForceMethod method) {
 }
 
 double skinOf(const Simulation& simulation) {
-    const double cutoff = termsFor(simulation.evaluator.law(), simulation.particles).cutoff;
-    return simulation.evaluator.list().reach / cutoff - 1.0;
+    const double cutoff = termsFor(simulation.cache->evaluator.law(), simulation.particles).cutoff;
+    return simulation.cache->evaluator.list().reach / cutoff - 1.0;
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "engine/run/advance.h"
 #include "engine/state/bodies.h"
-#include "engine/stepping/simulation.h"
 #include "engine/stepping/steppers.h"
 #include "tests/engine/clouds.h"
 

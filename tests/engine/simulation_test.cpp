@@ -1,10 +1,11 @@
 // Whole runs: time, births, bits, and the end of an unstable one.
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 
 #include "tests/catch.h"
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "engine/state/bodies.h"
+#include "engine/stepping/step_cache.h"
 #include "engine/stepping/steppers.h"
 #include "tests/engine/runs.h"
 
@@ -53,19 +54,19 @@ void checkLists(const Setup& setup) {
     Simulation forgotten = noted;
     std::size_t lists = 0;
     for (int step = 1; step <= 100; ++step) {
-        const std::vector<Vec3> before = noted.evaluator.list().builtAt;
+        const std::vector<Vec3> before = noted.cache->evaluator.list().builtAt;
         for (Simulation* simulation : {&noted, &looked, &forgotten}) advance(*simulation, 0.002 * step);
-        looked.evaluator.noteMoves({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
-        forgotten.evaluator.forgetMoves();
-        lists += noted.evaluator.list().builtAt != before ? 1U : 0U;
+        looked.cache->evaluator.noteMoves({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
+        forgotten.cache->evaluator.forgetMoves();
+        lists += noted.cache->evaluator.list().builtAt != before ? 1U : 0U;
         INFO("step " << step);
-        REQUIRE(noted.evaluator.list().builtAt == looked.evaluator.list().builtAt);
+        REQUIRE(noted.cache->evaluator.list().builtAt == looked.cache->evaluator.list().builtAt);
         REQUIRE(noted.particles.position == looked.particles.position);
         REQUIRE(noted.particles.position == forgotten.particles.position);
     }
     CHECK(lists > 5);
     CHECK(lists < 95);
-    CHECK((noted.deaths > 0) == setup.world.has_value());
+    CHECK((noted.removedCount > 0) == setup.world.has_value());
 }
 
 std::string hashAfter(const Setup& setup, double time) {
@@ -110,11 +111,11 @@ TEST_CASE("The paper's stepper notes moves", "[simulation]") {
     setup.initial = clouds::strewn(1500, 3.0);
     Simulation simulation = start(setup);
     advance(simulation, 1e-4);
-    const std::vector<Vec3> builtAt = simulation.evaluator.list().builtAt;
+    const std::vector<Vec3> builtAt = simulation.cache->evaluator.list().builtAt;
     REQUIRE(builtAt.size() == 1500);
     for (Vec3& position : simulation.particles.position) position *= 2.0;  // behind its back
     advance(simulation, 2e-4);
-    CHECK(simulation.evaluator.list().builtAt == builtAt);
+    CHECK(simulation.cache->evaluator.list().builtAt == builtAt);
 }
 
 TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]") {
@@ -125,10 +126,10 @@ TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]")
         advance(noted, 1e-3);
         noted.stepper = stepper;
         Simulation forgotten = noted;
-        forgotten.evaluator.forgetMoves();
+        forgotten.cache->evaluator.forgetMoves();
         for (Simulation* simulation : {&noted, &forgotten}) takeStep(*simulation, 0.1);
         INFO(nameOf(stepper));
-        CHECK(noted.evaluator.list().builtAt == forgotten.evaluator.list().builtAt);
+        CHECK(noted.cache->evaluator.list().builtAt == forgotten.cache->evaluator.list().builtAt);
         CHECK(noted.particles.velocity == forgotten.particles.velocity);
     }
 }
@@ -136,7 +137,7 @@ TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]")
 TEST_CASE("Lists are built when they have to be, whether moves are noted or looked at", "[simulation]") {
     Setup bounded = busyScene(StepperKind::symplecticEuler);
     bounded.emitters[0].interval = 0.01;
-    bounded.world = Bounds{.minimum = Vec3(-2.0, 0.55, -2.0), .maximum = Vec3(2.2, 3.0, 2.0)};
+    bounded.world = Extent{.low = Vec3(-2.0, 0.55, -2.0), .high = Vec3(2.2, 3.0, 2.0)};
     for (const Setup& setup : {busyScene(StepperKind::symplecticEuler), crowdAmongObstacles(), bounded})
         clouds::onThreads(3, [&] { checkLists(setup); });
 }

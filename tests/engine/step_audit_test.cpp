@@ -5,7 +5,8 @@
 #include <algorithm>
 #include "tests/catch.h"
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
+#include "engine/stepping/step_cache.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -46,7 +47,7 @@ struct Fresh {
 };
 
 Fresh freshEnergy(const Simulation& simulation) {
-    ForceEvaluator evaluator(simulation.evaluator.law(), ForceMethod::reference);
+    ForceEvaluator evaluator(simulation.cache->evaluator.law(), ForceMethod::reference);
     const Energy parts = energy(evaluator, simulation.particles);
     return {parts.total(), parts.kinetic + std::abs(parts.pairs) + std::abs(parts.contacts) + std::abs(parts.gravity)};
 }
@@ -58,7 +59,7 @@ TEST_CASE("A step that gains energy is objected to, and taking it back leaves no
         Simulation simulation = start(pressedLattice(stepper, "solid", 1e-5));
         advance(simulation, 2e-3);
         const std::string before = stateHash(simulation.particles);
-        const double energyBefore = *simulation.energy;
+        const double energyBefore = *simulation.cache->energy;
         BeforeStep kept;
         keep(simulation, kept);
         takeStep(simulation, 1e-5);
@@ -69,7 +70,7 @@ TEST_CASE("A step that gains energy is objected to, and taking it back leaves no
         CHECK(objection(simulation, kept));
         takeBack(simulation, kept);
         CHECK(stateHash(simulation.particles) == before);
-        CHECK(*simulation.energy == energyBefore);
+        CHECK(*simulation.cache->energy == energyBefore);
         takeStep(simulation, 1e-5);
         CHECK(stateHash(simulation.particles) == good);
     }
@@ -159,7 +160,8 @@ TEST_CASE("The recorded energy is that of the state, births included", "[step-au
             advance(simulation, 0.03 * frame);
             const Fresh fresh = freshEnergy(simulation);
             INFO(nameOf(stepper) << " at frame " << frame);
-            CHECK(std::abs(*simulation.energy - fresh.total) <= 1e-12 * fresh.size);  // two orders of 5000 roundings
+            CHECK(std::abs(*simulation.cache->energy - fresh.total) <=
+                  1e-12 * fresh.size);  // two orders of 5000 roundings
         }
         CHECK(simulation.particles.count() > bodies + 20);
     }
@@ -199,8 +201,8 @@ TEST_CASE("Going back before a birth undoes it, and it happens again alike", "[s
     Simulation again = before;
     advance(again, 0.07);
     simulation.restriction = before.restriction;
-    simulation.evaluator =
-        before.evaluator;  // its list, which orders sums and says who is alone, is no part of the state
+    simulation.cache->evaluator =
+        before.cache->evaluator;  // its list, which orders sums and says who is alone, is no part of the state
     advance(simulation, 0.07);
     CHECK(stateHash(simulation.particles) == stateHash(again.particles));
 }
@@ -231,10 +233,10 @@ TEST_CASE("After a step is taken back nobody is remembered whom a run that is go
     BeforeStep kept;
     keep(simulation, kept);
     takeStep(simulation, 0.002);
-    REQUIRE(
-        std::ranges::any_of(simulation.companions, [&](std::uint32_t p) { return p < simulation.particles.count(); }));
+    REQUIRE(std::ranges::any_of(simulation.cache->companions,
+                                [&](std::uint32_t p) { return p < simulation.particles.count(); }));
     takeBack(simulation, kept);
-    CHECK(simulation.companions.empty());
+    CHECK(simulation.cache->companions.empty());
     Simulation resumed = simulation;
     for (Simulation* either : {&simulation, &resumed}) takeStep(*either, 0.001);
     CHECK(simulation.particles.position == resumed.particles.position);
@@ -252,14 +254,14 @@ TEST_CASE("Who has company is not swept for a step that was taken back and led a
         keep(simulation, kept);
         takeStep(simulation, 0.01);
         const std::string good = stateHash(simulation.particles);
-        REQUIRE(simulation.swept[0] == 0);
+        REQUIRE(simulation.cache->swept[0] == 0);
         takeBack(simulation, kept);
         takeStep(simulation, 0.1);  // they part, and a list is made of that
-        simulation.evaluator.pairEnergyGrid(simulation.particles);
+        simulation.cache->evaluator.pairEnergyGrid(simulation.particles);
         takeBack(simulation, kept);
         takeStep(simulation, 0.01);
         INFO(nameOf(stepper));
-        CHECK(simulation.swept[0] == 0);
+        CHECK(simulation.cache->swept[0] == 0);
         CHECK(stateHash(simulation.particles) == good);
     }
 }
@@ -272,8 +274,8 @@ TEST_CASE("Where forces need no list Verlet trusts none that another stepper has
     append(setup.initial, {.position = Vec3(0.3, 1, 0), .velocity = Vec3(10, 0, 0)});
     Simulation simulation = start(setup);
     takeStep(simulation, 0.1);
-    REQUIRE(simulation.evaluator.list().count() == 2);
+    REQUIRE(simulation.cache->evaluator.list().count() == 2);
     simulation.stepper = StepperKind::velocityVerlet;
     takeStep(simulation, 0.1);
-    CHECK_FALSE(simulation.startIsListed);
+    CHECK_FALSE(simulation.cache->startIsListed);
 }

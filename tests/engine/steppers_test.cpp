@@ -1,11 +1,12 @@
 // Order of convergence, closed forms, and what must be kept or may only fall.
 #include "engine/stepping/steppers.h"
+#include "engine/stepping/step_cache.h"
 
 #include <cmath>
 #include "tests/catch.h"
 
 #include "engine/core/exp_negative.h"
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "engine/stepping/step_bound.h"
 #include "tests/engine/runs.h"
 
@@ -123,11 +124,11 @@ TEST_CASE("Two bodies oscillate with the closed-form period", "[steppers]") {
 TEST_CASE("Without damping the energy error falls with the order of the step", "[steppers]") {
     const auto drift = [](double step) {
         Simulation simulation = start(oscillator(StepperKind::velocityVerlet, step, 0.03));
-        const double before = energy(simulation.evaluator, simulation.particles).total();
+        const double before = energy(simulation).total();
         double largest = 0.0;
         for (int frame = 1; frame <= 50; ++frame) {
             advance(simulation, 0.01 * frame);
-            const double now = energy(simulation.evaluator, simulation.particles).total();
+            const double now = energy(simulation).total();
             largest = std::max(largest, std::abs(now - before));
         }
         return largest;
@@ -141,10 +142,10 @@ TEST_CASE("Damping only removes energy and keeps both momenta", "[steppers]") {
     Simulation simulation = start(setup);
     const Vec3 momentum = linearMomentum(simulation.particles);
     const Vec3 spin = angularMomentum(simulation.particles);
-    double before = energy(simulation.evaluator, simulation.particles).total();
+    double before = energy(simulation).total();
     for (int frame = 1; frame <= 20; ++frame) {
         advance(simulation, 0.005 * frame);
-        const double now = energy(simulation.evaluator, simulation.particles).total();
+        const double now = energy(simulation).total();
         CHECK(now < before);
         before = now;
     }
@@ -169,7 +170,7 @@ TEST_CASE("Drag does not depend on the step", "[steppers]") {
 
 TEST_CASE("The step bound of two bodies is the closed form, and it is the limit", "[steppers]") {
     Simulation pair = start(oscillator(StepperKind::symplecticEuler, 0.01, 0.0));
-    const auto bound = stepBound(pair.evaluator.law(), pair.particles, StepperKind::symplecticEuler);
+    const auto bound = stepBound(pair.cache->evaluator.law(), pair.particles, StepperKind::symplecticEuler);
     REQUIRE(bound);
     // w^2 = 2 k / m without damping: dt = 2 / w.
     const double stiffness = 2.0 * 0.75 * 0.8 / std::pow(0.3, 5);
@@ -238,5 +239,5 @@ TEST_CASE("Drag removes kinetic energy", "[steppers]") {
     Simulation simulation = start(setup);
     advance(simulation, 0.5);
     // m v^2/2 exp(-2 k t), to the rounding of 500 products.
-    CHECK(energy(simulation.evaluator, simulation.particles).kinetic == Approx(12.5 * std::exp(-1.0)).epsilon(1e-12));
+    CHECK(energy(simulation).kinetic == Approx(12.5 * std::exp(-1.0)).epsilon(1e-12));
 }

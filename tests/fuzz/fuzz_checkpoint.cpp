@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/hash.h"
+#include "engine/run/advance.h"
 #include "engine/run/checkpoint.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "render/output/png.h"
 #include "render/renderer.h"
 #include "scenes/view/frame_steps.h"

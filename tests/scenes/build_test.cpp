@@ -2,7 +2,7 @@
 #include "tests/catch.h"
 
 #include "engine/state/bodies.h"
-#include "engine/stepping/emitters.h"
+#include "engine/state/emitters.h"
 #include "scenes/model/particle_file.h"
 #include "scenes/text/color.h"
 #include "tests/scenes/scene_text.h"

@@ -53,8 +53,8 @@ TEST_CASE("a scene says what it says") {
     CHECK(scene.setup.step == 0.01);
     CHECK(scene.setup.forces == engine::ForceMethod::reference);
     REQUIRE(scene.setup.world);
-    CHECK(scene.setup.world->minimum == Vec3(-9.0, -2.0, -9.0));
-    CHECK(std::isinf(scene.setup.world->maximum.y()));
+    CHECK(scene.setup.world->low == Vec3(-9.0, -2.0, -9.0));
+    CHECK(std::isinf(scene.setup.world->high.y()));
     CHECK(scene.stillTime == 3.0);
     CHECK(scene.size.width == 640);
     CHECK(scene.size.height == 480);

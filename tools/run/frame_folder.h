@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "tools/run/manifest.h"
 #include "tools/system/json.h"
 

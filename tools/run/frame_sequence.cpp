@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "engine/forces/diagnostics.h"
 #include "engine/run/checkpoint.h"
+#include "engine/run/diagnostics.h"
 #include "scenes/view/frame_steps.h"
 #include "tools/system/json.h"
 #include "tools/system/stopwatch.h"

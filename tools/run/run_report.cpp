@@ -9,7 +9,7 @@
 
 #include "engine/error_control/error_estimate.h"
 #include "engine/error_control/long_error_estimate.h"
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "engine/stepping/steppers.h"
 #include "render/cpu/metaballs/metaball_cast.h"
 #include "render/picture/system_error.h"
@@ -142,7 +142,7 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
     json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);
-    json["deaths"] = simulation.deaths;
+    json["deaths"] = simulation.removedCount;
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;
@@ -154,7 +154,7 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
                        {"all", report.seconds.all}};
     json["error_estimate"] = errorJson(simulation, report.errors);
     if (report.unstable.empty()) {
-        json["energy"] = energyJson(engine::energy(simulation.evaluator, simulation.particles));
+        json["energy"] = energyJson(engine::energy(simulation));
         json["linear_momentum"] = vectorJson(engine::linearMomentum(simulation.particles));
         json["angular_momentum"] = vectorJson(engine::angularMomentum(simulation.particles));
     } else {

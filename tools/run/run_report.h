@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/stepping/simulation.h"
+#include "engine/run/advance.h"
 #include "scenes/model/scene.h"
 #include "tools/system/json.h"
 

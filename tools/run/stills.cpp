@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 #include "render/overlay/panel_strip.h"
 #include "render/renderer.h"
 #include "scenes/model/limits.h"

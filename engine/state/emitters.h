@@ -7,9 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/law/material.h"
-#include "engine/neighbors/linked_cells.h"
-#include "engine/state/particles.h"
+#include "engine/core/vec3.h"
 
 namespace engine {
 
@@ -49,6 +47,15 @@ struct EmitterState {
     std::uint64_t refusals = 0;  ///< births that found their place taken when they were due; each is counted once
 };
 
+/// Two unit vectors that span a plane.
+struct PlaneAxes {
+    Vec3 first = Vec3::UnitX();
+    Vec3 second = Vec3::UnitZ();
+};
+
+/// Axes of the plane across a direction of any length; the x and z axes where the direction is zero.
+PlaneAxes axesAcross(const Vec3& direction);
+
 /// Hexagonally packed sites of a disc nozzle, a center with whole rings around it.
 /// Shape: at most radius from the center, neighbors spacing apart, in the plane across the direction.
 std::vector<Vec3> discSites(const Vec3& center, const Vec3& direction, double radius, double spacing);
@@ -59,24 +66,11 @@ EmitterState initialState(const Emitter& emitter);
 /// Whether births can have led to a state: it is a finite one, on or behind schedule, and its counts agree.
 bool isReachable(const Emitter& emitter, const EmitterState& state);
 
+/// When the schedule's next emission is due if nothing delays it, s. Counting from the start keeps the due times of an
+/// undisturbed schedule free of accumulated rounding.
+double dueTime(const Emitter& emitter, const Schedule& schedule);
+
 /// When the next birth is due or tried again, s; infinity when there will be none.
-double nextBirth(const Emitter& emitter, const EmitterState& state);
-
-/// What births need to know of the rest of the simulation.
-struct BirthContext {
-    double time = 0.0;            ///< now, s
-    Vec3 gravity = Vec3::Zero();  ///< m/s^2, moves a newborn from its due time to now
-    std::uint64_t seed = 1;
-    std::uint64_t emitterIndex = 0;  ///< keys the random numbers
-};
-
-/// How far from its own place a birth looks for others, m. Shape: the largest radius that anybody has, m.
-double birthReach(const Emitter& emitter, double largestRadius);
-
-/// Appends the particles that are due at or before the context's time and have room, and adds them to the cells, which
-/// hold all others and are as wide as the birth's reach; returns how many. A birth that was due earlier starts where
-/// its flight would have taken it by now.
-std::size_t emit(const Emitter& emitter, EmitterState& state, const BirthContext& context, const Material& material,
-                 Particles& particles, LinkedCells& cells);
+double nextEmission(const Emitter& emitter, const EmitterState& state);
 
 }  // namespace engine

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/forces/forces.h"
-#include "engine/state/particles.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 
@@ -20,6 +20,9 @@ struct Energy {
 
 /// Energy of a state under the evaluator's law.
 Energy energy(ForceEvaluator& evaluator, const Particles& particles);
+
+/// Energy of a simulation's state under its own law.
+Energy energy(Simulation& simulation);
 
 Vec3 linearMomentum(const Particles& particles);   ///< kg m/s
 Vec3 angularMomentum(const Particles& particles);  ///< kg m^2/s, about the origin

@@ -1,11 +1,12 @@
 // Sums over particles, in order of birth.
-#include "engine/forces/diagnostics.h"
+#include "engine/run/diagnostics.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
@@ -20,6 +21,10 @@ Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
         sum.contacts += contactEnergy(law.scenery, {x, v, particles.radius[p], 1.0});
     }
     return sum;
+}
+
+Energy energy(Simulation& simulation) {
+    return energy(simulation.cache->evaluator, simulation.particles);
 }
 
 Vec3 linearMomentum(const Particles& particles) {

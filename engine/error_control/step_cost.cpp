@@ -1,5 +1,5 @@
 // Counts times weights.
-#include "engine/stepping/step_cost.h"
+#include "engine/error_control/step_cost.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // What steps cost, counted instead of timed: the same on every machine, so that choices may depend on it.
 #pragma once
 
-#include "engine/stepping/simulation.h"
+#include "engine/state/simulation.h"
 
 namespace engine {
 

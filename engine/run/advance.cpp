@@ -1,0 +1,35 @@
+// Which loop brings a simulation to a point in time.
+#include "engine/run/advance.h"
+
+#include "engine/error_control/auto_stepper.h"
+#include "engine/error_control/checked_steps.h"
+#include "engine/stepping/population.h"
+#include "engine/stepping/step_cache.h"
+#include "engine/stepping/symplectic_euler.h"
+
+namespace engine {
+
+Simulation start(const Setup& setup) {
+    Simulation simulation;
+    simulation.setup = setup;
+    simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
+    simulation.cache->evaluator =
+        ForceEvaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces, setup.precision);
+    simulation.particles = setup.initial;
+    for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
+    emitDue(simulation);
+    return simulation;
+}
+
+void advance(Simulation& simulation, double time) {
+    if (time <= simulation.time) return;
+    removeOutOfBounds(simulation);
+    if (simulation.stepper == StepperKind::symplecticEuler)
+        advanceInEqualSteps(simulation, time);
+    else if (simulation.setup.stepper == StepperKind::automatic)
+        advanceAutomatically(simulation, time);
+    else
+        advanceAudited(simulation, time, simulation.setup.step, StepLimit::given);
+}
+
+}  // namespace engine

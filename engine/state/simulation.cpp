@@ -1,0 +1,32 @@
+// Counting: steps, particles, emissions.
+#include "engine/state/simulation.h"
+
+#include <algorithm>
+
+namespace engine {
+
+void record(StepStatistics& steps, double h, StepLimit limit, StepperKind stepper) {
+    steps.shortest = steps.count == 0 ? h : std::min(steps.shortest, h);
+    steps.longest = std::max(steps.longest, h);
+    ++steps.count;
+    ++steps.limitedBy[static_cast<std::size_t>(limit)];
+    ++steps.takenBy[static_cast<std::size_t>(stepper)];
+}
+
+std::uint64_t largestCount(const Simulation& simulation) {
+    return std::max<std::uint64_t>(simulation.largestCountBeforeRemoval, simulation.particles.count());
+}
+
+std::uint64_t birthCount(const Simulation& simulation) {
+    std::uint64_t sum = 0;
+    for (const EmitterState& state : simulation.emitters) sum += state.births;
+    return sum;
+}
+
+std::uint64_t refusalCount(const Simulation& simulation) {
+    std::uint64_t sum = 0;
+    for (const EmitterState& state : simulation.emitters) sum += state.refusals;
+    return sum;
+}
+
+}  // namespace engine

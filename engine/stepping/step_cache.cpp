@@ -1,0 +1,28 @@
+// Copies of a step cache, and how it is emptied.
+#include "engine/stepping/step_cache.h"
+
+namespace engine {
+
+void StepCache::invalidate() {
+    forcesCurrent = false;
+    energy.reset();
+    clearance.clear();
+    companions.clear();
+    evaluator.forgetList();
+}
+
+StepCachePointer::StepCachePointer() : cache_(std::make_unique<StepCache>()) {}
+StepCachePointer::StepCachePointer(const StepCachePointer& other) : cache_(std::make_unique<StepCache>(*other)) {}
+StepCachePointer::StepCachePointer(StepCachePointer&& other) noexcept = default;
+StepCachePointer& StepCachePointer::operator=(const StepCachePointer& other) {
+    if (this == &other) return *this;
+    if (cache_)
+        *cache_ = *other;  // keeps the memory
+    else
+        cache_ = std::make_unique<StepCache>(*other);
+    return *this;
+}
+StepCachePointer& StepCachePointer::operator=(StepCachePointer&& other) noexcept = default;
+StepCachePointer::~StepCachePointer() = default;
+
+}  // namespace engine
