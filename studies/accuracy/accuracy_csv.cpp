@@ -37,7 +37,7 @@ std::string lineOf(const SceneAccuracy& scene, const AccuracyRow& row) {
                        automatic ? "" : number(run.variant.asked), automatic ? number(run.variant.asked) : "",
                        nameOf(run.ending), errorsOf(scene, row), number(run.seconds), steps.count,
                        number(steps.shortest), number(steps.longest), steps.forceEvaluations, steps.products,
-                       number(run.lookPasses), steps.rejected, driftsOf(row));
+                       number(run.errorEstimateCost), steps.rejected, driftsOf(row));
 }
 
 /// Stepper, its cost, and the automatic stepper's as a multiple of it.
@@ -52,7 +52,8 @@ std::string accuracyCsv(const std::vector<SceneAccuracy>& scenes) {
     std::string csv =
         "scene,stepper,step_s,asked_radii_per_s,ending,rms_error_radii,largest_error_radii,particles_compared,"
         "statistics_error_radii,measure,error_radii_per_s,resolved,seconds,steps,shortest_step_s,longest_step_s,"
-        "force_evaluations,products,look_passes,rejected,energy_drift,linear_momentum_drift,angular_momentum_drift\n";
+        "force_evaluations,products,error_estimate_evaluations,rejected,energy_drift,linear_momentum_drift,angular_"
+        "momentum_drift\n";
     for (const SceneAccuracy& scene : scenes)
         for (const AccuracyRow& row : scene.rows) csv += lineOf(scene, row);
     return csv;
@@ -69,8 +70,8 @@ std::string ordersCsv(const std::vector<SceneAccuracy>& scenes) {
 }
 
 std::string autosCsv(const std::vector<SceneAccuracy>& scenes) {
-    std::string csv = "scene,asked_radii_per_s,obtained_radii_per_s,obtained_over_asked,resolved,seconds,passes";
-    for (const char* unit : {"seconds", "passes"})
+    std::string csv = "scene,asked_radii_per_s,obtained_radii_per_s,obtained_over_asked,resolved,seconds,evaluations";
+    for (const char* unit : {"seconds", "evaluations"})
         for (const char* at : {"obtained", "asked"})
             csv += fmt::format(",best_{0}_stepper_at_{1},best_{0}_at_{1},{0}_over_best_at_{1}", unit, at);
     csv += "\n";
@@ -78,9 +79,10 @@ std::string autosCsv(const std::vector<SceneAccuracy>& scenes) {
         for (const AutoRow& row : scene.autos)
             csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), number(row.asked),
                                number(row.obtained), number(row.obtained / row.asked), row.resolved ? "yes" : "no",
-                               number(row.seconds), number(row.passes), against(row.secondsAtObtained, row.seconds),
-                               against(row.secondsAtAsked, row.seconds), against(row.passesAtObtained, row.passes),
-                               against(row.passesAtAsked, row.passes));
+                               number(row.seconds), number(row.evaluationCost),
+                               against(row.secondsAtObtained, row.seconds), against(row.secondsAtAsked, row.seconds),
+                               against(row.evaluationsAtObtained, row.evaluationCost),
+                               against(row.evaluationsAtAsked, row.evaluationCost));
     return csv;
 }
 

@@ -46,7 +46,7 @@ set lmargin 11
 )";
 
 double costOf(const AccuracyRow& row, CostAxis axis) {
-    return axis == CostAxis::seconds ? row.run.seconds : row.run.passes;
+    return axis == CostAxis::seconds ? row.run.seconds : row.run.evaluationCost;
 }
 
 /// Cost, error, what was asked.
@@ -73,7 +73,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string axes(const SceneAccuracy& scene, CostAxis axis) {
-    const bool positions = scene.reference.measure == Measure::positions;
+    const bool positions = scene.reference.measure == ErrorMetric::positions;
     const std::string what =
         fmt::format("{} particles, {:g} s of motion from {:.3g} s on", scene.particleCount, scene.window, scene.from);
     return fmt::format(

@@ -8,8 +8,9 @@
 namespace studies {
 
 enum class CostAxis {
-    seconds,  ///< wall clock
-    passes    ///< over all pairs: force evaluations, and products of the implicit steppers' matrix at their share
+    seconds,          ///< wall clock
+    forceEvaluations  ///< over all pairs: force evaluations, and products of the implicit steppers' matrix at their
+                      ///< share
 };
 
 /// A script that makes gnuplot write an SVG to its standard output.

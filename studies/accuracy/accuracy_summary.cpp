@@ -72,8 +72,8 @@ double timeOf(const WindowRun& run) {
     return run.seconds;
 }
 
-double passesOf(const WindowRun& run) {
-    return run.passes;
+double evaluationCostOf(const WindowRun& run) {
+    return run.evaluationCost;
 }
 
 std::optional<HandPicked> cheapest(const std::vector<AccuracyRow>& rows, Cost cost, double error) {
@@ -102,7 +102,7 @@ AccuracyRow rowOf(const Window& window, const WindowRun& run, const Reference& r
     row.largest = positions.largest;
     row.compared = positions.compared;
     row.statistics = statisticsDifference(run.particles, reference.run.particles);
-    row.error = reference.facts.measure == Measure::positions ? row.rms : row.statistics;
+    row.error = reference.facts.measure == ErrorMetric::positions ? row.rms : row.statistics;
     row.errorPerSecond = row.error / window.seconds();
     row.resolved = std::isfinite(row.error) && row.error > reference.facts.resolution;
     addDrifts(row, run, reference.run);
@@ -135,13 +135,13 @@ std::vector<AutoRow> autosOf(const std::vector<AccuracyRow>& rows, double window
         automatic.asked = run.variant.asked;
         automatic.obtained = row.errorPerSecond;
         automatic.seconds = run.seconds;
-        automatic.passes = run.passes;
+        automatic.evaluationCost = run.evaluationCost;
         automatic.resolved = row.resolved;
         const double askedError = run.variant.asked * windowSeconds;
         automatic.secondsAtObtained = cheapest(rows, timeOf, row.error);
         automatic.secondsAtAsked = cheapest(rows, timeOf, askedError);
-        automatic.passesAtObtained = cheapest(rows, passesOf, row.error);
-        automatic.passesAtAsked = cheapest(rows, passesOf, askedError);
+        automatic.evaluationsAtObtained = cheapest(rows, evaluationCostOf, row.error);
+        automatic.evaluationsAtAsked = cheapest(rows, evaluationCostOf, askedError);
         autos.push_back(automatic);
     }
     return autos;

@@ -52,12 +52,12 @@ struct AutoRow {
     double asked = 0.0;     ///< radii per second of motion
     double obtained = 0.0;  ///< radii per second of motion
     double seconds = 0.0;
-    double passes = 0.0;
+    double evaluationCost = 0.0;
     bool resolved = false;
     /// Cheapest at the error that was obtained and at the one that was asked; nothing where no fixed run errs as
     /// little.
     std::optional<HandPicked> secondsAtObtained, secondsAtAsked;
-    std::optional<HandPicked> passesAtObtained, passesAtAsked;
+    std::optional<HandPicked> evaluationsAtObtained, evaluationsAtAsked;
 };
 
 /// A row for each finished automatic run, against the resolved fixed ones.

@@ -11,7 +11,7 @@
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/steppers.h"
 #include "studies/bench/machine_loops.h"
-#include "studies/common/blocks.h"
+#include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
 
 namespace studies {
@@ -63,7 +63,7 @@ struct Subject {
 };
 
 Subject subjectOf(const Packed& packed, std::size_t count) {
-    Subject subject{packedBlock(packed.material, count, {.spacing = packed.spacing}), {}};
+    Subject subject{fccCube(packed.material, count, {.spacing = packed.spacing}), {}};
     const engine::Particles& particles = subject.setup.initial;
     engine::PairTraversal pairs(lawOf(subject.setup), Precision::doubles);
     pairs.prepare(lawOf(subject.setup), particles, particles.velocity);

@@ -7,7 +7,7 @@
 #include "render/renderer.h"
 #include "scenes/view/frame_steps.h"
 #include "scenes/view/frame_view.h"
-#include "studies/common/blocks.h"
+#include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
 
 namespace studies {

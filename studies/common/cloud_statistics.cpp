@@ -17,8 +17,8 @@ double ninetieth(std::vector<double> values) {
 
 }  // namespace
 
-CloudStatistics statisticsOf(const engine::Particles& particles) {
-    CloudStatistics statistics;
+BulkStatistics bulkStatistics(const engine::Particles& particles) {
+    BulkStatistics statistics;
     if (particles.count() == 0) return statistics;
     double mass = 0.0;
     for (std::size_t p = 0; p < particles.count(); ++p) {
@@ -42,7 +42,7 @@ CloudStatistics statisticsOf(const engine::Particles& particles) {
     return statistics;
 }
 
-double largestDifference(const CloudStatistics& a, const CloudStatistics& b) {
+double largestDifference(const BulkStatistics& a, const BulkStatistics& b) {
     return std::max({std::sqrt(engine::squaredLength(a.center - b.center)), std::abs(a.gyration - b.gyration),
                      std::abs(a.r90 - b.r90), std::abs(a.z90 - b.z90)});
 }

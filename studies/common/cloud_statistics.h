@@ -6,7 +6,7 @@
 
 namespace studies {
 
-struct CloudStatistics {
+struct BulkStatistics {
     engine::Vec3 center = engine::Vec3::Zero();  ///< of mass, m
     double gyration = 0.0;                       ///< radius of gyration about it, weighted by mass, m
     double r90 = 0.0;                            ///< radius about the center that holds 90 % of the particles, m
@@ -14,9 +14,9 @@ struct CloudStatistics {
 };
 
 /// Zeros without particles.
-CloudStatistics statisticsOf(const engine::Particles& particles);
+BulkStatistics bulkStatistics(const engine::Particles& particles);
 
 /// Largest of the four differences, in meters; that of the centers is a distance.
-double largestDifference(const CloudStatistics& a, const CloudStatistics& b);
+double largestDifference(const BulkStatistics& a, const BulkStatistics& b);
 
 }  // namespace studies

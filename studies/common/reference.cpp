@@ -40,13 +40,13 @@ std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engi
 }
 
 /// What tells fine runs apart: positions, unless even their births differ.
-Measure measureOf(const engine::Particles& a, const engine::Particles& b) {
-    return sameBirths(a, b) ? Measure::positions : Measure::statistics;
+ErrorMetric measureOf(const engine::Particles& a, const engine::Particles& b) {
+    return sameBirths(a, b) ? ErrorMetric::positions : ErrorMetric::statistics;
 }
 
 /// Of two steppers of order 2, the change at equal cost is proportional to the change times the square of the cost.
 double changeAtEqualCost(const Window& window, const std::vector<const WindowRun*>& two) {
-    const double cost = two[1]->passes;
+    const double cost = two[1]->evaluationCost;
     const engine::Particles& coarse = two[0]->particles;
     const engine::Particles& fine = two[1]->particles;
     return difference(window, measureOf(coarse, fine), coarse, fine) * cost * cost;
@@ -64,13 +64,13 @@ const WindowRun& finestOfBetterStepper(const Window& window, const std::vector<W
     if (best != nullptr) return *best;
     std::string words;
     for (const WindowRun& run : runs)
-        if (words.empty()) words = run.words;
+        if (words.empty()) words = run.failureMessage;
     throw engine::InstabilityError(fmt::format(
         "neither velocity-verlet nor implicit-damping finished the window twice, so there is no reference; {}",
         words.empty() ? "all runs were too slow" : words));
 }
 
-double smallestError(const Window& window, Measure measure, const std::vector<WindowRun>& runs,
+double smallestError(const Window& window, ErrorMetric measure, const std::vector<WindowRun>& runs,
                      const engine::Particles& reference) {
     double smallest = kInfinity;
     for (const WindowRun& run : runs) {
@@ -85,7 +85,7 @@ WindowRun runWhole(const Window& window, const Variant& variant, const Reference
                    std::string_view purpose) {
     WindowRun run = runWindow(window, variant, kInfinity);
     budget.listener(run, purpose);
-    if (run.ending != Ending::finished) throw engine::InstabilityError(run.words);
+    if (run.ending != Ending::finished) throw engine::InstabilityError(run.failureMessage);
     return run;
 }
 
@@ -97,19 +97,19 @@ WindowRun runTwin(const Window& window, const Variant& variant, const ReferenceB
 
 }  // namespace
 
-std::string_view nameOf(Measure measure) {
-    return measure == Measure::positions ? "positions" : "statistics";
+std::string_view nameOf(ErrorMetric measure) {
+    return measure == ErrorMetric::positions ? "positions" : "statistics";
 }
 
 double statisticsDifference(const engine::Particles& particles, const engine::Particles& reference) {
     if (reference.count() == 0) return 0.0;
     const double radius =
         std::accumulate(reference.radius.begin(), reference.radius.end(), 0.0) / static_cast<double>(reference.count());
-    return largestDifference(statisticsOf(particles), statisticsOf(reference)) / radius;
+    return largestDifference(bulkStatistics(particles), bulkStatistics(reference)) / radius;
 }
 
-double difference(const Window& window, Measure measure, const engine::Particles& a, const engine::Particles& b) {
-    if (measure == Measure::statistics) return statisticsDifference(a, b);
+double difference(const Window& window, ErrorMetric measure, const engine::Particles& a, const engine::Particles& b) {
+    if (measure == ErrorMetric::statistics) return statisticsDifference(a, b);
     return positionError(a, b, window.start.particles.count()).rms;
 }
 
@@ -124,16 +124,16 @@ Reference findReference(const Window& window, const std::vector<WindowRun>& runs
     double spent = reference.run.seconds;
     facts.twinSeparation =
         difference(window, measureOf(twin.particles, finest.particles), twin.particles, finest.particles);
-    const double smallest = smallestError(window, Measure::positions, runs, reference.run.particles);
+    const double smallest = smallestError(window, ErrorMetric::positions, runs, reference.run.particles);
     facts.birthsDiffer =
         !sameBirths(finest.particles, reference.run.particles) || !sameBirths(twin.particles, reference.run.particles);
-    if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.measure = Measure::statistics;
+    if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.measure = ErrorMetric::statistics;
     do {
         facts.variant.asked /= 2.0;
         WindowRun halved = runWhole(window, facts.variant, budget, "reference");
         spent += halved.seconds;
         facts.birthsDiffer = facts.birthsDiffer || !sameBirths(reference.run.particles, halved.particles);
-        if (facts.birthsDiffer) facts.measure = Measure::statistics;
+        if (facts.birthsDiffer) facts.measure = ErrorMetric::statistics;
         facts.change = difference(window, facts.measure, reference.run.particles, halved.particles);
         reference.run = std::move(halved);
         facts.settled =

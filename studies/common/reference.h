@@ -10,15 +10,15 @@
 
 namespace studies {
 
-enum class Measure {
+enum class ErrorMetric {
     positions,  ///< rms distance over the particles that both have, radii
     statistics  ///< largest difference of center of mass, radius of gyration, R90 and z90, radii
 };
 
-std::string_view nameOf(Measure measure);
+std::string_view nameOf(ErrorMetric measure);
 
 /// How far two states at the end of the window are apart, in radii.
-double difference(const Window& window, Measure measure, const engine::Particles& a, const engine::Particles& b);
+double difference(const Window& window, ErrorMetric measure, const engine::Particles& a, const engine::Particles& b);
 
 /// Differences of the four statistics, in mean radii.
 double statisticsDifference(const engine::Particles& particles, const engine::Particles& reference);
@@ -26,7 +26,7 @@ double statisticsDifference(const engine::Particles& particles, const engine::Pa
 /// What a reader has to know of the reference.
 struct ReferenceFacts {
     Variant variant;
-    Measure measure = Measure::positions;
+    ErrorMetric measure = ErrorMetric::positions;
     double change = 0.0;          ///< by the last halving of its step, radii
     double twinSeparation = 0.0;  ///< rms, of two runs that began 1e-9 radii apart, radii
     double resolution = 0.0;      ///< errors below it are not told from its own, radii

@@ -94,12 +94,12 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
         }
     } catch (const engine::InstabilityError& error) {
         run.ending = Ending::unstable;
-        run.words = error.what();
+        run.failureMessage = error.what();
     }
     run.seconds = elapsed();
     run.steps = simulation.steps;
-    run.lookPasses = simulation.automatic.trials;
-    run.passes = engine::passesOf(simulation) + run.lookPasses;
+    run.errorEstimateCost = simulation.automatic.trials;
+    run.evaluationCost = engine::passesOf(simulation) + run.errorEstimateCost;
     if (run.ending == Ending::finished) run.energy = engine::energy(simulation);
     run.particles = std::move(simulation.particles);
     return run;

@@ -47,14 +47,14 @@ std::string nameOf(Ending ending);
 struct WindowRun {
     Variant variant;
     Ending ending = Ending::finished;
-    std::string words;     ///< of the InstabilityError
-    double seconds = 0.0;  ///< wall clock
+    std::string failureMessage;  ///< of the InstabilityError
+    double seconds = 0.0;        ///< wall clock
     engine::StepStatistics steps;
     engine::Particles particles;  ///< at the end; the state that an unfinished run broke off with
     engine::Energy energy;        ///< at the end of a finished run
 
-    double lookPasses = 0.0;  ///< what the automatic stepper's looks at its candidates cost besides the steps
-    double passes = 0.0;      ///< all work, in passes over all pairs; see engine/step_cost.h
+    double errorEstimateCost = 0.0;  ///< what the automatic stepper's looks at its candidates cost besides the steps
+    double evaluationCost = 0.0;     ///< all work, in passes over all pairs; see engine/step_cost.h
 };
 
 /// Runs the window once. A run that has taken longer than the limit (s) ends at the next frame as too slow.

@@ -52,14 +52,14 @@ int cellWithin(double place, int count) {
 
 }  // namespace
 
-Crowd Crowd::everyone(std::size_t count) {
-    Crowd crowd;
+BallGrid BallGrid::everyone(std::size_t count) {
+    BallGrid crowd;
     crowd.all_ = true;
     crowd.count_ = static_cast<std::uint32_t>(count);
     return crowd;
 }
 
-Crowd::Crowd(const std::vector<Extent>& balls) : count_(static_cast<std::uint32_t>(balls.size())) {
+BallGrid::BallGrid(const std::vector<Extent>& balls) : count_(static_cast<std::uint32_t>(balls.size())) {
     if (balls.empty()) return;
     dvec3 high(-kInfinity);
     low_ = dvec3(kInfinity);
@@ -98,14 +98,14 @@ Crowd::Crowd(const std::vector<Extent>& balls) : count_(static_cast<std::uint32_
         forCellsOf(balls[k], [&](std::size_t cell) { lists_[next[cell]++] = k; });
 }
 
-std::size_t Crowd::cellAt(const std::array<int, 3>& cell) const {
+std::size_t BallGrid::cellAt(const std::array<int, 3>& cell) const {
     return (static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(cells_[1]) +
             static_cast<std::size_t>(cell[1])) *
                static_cast<std::size_t>(cells_[0]) +
            static_cast<std::size_t>(cell[0]);
 }
 
-Indices Crowd::along(const Ray& ray) const {
+Indices BallGrid::along(const Ray& ray) const {
     Indices found;
     if (all_) {
         found.resize(count_);
@@ -137,7 +137,7 @@ Indices Crowd::along(const Ray& ray) const {
     return onceEach(std::move(found));
 }
 
-Indices Crowd::within(const dvec3& place, double halfSide) const {
+Indices BallGrid::within(const dvec3& place, double halfSide) const {
     std::array<int, 3> first{};
     std::array<int, 3> last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -25,13 +25,13 @@ struct Extent {
 /// Indices of balls, in rising order.
 using Indices = std::vector<std::uint32_t>;
 
-class Crowd {
+class BallGrid {
  public:
     /// Every ball is near every ray.
-    static Crowd everyone(std::size_t count);
+    static BallGrid everyone(std::size_t count);
 
     /// Sorted into cells of a grid.
-    explicit Crowd(const std::vector<Extent>& balls);
+    explicit BallGrid(const std::vector<Extent>& balls);
 
     /// All balls that the ray may cross, and perhaps others.
     Indices along(const Ray& ray) const;
@@ -39,7 +39,7 @@ class Crowd {
     Indices within(const glm::dvec3& place, double halfSide) const;
 
  private:
-    Crowd() = default;
+    BallGrid() = default;
     std::size_t cellAt(const std::array<int, 3>& cell) const;
 
     bool all_ = false;

@@ -221,7 +221,7 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
 }  // namespace
 
 Scene::Scene(const render::View& view_, bool everyone)
-    : view(view_), balls(ballsOf(view_)), crowd(Crowd::everyone(view_.particles.size())), sky(view_) {
+    : view(view_), balls(ballsOf(view_)), crowd(BallGrid::everyone(view_.particles.size())), sky(view_) {
     if (everyone) return;
     std::vector<Extent> extents;
     for (std::size_t k = 0; k < balls.size(); ++k) {
@@ -229,7 +229,7 @@ Scene::Scene(const render::View& view_, bool everyone)
         const double sphere = double(view.particles[k].radius) * (1.0 + 0.5 * double(view.light.softness));
         extents.push_back({balls[k].center, view.style == render::Style::metaballs ? balls[k].reach : sphere});
     }
-    crowd = Crowd(extents);
+    crowd = BallGrid(extents);
 }
 
 std::vector<Ball> ballsOf(const render::View& view) {
@@ -240,7 +240,7 @@ std::vector<Ball> ballsOf(const render::View& view) {
     std::vector<Extent> extents;
     // Half of each reach: two of them overlap where the pair acts.
     for (const Ball& ball : balls) extents.push_back({ball.center, 0.5 * ball.reach});
-    const Crowd crowd(extents);
+    const BallGrid crowd(extents);
     std::vector<Ball> skin = balls;
     for (std::size_t k = 0; k < balls.size(); ++k) {
         const dvec3 here = balls[k].center;

@@ -54,7 +54,7 @@ struct Scene {
 
     const render::View& view;
     std::vector<Ball> balls;
-    Crowd crowd;
+    BallGrid crowd;
     Sky sky;
 };
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "render/renderer.h"
-#include "studies/pictures/picture_cloud.h"
+#include "studies/pictures/dam_break_view.h"
 #include "studies/pictures/pictures.h"
 
 namespace studies {
@@ -49,7 +49,7 @@ std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const Fl
     render::Context context(settings.backend);
     std::vector<FlickerRow> rows;
     for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
-        const render::View view = pictureCloud(settings.particles, style);
+        const render::View view = damBreakView(settings.particles, style);
         for (const render::Quality quality :
              {render::Quality::draft, render::Quality::normal, render::Quality::final}) {
             render::Renderer renderer(context, settings.size, quality);

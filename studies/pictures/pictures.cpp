@@ -15,7 +15,7 @@
 #include "render/renderer.h"
 #include "studies/common/timing.h"
 #include "studies/oracle/ball_grid.h"
-#include "studies/pictures/picture_cloud.h"
+#include "studies/pictures/dam_break_view.h"
 #include "studies/pictures/quad_baseline.h"
 
 namespace studies {
@@ -184,7 +184,7 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
 
 void measureSubject(const PictureSettings& settings, render::Context& context, const Subject& subject,
                     const PictureListener& listener, std::vector<PictureRow>& rows) {
-    const render::View view = pictureCloud(subject.particles, subject.style);
+    const render::View view = damBreakView(subject.particles, subject.style);
     const std::vector<render::View> frames = framesOf(view, settings.frames);
     const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
     for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
@@ -211,7 +211,7 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, const P
     std::vector<PictureRow> rows;
     if (settings.particles.empty()) return rows;
     for (const Style style : {Style::spheres, Style::metaballs}) {
-        const render::View fewest = pictureCloud(std::ranges::min(settings.particles), style);
+        const render::View fewest = damBreakView(std::ranges::min(settings.particles), style);
         for (const render::PictureSize size : settings.sizes)
             for (const std::size_t particles : settings.particles)
                 measureSubject(settings, context, {style, particles, size, fewest}, listener, rows);

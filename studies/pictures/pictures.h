@@ -11,7 +11,7 @@
 #include "render/opengl/context.h"
 #include "render/picture/view.h"
 #include "studies/pictures/picture_error.h"
-#include "studies/pictures/skins.h"
+#include "studies/pictures/surface_smoothing.h"
 
 namespace studies {
 
@@ -64,7 +64,7 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, const P
 std::string picturesCsv(const std::vector<PictureRow>& rows);
 
 /// gnuplot scripts: milliseconds a frame against particles, and error against milliseconds.
-std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SkinRow>& skins);
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& skins);
 std::string pictureErrorsPlot(const std::vector<PictureRow>& rows);
 
 }  // namespace studies

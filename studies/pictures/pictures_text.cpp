@@ -57,7 +57,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
     return csv;
 }
 
-std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SkinRow>& skins) {
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& skins) {
     std::vector<Curve> curves =
         curvesOf(rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw); });
     Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2", ""};
@@ -66,7 +66,7 @@ std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vec
             quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
     curves.push_back(quads);
     Curve plain{"metaballs, normal, plain skin", "linespoints pointtype 4 linecolor rgb '#e69f00' dashtype 3", ""};
-    for (const SkinRow& row : skins)
+    for (const SmoothingRow& row : skins)
         if (row.skin == render::Skin::plain) plain.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw);
     curves.push_back(plain);
     return std::string(kPlotFrame) +

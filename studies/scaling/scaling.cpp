@@ -7,7 +7,7 @@
 
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/step_cache.h"
-#include "studies/common/blocks.h"
+#include "studies/common/fcc_cube.h"
 #include "studies/common/order_fit.h"
 #include "studies/common/timing.h"
 
@@ -137,11 +137,11 @@ std::vector<ScalingRow> measureScene(const std::string& name, const scenes::Scen
     return rows;
 }
 
-std::vector<ScalingRow> measureBlocks(const std::string& material, const ScalingSettings& settings,
-                                      const ScalingListener& listener) {
+std::vector<ScalingRow> measureCubes(const std::string& material, const ScalingSettings& settings,
+                                     const ScalingListener& listener) {
     std::vector<ScalingRow> rows;
-    for (const std::size_t count : settings.blocks) {
-        engine::Setup setup = packedBlock(material, count, {.mass = 1.0, .speed = 1.0});
+    for (const std::size_t count : settings.cubeSizes) {
+        engine::Setup setup = fccCube(material, count, {.mass = 1.0, .speed = 1.0});
         setup.stepper = engine::StepperKind::symplecticEuler;
         setup.step = kBlockStep;
         rows.push_back(measureFrom(material, engine::start(setup), settings));

@@ -24,7 +24,7 @@ struct PublishedRow {
 extern const std::vector<PublishedRow> kTable2;
 
 struct ScalingSettings {
-    std::vector<std::size_t> blocks = {1000, 2000, 5000, 10000, kPeerParticles, 100000, 320000, 1000000};
+    std::vector<std::size_t> cubeSizes = {1000, 2000, 5000, 10000, kPeerParticles, 100000, 320000, 1000000};
     std::size_t mostInScenes = 2000;      ///< rows of Table 2 up to this number
     std::size_t mostByEveryPair = 10000;  ///< beyond it every pair is not visited
     int rounds = 5;                       ///< medians of so many
@@ -62,8 +62,8 @@ std::vector<ScalingRow> measureScene(const std::string& name, const scenes::Scen
                                      const ScalingSettings& settings, const ScalingListener& listener);
 
 /// Close packings of a material at its rest length, moving, in space without gravity.
-std::vector<ScalingRow> measureBlocks(const std::string& material, const ScalingSettings& settings,
-                                      const ScalingListener& listener);
+std::vector<ScalingRow> measureCubes(const std::string& material, const ScalingSettings& settings,
+                                     const ScalingListener& listener);
 
 /// Fits of the rows of one subject; a method that has fewer than two sizes has none.
 std::vector<ScalingFit> fitsOf(const std::vector<ScalingRow>& rows);

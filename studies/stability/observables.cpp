@@ -16,17 +16,17 @@ bool needsNobody(scenes::Observable observable) {
 
 }  // namespace
 
-double measure(scenes::Observable observable, const Trial& trial) {
+double measure(scenes::Observable observable, const ObservableInput& trial) {
     if (trial.run.frames.back().count() == 0 && !needsNobody(observable))
         throw scenes::InputError({{trial.scene.sourceName, 0, 0,
                                    fmt::format("no particle is there at the end of the run, so there is no {}",
                                                scenes::infoOf(observable).name)}});
-    using Function = double (*)(const Trial&);
+    using Function = double (*)(const ObservableInput&);
     // In the order of the enumeration.
     static constexpr Function kFunctions[] = {
         pairLaw,         momentumDrift, energyRise,       positionError, heightError, frontError, radiusError,
         statisticsError, reboundError,  restitutionError, largestSpeed,  medianSpeed, fragments,  spacing,
-        passed,          refusals,      stepBound,        order,         cost};
+        tunnelingCount,  refusals,      stepBound,        order,         cost};
     return kFunctions[static_cast<std::size_t>(observable)](trial);
 }
 

@@ -44,7 +44,7 @@ constexpr double kRoundedAway = 1e-12;
 }  // namespace
 
 /// The largest |P(t) - P(0)| / sum |p(0)| over the frames, or that of the angular momentum if it is larger.
-double momentumDrift(const Trial& trial) {
+double momentumDrift(const ObservableInput& trial) {
     const Particles& first = trial.run.frames.front();
     const MomentumScale scale = scaleOf(first);
     const Vec3 linear = engine::linearMomentum(first);
@@ -60,7 +60,7 @@ double momentumDrift(const Trial& trial) {
 /// The largest rise of the total energy from a frame to the next, for each step between them, over the kinetic energy:
 /// the larger of the two, and that of a slow motion, as the audit of the steps counts it. The scene must be closed: no
 /// births.
-double energyRise(const Trial& trial) {
+double energyRise(const ObservableInput& trial) {
     const engine::Setup& setup = trial.scene.setup;
     engine::ForceEvaluator evaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces);
     double worst = 0.0;
@@ -78,14 +78,14 @@ double energyRise(const Trial& trial) {
 }
 
 /// Over all frames.
-double largestSpeed(const Trial& trial) {
+double largestSpeed(const ObservableInput& trial) {
     double largest = 0.0;
     for (const Particles& frame : trial.run.frames) largest = std::max(largest, engine::largestSpeed(frame));
     return largest;
 }
 
 /// At the end. A heap that has come to rest has next to none, however fast a few still fall onto it.
-double medianSpeed(const Trial& trial) {
+double medianSpeed(const ObservableInput& trial) {
     std::vector<double> speeds;
     for (const Vec3& velocity : trial.run.frames.back().velocity) speeds.push_back(velocity.norm());
     const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
@@ -93,7 +93,7 @@ double medianSpeed(const Trial& trial) {
     return *middle;
 }
 
-double refusals(const Trial& trial) {
+double refusals(const ObservableInput& trial) {
     return static_cast<double>(engine::refusalCount(trial.run.end));
 }
 

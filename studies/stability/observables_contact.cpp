@@ -71,7 +71,7 @@ bool isThrough(const engine::Sphere& sphere, const Flight& flight, double) {
 /// inside a solid, or beyond one. A shot that bounced once off a convex solid has its first and last place on the free
 /// side of the plane through the point where it touched, so the straight line between them misses the solid; one that
 /// went through crosses it. This holds without gravity and with one solid in the way of each shot.
-double passed(const Trial& trial) {
+double tunnelingCount(const ObservableInput& trial) {
     const engine::Particles& first = trial.run.frames.front();
     const engine::Particles& last = trial.run.frames.back();
     const double depth = trial.scene.setup.scenery.law.radius;

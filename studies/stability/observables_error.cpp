@@ -15,14 +15,14 @@ using engine::Particles;
 constexpr double kDiffers = std::numeric_limits<double>::infinity();
 
 /// Whether the runs can be compared particle by particle in every frame.
-bool isComparable(const Trial& trial) {
+bool isComparable(const ObservableInput& trial) {
     return trial.reference != nullptr && trial.reference->frames.size() == trial.run.frames.size() &&
            trial.reference->frames.back().count() == trial.run.frames.back().count();
 }
 
 /// The largest difference of a quantity of a frame over all frames that have particles, in radii of the first one.
 template <class Quantity>
-double largestDifference(const Trial& trial, const Quantity& quantity) {
+double largestDifference(const ObservableInput& trial, const Quantity& quantity) {
     if (!isComparable(trial)) return kDiffers;
     double largest = 0.0;
     for (std::size_t k = 0; k < trial.run.frames.size(); ++k) {
@@ -57,14 +57,14 @@ double fastestRise(const Run& run) {
 }  // namespace
 
 /// Root mean square over the particles at the end, each in its own radii.
-double positionError(const Trial& trial) {
+double positionError(const ObservableInput& trial) {
     if (!isComparable(trial)) return kDiffers;
     const Particles& ours = trial.run.frames.back();
     return positionError(ours, trial.reference->frames.back(), ours.count()).rms;
 }
 
 /// Of the heaviest particle of each frame, over all of them.
-double heightError(const Trial& trial) {
+double heightError(const ObservableInput& trial) {
     return largestDifference(trial, [](const Particles& frame) {
         const auto heaviest = std::ranges::max_element(frame.mass) - frame.mass.begin();
         return frame.position[static_cast<std::size_t>(heaviest)].y();
@@ -72,20 +72,20 @@ double heightError(const Trial& trial) {
 }
 
 /// Of the particle furthest along x, over all frames.
-double frontError(const Trial& trial) {
+double frontError(const ObservableInput& trial) {
     return largestDifference(trial, front);
 }
 
 /// Of the radius that holds 90 % of the particles, over all frames.
-double radiusError(const Trial& trial) {
-    return largestDifference(trial, [](const Particles& frame) { return statisticsOf(frame).r90; });
+double radiusError(const ObservableInput& trial) {
+    return largestDifference(trial, [](const Particles& frame) { return bulkStatistics(frame).r90; });
 }
 
 /// At the end: center of mass, radius of gyration and R90 in units of the reference's R90, z90 in units of itself.
-double statisticsError(const Trial& trial) {
+double statisticsError(const ObservableInput& trial) {
     if (!isComparable(trial)) return kDiffers;
-    const CloudStatistics ours = statisticsOf(trial.run.frames.back());
-    const CloudStatistics reference = statisticsOf(trial.reference->frames.back());
+    const BulkStatistics ours = bulkStatistics(trial.run.frames.back());
+    const BulkStatistics reference = bulkStatistics(trial.reference->frames.back());
     return std::max({(ours.center - reference.center).norm() / reference.r90,
                      std::abs(ours.gyration - reference.gyration) / reference.r90,
                      std::abs(ours.r90 - reference.r90) / reference.r90,
@@ -93,13 +93,13 @@ double statisticsError(const Trial& trial) {
 }
 
 /// Of the fastest rise of the center of mass, as a share of the reference's.
-double reboundError(const Trial& trial) {
+double reboundError(const ObservableInput& trial) {
     if (!isComparable(trial)) return kDiffers;
     return std::abs(fastestRise(trial.run) / fastestRise(*trial.reference) - 1.0);
 }
 
 /// Of the speed that a shot is left with, as a share of the reference's: the largest over the particles.
-double restitutionError(const Trial& trial) {
+double restitutionError(const ObservableInput& trial) {
     if (!isComparable(trial)) return kDiffers;
     double worst = 0.0;
     for (std::size_t p = 0; p < trial.run.frames.back().count(); ++p) {

@@ -86,7 +86,7 @@ double worstOf(Pair& pair, const engine::Material& material) {
 }  // namespace
 
 /// Over all pairs of the scene's materials, mixed ones included.
-double pairLaw(const Trial& trial) {
+double pairLaw(const ObservableInput& trial) {
     const std::vector<engine::Material>& materials = trial.scene.setup.materials;
     double worst = 0.0;
     for (std::uint32_t p = 0; p < materials.size(); ++p)

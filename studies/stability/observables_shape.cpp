@@ -16,7 +16,7 @@ using engine::Particles;
 using engine::Vec3;
 
 /// The mixed law of two particles.
-engine::PairConstants<double> constantsOf(const Trial& trial, std::size_t p, std::size_t i) {
+engine::PairConstants<double> constantsOf(const ObservableInput& trial, std::size_t p, std::size_t i) {
     const Particles& particles = trial.run.frames.back();
     const std::vector<engine::Material>& materials = trial.scene.setup.materials;
     return engine::pairConstants<double>(
@@ -81,7 +81,7 @@ double predictedSpacing(std::size_t count, const engine::PairConstants<double>& 
 }  // namespace
 
 /// Particles at the end that hang on to the largest cluster by no chain of pairs within reach of the attraction.
-double fragments(const Trial& trial) {
+double fragments(const ObservableInput& trial) {
     const Particles& particles = trial.run.frames.back();
     std::vector<std::size_t> parent(particles.count());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -96,7 +96,7 @@ double fragments(const Trial& trial) {
 
 /// Mean distance to the nearest neighbor at the end, over that in the face-centered cubic ball of as many particles
 /// that has the least energy. The particles must be alike.
-double spacing(const Trial& trial) {
+double spacing(const ObservableInput& trial) {
     const Particles& particles = trial.run.frames.back();
     return meanNearestDistance(particles.position) / predictedSpacing(particles.count(), constantsOf(trial, 0, 0));
 }

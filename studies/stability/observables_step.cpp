@@ -28,7 +28,7 @@ StepperKind explicitStepper(const scenes::Scene& scene) {
     return own == StepperKind::symplecticEuler || engine::isVerlet(own) ? own : StepperKind::velocityVerlet;
 }
 
-double boundOf(const Trial& trial, StepperKind stepper) {
+double boundOf(const ObservableInput& trial, StepperKind stepper) {
     const auto bound = engine::stepBound(lawOf(trial.scene.setup), trial.run.end.particles, stepper);
     return bound ? bound->seconds : kInfinity;
 }
@@ -100,7 +100,7 @@ engine::Particles endAfter(const scenes::Scene& scene, int steps) {
 
 /// The step bound at the end of the run over the largest stable step there, of the scene's stepper if it is explicit
 /// and of velocity Verlet otherwise.
-double stepBound(const Trial& trial) {
+double stepBound(const ObservableInput& trial) {
     const StepperKind stepper = explicitStepper(trial.scene);
     const double bound = boundOf(trial, stepper);
     if (!std::isfinite(bound)) return kInfinity;
@@ -108,7 +108,7 @@ double stepBound(const Trial& trial) {
 }
 
 /// The order p from the ends of runs at h, h/2 and h/4: their distances are C h^p (1 - 2^-p) and 2^-p of that.
-double order(const Trial& trial) {
+double order(const ObservableInput& trial) {
     if (!trial.scene.setup.emitters.empty() || trial.scene.setup.stepper == StepperKind::automatic)
         throw scenes::InputError({{trial.scene.sourceName, 0, 0,
                                    "an order is that of one stepper, and of particles that are there from the start"}});
@@ -121,7 +121,7 @@ double order(const Trial& trial) {
 
 /// Seconds of the run for a second of the scene, over those of velocity Verlet from the state at the end, at nine
 /// tenths of its step bound.
-double cost(const Trial& trial) {
+double cost(const ObservableInput& trial) {
     constexpr int kSteps = 20;  // chosen: enough for a time, few beside the run
     const double h = 0.9 * boundOf(trial, StepperKind::velocityVerlet);
     Simulation simulation = continued(trial.run, StepperKind::velocityVerlet);

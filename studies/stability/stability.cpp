@@ -32,7 +32,7 @@ scenes::Scene atReferenceStep(scenes::Scene scene) {
 }
 
 /// The value, or the failure of a measurement that takes runs of its own.
-void measureInto(Outcome& outcome, const Trial& trial) {
+void measureInto(Outcome& outcome, const ObservableInput& trial) {
     try {
         outcome.value = measure(trial.scene.study->observable, trial);
     } catch (const engine::InstabilityError& error) {
@@ -50,7 +50,7 @@ Outcome outcomeOf(const scenes::Scene& scene, const Run* reference) {
     outcome.particles = run.end.particles.count();
     outcome.seconds = run.seconds;
     if (!run.failure) measureInto(outcome, {scene, run, reference});
-    outcome.passes = strain(*scene.study, outcome.value) <= 1.0;
+    outcome.passes = limitRatio(*scene.study, outcome.value) <= 1.0;
     return outcome;
 }
 
@@ -81,13 +81,13 @@ VariantResult runVariant(const std::string& path, const std::string& changes) {
 
 const VariantResult& worst(const CaseResult& result, const Outcome VariantResult::*stepper) {
     return *std::max_element(result.variants.begin(), result.variants.end(), [&](const auto& a, const auto& b) {
-        return strain(a.study, (a.*stepper).value) < strain(b.study, (b.*stepper).value);
+        return limitRatio(a.study, (a.*stepper).value) < limitRatio(b.study, (b.*stepper).value);
     });
 }
 
 }  // namespace
 
-double strain(const scenes::Study& study, double value) {
+double limitRatio(const scenes::Study& study, double value) {
     if (!std::isfinite(value)) return kInfinity;
     // A limit of nothing is passed by nothing only.
     const double above = study.limit > 0.0 ? value / study.limit : value <= 0.0 ? 0.0 : 1.0 + value;

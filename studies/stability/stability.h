@@ -43,7 +43,7 @@ struct CaseResult {
 };
 
 /// How far a value is from passing: at most 1 where it passes, infinite where it is not a number.
-double strain(const scenes::Study& study, double value);
+double limitRatio(const scenes::Study& study, double value);
 
 /// The variant in which ours, or the paper's stepper, comes off worst.
 const VariantResult& worstOfOurs(const CaseResult& result);

@@ -96,7 +96,7 @@ TEST_CASE("The study's reference is fine enough, and the orders are those of the
     for (const AccuracyRow& row : accuracy.rows) smallest = std::min(smallest, row.rms);
     CHECK(accuracy.reference.settled);
     CHECK(accuracy.reference.change <= 0.05 * smallest);
-    CHECK(accuracy.reference.measure == studies::Measure::positions);
+    CHECK(accuracy.reference.measure == studies::ErrorMetric::positions);
     CHECK(accuracy.particleCount == 12);
     REQUIRE(accuracy.orders.size() == engine::kSteppers.size() - 1);
     for (const studies::OrderRow& row : accuracy.orders) {
@@ -124,15 +124,15 @@ TEST_CASE("The automatic stepper is compared with the best of the others", "[stu
     REQUIRE(accuracy.autos.size() == 2);
     for (const studies::AutoRow& row : accuracy.autos) {
         if (!row.resolved) continue;
-        const auto& best = row.passesAtObtained;
+        const auto& best = row.evaluationsAtObtained;
         if (!best) continue;
         for (const AccuracyRow& other : accuracy.rows)
             if (other.run.variant.stepper != StepperKind::automatic && other.resolved &&
                 other.rms <= row.obtained * accuracy.window)
-                CHECK(best->cost <= other.run.passes * (1 + 1e-12));  // interpolation
+                CHECK(best->cost <= other.run.evaluationCost * (1 + 1e-12));  // interpolation
     }
     // The coarsest error that was asked is met by some fixed run.
-    CHECK(accuracy.autos[0].passesAtAsked);
+    CHECK(accuracy.autos[0].evaluationsAtAsked);
 }
 
 TEST_CASE("A run that blows up is said to be unstable", "[studies]") {
@@ -140,7 +140,7 @@ TEST_CASE("A run that blows up is said to be unstable", "[studies]") {
     const studies::Window window = studies::openWindow(dozen({"material.bd=1e16"}), 0, 2);
     const auto run = studies::runWindow(window, {StepperKind::symplecticEuler, 0.01, {}}, 60.0);
     REQUIRE(run.ending == studies::Ending::unstable);
-    CHECK(run.words.find("unstable") != std::string::npos);
+    CHECK(run.failureMessage.find("unstable") != std::string::npos);
     SceneAccuracy accuracy;
     accuracy.name = "dozen";
     accuracy.rows = {studies::rowOf(window, run, {})};
@@ -149,7 +149,7 @@ TEST_CASE("A run that blows up is said to be unstable", "[studies]") {
           std::string::npos);
     accuracy.rows.push_back(accuracy.rows[0]);
     accuracy.rows[1].resolved = true;  // a curve, so that there is a key to say it in
-    CHECK(studies::plotScript(accuracy, studies::CostAxis::passes).find("symplectic-euler (2 failed)") !=
+    CHECK(studies::plotScript(accuracy, studies::CostAxis::forceEvaluations).find("symplectic-euler (2 failed)") !=
           std::string::npos);
 }
 
@@ -230,10 +230,10 @@ maximum = [0.7, 0.7, 0.7]
     settings.referenceBudget = 1.0;
     const SceneAccuracy accuracy = studied(gas, settings);
     INFO("twins end " << accuracy.reference.twinSeparation << " radii apart");
-    CHECK(accuracy.reference.measure == studies::Measure::statistics);
+    CHECK(accuracy.reference.measure == studies::ErrorMetric::statistics);
     for (const AccuracyRow& row : accuracy.rows)
         CHECK((row.run.ending != studies::Ending::finished || row.error == row.statistics));
-    CHECK(dozenStudied().reference.measure == studies::Measure::positions);
+    CHECK(dozenStudied().reference.measure == studies::ErrorMetric::positions);
 }
 
 TEST_CASE("The tables have a line for each row and a cell for each column", "[studies]") {
@@ -258,7 +258,7 @@ TEST_CASE("The tables have a line for each row and a cell for each column", "[st
 
 TEST_CASE("A plot has a curve for each stepper with resolved runs, and its title quoted", "[studies]") {
     SceneAccuracy accuracy = dozenStudied();
-    const std::string script = studies::plotScript(accuracy, studies::CostAxis::passes);
+    const std::string script = studies::plotScript(accuracy, studies::CostAxis::forceEvaluations);
     INFO(script);
     CHECK(script.find("it''s a dozen") != std::string::npos);
     CHECK(script.find("title \"velocity-verlet\"") != std::string::npos);
@@ -304,7 +304,7 @@ TEST_CASE("A run with other births is compared over those whom both began with, 
     runs.back().particles.birthTime.back() = 0.01;
     const studies::Reference coarse = studies::findReference(window, runs, budget);
     CHECK_FALSE(coarse.facts.birthsDiffer);
-    CHECK(coarse.facts.measure == studies::Measure::positions);
+    CHECK(coarse.facts.measure == studies::ErrorMetric::positions);
     const AccuracyRow row = studies::rowOf(window, runs.back(), coarse);
     CHECK(row.compared == window.start.particles.count());
     CHECK(row.error == row.rms);
@@ -320,7 +320,7 @@ TEST_CASE("A run with other births is compared over those whom both began with, 
     runs[1].particles.birthTime.back() = 0.01;
     const studies::Reference fine = studies::findReference(window, runs, budget);
     CHECK(fine.facts.birthsDiffer);
-    CHECK(fine.facts.measure == studies::Measure::statistics);
+    CHECK(fine.facts.measure == studies::ErrorMetric::statistics);
     CHECK(studies::rowOf(window, runs.back(), fine).error > 0.0);
 }
 

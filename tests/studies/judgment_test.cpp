@@ -44,16 +44,17 @@ const std::string kStudy = "[study]\nnumber = 7\nobservable = \"largest-speed\"\
 TEST_CASE("a value strains its limits by its share of them") {
     scenes::Study study;
     study.limit = 2.0;
-    CHECK(studies::strain(study, 1.0) == 0.5);
-    CHECK(studies::strain(study, 3.0) == 1.5);
-    CHECK(studies::strain(study, std::numeric_limits<double>::quiet_NaN()) == std::numeric_limits<double>::infinity());
+    CHECK(studies::limitRatio(study, 1.0) == 0.5);
+    CHECK(studies::limitRatio(study, 3.0) == 1.5);
+    CHECK(studies::limitRatio(study, std::numeric_limits<double>::quiet_NaN()) ==
+          std::numeric_limits<double>::infinity());
     study.atLeast = 1.0;
-    CHECK(studies::strain(study, 0.5) == 2.0);
-    CHECK(studies::strain(study, 1.0) == 1.0);
-    CHECK(studies::strain(study, 0.0) == std::numeric_limits<double>::infinity());
+    CHECK(studies::limitRatio(study, 0.5) == 2.0);
+    CHECK(studies::limitRatio(study, 1.0) == 1.0);
+    CHECK(studies::limitRatio(study, 0.0) == std::numeric_limits<double>::infinity());
     study = {};
-    CHECK(studies::strain(study, 0.0) == 0.0);
-    CHECK(studies::strain(study, 1.0) > 1.0);
+    CHECK(studies::limitRatio(study, 0.0) == 0.0);
+    CHECK(studies::limitRatio(study, 1.0) > 1.0);
 }
 
 TEST_CASE("a case passes where ours passes every variant and the paper's stepper fails where it must") {

@@ -6,7 +6,7 @@
 
 #include "studies/common/run.h"
 #include "tests/catch.h"
-#include "tests/studies/trials.h"
+#include "tests/studies/handmade_runs.h"
 
 using engine::Vec3;
 using studies::Run;
@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double ofRun(double (*observable)(const studies::Trial&), const Run& run, const std::string& more = "") {
+double ofRun(double (*observable)(const studies::ObservableInput&), const Run& run, const std::string& more = "") {
     return observable({sceneWith(more), run});
 }
 
-double against(double (*observable)(const studies::Trial&), const Run& run, const Run& reference) {
+double against(double (*observable)(const studies::ObservableInput&), const Run& run, const Run& reference) {
     return observable({sceneWith(""), run, &reference});
 }
 

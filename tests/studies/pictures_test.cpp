@@ -12,8 +12,8 @@
 #include "tests/catch.h"
 
 #include "studies/oracle/ball_grid.h"
+#include "studies/pictures/dam_break_view.h"
 #include "studies/pictures/flicker.h"
-#include "studies/pictures/picture_cloud.h"
 #include "studies/pictures/quad_baseline.h"
 
 using namespace studies;
@@ -33,9 +33,9 @@ std::vector<ExactWindow> exactPicture(const render::View& view) {
 
 TEST_CASE("The cloud has as many particles as asked, the same each time, at the spacing of its radius", "[pictures]") {
     for (const std::size_t count : {1000U, 10000U}) {
-        const render::View view = pictureCloud(count, Style::spheres);
+        const render::View view = damBreakView(count, Style::spheres);
         REQUIRE(view.particles.size() == count);
-        const render::View again = pictureCloud(count, Style::metaballs);
+        const render::View again = damBreakView(count, Style::metaballs);
         CHECK(again.style == Style::metaballs);
         for (std::size_t k = 0; k < count; ++k) REQUIRE(view.particles[k].center == again.particles[k].center);
     }
@@ -43,7 +43,7 @@ TEST_CASE("The cloud has as many particles as asked, the same each time, at the 
 
 TEST_CASE("A crowd knows every particle that a ray meets", "[pictures]") {
     for (const Style style : {Style::spheres, Style::metaballs}) {
-        const render::View view = pictureCloud(1500, style);
+        const render::View view = damBreakView(1500, style);
         const oracle::Scene scene(view);
         const oracle::Scene everyone(view, true);
         int hits = 0;
@@ -62,14 +62,14 @@ TEST_CASE("A crowd knows every particle that a ray meets", "[pictures]") {
         CHECK(most < 750);  // it does leave out most
     }
     // A ray along an axis, on the border of cells.
-    const render::View view = pictureCloud(1500, Style::spheres);
+    const render::View view = damBreakView(1500, Style::spheres);
     const oracle::Ray ray{glm::dvec3(view.particles[7].center) + glm::dvec3(0.0, 50.0, 0.0), {0.0, -1.0, 0.0}};
     CHECK(oracle::trace(oracle::Scene(view), ray).distance == oracle::trace(view, ray).distance);
-    CHECK(oracle::Crowd(std::vector<oracle::Extent>{}).along(ray).empty());
+    CHECK(oracle::BallGrid(std::vector<oracle::Extent>{}).along(ray).empty());
 }
 
 TEST_CASE("The error of a picture is small for the right view and large for another", "[pictures]") {
-    const render::View view = pictureCloud(1500, Style::spheres);
+    const render::View view = damBreakView(1500, Style::spheres);
     const std::vector<ExactWindow> exact = exactPicture(view);
     render::Context context(render::Backend::osmesa);
     render::Renderer renderer(context, kSize, Quality::draft);
@@ -88,7 +88,7 @@ TEST_CASE("The error of a picture is small for the right view and large for anot
 }
 
 TEST_CASE("The quads of the baseline show the spheres that the oracle sees", "[pictures]") {
-    const render::View view = pictureCloud(1500, Style::spheres);
+    const render::View view = damBreakView(1500, Style::spheres);
     render::Context context(render::Backend::osmesa);
     const render::Image image = QuadBaseline(context, kSize).draw(view);
     const oracle::Picture exact = exactPicture(view).front().picture;
@@ -129,18 +129,18 @@ TEST_CASE("A lone ball has its sphere's volume in either skin, and a pool its ow
     const double sphere = 4.0 / 3.0 * std::numbers::pi * 0.008;
     // Cubes of a fiftieth of a radius: a surface of 31,000 of them, whose errors average out.
     CHECK(fieldVolume(view, 0.02) == Approx(sphere).epsilon(1e-3));
-    SkinSettings settings;
+    SmoothingSettings settings;
     settings.particles = {1000};
     settings.size = kSize;
     settings.frames = 1;
     settings.spacing = 0.5;
     std::size_t told = 0;
-    const std::vector<SkinRow> rows =
-        measureSkins(settings, [&](const std::vector<SkinRow>& soFar) { CHECK(soFar.size() == ++told); });
+    const std::vector<SmoothingRow> rows =
+        measureSmoothing(settings, [&](const std::vector<SmoothingRow>& soFar) { CHECK(soFar.size() == ++told); });
     REQUIRE(rows.size() == 2);
     CHECK(told == 2);
     CHECK(rows[0].skin == render::Skin::plain);
-    for (const SkinRow& row : rows) {
+    for (const SmoothingRow& row : rows) {
         CHECK(row.draw > 0.0);
         CHECK(row.lone == Approx(1.0).epsilon(0.01));
         CHECK(row.bumps > 1.0);
@@ -149,7 +149,7 @@ TEST_CASE("A lone ball has its sphere's volume in either skin, and a pool its ow
     // Kernels three radii wide push a plain surface outwards by two thirds of a radius on every side.
     CHECK(rows[0].volume > 1.2);
     CHECK(rows[1].volume == Approx(1.0).epsilon(0.03));
-    const std::string csv = skinsCsv(rows);
+    const std::string csv = smoothingCsv(rows);
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
 }
 

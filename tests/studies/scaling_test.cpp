@@ -5,7 +5,7 @@
 #include <cmath>
 #include "tests/catch.h"
 
-#include "studies/common/blocks.h"
+#include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
 #include "studies/scaling/lammps.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 ScalingSettings small() {
     ScalingSettings settings;
-    settings.blocks = {300, 600};
+    settings.cubeSizes = {300, 600};
     settings.mostByEveryPair = 300;
     settings.rounds = 1;
     settings.secondsPerRound = 0.0;
@@ -43,7 +43,7 @@ std::vector<ScalingRow> madeUp() {
 
 TEST_CASE("Blocks are measured by lists at every size and by every pair where that is allowed", "[scaling]") {
     std::vector<std::size_t> told;
-    const auto rows = measureBlocks("powder", small(), [&](const ScalingRow& row) { told.push_back(row.particles); });
+    const auto rows = measureCubes("powder", small(), [&](const ScalingRow& row) { told.push_back(row.particles); });
     REQUIRE(rows.size() == 2);
     CHECK(told == std::vector<std::size_t>{300, 600});
     CHECK(rows[0].everyPair.has_value());
@@ -54,19 +54,19 @@ TEST_CASE("Blocks are measured by lists at every size and by every pair where th
         CHECK(row.neighbors > 1.0);
         CHECK(row.stateHash.size() == 16);
     }
-    CHECK(measureBlocks("powder", small(), [](const ScalingRow&) {})[1].stateHash == rows[1].stateHash);
+    CHECK(measureCubes("powder", small(), [](const ScalingRow&) {})[1].stateHash == rows[1].stateHash);
     const std::string csv = scalingCsv(rows);
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
 }
 
 TEST_CASE("A block has the number, the spacing and the neighbors that were asked for", "[scaling]") {
-    const engine::Setup setup = packedBlock("solid", 4000, {});
+    const engine::Setup setup = fccCube("solid", 4000, {});
     CHECK(setup.initial.count() == 4000);
     // 54 sites of the packing within two spacings, less at the faces of the cube.
     CHECK(meanNeighbors(setup, setup.initial) > 35.0);
     CHECK(meanNeighbors(setup, setup.initial) < 54.0);
     for (const engine::Vec3& velocity : setup.initial.velocity) CHECK(velocity == engine::Vec3::Zero());
-    const engine::Setup dense = packedBlock("solid", 4000, {.spacing = 0.76, .speed = 1.0});
+    const engine::Setup dense = fccCube("solid", 4000, {.spacing = 0.76, .speed = 1.0});
     CHECK(meanNeighbors(dense, dense.initial) > meanNeighbors(setup, setup.initial));
     for (const engine::Vec3& velocity : dense.initial.velocity) CHECK(velocity.cwiseAbs().maxCoeff() <= 1.0);
 }

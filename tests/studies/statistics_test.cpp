@@ -25,7 +25,7 @@ TEST_CASE("Center and radius of gyration weigh by mass", "[studies]") {
     engine::Particles pair;
     engine::append(pair, {.position = Vec3(0, 0, 0), .mass = 3.0});
     engine::append(pair, {.position = Vec3(4, 0, 0), .mass = 1.0});
-    const auto statistics = studies::statisticsOf(pair);
+    const auto statistics = studies::bulkStatistics(pair);
     CHECK((statistics.center - Vec3(1, 0, 0)).norm() <= kRounding);
     // (3 * 1^2 + 1 * 3^2) / 4 = 3
     CHECK(std::abs(statistics.gyration - std::sqrt(3.0)) <= kRounding);
@@ -34,26 +34,26 @@ TEST_CASE("Center and radius of gyration weigh by mass", "[studies]") {
 TEST_CASE("R90 and z90 hold nine of ten particles, and all of fewer than ten", "[studies]") {
     engine::Particles ten = row(10);
     for (int k = 0; k < 10; ++k) ten.position[static_cast<std::size_t>(k)].y() = 9.0 - k;
-    const auto statistics = studies::statisticsOf(ten);
+    const auto statistics = studies::bulkStatistics(ten);
     // Center (4.5, 4.5, 0); distances sqrt(2) times 4.5 twice, 3.5 twice, ...: the ninth of them is one of the largest.
     CHECK(std::abs(statistics.r90 - 4.5 * std::sqrt(2.0)) <= kRounding);
     CHECK(statistics.z90 == 8.0);
     // The second of two.
-    CHECK(std::abs(studies::statisticsOf(row(2)).r90 - 0.5) <= kRounding);
+    CHECK(std::abs(studies::bulkStatistics(row(2)).r90 - 0.5) <= kRounding);
     // The 18th of twenty on a line: center 9.5, distances .5 .5 1.5 1.5 ... 9.5 9.5.
-    CHECK(std::abs(studies::statisticsOf(row(20)).r90 - 8.5) <= kRounding);
+    CHECK(std::abs(studies::bulkStatistics(row(20)).r90 - 8.5) <= kRounding);
 }
 
 TEST_CASE("The statistics of nothing are zero", "[studies]") {
-    const auto statistics = studies::statisticsOf({});
+    const auto statistics = studies::bulkStatistics({});
     CHECK(statistics.gyration == 0.0);
     CHECK(statistics.r90 == 0.0);
     CHECK(statistics.z90 == 0.0);
 }
 
 TEST_CASE("The largest difference is that of the quantity that differs most", "[studies]") {
-    studies::CloudStatistics a;
-    studies::CloudStatistics b;
+    studies::BulkStatistics a;
+    studies::BulkStatistics b;
     CHECK(studies::largestDifference(a, b) == 0.0);
     b.center = Vec3(3, 4, 0);
     b.gyration = -4.0;

@@ -172,9 +172,9 @@ void writeTables(const fs::path& folder, const std::vector<studies::SceneAccurac
 
 AccuracySection plotted(const fs::path& folder, const studies::SceneAccuracy& accuracy) {
     AccuracySection section{accuracy, drawPlot(studies::plotScript(accuracy, studies::CostAxis::seconds)),
-                            drawPlot(studies::plotScript(accuracy, studies::CostAxis::passes))};
+                            drawPlot(studies::plotScript(accuracy, studies::CostAxis::forceEvaluations))};
     writeFile(folder / (accuracy.name + "-seconds.svg"), section.secondsPlot);
-    writeFile(folder / (accuracy.name + "-evaluations.svg"), section.passesPlot);
+    writeFile(folder / (accuracy.name + "-evaluations.svg"), section.evaluationsPlot);
     return section;
 }
 
@@ -189,11 +189,13 @@ void print(const studies::SceneAccuracy& accuracy) {
                accuracy.reference.resolution);
     for (const studies::OrderRow& row : accuracy.orders)
         if (row.order) fmt::print("  {:17} order {:.2f}\n", engine::nameOf(row.stepper), *row.order);
-    fmt::print("  auto: asked  obtained  seconds  over best hand-picked at the error obtained, asked; in passes\n");
+    fmt::print(
+        "  auto: asked  obtained  seconds  over best hand-picked at the error obtained, asked; in evaluations\n");
     for (const studies::AutoRow& row : accuracy.autos)
         fmt::print("      {:7g}  {:8.1e}  {:7.3g}  {:>5} {:>5}  {:>5} {:>5}\n", row.asked, row.obtained, row.seconds,
                    ratio(row.secondsAtObtained, row.seconds), ratio(row.secondsAtAsked, row.seconds),
-                   ratio(row.passesAtObtained, row.passes), ratio(row.passesAtAsked, row.passes));
+                   ratio(row.evaluationsAtObtained, row.evaluationCost),
+                   ratio(row.evaluationsAtAsked, row.evaluationCost));
 }
 
 void study(const StudyAccuracyOptions& options) {

@@ -100,9 +100,10 @@ PictureResults measure(const PicturesOptions& options, const studies::PictureSet
         studies::measureFlicker(flickerSettingsFor(options), [&](const std::vector<studies::FlickerRow>& rows) {
             writeFile(folder / "flicker.csv", studies::flickerCsv(rows));
         });
-    results.skins = studies::measureSkins(
-        {settings.particles, settings.sizes.front(), settings.frames},
-        [&](const std::vector<studies::SkinRow>& rows) { writeFile(folder / "skins.csv", studies::skinsCsv(rows)); });
+    results.smoothing = studies::measureSmoothing({settings.particles, settings.sizes.front(), settings.frames},
+                                                  [&](const std::vector<studies::SmoothingRow>& rows) {
+                                                      writeFile(folder / "skins.csv", studies::smoothingCsv(rows));
+                                                  });
     return results;
 }
 
@@ -130,7 +131,7 @@ void study(const PicturesOptions& options) {
     onThreads(threads, [&] { results = measure(options, settings); });
     const std::vector<studies::PictureRow>& rows = results.rows;
     fs::remove(settings.videoPath);
-    const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows, results.skins)),
+    const PicturePlots plots{drawPlot(studies::pictureTimesPlot(rows, results.smoothing)),
                              drawPlot(studies::pictureErrorsPlot(rows))};
     writeFile(folder / "times.svg", plots.times);
     writeFile(folder / "errors.svg", plots.errors);
@@ -145,7 +146,7 @@ void study(const PicturesOptions& options) {
         fmt::print("{} {}, {} particles, {}x{}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n",
                    studies::nameOf(row.style), studies::nameOf(row.quality), row.particles, row.size.width,
                    row.size.height, row.change, row.jerk);
-    for (const studies::SkinRow& row : results.skins)
+    for (const studies::SmoothingRow& row : results.smoothing)
         fmt::print("{} skin, {} particles: {:.4g} ms, volume {:.3f}, bumps {:.2f} degrees\n", studies::nameOf(row.skin),
                    row.particles, 1e3 * row.draw, row.volume, row.bumps);
     fmt::print("all of it: {}\n", (folder / "index.html").string());

@@ -34,14 +34,14 @@ struct ScalingOptions {
     bool quick = false;
 };
 
-/// Fountain, liquid, solid and powder of the paper's figures, and blocks of the same materials.
+/// Fountain, liquid, solid and powder of the paper's figures, and cubes of the same materials.
 constexpr std::array kScenes = {"paper/figure-1", "paper/figure-2", "paper/figure-3", "paper/figure-4"};
 constexpr std::array kMaterials = {"solid", "liquid", "powder"};
 
 studies::ScalingSettings settingsFor(const ScalingOptions& options) {
     studies::ScalingSettings settings;
     if (options.quick) {
-        settings.blocks = {1000, 10000, studies::kPeerParticles};
+        settings.cubeSizes = {1000, 10000, studies::kPeerParticles};
         settings.mostInScenes = 100;
         settings.mostByEveryPair = 1000;
         settings.rounds = 1;
@@ -76,7 +76,7 @@ ScalingResults measure(const ScalingOptions& options) {
         take(studies::measureScene(name, scene, settings, rowReporter(options.run.talk())));
     }
     for (const char* material : kMaterials)
-        take(studies::measureBlocks(material, settings, rowReporter(options.run.talk())));
+        take(studies::measureCubes(material, settings, rowReporter(options.run.talk())));
     return results;
 }
 
@@ -118,10 +118,10 @@ double lammpsSeconds(const std::string& script, int ranks) {
 /// Our times of a step at the peer's number of particles.
 studies::ScalingRow rowBeside(const ScalingOptions& options) {
     studies::ScalingSettings settings = settingsFor(options);
-    settings.blocks = {studies::kPeerParticles};
+    settings.cubeSizes = {studies::kPeerParticles};
     settings.mostByEveryPair = 0;
     settings.rounds = 1;
-    return studies::measureBlocks(kMaterials[0], settings, [](const studies::ScalingRow&) {}).front();
+    return studies::measureCubes(kMaterials[0], settings, [](const studies::ScalingRow&) {}).front();
 }
 
 void measurePeer(ScalingResults& results, const ScalingOptions& options) {

@@ -59,7 +59,7 @@ Cells cellsOf(const studies::AccuracyRow& row) {
         cells.insert(cells.end(), {"", "", "", "", "", studies::nameOf(run.ending)});
     cells.insert(cells.end(), {fmt::format("{:.3g}", run.seconds), fmt::format("{}", steps.count),
                                fmt::format("{}", steps.forceEvaluations), fmt::format("{}", steps.products),
-                               fmt::format("{:.0f}", run.lookPasses), fmt::format("{}", steps.rejected)});
+                               fmt::format("{:.0f}", run.errorEstimateCost), fmt::format("{}", steps.rejected)});
     if (run.ending == Ending::finished)
         cells.insert(cells.end(), {small(row.energyDrift), small(row.linearDrift), small(row.angularDrift)});
     return cells;
@@ -70,7 +70,7 @@ std::string runTable(const studies::SceneAccuracy& accuracy) {
     for (const studies::AccuracyRow& row : accuracy.rows) rows.push_back(cellsOf(row));
     return table({"stepper", "asked", "rms error (radii)", "largest (radii)", "particles compared",
                   "statistics (radii)", "error per second", "", "seconds", "steps", "force evaluations", "products",
-                  "looks", "taken back", "energy drift", "momentum drift", "angular drift"},
+                  "error estimates", "taken back", "energy drift", "momentum drift", "angular drift"},
                  rows);
 }
 
@@ -97,11 +97,12 @@ std::string autoTable(const studies::SceneAccuracy& accuracy) {
         rows.push_back({fmt::format("{:g}", row.asked), small(row.obtained),
                         fmt::format("{:.2f}{}", row.obtained / row.asked, row.resolved ? "" : " or less"),
                         fmt::format("{:.3g}", row.seconds), against(row.secondsAtObtained, row.seconds),
-                        against(row.secondsAtAsked, row.seconds), against(row.passesAtObtained, row.passes),
-                        against(row.passesAtAsked, row.passes)});
+                        against(row.secondsAtAsked, row.seconds),
+                        against(row.evaluationsAtObtained, row.evaluationCost),
+                        against(row.evaluationsAtAsked, row.evaluationCost)});
     return table(
         {"asked (radii/s)", "obtained (radii/s)", "ratio", "seconds", "seconds over best, at the error obtained",
-         "at the error asked", "passes over best, at the error obtained", "at the error asked"},
+         "at the error asked", "force evaluations over best, at the error obtained", "at the error asked"},
         rows);
 }
 
@@ -123,7 +124,7 @@ std::string section(const AccuracySection& section) {
     const studies::SceneAccuracy& accuracy = section.accuracy;
     return fmt::format("<section><h2>{}: {}</h2>\n", escaped(accuracy.name), escaped(accuracy.title)) +
            referenceText(accuracy) + "<div class=\"plots\">\n" + picture("error against seconds", section.secondsPlot) +
-           picture("error against passes over all pairs", section.passesPlot) +
+           picture("error against force evaluations", section.evaluationsPlot) +
            "</div>\n<h3>auto against the best hand-picked stepper and step</h3>\n" + autoTable(accuracy) +
            "<h3>Orders</h3>\n" + orderTable(accuracy) + "<details><summary>All runs</summary>\n" + runTable(accuracy) +
            "</details></section>\n";
@@ -131,12 +132,12 @@ std::string section(const AccuracySection& section) {
 
 std::string introduction(const StudyFacts& facts) {
     return fmt::format(
-        "<p><code>{}</code>, {} thread{}. Seconds are wall clock, {}. A pass is a force evaluation over all pairs; a "
-        "product of the implicit steppers' "
-        "matrix with a vector counts the share of one that the plots say, and the looks that the automatic stepper "
-        "takes at its candidates within the window are included. It begins the window with its choice made, as in the "
-        "middle of a run; its first looks are not counted, nor are the comparisons of all steppers that come every "
-        "fifth look, after some dozens of intervals, which such a window seldom meets. The cost of a hand-picked "
+        "<p><code>{}</code>, {} thread{}. Seconds are wall clock, {}. Costs in force evaluations include the implicit "
+        "steppers' matrix-vector products, each at the share of an evaluation that the plots state, and the automatic "
+        "stepper's error estimates within the window. The automatic stepper begins the window with its choice made, "
+        "as in the middle of a run: its first error estimates are not counted, nor is the comparison of all steppers "
+        "at every fifth estimate, some dozens of intervals apart, which so short a window seldom contains. The cost of "
+        "a hand-picked "
         "stepper at an error is read off its line in the plot, log-linear between its points; the "
         "best is the cheapest of all fixed steppers. Drifts are differences from the reference at the end: of the "
         "energy, over the reference's kinetic energy and the sizes of its pair and contact energies; of the momenta, "

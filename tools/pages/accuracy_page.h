@@ -12,7 +12,7 @@ namespace tools {
 struct AccuracySection {
     studies::SceneAccuracy accuracy;
     std::string secondsPlot;
-    std::string passesPlot;
+    std::string evaluationsPlot;
 };
 
 /// How the study was run.

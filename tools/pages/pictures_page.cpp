@@ -90,9 +90,9 @@ std::string flickerTable(const std::vector<studies::FlickerRow>& rows) {
     return table({"style", "particles", "size", "quality", "change", "jerk"}, table_);
 }
 
-std::string skinTable(const std::vector<studies::SkinRow>& rows) {
+std::string skinTable(const std::vector<studies::SmoothingRow>& rows) {
     std::vector<Cells> table_;
-    for (const studies::SkinRow& row : rows)
+    for (const studies::SmoothingRow& row : rows)
         table_.push_back({studies::nameOf(row.skin), fmt::format("{}", row.particles), milliseconds(row.draw),
                           fmt::format("{:.3f}", row.volume), fmt::format("{:.3f}", row.lone),
                           fmt::format("{:.2f}", row.bumps)});
@@ -131,7 +131,7 @@ std::string picturesPage(const PictureResults& results, const PicturePlots& plot
         "its "
         "particles' cells, and within that of a particle alone over its sphere; the tilt of the pool's normals, "
         "RMS.</p>\n" +
-        skinTable(results.skins);
+        skinTable(results.smoothing);
     return html + "</body></html>\n";
 }
 

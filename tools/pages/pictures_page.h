@@ -6,7 +6,7 @@
 
 #include "studies/pictures/flicker.h"
 #include "studies/pictures/pictures.h"
-#include "studies/pictures/skins.h"
+#include "studies/pictures/surface_smoothing.h"
 
 namespace tools {
 
@@ -20,7 +20,7 @@ struct PicturePlots {
 struct PictureResults {
     std::vector<studies::PictureRow> rows;
     std::vector<studies::FlickerRow> flicker;
-    std::vector<studies::SkinRow> skins;
+    std::vector<studies::SmoothingRow> smoothing;
 };
 
 std::string picturesPage(const PictureResults& results, const PicturePlots& plots, const std::string& command);

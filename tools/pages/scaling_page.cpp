@@ -54,7 +54,8 @@ std::string scalingPage(const ScalingResults& results, const std::string& plot, 
     std::string html = studyHead(kScalingTitle, kScalingStyle);
     html += fmt::format(
         "<p>Made by <code>{}</code>. Milliseconds of one step: in the scenes of the paper's figures of 0.01 s, as the "
-        "paper takes one for every frame, in packed blocks of 0.002 s; medians of rounds that took turns. "
+        "paper takes one for every frame, in face-centered cubic lattices of 0.002 s; medians of rounds that took "
+        "turns. "
         "<em>Published</em> is Table 2 of the paper, with drawing, on its author's "
         "machine (GeForce RTX 4080, Ryzen 7 at 3.4 GHz). <em>Every pair</em> is the paper's method on this one, on one "
         "thread; <em>list</em> is ours. Hashes are of the state after the steps in double.</p>\n",

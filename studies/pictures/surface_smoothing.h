@@ -11,7 +11,7 @@
 
 namespace studies {
 
-struct SkinRow {
+struct SmoothingRow {
     render::Skin skin = render::Skin::plain;
     std::size_t particles = 0;
     double draw = 0.0;  ///< one frame of normal quality, drawn and read back, s; median
@@ -21,7 +21,7 @@ struct SkinRow {
     double bumps = 0.0;  ///< tilt of the normal of a level pool's surface, degrees; RMS
 };
 
-struct SkinSettings {
+struct SmoothingSettings {
     std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};
     render::PictureSize size{1280, 720};
     int frames = 7;         ///< to take medians of
@@ -32,15 +32,15 @@ struct SkinSettings {
 const char* nameOf(render::Skin skin);
 
 /// Told of all rows so far, after each.
-using SkinListener = std::function<void(const std::vector<SkinRow>&)>;
+using SmoothingListener = std::function<void(const std::vector<SmoothingRow>&)>;
 
 /// Plain and smooth for each number of particles. Throws render::SystemError.
-std::vector<SkinRow> measureSkins(const SkinSettings& settings, const SkinListener& listener);
+std::vector<SmoothingRow> measureSmoothing(const SmoothingSettings& settings, const SmoothingListener& listener);
 
 /// Volume within the surface of a view's metaballs (at least one), m^3: cubes with sides of so many mean radii, whose
 /// middles are inside.
 double fieldVolume(const render::View& view, double spacing);
 
-std::string skinsCsv(const std::vector<SkinRow>& rows);
+std::string smoothingCsv(const std::vector<SmoothingRow>& rows);
 
 }  // namespace studies

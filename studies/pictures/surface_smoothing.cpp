@@ -1,5 +1,5 @@
 // The field along vertical lines for the volume, the normals of a level surface for the bumps.
-#include "studies/pictures/skins.h"
+#include "studies/pictures/surface_smoothing.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "render/renderer.h"
 #include "studies/common/timing.h"
 #include "studies/oracle/oracle.h"
-#include "studies/pictures/picture_cloud.h"
+#include "studies/pictures/dam_break_view.h"
 
 namespace studies {
 namespace {
@@ -107,10 +107,10 @@ render::View loneView(const render::View& cloud) {
 }
 
 /// What does not depend on the number of particles.
-SkinRow shapeOf(const SkinSettings& settings, render::Context& context, render::Skin skin) {
-    SkinRow row;
+SmoothingRow shapeOf(const SmoothingSettings& settings, render::Context& context, render::Skin skin) {
+    SmoothingRow row;
     row.skin = skin;
-    render::View view = pictureCloud(1000, render::Style::metaballs);
+    render::View view = damBreakView(1000, render::Style::metaballs);
     view.field.skin = skin;
     const render::View pool = levelPool(view);
     row.volume = fieldVolume(pool, settings.spacing) / kPoolVolume;
@@ -122,8 +122,9 @@ SkinRow shapeOf(const SkinSettings& settings, render::Context& context, render::
     return row;
 }
 
-double secondsAFrame(const SkinSettings& settings, render::Context& context, std::size_t particles, render::Skin skin) {
-    render::View view = pictureCloud(particles, render::Style::metaballs);
+double secondsAFrame(const SmoothingSettings& settings, render::Context& context, std::size_t particles,
+                     render::Skin skin) {
+    render::View view = damBreakView(particles, render::Style::metaballs);
     view.field.skin = skin;
     render::Renderer renderer(context, settings.size, render::Quality::normal);
     renderer.draw(view);  // touches the memory
@@ -155,11 +156,11 @@ double fieldVolume(const render::View& view, double spacing) {
     return static_cast<double>(sum) * step * step * step;
 }
 
-std::vector<SkinRow> measureSkins(const SkinSettings& settings, const SkinListener& listener) {
+std::vector<SmoothingRow> measureSmoothing(const SmoothingSettings& settings, const SmoothingListener& listener) {
     render::Context context(settings.backend);
-    std::vector<SkinRow> rows;
+    std::vector<SmoothingRow> rows;
     for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
-        SkinRow row = shapeOf(settings, context, skin);
+        SmoothingRow row = shapeOf(settings, context, skin);
         for (const std::size_t particles : settings.particles) {
             row.particles = particles;
             row.draw = secondsAFrame(settings, context, particles, skin);
@@ -170,9 +171,9 @@ std::vector<SkinRow> measureSkins(const SkinSettings& settings, const SkinListen
     return rows;
 }
 
-std::string skinsCsv(const std::vector<SkinRow>& rows) {
+std::string smoothingCsv(const std::vector<SmoothingRow>& rows) {
     std::string csv = "skin,particles,draw_ms,volume,lone_volume,bumps_degrees\n";
-    for (const SkinRow& row : rows)
+    for (const SmoothingRow& row : rows)
         csv += fmt::format("{},{},{:.4g},{:.4f},{:.4f},{:.3f}\n", nameOf(row.skin), row.particles, 1e3 * row.draw,
                            row.volume, row.lone, row.bumps);
     return csv;

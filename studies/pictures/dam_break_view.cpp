@@ -1,5 +1,5 @@
 // A shaken cubic lattice under a curved surface, and one particle in forty in the air.
-#include "studies/pictures/picture_cloud.h"
+#include "studies/pictures/dam_break_view.h"
 
 #include <algorithm>
 #include <array>
@@ -92,7 +92,7 @@ render::View seenFrom(render::View view, int frame) {
 
 }  // namespace
 
-render::View pictureCloud(std::size_t count, render::Style style) {
+render::View damBreakView(std::size_t count, render::Style style) {
     render::View view;
     view.style = style;
     addParticles(count, view);

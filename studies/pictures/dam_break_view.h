@@ -10,7 +10,7 @@ namespace studies {
 
 /// The dam with ground, soft shadows, occlusion and wet reflections, particles colored from left to right. The same
 /// numbers give the same view. Shape: count > 0.
-render::View pictureCloud(std::size_t count, render::Style style);
+render::View damBreakView(std::size_t count, render::Style style);
 
 /// The view from places a little further and further on a circle around its target, so that no two frames are alike.
 std::vector<render::View> framesOf(const render::View& view, int count);

@@ -1,7 +1,7 @@
 // Which shots count as having passed an obstacle: first and last places by hand, every shape.
 #include "studies/stability/observables.h"
 #include "tests/catch.h"
-#include "tests/studies/trials.h"
+#include "tests/studies/handmade_runs.h"
 
 using engine::Vec3;
 using studies_test::frameOf;
@@ -13,7 +13,7 @@ namespace {
 /// Shots that passed an obstacle on a flight from one place to another.
 double passes(const std::string& obstacle, const Vec3& from, const Vec3& to) {
     const studies::Run run = runOf({frameOf({{from}}), frameOf({{to}})});
-    return studies::passed({sceneWith("[[obstacle]]\n" + obstacle), run});
+    return studies::tunnelingCount({sceneWith("[[obstacle]]\n" + obstacle), run});
 }
 
 }  // namespace

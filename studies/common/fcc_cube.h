@@ -9,14 +9,14 @@
 namespace studies {
 
 /// How a block is packed and moves.
-struct BlockShape {
+struct FccCubeShape {
     double spacing = 1.0;  ///< of nearest neighbors, in rest lengths
     double mass = 0.1;     ///< of a particle, kg
     double speed = 0.0;    ///< each component of a velocity is up to this, at random, m/s
 };
 
 /// A close packing of a preset material in a cube, a little shaken, without gravity. Shape: at least 1 particle.
-engine::Setup packedBlock(const std::string& material, std::size_t count, const BlockShape& shape);
+engine::Setup fccCube(const std::string& material, std::size_t count, const FccCubeShape& shape);
 
 /// Mean number of others within the cutoff of a particle.
 double meanNeighbors(const engine::Setup& setup, const engine::Particles& particles);

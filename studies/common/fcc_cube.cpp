@@ -1,5 +1,5 @@
 // A face-centered packing cut to the number of particles.
-#include "studies/common/blocks.h"
+#include "studies/common/fcc_cube.h"
 
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace studies {
 
 using engine::Vec3;
 
-engine::Setup packedBlock(const std::string& material, std::size_t count, const BlockShape& shape) {
+engine::Setup fccCube(const std::string& material, std::size_t count, const FccCubeShape& shape) {
     engine::Setup setup;
     setup.materials = {*engine::materialPreset(material)};
     setup.materials[0].mass = shape.mass;
