@@ -33,7 +33,7 @@ void keepFreedMemory() {
 
 int report(const std::string& problems, int exitCode) {
     std::istringstream lines(problems);
-    for (std::string line; std::getline(lines, line);) tools::say(fmt::format("error: {}\n", line));
+    for (std::string line; std::getline(lines, line);) tools::printToStderr(fmt::format("error: {}\n", line));
     return exitCode;
 }
 
@@ -41,7 +41,7 @@ int run(const tools::CommandLine& line, int argc, char** argv) {
     try {
         if (!line.run(argc, argv)) return report("which command? See globular --help", kInputWrong);
         // Results go to stdout; a full disk behind it is a failure like any other.
-        tools::requirePrinted();
+        tools::flushStandardOutput();
         return 0;
     } catch (const tools::UsageError& error) {
         return report(error.what(), kInputWrong);
@@ -49,12 +49,12 @@ int run(const tools::CommandLine& line, int argc, char** argv) {
         return report(error.what(), kInputWrong);
     } catch (const engine::InstabilityError& error) {
         return report(error.what(), kUnstable);
-    } catch (const tools::Ended& ended) {
-        return report(ended.what(), ended.exitCode());
+    } catch (const tools::ExitStatus& status) {
+        return report(status.what(), status.code());
     } catch (const std::system_error& error) {
         // Of what prints results.
         const bool isReaderGone = error.code() == std::errc::broken_pipe;
-        return isReaderGone ? tools::kReaderGone : report(error.what(), kOutsideFailed);
+        return isReaderGone ? tools::kReaderGoneCode : report(error.what(), kOutsideFailed);
     } catch (const std::logic_error& error) {
         report(fmt::format("a mistake of the program itself: {}", error.what()), 0);
         std::abort();  // where it can be looked at

@@ -51,16 +51,16 @@ class Drawing {
  private:
     void write(const fs::path& path, const scenes::Scene& scene, const engine::Simulation& simulation) {
         const auto png = render::encodePng(renderer_.draw(scenes::frameView(scene, simulation)));
-        tools::PictureFacts facts;
-        facts.sceneHash = scene.sceneHash;
-        facts.stateHash = engine::stateHash(simulation.particles);
-        facts.version = GLOBULAR_VERSION;
-        facts.glRenderer = context_.rendererName();
-        facts.quality = "normal";
+        tools::PictureProvenance provenance;
+        provenance.sceneHash = scene.sceneHash;
+        provenance.stateHash = engine::stateHash(simulation.particles);
+        provenance.version = GLOBULAR_VERSION;
+        provenance.glRenderer = context_.rendererName();
+        provenance.quality = "normal";
         tools::createFolder(path.parent_path());
         tools::writeFile(path, png);
-        tools::writeFile(tools::sidecarPath(path), tools::indentedText(tools::sidecarJson(facts, tools::checksumOf(png),
-                                                                                          kSize.width, kSize.height)));
+        tools::writeFile(tools::sidecarPath(path), tools::indentedText(tools::sidecarJson(
+                                                       provenance, tools::checksumOf(png), kSize.width, kSize.height)));
     }
 
     fs::path folder_;

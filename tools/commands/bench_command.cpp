@@ -99,7 +99,7 @@ void bench(const BenchOptions& options) {
             print(row);
         else
             printJson(jsonOf(row, threads));
-        requirePrinted();
+        flushStandardOutput();
     };
     onThreads(threads, [&] {
         runBench(options.settings, tell);

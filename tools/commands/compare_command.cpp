@@ -120,7 +120,7 @@ void compareAll(const CompareOptions& options) {
     std::vector<std::string> failed;
     const InterruptWatch watch;
     const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
-        if (watch.signal() != 0) throw Ended(128 + watch.signal(), "");
+        if (watch.signal() != 0) throw ExitStatus(128 + watch.signal(), "");
         if (canBeApproved(result)) failed.push_back(result.name);
         printResult(options, result, job.limits);
         if (!options.junit.empty()) junit.add(result);
@@ -136,18 +136,18 @@ void compareAll(const CompareOptions& options) {
                   page.html({options.actual, options.expected, options.profile, job.limits, counts, approval}));
     }
     printSummary(options, counts, approval);
-    requirePrinted();
-    if (counts.unreadable > 0) throw Ended(kTrouble, "");
-    if (counts.failed() > 0) throw Ended(kDifferent, "");
+    flushStandardOutput();
+    if (counts.unreadable > 0) throw ExitStatus(kTrouble, "");
+    if (counts.failed() > 0) throw ExitStatus(kDifferent, "");
 }
 
 void compareOrTrouble(const CompareOptions& options) {
     try {
         compareAll(options);
-    } catch (const Ended&) {
+    } catch (const ExitStatus&) {
         throw;
     } catch (const std::exception& error) {
-        throw Ended(kTrouble, error.what());
+        throw ExitStatus(kTrouble, error.what());
     }
 }
 

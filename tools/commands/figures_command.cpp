@@ -29,12 +29,12 @@ struct FiguresOptions {
 
 /// The still and the strip, in the best quality; the frames between their moments are simulated but not drawn.
 void drawPictures(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
-    const MomentsJob job{.scene = &scene,
-                         .backend = backendOf(options.draw),
-                         .threads = threadCount(options.run),
-                         .talk = options.run.talk(),
-                         .title = fmt::format("figure {} pictures", entry.number)};
-    const MomentPictures pictures = drawMoments(job, {scenes::stillFrame(scene), scenes::stripFrames(scene)});
+    const StillsJob job{.scene = &scene,
+                        .backend = backendOf(options.draw),
+                        .threads = threadCount(options.run),
+                        .verbosity = options.run.verbosity(),
+                        .title = fmt::format("figure {} pictures", entry.number)};
+    const StillPictures pictures = drawStills(job, {scenes::stillFrame(scene), scenes::stripFrames(scene)});
     writeFile(entry.stillPath, render::encodePng(pictures.still));
     writeFile(entry.stripPath, render::encodePng(pictures.strip));
 }
@@ -46,7 +46,7 @@ FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& option
     job.videoPath = entry.videoPath;
     job.backend = backendOf(options.draw);
     job.threads = threadCount(options.run);
-    job.talk = options.run.talk();
+    job.verbosity = options.run.verbosity();
     job.title = fmt::format("figure {}", entry.number);
     FinishedRun result = renderFrames(job);
     if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
@@ -107,7 +107,7 @@ void makeFigures(const FiguresOptions& options) {
     }
     const fs::path page = fs::path(options.folder) / "index.html";
     writeFile(page, figuresPage(entries));
-    if (options.run.talk() == Talk::normal) fmt::print("all of it: {}\n", page.string());
+    if (options.run.verbosity() == Verbosity::normal) fmt::print("all of it: {}\n", page.string());
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void render(const RenderOptions& options) {
     job.quality = qualityOf(options.draw);
     job.backend = backendOf(options.draw);
     job.threads = threadCount(options.run);
-    job.talk = options.run.talk();
+    job.verbosity = options.run.verbosity();
     job.title = fs::path(scene.sourceName).stem().string();
     job.videoPath = options.video;
     job.folder = folderOf(options.folder, job.title);
@@ -57,7 +57,7 @@ void render(const RenderOptions& options) {
     FinishedRun result = renderFrames(job);
     const auto json = runJson(scene, result.simulation, result.report);
     writeFile(folder / "run.json", indentedText(json));
-    requireWhole(result.report, folder);
+    requireComplete(result.report, folder);
     printSummary(options, folder, json);
 }
 

@@ -54,7 +54,7 @@ void simulate(const SimulateOptions& options) {
     const fs::path folder = folderOptions.path;
     const int threads = threadCount(options.run);
 
-    Progress progress(name, frames.last - frames.first + 1, options.run.talk());
+    Progress progress(name, frames.last - frames.first + 1, options.run.verbosity());
     FinishedRun run;
     double seconds = 0.0;
     {
@@ -65,7 +65,7 @@ void simulate(const SimulateOptions& options) {
     run.report.threads = threads;
     const auto json = runJson(scene, run.simulation, run.report);
     writeFile(folder / "run.json", indentedText(json));
-    requireWhole(run.report, folder);
+    requireComplete(run.report, folder);
     if (options.run.json)
         printJson(Json{{"event", "done"}, {"folder", folder.string()}, {"run", json}});
     else if (!options.run.quiet)

@@ -41,18 +41,18 @@ void printResult(const StripOptions& options, const fs::path& path, const Json& 
 
 void drawStrip(const StripOptions& options) {
     const scenes::Scene scene = loadFor(options);
-    MomentsJob job;
+    StillsJob job;
     job.scene = &scene;
     job.quality = qualityOf(options.draw);
     job.backend = backendOf(options.draw);
     job.threads = threadCount(options.run);
-    job.talk = options.run.talk();
+    job.verbosity = options.run.verbosity();
     job.title = fs::path(scene.sourceName).stem().string();
     const fs::path path =
         options.output.empty() ? fs::path("out") / (job.title + "-strip.png") : fs::path(options.output);
 
     const std::vector<int> frames = scenes::stripFrames(scene);
-    const MomentPictures pictures = drawMoments(job, {std::nullopt, frames});
+    const StillPictures pictures = drawStills(job, {std::nullopt, frames});
     if (path.has_parent_path()) createFolder(path.parent_path());
     writeFile(path, render::encodePng(pictures.strip));
     Json json{{"event", "done"}, {"strip", path.string()}, {"times", Json::array()}};

@@ -78,7 +78,7 @@ Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) 
     std::string suffix;
     if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
         const std::string seconds = text.substr(colon + 1);
-        subject.window = numberIn<double>(seconds).value_or(0.0);
+        subject.window = parseNumber<double>(seconds).value_or(0.0);
         if (!(subject.window > 0.0))
             throw scenes::InputError({{text, 0, 0, "after the colon comes how long to run, in seconds: powder:2"}});
         scene = text.substr(0, colon);
@@ -112,19 +112,19 @@ studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccurac
 }
 
 /// A line for each run that is done.
-studies::RunListener reporter(const std::string& name, Talk talk) {
-    return [name, talk](const studies::WindowRun& run, std::string_view purpose) {
+studies::RunListener reporter(const std::string& name, Verbosity verbosity) {
+    return [name, verbosity](const studies::WindowRun& run, std::string_view purpose) {
         const std::string stepper = studies::nameOf(run.variant);
-        if (talk == Talk::json)
+        if (verbosity == Verbosity::json)
             printJson(Json{{"event", purpose},
                            {"scene", name},
                            {"stepper", stepper},
                            {"asked", run.variant.asked},
                            {"ending", studies::nameOf(run.ending)},
                            {"seconds", run.seconds}});
-        else if (talk == Talk::normal)
-            say(fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper, run.variant.asked,
-                            run.steps.count, run.seconds, studies::nameOf(run.ending)));
+        else if (verbosity == Verbosity::normal)
+            printToStderr(fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper,
+                                      run.variant.asked, run.steps.count, run.seconds, studies::nameOf(run.ending)));
     };
 }
 
@@ -144,7 +144,7 @@ studies::SceneAccuracy measure(const Subject& subject, const StudyAccuracyOption
     try {
         onThreads(threadCount(options.run), [&] {
             accuracy = studies::measureAccuracy(subject.name, subject.scene, settingsFor(subject, options),
-                                                reporter(subject.name, options.run.talk()));
+                                                reporter(subject.name, options.run.verbosity()));
         });
     } catch (const engine::InstabilityError& error) {
         throw engine::InstabilityError(subject.name + ": " + error.what());
@@ -212,7 +212,7 @@ void study(const StudyAccuracyOptions& options) {
     const fs::path page = folder / "index.html";
     writeFile(page, accuracyPage(sections, {commandOf(options), threadCount(options.run), options.quick}));
     if (options.run.json) printJson(Json{{"event", "done"}, {"page", page.string()}});
-    if (options.run.talk() != Talk::normal) return;
+    if (options.run.verbosity() != Verbosity::normal) return;
     for (const studies::SceneAccuracy& accuracy : results) print(accuracy);
     fmt::print("all of it: {}\n", page.string());
 }

@@ -70,8 +70,8 @@ studies::FlickerSettings flickerSettingsFor(const PicturesOptions& options) {
     return settings;
 }
 
-void tellRow(const studies::PictureRow& row, Talk talk) {
-    if (talk == Talk::json)
+void tellRow(const studies::PictureRow& row, Verbosity verbosity) {
+    if (verbosity == Verbosity::json)
         printJson(Json{{"event", "row"},
                        {"style", studies::nameOf(row.style)},
                        {"particles", row.particles},
@@ -82,10 +82,11 @@ void tellRow(const studies::PictureRow& row, Talk talk) {
                        {"ratio_at_rest", row.ratioAtRest()},
                        {"ratio_to_fewest", row.ratioToFewest()},
                        {"ssim", row.error.ssim}});
-    else if (talk == Talk::normal)
-        say(fmt::format("{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
-                        studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
-                        studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim));
+    else if (verbosity == Verbosity::normal)
+        printToStderr(fmt::format("{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
+                                  studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
+                                  studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline,
+                                  row.error.ssim));
 }
 
 /// Writes a table after each of its rows: the study takes long, and what interrupts it leaves what was measured.
@@ -94,7 +95,7 @@ PictureResults measure(const PicturesOptions& options, const studies::PictureSet
     PictureResults results;
     results.rows = studies::measurePictures(settings, [&](const std::vector<studies::PictureRow>& rows) {
         writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
-        tellRow(rows.back(), options.run.talk());
+        tellRow(rows.back(), options.run.verbosity());
     });
     results.flicker =
         studies::measureFlicker(flickerSettingsFor(options), [&](const std::vector<studies::FlickerRow>& rows) {
@@ -140,7 +141,7 @@ void study(const PicturesOptions& options) {
     if (!options.size.empty()) command += " --size " + options.size;
     command += fmt::format(" --threads {}", threads);
     writeFile(folder / "index.html", picturesPage(results, plots, command));
-    if (options.run.talk() != Talk::normal) return;
+    if (options.run.verbosity() != Verbosity::normal) return;
     print(rows);
     for (const studies::FlickerRow& row : results.flicker)
         fmt::print("{} {}, {} particles, {}x{}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n",

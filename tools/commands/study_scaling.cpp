@@ -50,16 +50,17 @@ studies::ScalingSettings settingsFor(const ScalingOptions& options) {
     return settings;
 }
 
-studies::ScalingListener rowReporter(Talk talk) {
-    return [talk](const studies::ScalingRow& row) {
-        if (talk == Talk::json)
+studies::ScalingListener rowReporter(Verbosity verbosity) {
+    return [verbosity](const studies::ScalingRow& row) {
+        if (verbosity == Verbosity::json)
             printJson(Json{{"event", "row"},
                            {"subject", row.subject},
                            {"particles", row.particles},
                            {"seconds", row.list},
                            {"state_hash", row.stateHash}});
-        else if (talk == Talk::normal)
-            say(fmt::format("{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list));
+        else if (verbosity == Verbosity::normal)
+            printToStderr(
+                fmt::format("{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list));
     };
 }
 
@@ -73,16 +74,16 @@ ScalingResults measure(const ScalingOptions& options) {
     };
     for (const char* name : kScenes) {
         const scenes::Scene scene = load({name, {}, {}});
-        take(studies::measureScene(name, scene, settings, rowReporter(options.run.talk())));
+        take(studies::measureScene(name, scene, settings, rowReporter(options.run.verbosity())));
     }
     for (const char* material : kMaterials)
-        take(studies::measureCubes(material, settings, rowReporter(options.run.talk())));
+        take(studies::measureBlocks(material, settings, rowReporter(options.run.verbosity())));
     return results;
 }
 
 struct LammpsRun {
     std::string output;
-    std::string ended;  ///< as ChildProcess::wait() says it
+    std::string ending;  ///< as ChildProcess::wait() says it
 };
 
 /// Throws render::SystemError where there is no mpirun.
@@ -92,9 +93,9 @@ LammpsRun runLammps(const std::string& script, int ranks) {
     for (const char* argument : {"lmp", "-log", "none"}) arguments.emplace_back(argument);
     render::ChildProcess lammps(arguments, render::kNoTimeout);
     lammps.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
-    const std::string ended = lammps.wait();
+    const std::string ending = lammps.wait();
     constexpr std::size_t kMostBytes = 1U << 20;
-    return {lammps.output(kMostBytes), ended};
+    return {lammps.output(kMostBytes), ending};
 }
 
 /// Seconds of the timed loop of a script. Throws render::SystemError with what kept the program from it, and what to do
@@ -108,11 +109,11 @@ double lammpsSeconds(const std::string& script, int ranks) {
         throw render::SystemError(fmt::format("{} {}", error.what(), kRemedy));
     }
     const std::optional<double> seconds = studies::lammpsSeconds(run.output);
-    if (run.ended.empty() && seconds) return *seconds;
+    if (run.ending.empty() && seconds) return *seconds;
     const std::string error = studies::lammpsError(run.output);
     if (!error.empty()) throw render::SystemError(error);
     throw render::SystemError(
-        fmt::format("mpirun lmp ended with {} {}", run.ended.empty() ? "no time" : run.ended, kRemedy));
+        fmt::format("mpirun lmp ended with {} {}", run.ending.empty() ? "no time" : run.ending, kRemedy));
 }
 
 /// Our times of a step at the peer's number of particles.
@@ -187,7 +188,7 @@ void study(const ScalingOptions& options) {
     const std::string plot = drawPlot(studies::scalingPlot(results.rows));
     writeFile(folder / "scaling.svg", plot);
     writeFile(folder / "index.html", scalingPage(results, plot, commandOf(options)));
-    if (options.run.talk() != Talk::normal) return;
+    if (options.run.verbosity() != Verbosity::normal) return;
     print(results);
     fmt::print("all of it: {}\n", (folder / "index.html").string());
 }

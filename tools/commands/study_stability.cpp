@@ -64,11 +64,11 @@ std::vector<studies::CaseOptions> chosenCases(const StabilityOptions& options) {
     return chosen;
 }
 
-void tellCase(const studies::CaseResult& result, Talk talk) {
+void tellCase(const studies::CaseResult& result, Verbosity verbosity) {
     const studies::VariantResult& worst = studies::worstOfOurs(result);
-    if (talk == Talk::normal)
-        say(fmt::format("{}: {} variants, {:.1f} s\n", result.name, result.variants.size(), result.seconds));
-    if (talk != Talk::json) return;
+    if (verbosity == Verbosity::normal)
+        printToStderr(fmt::format("{}: {} variants, {:.1f} s\n", result.name, result.variants.size(), result.seconds));
+    if (verbosity != Verbosity::json) return;
     const Json line = {{"event", "case"},
                        {"case", result.name},
                        {"observable", scenes::infoOf(worst.study.observable).name},
@@ -91,7 +91,7 @@ void writeResults(const StabilityOptions& options, const std::vector<studies::Ca
     const fs::path folder = options.folder;
     writeFile(folder / "stability.csv", studies::stabilityCsv(results));
     writeFile(folder / "index.html", stabilityPage(results, commandText(options)));
-    if (options.run.talk() != Talk::normal) return;
+    if (options.run.verbosity() != Verbosity::normal) return;
     double seconds = 0.0;
     for (const studies::CaseResult& result : results) seconds += result.seconds;
     fmt::print("{}\n{} cases in {:.0f} s; all of it: {}\n", studies::stabilityTable(results), results.size(), seconds,
@@ -103,7 +103,7 @@ void study(const StabilityOptions& options) {
     std::vector<studies::CaseResult> results;
     for (const studies::CaseOptions& one : chosenCases(options)) {
         onThreads(threadCount(options.run), [&] { results.push_back(studies::runCase(one)); });
-        tellCase(results.back(), options.run.talk());
+        tellCase(results.back(), options.run.verbosity());
     }
     writeResults(options, results);
     const std::string problems = studies::stabilityProblems(results);

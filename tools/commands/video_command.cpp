@@ -41,7 +41,7 @@ std::vector<int> frameNumbers(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string stem = entry.path().stem().string();
         if (entry.path().extension() != ".png" || !stem.starts_with("frame-")) continue;
-        const std::optional<int> number = numberIn(std::string_view(stem).substr(std::string_view("frame-").size()));
+        const std::optional<int> number = parseNumber(std::string_view(stem).substr(std::string_view("frame-").size()));
         if (number && *number >= 0 && entry.path().filename() == frameName(*number)) numbers.push_back(*number);
     }
     if (error) throw render::SystemError(fmt::format("cannot read folder {}: {}", folder.string(), error.message()));
@@ -87,7 +87,7 @@ void encode(const VideoCommandOptions& options) {
     video.size = {first.width, first.height};
     video.fps = rateOf(options);
     render::VideoWriter writer(video);
-    Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.talk());
+    Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.verbosity());
     for (const int number : numbers) {
         const render::Image image = read(number);
         if (image.width != first.width || image.height != first.height)

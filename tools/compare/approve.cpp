@@ -51,7 +51,7 @@ std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set
 
 std::string sidecarText(const Candidate& candidate, const std::vector<std::uint8_t>& bytes) {
     const render::Image image = render::decodePng(bytes, candidate.from.string());
-    return indentedText(sidecarJson(factsOf(candidate.from, bytes), checksumOf(bytes), image.width, image.height));
+    return indentedText(sidecarJson(provenanceOf(candidate.from, bytes), checksumOf(bytes), image.width, image.height));
 }
 
 /// Why the picture must not replace its golden; empty if it may.
@@ -64,7 +64,7 @@ std::string refusal(const Candidate& candidate) {
     // The sidecar's word counts even where the golden was changed by hand.
     if (!sidecar.contains("gl_renderer") || !sidecar["gl_renderer"].is_string()) return {};
     const std::string before = sidecar["gl_renderer"].get<std::string>();
-    const std::string now = factsOf(candidate.from, readFile(candidate.from)).glRenderer;
+    const std::string now = provenanceOf(candidate.from, readFile(candidate.from)).glRenderer;
     if (now == before) return {};
     return fmt::format("drawn by {}, the golden by {}; --force approves it all the same",
                        now.empty() ? "an unknown GL renderer" : now, before);

@@ -22,7 +22,7 @@ PictureSide readSide(const std::optional<fs::path>& path, std::vector<std::strin
     side.path = *path;
     try {
         side.bytes = readFile(side.path);
-        side.facts = factsOf(side.path, side.bytes);
+        side.provenance = provenanceOf(side.path, side.bytes);
         side.image = render::decodePng(side.bytes, side.path.string());
     } catch (const render::SystemError& error) {
         problems.emplace_back(error.what());
@@ -41,10 +41,10 @@ void judge(PictureResult& result, const CompareJob& job) {
     result.status = !result.comparison->passed() ? PictureStatus::different
                     : identical                  ? PictureStatus::identical
                                                  : PictureStatus::withinLimits;
-    const std::string& state = result.actual.facts.stateHash;
-    const bool statesDiffer =
-        !state.empty() && !result.expected.facts.stateHash.empty() && state != result.expected.facts.stateHash;
-    if (!identical || statesDiffer) result.explanation = explain(result.actual.facts, result.expected.facts);
+    const std::string& state = result.actual.provenance.stateHash;
+    const bool statesDiffer = !state.empty() && !result.expected.provenance.stateHash.empty() &&
+                              state != result.expected.provenance.stateHash;
+    if (!identical || statesDiffer) result.explanation = explain(result.actual.provenance, result.expected.provenance);
 }
 
 /// A picture of a folder or a film as its user knows it.
@@ -114,16 +114,16 @@ Json metricsJson(const render::PictureMetrics& metrics) {
 
 Json sideJson(const PictureSide& side) {
     if (side.path.empty()) return nullptr;
-    const PictureFacts& facts = side.facts;
+    const PictureProvenance& provenance = side.provenance;
     Json json = {{"path", side.path.string()}};
     if (side.image) json["size"] = {side.image->width, side.image->height};
-    for (const auto& [key, value] : {std::pair<const char*, const std::string&>{"scene_hash", facts.sceneHash},
-                                     {"state_hash", facts.stateHash},
-                                     {"version", facts.version},
-                                     {"gl_renderer", facts.glRenderer},
-                                     {"quality", facts.quality},
-                                     {"facts_from", facts.source},
-                                     {"note", facts.note}})
+    for (const auto& [key, value] : {std::pair<const char*, const std::string&>{"scene_hash", provenance.sceneHash},
+                                     {"state_hash", provenance.stateHash},
+                                     {"version", provenance.version},
+                                     {"gl_renderer", provenance.glRenderer},
+                                     {"quality", provenance.quality},
+                                     {"facts_from", provenance.source},
+                                     {"note", provenance.note}})
         if (!value.empty()) json[key] = value;
     return json;
 }

@@ -27,7 +27,7 @@ struct PictureSide {
     std::filesystem::path path;  ///< empty: there is none
     std::vector<std::uint8_t> bytes;
     std::optional<render::Image> image;  ///< if it can be read
-    PictureFacts facts;
+    PictureProvenance provenance;
 };
 
 struct PictureResult {
@@ -62,8 +62,8 @@ struct CompareCounts {
 /// at all, a mask of another size.
 CompareCounts comparePictures(const CompareJob& job, const std::function<void(const PictureResult&)>& visit);
 
-/// A result as an object for scripts: status, rule, reasons, metrics, worst pixels, what changed, the facts of both
-/// sides.
+/// A result as an object for scripts: status, rule, reasons, metrics, worst pixels, what changed, the provenance of
+/// both sides.
 Json resultJson(const PictureResult& result);
 
 }  // namespace tools

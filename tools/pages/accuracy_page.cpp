@@ -130,7 +130,7 @@ std::string section(const AccuracySection& section) {
            "</details></section>\n";
 }
 
-std::string introduction(const StudyFacts& facts) {
+std::string introduction(const StudyRun& facts) {
     return fmt::format(
         "<p><code>{}</code>, {} thread{}. Seconds are wall clock, {}. Costs in force evaluations include the implicit "
         "steppers' matrix-vector products, each at the share of an evaluation that the plots state, and the automatic "
@@ -150,7 +150,7 @@ std::string introduction(const StudyFacts& facts) {
 
 }  // namespace
 
-std::string accuracyPage(const std::vector<AccuracySection>& sections, const StudyFacts& facts) {
+std::string accuracyPage(const std::vector<AccuracySection>& sections, const StudyRun& facts) {
     std::string html = kHead + introduction(facts);
     for (const AccuracySection& each : sections) html += section(each);
     return html + "</body></html>\n";

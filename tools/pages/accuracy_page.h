@@ -16,13 +16,13 @@ struct AccuracySection {
 };
 
 /// How the study was run.
-struct StudyFacts {
+struct StudyRun {
     std::string command;
     int threads = 1;
     bool isTimedOnce = false;  ///< each run, instead of in rounds
 };
 
 /// The page as HTML, plots embedded.
-std::string accuracyPage(const std::vector<AccuracySection>& sections, const StudyFacts& facts);
+std::string accuracyPage(const std::vector<AccuracySection>& sections, const StudyRun& facts);
 
 }  // namespace tools

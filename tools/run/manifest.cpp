@@ -18,7 +18,7 @@ namespace {
 constexpr int kFormat = 1;
 
 int frameNumber(const std::string& text) {
-    const auto number = numberIn(text);
+    const auto number = parseNumber(text);
     if (!number || *number < 0) throw render::SystemError(fmt::format("\"{}\" is no frame number", text));
     return *number;
 }

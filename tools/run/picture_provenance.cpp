@@ -21,14 +21,14 @@ std::string textIn(const nlohmann::json& json, const char* key) {
 }
 
 /// What sidecars, manifests and run.json say in the same words.
-PictureFacts commonFacts(const nlohmann::json& json, const fs::path& source) {
-    PictureFacts facts;
-    facts.source = source.string();
-    facts.sceneHash = textIn(json, "scene_hash");
-    facts.version = textIn(json, "version");
-    facts.glRenderer = textIn(json, "gl_renderer");
-    facts.quality = textIn(json, "quality");
-    return facts;
+PictureProvenance commonProvenance(const nlohmann::json& json, const fs::path& source) {
+    PictureProvenance provenance;
+    provenance.source = source.string();
+    provenance.sceneHash = textIn(json, "scene_hash");
+    provenance.version = textIn(json, "version");
+    provenance.glRenderer = textIn(json, "gl_renderer");
+    provenance.quality = textIn(json, "quality");
+    return provenance;
 }
 
 /// "00012" of frame-00012.png, as manifests number frames; empty for other names.
@@ -37,40 +37,40 @@ std::string frameKey(const fs::path& picture) {
     return stem.starts_with("frame-") ? stem.substr(6) : std::string{};
 }
 
-PictureFacts aboutOtherBytes(const fs::path& source) {
-    PictureFacts facts;
-    facts.note = fmt::format("{} is about another picture than the one that is there", source.string());
-    return facts;
+PictureProvenance aboutOtherBytes(const fs::path& source) {
+    PictureProvenance provenance;
+    provenance.note = fmt::format("{} is about another picture than the one that is there", source.string());
+    return provenance;
 }
 
 /// Without a source when the file is no sidecar or manifest that knows the picture.
-PictureFacts sidecarFacts(const fs::path& picture, const std::string& checksum) {
+PictureProvenance sidecarProvenance(const fs::path& picture, const std::string& checksum) {
     const fs::path path = sidecarPath(picture);
     const nlohmann::json json = readJson(path);
     if (!json.is_object() || textIn(json, "png").empty()) return {};
     if (textIn(json, "png") != checksum) return aboutOtherBytes(path);
-    PictureFacts facts = commonFacts(json, path);
-    facts.stateHash = textIn(json, "state_hash");
-    return facts;
+    PictureProvenance provenance = commonProvenance(json, path);
+    provenance.stateHash = textIn(json, "state_hash");
+    return provenance;
 }
 
-PictureFacts manifestFacts(const fs::path& picture, const std::string& checksum) {
+PictureProvenance manifestProvenance(const fs::path& picture, const std::string& checksum) {
     const fs::path path = picture.parent_path() / "manifest.json";
     const nlohmann::json json = readJson(path);
     if (!json.is_object() || !json.contains("frames") || !json["frames"].is_object()) return {};
     const auto frame = json["frames"].find(frameKey(picture));
     if (frame == json["frames"].end() || !frame->is_object()) return {};
     if (textIn(*frame, "checksum") != checksum) return aboutOtherBytes(path);
-    PictureFacts facts = commonFacts(json.value("run", nlohmann::json::object()), path);
-    facts.stateHash = textIn(*frame, "state_hash");
-    return facts;
+    PictureProvenance provenance = commonProvenance(json.value("run", nlohmann::json::object()), path);
+    provenance.stateHash = textIn(*frame, "state_hash");
+    return provenance;
 }
 
-PictureFacts runFacts(const fs::path& picture) {
+PictureProvenance runProvenance(const fs::path& picture) {
     const fs::path path = picture.parent_path() / "run.json";
     const nlohmann::json json = readJson(path);
     if (!json.is_object() || textIn(json, "scene_hash").empty()) return {};
-    return commonFacts(json, path);
+    return commonProvenance(json, path);
 }
 
 Json textOrNull(const std::string& text) {
@@ -83,9 +83,10 @@ std::string changeOf(const char* what, const std::string& actual, const std::str
     return fmt::format("; {} {} instead of {}", what, actual, expected);
 }
 
-std::string whyUnknown(const char* side, const PictureFacts& facts) {
-    if (!facts.stateHash.empty()) return {};
-    return fmt::format("; the {} picture's state is not recorded{}", side, facts.note.empty() ? "" : ": " + facts.note);
+std::string whyUnknown(const char* side, const PictureProvenance& provenance) {
+    if (!provenance.stateHash.empty()) return {};
+    return fmt::format("; the {} picture's state is not recorded{}", side,
+                       provenance.note.empty() ? "" : ": " + provenance.note);
 }
 
 }  // namespace
@@ -105,32 +106,33 @@ nlohmann::json readJson(const fs::path& path) {
     }
 }
 
-PictureFacts factsOf(const fs::path& picture, std::span<const std::uint8_t> bytes) {
+PictureProvenance provenanceOf(const fs::path& picture, std::span<const std::uint8_t> bytes) {
     const std::string checksum = checksumOf(bytes);
     std::string note;
-    for (PictureFacts facts : {sidecarFacts(picture, checksum), manifestFacts(picture, checksum), runFacts(picture)}) {
-        if (note.empty()) note = facts.note;
-        if (facts.source.empty()) continue;
-        facts.note = note;
-        return facts;
+    for (PictureProvenance provenance :
+         {sidecarProvenance(picture, checksum), manifestProvenance(picture, checksum), runProvenance(picture)}) {
+        if (note.empty()) note = provenance.note;
+        if (provenance.source.empty()) continue;
+        provenance.note = note;
+        return provenance;
     }
-    PictureFacts none;
+    PictureProvenance none;
     none.note = note;
     return none;
 }
 
-Json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height) {
+Json sidecarJson(const PictureProvenance& provenance, const std::string& checksum, int width, int height) {
     return {{"format", 1},
             {"png", checksum},
-            {"scene_hash", textOrNull(facts.sceneHash)},
-            {"state_hash", textOrNull(facts.stateHash)},
-            {"version", textOrNull(facts.version)},
-            {"gl_renderer", textOrNull(facts.glRenderer)},
-            {"quality", textOrNull(facts.quality)},
+            {"scene_hash", textOrNull(provenance.sceneHash)},
+            {"state_hash", textOrNull(provenance.stateHash)},
+            {"version", textOrNull(provenance.version)},
+            {"gl_renderer", textOrNull(provenance.glRenderer)},
+            {"quality", textOrNull(provenance.quality)},
             {"size", {width, height}}};
 }
 
-Explanation explain(const PictureFacts& actual, const PictureFacts& expected) {
+Explanation explain(const PictureProvenance& actual, const PictureProvenance& expected) {
     const std::string others = changeOf("scene", actual.sceneHash, expected.sceneHash) +
                                changeOf("GL renderer", actual.glRenderer, expected.glRenderer) +
                                changeOf("quality", actual.quality, expected.quality) +

@@ -12,7 +12,7 @@
 namespace tools {
 
 /// Texts are empty where nothing says.
-struct PictureFacts {
+struct PictureProvenance {
     std::string source;  ///< the file that says so
     std::string sceneHash;
     std::string stateHash;  ///< of the particles that the picture shows
@@ -28,10 +28,10 @@ std::filesystem::path sidecarPath(const std::filesystem::path& picture);
 /// Reads, in this order, the sidecar, the folder's manifest.json and its run.json (which knows no state of single
 /// frames). A sidecar or manifest that speaks of other bytes than the picture's is passed over with a note. Never
 /// throws for what these files say.
-PictureFacts factsOf(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes);
+PictureProvenance provenanceOf(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes);
 
-/// The content of a sidecar; unknown facts are null. Shape: size as width, height.
-Json sidecarJson(const PictureFacts& facts, const std::string& checksum, int width, int height);
+/// The content of a sidecar; unknown provenance are null. Shape: size as width, height.
+Json sidecarJson(const PictureProvenance& provenance, const std::string& checksum, int width, int height);
 
 /// The JSON in a file; null where it cannot be read or is none.
 nlohmann::json readJson(const std::filesystem::path& path);
@@ -46,6 +46,6 @@ struct Explanation {
 
 /// States are the same bits everywhere, so that equal hashes leave only the drawing, and different ones convict the
 /// simulation or the scene.
-Explanation explain(const PictureFacts& actual, const PictureFacts& expected);
+Explanation explain(const PictureProvenance& actual, const PictureProvenance& expected);
 
 }  // namespace tools

@@ -56,7 +56,7 @@ class Run {
           folder_(openFolder(job, context_.rendererName())),
           renderer_(context_, job.scene->size, job.quality),
           frames_(*job.scene, job.frames, folder_.get(), job.folder ? job.folder->checkpointSeconds : 0.0),
-          progress_(job.title, job.frames.last - job.frames.first + 1, job.talk) {
+          progress_(job.title, job.frames.last - job.frames.first + 1, job.verbosity) {
         report().threads = job.threads;
         report().glRenderer = context_.rendererName();
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));

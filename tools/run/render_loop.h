@@ -23,7 +23,7 @@ struct RenderJob {
     render::Quality quality = render::Quality::normal;
     render::Backend backend = render::Backend::osmesa;
     int threads = 1;
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
     std::string title;  ///< in the progress
 };
 

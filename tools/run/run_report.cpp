@@ -116,13 +116,14 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
     }
 }
 
-void requireWhole(const RunReport& report, const std::string& folder) {
+void requireComplete(const RunReport& report, const std::string& folder) {
     if (!report.unstable.empty()) throw engine::InstabilityError(report.unstable);
     if (report.interruptedBy == 0) return;
-    throw Ended(kSignaled + report.interruptedBy,
-                fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume, and "
-                            "without --overwrite, goes on from there",
-                            report.frames, folder));
+    throw ExitStatus(
+        kSignaled + report.interruptedBy,
+        fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume, and "
+                    "without --overwrite, goes on from there",
+                    report.frames, folder));
 }
 
 Json sceneIdentity(const scenes::Scene& scene) {

@@ -54,8 +54,8 @@ struct FinishedRun {
 /// What of a scene decides what its frames show: the first fields of run.json, and of a folder's manifest.
 Json sceneIdentity(const scenes::Scene& scene);
 
-/// Throws engine::InstabilityError or Ended for a run that ended early, with what to do about it.
-void requireWhole(const RunReport& report, const std::string& folder);
+/// Throws engine::InstabilityError or ExitStatus for a run that ended early, with what to do about it.
+void requireComplete(const RunReport& report, const std::string& folder);
 
 /// The content of run.json for a run that has come to the given state.
 Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report);

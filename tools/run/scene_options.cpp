@@ -34,7 +34,7 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
         if (limit == nullptr)
             failFlag("--limit " + flag, "must be particles=N, frames=N or pixels=N, e.g. particles=5000000");
         const std::string_view text = std::string_view(flag).substr(std::min(equals, flag.size() - 1) + 1);
-        const auto number = numberIn<std::int64_t>(text);
+        const auto number = parseNumber<std::int64_t>(text);
         if (!number || *number < 1) failFlag("--limit " + flag, fmt::format("{} must be a whole number > 0", name));
         *limit = static_cast<double>(*number);
     }
@@ -87,7 +87,7 @@ FolderOptions folderOf(const FolderFlags& flags, const std::string& name) {
     if (flags.resume) options.existing = Existing::keep;
     if (flags.overwrite) options.existing = Existing::overwrite;
     options.checkpointSeconds = flags.checkpointSeconds;
-    options.warn = [](const std::string& line) { say(fmt::format("warning: {}\n", line)); };
+    options.warn = [](const std::string& line) { printToStderr(fmt::format("warning: {}\n", line)); };
     return options;
 }
 
@@ -108,9 +108,9 @@ scenes::Overrides overridesOf(const DrawOptions& options) {
     if (options.size.empty()) return overrides;
     const std::string flag = "--size " + options.size;
     const std::size_t cross = options.size.find('x');
-    const auto width = numberIn(std::string_view(options.size).substr(0, cross));
+    const auto width = parseNumber(std::string_view(options.size).substr(0, cross));
     const auto height =
-        cross == std::string::npos ? std::nullopt : numberIn(std::string_view(options.size).substr(cross + 1));
+        cross == std::string::npos ? std::nullopt : parseNumber(std::string_view(options.size).substr(cross + 1));
     if (!width || !height) failFlag(flag, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
     overrides.emplace_back(fmt::format("look.size=[{}, {}]", *width, *height), flag);
     return overrides;
@@ -140,8 +140,8 @@ std::vector<std::string> sceneFolders() {
 FrameRange frameRange(const std::string& text, int count) {
     if (text.empty()) return {0, count - 1};
     const std::size_t dash = text.find('-');
-    const auto first = numberIn(std::string_view(text).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : numberIn(std::string_view(text).substr(dash + 1));
+    const auto first = parseNumber(std::string_view(text).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : parseNumber(std::string_view(text).substr(dash + 1));
     const std::string flag = "--frames " + text;
     if (!first || !last) failFlag(flag, "must be FIRST-LAST or a single frame, e.g. 0-119");
     if (*first > *last) failFlag(flag, fmt::format("the first frame, {}, comes after the last, {}", *first, *last));

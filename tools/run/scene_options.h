@@ -20,7 +20,7 @@ struct RunOptions {
     bool json = false;
     int threads = 0;  ///< 0: as many as the machine has
 
-    Talk talk() const { return json ? Talk::json : quiet ? Talk::quiet : Talk::normal; }
+    Verbosity verbosity() const { return json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal; }
 };
 
 /// Which scene, with what changed.

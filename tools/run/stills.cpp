@@ -27,15 +27,15 @@ void trimOverlay(const scenes::Scene& scene, const std::vector<int>& frames, int
     if (frame != frames.front() && scene.camera.keys.size() == 1) overlay.scaleBar.reset();
 }
 
-MomentPictures drawAll(const MomentsJob& job, const Moments& moments) {
+StillPictures drawAll(const StillsJob& job, const StillSelection& moments) {
     const scenes::Scene& scene = *job.scene;
     std::set<int> frames(moments.stripFrames.begin(), moments.stripFrames.end());
     if (moments.stillFrame) frames.insert(*moments.stillFrame);
     render::Context context = openContext(job.backend, job.threads);
     render::Renderer renderer(context, scene.size, job.quality);
     engine::Simulation simulation = engine::start(scene.setup);
-    Progress progress(job.title, static_cast<int>(frames.size()), job.talk);
-    MomentPictures pictures;
+    Progress progress(job.title, static_cast<int>(frames.size()), job.verbosity);
+    StillPictures pictures;
     std::vector<render::Panel> panels;
     for (const int frame : frames) {
         scenes::advanceToFrame(scene, simulation, frame);
@@ -66,9 +66,9 @@ void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
 
 }  // namespace
 
-MomentPictures drawMoments(const MomentsJob& job, const Moments& moments) {
+StillPictures drawStills(const StillsJob& job, const StillSelection& moments) {
     requireStripSize(*job.scene, moments.stripFrames.size());
-    MomentPictures pictures;
+    StillPictures pictures;
     onThreads(job.threads, [&] { pictures = drawAll(job, moments); });
     return pictures;
 }

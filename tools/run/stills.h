@@ -15,22 +15,22 @@
 namespace tools {
 
 /// How the pictures are made.
-struct MomentsJob {
+struct StillsJob {
     const scenes::Scene* scene = nullptr;
     render::Quality quality = render::Quality::final;
     render::Backend backend = render::Backend::osmesa;
     int threads = 1;
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
     std::string title;  ///< in the progress
 };
 
 /// What is drawn in them: a still as the scene asks for it, a strip, or both.
-struct Moments {
+struct StillSelection {
     std::optional<int> stillFrame;
     std::vector<int> stripFrames;  ///< ascending
 };
 
-struct MomentPictures {
+struct StillPictures {
     render::Image still;    ///< empty if none was wanted
     render::Image strip;    ///< likewise
     std::string stateHash;  ///< of the last moment
@@ -39,6 +39,6 @@ struct MomentPictures {
 /// Frames between the moments are simulated but not drawn. The panels of a strip have their time below them and no time
 /// stamp; the color bar is on the last panel, the scale bar on the first, or on each if the camera moves.
 /// Throws: engine::InstabilityError, render::SystemError.
-MomentPictures drawMoments(const MomentsJob& job, const Moments& moments);
+StillPictures drawStills(const StillsJob& job, const StillSelection& moments);
 
 }  // namespace tools

@@ -8,13 +8,13 @@
 namespace tools {
 
 /// As shells have it for a program that a closed pipe ends.
-inline constexpr int kReaderGone = 128 + SIGPIPE;
+inline constexpr int kReaderGoneCode = 128 + SIGPIPE;
 
 /// Thrown by a command to end the program with this code. The message is printed as an error; empty: nothing is.
-class Ended : public std::runtime_error {
+class ExitStatus : public std::runtime_error {
  public:
-    Ended(int exitCode, const std::string& message) : std::runtime_error(message), exitCode_(exitCode) {}
-    int exitCode() const { return exitCode_; }
+    ExitStatus(int exitCode, const std::string& message) : std::runtime_error(message), exitCode_(exitCode) {}
+    int code() const { return exitCode_; }
 
  private:
     int exitCode_;

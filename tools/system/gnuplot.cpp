@@ -29,15 +29,15 @@ render::ChildProcess started() {
 std::string drawPlot(const std::string& script) {
     render::ChildProcess gnuplot = started();
     const bool taken = gnuplot.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
-    const std::string ended = gnuplot.wait();
+    const std::string ending = gnuplot.wait();
     const std::string output = gnuplot.output(kMostBytes);
     const std::size_t first = output.find("<?xml");
     const std::size_t last = output.rfind(kEnd);
     const bool whole = first != std::string::npos && last != std::string::npos;
     // Its warnings come the same way, before the picture.
-    if (!taken || !ended.empty() || !whole)
+    if (!taken || !ending.empty() || !whole)
         throw render::SystemError(
-            fmt::format("gnuplot ended with {}: {}", ended.empty() ? "no plot" : ended, output.substr(0, first)));
+            fmt::format("gnuplot ended with {}: {}", ending.empty() ? "no plot" : ending, output.substr(0, first)));
     return output.substr(first, last + kEnd.size() - first) + "\n";
 }
 

@@ -10,7 +10,7 @@ namespace tools {
 
 /// The number that fills the text, whatever the locale; nothing where there is none, or more than one.
 template <class Number = int>
-std::optional<Number> numberIn(std::string_view text) {
+std::optional<Number> parseNumber(std::string_view text) {
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;

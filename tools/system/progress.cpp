@@ -25,21 +25,21 @@ std::string timeLeft(int done, int total, double elapsed) {
 
 }  // namespace
 
-Progress::Progress(std::string title, int total, Talk talk)
+Progress::Progress(std::string title, int total, Verbosity verbosity)
     : title_(std::move(title)),
       total_(total),
-      talk_(talk),
+      verbosity_(verbosity),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-    if (talk_ == Talk::normal && terminal_ && done_ > 0) say("\n");
+    if (verbosity_ == Verbosity::normal && terminal_ && done_ > 0) printToStderr("\n");
 }
 
 void Progress::frameDone(int frame, double sceneTime) {
     ++done_;
-    if (talk_ == Talk::quiet) return;
-    if (talk_ == Talk::json) {
+    if (verbosity_ == Verbosity::quiet) return;
+    if (verbosity_ == Verbosity::json) {
         const Json line = {{"event", "frame"},  {"scene", title_}, {"frame", frame},
                            {"time", sceneTime}, {"done", done_},   {"total", total_}};
         printJson(line);
@@ -54,14 +54,14 @@ void Progress::frameDone(int frame, double sceneTime) {
 
 void Progress::drawBar(double elapsed) const {
     const int filled = kBarWidth * done_ / total_;
-    say(fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "", kBarWidth - filled,
-                    done_, total_, done_ / elapsed, timeLeft(done_, total_, elapsed)));
+    printToStderr(fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "",
+                              kBarWidth - filled, done_, total_, done_ / elapsed, timeLeft(done_, total_, elapsed)));
 }
 
 void Progress::printLine(double elapsed) {
     lastLine_ = elapsed;
-    say(fmt::format("{}: frame {} of {}, {:.1f} frames/s, {}\n", title_, done_, total_, done_ / elapsed,
-                    timeLeft(done_, total_, elapsed)));
+    printToStderr(fmt::format("{}: frame {} of {}, {:.1f} frames/s, {}\n", title_, done_, total_, done_ / elapsed,
+                              timeLeft(done_, total_, elapsed)));
 }
 
 }  // namespace tools

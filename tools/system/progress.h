@@ -7,12 +7,12 @@
 
 namespace tools {
 
-enum class Talk { normal, quiet, json };
+enum class Verbosity { normal, quiet, json };
 
 class Progress {
  public:
     /// total: how many frames will be done.
-    Progress(std::string title, int total, Talk talk);
+    Progress(std::string title, int total, Verbosity verbosity);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress();
@@ -27,7 +27,7 @@ class Progress {
     std::string title_;
     int total_ = 0;
     int done_ = 0;
-    Talk talk_;
+    Verbosity verbosity_;
     bool terminal_ = false;
     std::chrono::steady_clock::time_point start_;
     double lastLine_ = 0.0;  ///< s after the start

@@ -18,15 +18,15 @@ void prepareStandardStreams() {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-void say(const std::string& text) {
+void printToStderr(const std::string& text) {
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
 }
 
-void requirePrinted() {
+void flushStandardOutput() {
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    if (errno == EPIPE) throw Ended(kReaderGone, "");
+    if (errno == EPIPE) throw ExitStatus(kReaderGoneCode, "");
     throw render::SystemError("cannot write to standard output");
 }
 

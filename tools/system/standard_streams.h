@@ -11,10 +11,10 @@ namespace tools {
 void prepareStandardStreams();
 
 /// Writes to standard error, whether or not anybody takes it: nothing is lost but words.
-void say(const std::string& text);
+void printToStderr(const std::string& text);
 
-/// Throws render::SystemError when something that was printed to standard output could not be written; Ended, without a
-/// word and with the code that shells give a program whose reader went away, when that is why.
-void requirePrinted();
+/// Throws render::SystemError when something that was printed to standard output could not be written; ExitStatus,
+/// without a word and with the code that shells give a program whose reader went away, when that is why.
+void flushStandardOutput();
 
 }  // namespace tools
