@@ -1,4 +1,5 @@
-// The program: subcommands in, exit codes out. Errors are caught here and nowhere else, one line for each problem.
+// The program globular. Adds the subcommands, runs the one that was called, and turns exceptions into error lines and
+// exit codes. Errors are caught here and nowhere else; each problem gets one line.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -13,8 +14,7 @@
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
-#include "tools/system/exit_status.h"
-#include "tools/system/standard_streams.h"
+#include "tools/system/process.h"
 
 namespace {
 
@@ -22,11 +22,12 @@ constexpr int kOutsideFailed = 1;
 constexpr int kInputWrong = 2;
 constexpr int kUnstable = 3;
 
-/// Every frame and every list asks for the memory that the last one has freed. glibc hands lists of 128 KiB and more
-/// back to the system, whose pages then have to be filled with zeros again: up to a quarter of a frame.
+/// Makes glibc keep freed memory. Every frame and every neighbor list asks for the memory that the last one has freed. By
+/// default glibc returns blocks of 128 KiB and more to the system, which fills the pages with zeros again when they are
+/// next used. That took up to a quarter of the time of a frame.
 void keepFreedMemory() {
 #ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // its largest
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest value that glibc accepts
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }
@@ -39,8 +40,8 @@ int report(const std::string& problems, int exitCode) {
 
 int run(const tools::CommandLine& line, int argc, char** argv) {
     try {
-        if (!line.run(argc, argv)) return report("which command? See globular --help", kInputWrong);
-        // Results go to stdout; a full disk behind it is a failure like any other.
+        line.run(argc, argv);
+        // A full disk behind standard output is a failure like any other.
         tools::flushStandardOutput();
         return 0;
     } catch (const tools::UsageError& error) {
@@ -52,12 +53,12 @@ int run(const tools::CommandLine& line, int argc, char** argv) {
     } catch (const tools::ExitStatus& status) {
         return report(status.what(), status.code());
     } catch (const std::system_error& error) {
-        // Of what prints results.
+        // fmt::print throws this when it cannot write to standard output.
         const bool isReaderGone = error.code() == std::errc::broken_pipe;
         return isReaderGone ? tools::kReaderGoneCode : report(error.what(), kOutsideFailed);
     } catch (const std::logic_error& error) {
-        report(fmt::format("a mistake of the program itself: {}", error.what()), 0);
-        std::abort();  // where it can be looked at
+        report(fmt::format("internal error: {}", error.what()), 0);
+        std::abort();  // leaves a core dump to debug
     } catch (const std::exception& error) {
         return report(error.what(), kOutsideFailed);
     }

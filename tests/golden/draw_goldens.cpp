@@ -11,8 +11,8 @@
 #include "render/renderer.h"
 #include "scenes/view/frame_steps.h"
 #include "scenes/view/frame_view.h"
+#include "tools/compare/picture_provenance.h"
 #include "tools/run/manifest.h"
-#include "tools/run/picture_provenance.h"
 #include "tools/system/output_file.h"
 
 namespace golden {

@@ -60,7 +60,7 @@ TEST_CASE("Every built-in scene looks as it did", "[golden]") {
         // States are the same bits everywhere: another state is a change, even one that nobody sees.
         CHECK_FALSE((result.explanation && result.explanation->cause == tools::Cause::simulation));
     });
-    CHECK(counts.pictures == 4 * static_cast<int>(golden::scenes().size()));
+    CHECK(counts.pictures() == 4 * static_cast<int>(golden::scenes().size()));
     tools::createFolder(kReport);
     tools::writeFile(kReport / "index.html", page.html({kActual.string(), kExpected.string(), "vendor", job.limits,
                                                         counts, tools::approvalLine(kActual, kExpected, failed)}));

@@ -7,9 +7,9 @@
 #include "tests/catch.h"
 #include "tests/tools/program.h"
 #include "tools/pages/html.h"
-#include "tools/run/scene_options.h"
+#include "tools/run/options.h"
 #include "tools/system/output_file.h"
-#include "tools/system/shell_words.h"
+#include "tools/system/text.h"
 
 namespace {
 

@@ -1,8 +1,7 @@
-// globular bench: how fast the engine's parts run on this machine, with the hash of what they computed next to each
-// time.
+// globular bench: measures how fast the parts of the engine and whole frames run on this machine, and prints the hash
+// of what was computed beside each time.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,19 +13,17 @@
 #include "studies/bench/bench.h"
 #include "studies/bench/bench_frames.h"
 #include "tools/commands/commands.h"
-#include "tools/run/open_context.h"
-#include "tools/run/scene_options.h"
+#include "tools/run/threads.h"
 #include "tools/system/json.h"
-#include "tools/system/standard_streams.h"
-#include "tools/system/threads.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
 
 struct BenchOptions {
     RunOptions run;
-    DrawOptions draw;            ///< its backend alone
-    std::string instructionSet;  ///< empty: the widest of the machine
+    DrawOptions draw;            ///< only the backend is used
+    std::string instructionSet;  ///< empty: the widest that the machine has
     studies::BenchSettings settings;
 };
 
@@ -67,7 +64,7 @@ void print(const studies::BenchRow& row) {
                row.bytesPerParticle, row.stateHash);
 }
 
-/// Whose frames are measured: one of each kind of material, and what the implicit steppers are for.
+/// The scenes whose frames are measured: one for each kind of material, and honey, which needs the implicit steppers.
 constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
 
 void benchFrames(const BenchOptions& options, int threads,
@@ -94,7 +91,7 @@ void bench(const BenchOptions& options) {
         fmt::print("{:23} {:13} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
                    "particles", "neighbors", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");
     }
-    const auto tell = [&](const studies::BenchRow& row) {
+    const auto report = [&](const studies::BenchRow& row) {
         if (isText)
             print(row);
         else
@@ -102,8 +99,8 @@ void bench(const BenchOptions& options) {
         flushStandardOutput();
     };
     onThreads(threads, [&] {
-        runBench(options.settings, tell);
-        benchFrames(options, threads, tell);
+        runBench(options.settings, report);
+        benchFrames(options, threads, report);
     });
 }
 
@@ -119,7 +116,7 @@ void addBenchCommand(const Command& program) {
     command.option("--rounds", options->settings.rounds, "how often each is timed (default: 5)").aboveZero();
     command.option("--isa", options->instructionSet, "the vectors to run on (default: the widest of the machine)")
         .oneOf(engine::instructionSets());
-    command.option("--gl", options->draw.backend, "OpenGL backend: osmesa or egl (default: osmesa)").of("NAME");
+    addBackendFlag(command, options->draw);
     addTo(command, options->run);
     command.example("globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
     command.run([options] { bench(*options); });

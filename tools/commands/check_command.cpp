@@ -12,9 +12,9 @@
 #include "engine/stepping/steppers.h"
 #include "scenes/view/frame_steps.h"
 #include "tools/commands/commands.h"
-#include "tools/run/scene_options.h"
+#include "tools/run/options.h"
+#include "tools/run/threads.h"
 #include "tools/system/json.h"
-#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

@@ -1,8 +1,9 @@
-// The subcommands of the program. Each adds itself to the command line, with its flags, its help and what it does when
-// it is called; failures come back to main as exceptions.
+// The subcommands of the program, called by main(). Each function adds a command with its flags, its help, and the code
+// that runs when it is called. Failures come back to main() as exceptions.
 #pragma once
 
-#include "tools/run/command_line.h"
+#include "tools/commands/command_line.h"
+#include "tools/run/options.h"
 
 namespace tools {
 
@@ -19,10 +20,12 @@ void addSchemaCommand(const Command& program);
 void addStudyCommand(const Command& program);
 void addBenchCommand(const Command& program);
 
-/// Subcommands of `globular study`.
-void addStudyAccuracy(const Command& study);
-void addStudyPictures(const Command& study);
-void addStudyScaling(const Command& study);
-void addStudyStability(const Command& study);
+/// Adds the flags that several commands share, to be read into the options.
+void addTo(const Command& command, RunOptions& options);
+void addTo(const Command& command, SceneOptions& options);
+void addTo(const Command& command, DrawOptions& options);
+void addTo(const Command& command, FolderOptions& options);
+/// Adds --gl alone, for commands that choose size, style and quality themselves.
+void addBackendFlag(const Command& command, DrawOptions& options);
 
 }  // namespace tools

@@ -15,11 +15,9 @@
 #include "tools/compare/compare_pictures.h"
 #include "tools/pages/compare_page.h"
 #include "tools/pages/junit.h"
-#include "tools/system/exit_status.h"
-#include "tools/system/interrupt.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
-#include "tools/system/standard_streams.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
@@ -76,23 +74,25 @@ void print(const PictureResult& result, const render::CompareLimits& limits) {
 }
 
 void printSummary(const CompareOptions& options, const CompareCounts& counts, const std::string& approval) {
+    const auto count = [&](PictureStatus status) { return counts.of(status); };
     if (options.json) {
         Json json = {{"event", "done"},
-                     {"pictures", counts.pictures},
-                     {"identical", counts.identical},
-                     {"within_limits", counts.withinLimits},
-                     {"different", counts.different},
-                     {"missing", counts.missing},
-                     {"extra", counts.extra},
-                     {"unreadable", counts.unreadable}};
+                     {"pictures", counts.pictures()},
+                     {"identical", count(PictureStatus::identical)},
+                     {"within_limits", count(PictureStatus::withinLimits)},
+                     {"different", count(PictureStatus::different)},
+                     {"missing", count(PictureStatus::missing)},
+                     {"extra", count(PictureStatus::extra)},
+                     {"unreadable", count(PictureStatus::unreadable)}};
         if (!approval.empty()) json["approve"] = approval;
         printJson(json);
     } else if (!options.quiet) {
         fmt::print(
             "{} pictures: {} identical, {} within limits ({}), {} different, {} missing, {} without a golden, {} "
             "unreadable\n",
-            counts.pictures, counts.identical, counts.withinLimits, options.profile, counts.different, counts.missing,
-            counts.extra, counts.unreadable);
+            counts.pictures(), count(PictureStatus::identical), count(PictureStatus::withinLimits), options.profile,
+            count(PictureStatus::different), count(PictureStatus::missing), count(PictureStatus::extra),
+            count(PictureStatus::unreadable));
         if (!options.report.empty())
             fmt::print("to look at them: {}\n", (fs::path(options.report) / "index.html").string());
         if (!approval.empty()) fmt::print("to approve: {}\n", approval);
@@ -137,7 +137,7 @@ void compareAll(const CompareOptions& options) {
     }
     printSummary(options, counts, approval);
     flushStandardOutput();
-    if (counts.unreadable > 0) throw ExitStatus(kTrouble, "");
+    if (counts.of(PictureStatus::unreadable) > 0) throw ExitStatus(kTrouble, "");
     if (counts.failed() > 0) throw ExitStatus(kDifferent, "");
 }
 

@@ -1,7 +1,6 @@
-// globular figures: the paper's figures as stills, strips, videos and one page that shows them.
+// globular figures: draws the paper's figures as stills, strips and videos, and writes one page that shows them.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -22,12 +21,12 @@ namespace fs = std::filesystem;
 
 struct FiguresOptions {
     RunOptions run;
-    DrawOptions draw;  ///< of which the backend is the user's
+    DrawOptions draw;  ///< only the backend is used
     std::string folder = "out/figures";
     std::vector<int> numbers;
 };
 
-/// The still and the strip, in the best quality; the frames between their moments are simulated but not drawn.
+/// Draws the still and the strip in the best quality.
 void drawPictures(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
     const StillsJob job{.scene = &scene,
                         .backend = backendOf(options.draw),
@@ -53,7 +52,7 @@ FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& option
     return result;
 }
 
-/// The columns of Table 1 and what else decides the motion.
+/// The columns of the paper's Table 1 and everything else that determines the motion, in one line.
 std::string constantsOf(const scenes::Scene& scene, std::size_t particleCount) {
     const engine::Material& m = scene.setup.materials.front();
     return fmt::format(
@@ -85,7 +84,7 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
     FinishedRun result = renderVideo(scene, options, entry);
     entry.stateHash = result.report.stateHash;
     entry.constants = constantsOf(scene, result.simulation.particles.count());
-    writeFile(folder / (name + ".json"), indentedText(runJson(scene, result.simulation, result.report)));
+    writeFile(folder / (name + ".json"), indentedText(runJson(scene, result)));
     return entry;
 }
 
@@ -118,7 +117,7 @@ void addFiguresCommand(const Command& program) {
     const auto options = std::make_shared<FiguresOptions>();
     command.option("FIGURE", options->numbers, "which figures (default: all four)").within(1, 4);
     command.option("-o,--output", options->folder, "folder to write to (default: out/figures)").of("DIR");
-    command.option("--gl", options->draw.backend, "OpenGL backend: osmesa or egl (default: osmesa)").of("NAME");
+    addBackendFlag(command, options->draw);
     addTo(command, options->run);
     command.example("globular figures 1 3 -o out/figures");
     command.run([options] {

@@ -19,28 +19,27 @@ struct RenderOptions {
     RunOptions run;
     SceneOptions scene;
     DrawOptions draw;
-    FolderFlags folder;
+    FolderOptions folder;
     std::string video;
     std::string frames;
 };
 
-void printSummary(const RenderOptions& options, const fs::path& folder, const Json& json) {
+void printSummary(const RenderOptions& options, const Json& json) {
     if (options.run.json) {
-        printJson(Json{{"event", "done"}, {"folder", folder.string()}, {"run", json}});
+        printJson(Json{{"event", "done"}, {"folder", options.folder.path}, {"run", json}});
     } else if (!options.run.quiet) {
-        fmt::print("{} frames in {}{}\n", json["frames"].get<int>(), folder.string(),
+        const Json& seconds = json["seconds"];
+        fmt::print("{} frames in {}{}\n", json["frames"].get<int>(), options.folder.path,
                    options.video.empty() ? "" : ", video " + options.video);
         fmt::print("{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), state {}\n",
                    json["particles"].get<std::size_t>(), json["steps"]["count"].get<std::uint64_t>(),
-                   json["seconds"]["all"].get<double>(), json["seconds"]["simulating"].get<double>(),
-                   json["seconds"]["drawing"].get<double>(), json["seconds"]["encoding"].get<double>(),
-                   json["state_hash"].get<std::string>());
+                   seconds["all"].get<double>(), seconds["simulating"].get<double>(), seconds["drawing"].get<double>(),
+                   seconds["encoding"].get<double>(), json["state_hash"].get<std::string>());
     }
 }
 
-void render(const RenderOptions& options) {
+void render(RenderOptions options) {
     const scenes::Scene scene = load(options.scene, overridesOf(options.draw));
-
     RenderJob job;
     job.scene = &scene;
     job.frames = frameRange(options.frames, scenes::frameCount(scene));
@@ -50,15 +49,12 @@ void render(const RenderOptions& options) {
     job.verbosity = options.run.verbosity();
     job.title = fs::path(scene.sourceName).stem().string();
     job.videoPath = options.video;
-    job.folder = folderOf(options.folder, job.title);
-    const fs::path folder = job.folder->path;
+    if (options.folder.path.empty()) options.folder.path = (fs::path("out") / job.title).string();
+    job.folder = options.folder;
 
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
-    FinishedRun result = renderFrames(job);
-    const auto json = runJson(scene, result.simulation, result.report);
-    writeFile(folder / "run.json", indentedText(json));
-    requireComplete(result.report, folder);
-    printSummary(options, folder, json);
+    FinishedRun run = renderFrames(job);
+    printSummary(options, saveReport(options.folder.path, scene, run));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "scenes/build/library.h"
 #include "tools/commands/commands.h"
-#include "tools/run/scene_options.h"
+#include "tools/run/options.h"
 #include "tools/system/json.h"
 
 namespace tools {

@@ -8,13 +8,8 @@
 #include "scenes/model/particle_file.h"
 #include "tools/commands/commands.h"
 #include "tools/run/frame_sequence.h"
-#include "tools/run/run_report.h"
-#include "tools/run/scene_options.h"
+#include "tools/run/threads.h"
 #include "tools/system/json.h"
-#include "tools/system/output_file.h"
-#include "tools/system/progress.h"
-#include "tools/system/stopwatch.h"
-#include "tools/system/threads.h"
 
 namespace tools {
 namespace {
@@ -24,7 +19,7 @@ namespace fs = std::filesystem;
 struct SimulateOptions {
     RunOptions run;
     SceneOptions scene;
-    FolderFlags folder;
+    FolderOptions folder;
     std::string frames;
     std::string format = "ply";
 };
@@ -46,32 +41,28 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames,
     return sequence.take();
 }
 
-void simulate(const SimulateOptions& options) {
+void simulate(SimulateOptions options) {
     const scenes::Scene scene = load(options.scene);
     const FrameRange frames = frameRange(options.frames, scenes::frameCount(scene));
     const std::string name = fs::path(scene.sourceName).stem().string();
-    const FolderOptions folderOptions = folderOf(options.folder, name);
-    const fs::path folder = folderOptions.path;
-    const int threads = threadCount(options.run);
+    std::string& folder = options.folder.path;
+    if (folder.empty()) folder = (fs::path("out") / name).string();
 
-    Progress progress(name, frames.last - frames.first + 1, options.run.verbosity());
+    Progress progress(name, frames.count(), options.run.verbosity());
     FinishedRun run;
     double seconds = 0.0;
     {
         const Stopwatch watch(seconds);
-        onThreads(threads, [&] { run = simulateFrames(scene, frames, folderOptions, progress); });
+        onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options.folder, progress); });
     }
     run.report.seconds.all = seconds;
-    run.report.threads = threads;
-    const auto json = runJson(scene, run.simulation, run.report);
-    writeFile(folder / "run.json", indentedText(json));
-    requireComplete(run.report, folder);
+    run.report.threads = threadCount(options.run);
+    const Json json = saveReport(folder, scene, run);
     if (options.run.json)
-        printJson(Json{{"event", "done"}, {"folder", folder.string()}, {"run", json}});
+        printJson(Json{{"event", "done"}, {"folder", folder}, {"run", json}});
     else if (!options.run.quiet)
-        fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", run.report.frames, folder.string(),
-                   run.simulation.particles.count(), run.simulation.steps.count, run.report.seconds.all,
-                   run.report.stateHash);
+        fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", run.report.frames, folder,
+                   run.simulation.particles.count(), run.simulation.steps.count, seconds, run.report.stateHash);
 }
 
 }  // namespace

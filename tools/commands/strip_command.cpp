@@ -1,4 +1,4 @@
-// globular strip: several moments of a scene side by side in one picture.
+// globular strip: a scene at several times, side by side in one picture.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -7,7 +7,6 @@
 
 #include "render/output/png.h"
 #include "tools/commands/commands.h"
-#include "tools/run/scene_options.h"
 #include "tools/run/stills.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
@@ -25,7 +24,8 @@ struct StripOptions {
     std::string output;
 };
 
-scenes::Scene loadFor(const StripOptions& options) {
+/// The scene with the times of --times.
+scenes::Scene loadScene(const StripOptions& options) {
     scenes::Overrides overrides = overridesOf(options.draw);
     if (!options.times.empty())
         overrides.emplace_back(fmt::format("still.strip=[{}]", options.times), "--times " + options.times);
@@ -40,7 +40,7 @@ void printResult(const StripOptions& options, const fs::path& path, const Json& 
 }
 
 void drawStrip(const StripOptions& options) {
-    const scenes::Scene scene = loadFor(options);
+    const scenes::Scene scene = loadScene(options);
     StillsJob job;
     job.scene = &scene;
     job.quality = qualityOf(options.draw);
@@ -64,10 +64,10 @@ void drawStrip(const StripOptions& options) {
 }  // namespace
 
 void addStripCommand(const Command& program) {
-    const Command command = program.command("strip", "several moments of a scene side by side in one picture");
+    const Command command = program.command("strip", "a scene at several times, side by side in one picture");
     const auto options = std::make_shared<StripOptions>();
     addTo(command, options->scene);
-    command.option("--times", options->times, "moments in seconds (default: the scene's still.strip)").of("T,T,...");
+    command.option("--times", options->times, "times in seconds (default: the scene's still.strip)").of("T,T,...");
     command.option("-o,--output", options->output, "the picture to write (default: out/NAME-strip.png)").of("FILE.png");
     addTo(command, options->draw);
     addTo(command, options->run);

@@ -15,47 +15,41 @@
 #include "studies/accuracy/accuracy.h"
 #include "studies/accuracy/accuracy_csv.h"
 #include "studies/accuracy/accuracy_plot.h"
-#include "tools/commands/commands.h"
-#include "tools/pages/accuracy_page.h"
-#include "tools/run/scene_options.h"
+#include "tools/commands/study_command.h"
+#include "tools/pages/study_pages.h"
+#include "tools/run/threads.h"
 #include "tools/system/gnuplot.h"
-#include "tools/system/json.h"
 #include "tools/system/output_file.h"
-#include "tools/system/parse_number.h"
-#include "tools/system/shell_words.h"
-#include "tools/system/standard_streams.h"
-#include "tools/system/threads.h"
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct StudyAccuracyOptions {
-    RunOptions run;
+struct AccuracyOptions : StudyOptions {
     std::vector<std::string> scenes;
     std::vector<std::string> overrides;
-    std::string folder = "out/study-accuracy";
-    double from = -1.0;   ///< s; negative: of each scene
-    double window = 0.0;  ///< s; 0: kWindow
-    bool quick = false;
+    double from = -1.0;   ///< where the runs start, in seconds; negative: kFromShare of each scene's still time
+    double window = 0.0;  ///< how long they run, in seconds; 0: kWindow
 };
 
-/// Long enough for an impact, short enough that collisions afterward do not multiply its errors, s.
+/// In seconds. Chosen: long enough for an impact, short enough that later collisions do not multiply its errors.
 constexpr double kWindow = 0.2;
 
-/// Where a scene is on its way to what its still shows, as a share of the still's time.
+/// Where a run starts, as a share of the time of the scene's still. Chosen: the scene is in motion by then, and has not
+/// yet come to what its still shows.
 constexpr double kFromShare = 0.4;
 
-/// One study: a scene over a window.
+/// One study: a scene over a window of time.
 struct Subject {
     std::string name;  ///< in tables and file names: "liquid", "hard-honey", "powder-2s"
     scenes::Scene scene;
-    double from = 0.0;    ///< s
-    double window = 0.0;  ///< s
+    double from = 0.0;    ///< seconds
+    double window = 0.0;  ///< seconds
 };
 
-/// Refuses what is shorter than a frame, and what would never end.
+/// @throws scenes::InputError for a window that is shorter than a frame or has more frames than a run may have
 void requireFrames(const Subject& subject, const std::string& text) {
     const double fps = subject.scene.fps;
     const double most = scenes::Limits().frames;
@@ -70,8 +64,8 @@ void requireFrames(const Subject& subject, const std::string& text) {
                                                subject.from + subject.window, most, most / fps)}});
 }
 
-/// Of "SCENE" or "SCENE:SECONDS".
-Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) {
+/// The study that "SCENE" or "SCENE:SECONDS" asks for.
+Subject parseSubject(const std::string& text, const AccuracyOptions& options) {
     Subject subject;
     subject.window = options.window > 0.0 ? options.window : kWindow;
     std::string scene = text;
@@ -92,7 +86,7 @@ Subject subjectOf(const std::string& text, const StudyAccuracyOptions& options) 
     return subject;
 }
 
-studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccuracyOptions& options) {
+studies::AccuracySettings settingsFor(const Subject& subject, const AccuracyOptions& options) {
     const scenes::Scene& scene = subject.scene;
     studies::AccuracySettings settings;
     settings.firstFrame = static_cast<int>(std::lround(subject.from * scene.fps));
@@ -111,40 +105,39 @@ studies::AccuracySettings settingsFor(const Subject& subject, const StudyAccurac
     return settings;
 }
 
-/// A line for each run that is done.
-studies::RunListener reporter(const std::string& name, Verbosity verbosity) {
-    return [name, verbosity](const studies::WindowRun& run, std::string_view purpose) {
+/// Reports each run when it is done.
+studies::RunListener runReporter(const AccuracyOptions& options, const std::string& scene) {
+    return [&options, scene](const studies::WindowRun& run, std::string_view purpose) {
         const std::string stepper = studies::nameOf(run.variant);
-        if (verbosity == Verbosity::json)
-            printJson(Json{{"event", purpose},
-                           {"scene", name},
-                           {"stepper", stepper},
-                           {"asked", run.variant.asked},
-                           {"ending", studies::nameOf(run.ending)},
-                           {"seconds", run.seconds}});
-        else if (verbosity == Verbosity::normal)
-            printToStderr(fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", name, purpose, stepper,
-                                      run.variant.asked, run.steps.count, run.seconds, studies::nameOf(run.ending)));
+        reportProgress(options,
+                       {{"event", purpose},
+                        {"scene", scene},
+                        {"stepper", stepper},
+                        {"asked", run.variant.asked},
+                        {"ending", studies::nameOf(run.ending)},
+                        {"seconds", run.seconds}},
+                       fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", scene, purpose, stepper,
+                                   run.variant.asked, run.steps.count, run.seconds, studies::nameOf(run.ending)));
     };
 }
 
-std::vector<Subject> subjectsOf(const StudyAccuracyOptions& options) {
+std::vector<Subject> subjectsOf(const AccuracyOptions& options) {
     std::vector<Subject> subjects;
     std::set<std::string> names;
     for (const std::string& text : options.scenes) {
-        subjects.push_back(subjectOf(text, options));
+        subjects.push_back(parseSubject(text, options));
         if (!names.insert(subjects.back().name).second)
             throw scenes::InputError({{text, 0, 0, "two scenes would share its files"}});
     }
     return subjects;
 }
 
-studies::SceneAccuracy measure(const Subject& subject, const StudyAccuracyOptions& options) {
+studies::SceneAccuracy measure(const Subject& subject, const AccuracyOptions& options) {
     studies::SceneAccuracy accuracy;
     try {
         onThreads(threadCount(options.run), [&] {
             accuracy = studies::measureAccuracy(subject.name, subject.scene, settingsFor(subject, options),
-                                                reporter(subject.name, options.run.verbosity()));
+                                                runReporter(options, subject.name));
         });
     } catch (const engine::InstabilityError& error) {
         throw engine::InstabilityError(subject.name + ": " + error.what());
@@ -152,15 +145,12 @@ studies::SceneAccuracy measure(const Subject& subject, const StudyAccuracyOption
     return accuracy;
 }
 
-std::string commandOf(const StudyAccuracyOptions& options) {
-    std::vector<std::string> words = {"globular", "study", "accuracy"};
-    words.insert(words.end(), options.scenes.begin(), options.scenes.end());
+std::string commandOf(const AccuracyOptions& options) {
+    std::vector<std::string> words = options.scenes;
     for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
-    std::string command = shellLine(words);
-    if (options.from >= 0.0) command += fmt::format(" --from {:g}", options.from);
-    if (options.window > 0.0) command += fmt::format(" --window {:g}", options.window);
-    if (options.quick) command += " --quick";
-    return command + fmt::format(" --threads {}", threadCount(options.run));
+    if (options.from >= 0.0) words.insert(words.end(), {"--from", fmt::format("{:g}", options.from)});
+    if (options.window > 0.0) words.insert(words.end(), {"--window", fmt::format("{:g}", options.window)});
+    return commandLineOf(options, words);
 }
 
 void writeTables(const fs::path& folder, const std::vector<studies::SceneAccuracy>& results) {
@@ -170,7 +160,7 @@ void writeTables(const fs::path& folder, const std::vector<studies::SceneAccurac
     writeFile(folder / "references.csv", studies::referencesCsv(results));
 }
 
-AccuracySection plotted(const fs::path& folder, const studies::SceneAccuracy& accuracy) {
+AccuracySection sectionOf(const fs::path& folder, const studies::SceneAccuracy& accuracy) {
     AccuracySection section{accuracy, drawPlot(studies::plotScript(accuracy, studies::CostAxis::seconds)),
                             drawPlot(studies::plotScript(accuracy, studies::CostAxis::forceEvaluations))};
     writeFile(folder / (accuracy.name + "-seconds.svg"), section.secondsPlot);
@@ -182,61 +172,61 @@ std::string ratio(const std::optional<studies::HandPicked>& picked, double cost)
     return picked ? fmt::format("{:.2f}", cost / picked->cost) : "-";
 }
 
-/// The verdict on the automatic stepper, for the terminal.
-void print(const studies::SceneAccuracy& accuracy) {
-    fmt::print("{}: reference {} at {:.3g} s, resolves {:.1e} radii\n", accuracy.name,
-               engine::nameOf(accuracy.reference.variant.stepper), accuracy.reference.variant.asked,
-               accuracy.reference.resolution);
+/// How the automatic stepper compares, as the terminal shows it.
+std::string summaryOf(const studies::SceneAccuracy& accuracy) {
+    std::string text = fmt::format("{}: reference {} at {:.3g} s, resolves {:.1e} radii\n", accuracy.name,
+                                   engine::nameOf(accuracy.reference.variant.stepper), accuracy.reference.variant.asked,
+                                   accuracy.reference.resolution);
     for (const studies::OrderRow& row : accuracy.orders)
-        if (row.order) fmt::print("  {:17} order {:.2f}\n", engine::nameOf(row.stepper), *row.order);
-    fmt::print(
-        "  auto: asked  obtained  seconds  over best hand-picked at the error obtained, asked; in evaluations\n");
+        if (row.order) text += fmt::format("  {:17} order {:.2f}\n", engine::nameOf(row.stepper), *row.order);
+    text += "  auto: asked  obtained  seconds  over best hand-picked at the error obtained, asked; in evaluations\n";
     for (const studies::AutoRow& row : accuracy.autos)
-        fmt::print("      {:7g}  {:8.1e}  {:7.3g}  {:>5} {:>5}  {:>5} {:>5}\n", row.asked, row.obtained, row.seconds,
-                   ratio(row.secondsAtObtained, row.seconds), ratio(row.secondsAtAsked, row.seconds),
-                   ratio(row.evaluationsAtObtained, row.evaluationCost),
-                   ratio(row.evaluationsAtAsked, row.evaluationCost));
+        text += fmt::format(
+            "      {:7g}  {:8.1e}  {:7.3g}  {:>5} {:>5}  {:>5} {:>5}\n", row.asked, row.obtained, row.seconds,
+            ratio(row.secondsAtObtained, row.seconds), ratio(row.secondsAtAsked, row.seconds),
+            ratio(row.evaluationsAtObtained, row.evaluationCost), ratio(row.evaluationsAtAsked, row.evaluationCost));
+    return text;
 }
 
-void study(const StudyAccuracyOptions& options) {
+void study(const AccuracyOptions& options) {
     const fs::path folder = options.folder;
     const std::vector<Subject> subjects = subjectsOf(options);
     createFolder(folder);
     std::vector<studies::SceneAccuracy> results;
     for (const Subject& subject : subjects) {
         results.push_back(measure(subject, options));
-        writeTables(folder, results);  // what a later scene cannot undo
+        writeTables(folder, results);  // now, because a later scene may fail
     }
     std::vector<AccuracySection> sections;
-    for (const studies::SceneAccuracy& accuracy : results) sections.push_back(plotted(folder, accuracy));
-    const fs::path page = folder / "index.html";
-    writeFile(page, accuracyPage(sections, {commandOf(options), threadCount(options.run), options.quick}));
-    if (options.run.json) printJson(Json{{"event", "done"}, {"page", page.string()}});
-    if (options.run.verbosity() != Verbosity::normal) return;
-    for (const studies::SceneAccuracy& accuracy : results) print(accuracy);
-    fmt::print("all of it: {}\n", page.string());
+    std::string summary;
+    for (const studies::SceneAccuracy& accuracy : results) {
+        sections.push_back(sectionOf(folder, accuracy));
+        summary += summaryOf(accuracy);
+    }
+    finishStudy(options, accuracyPage(sections, {commandOf(options), threadCount(options.run), options.quick}),
+                summary);
 }
 
 }  // namespace
 
 void addStudyAccuracy(const Command& program) {
     const Command command = program.command("accuracy", "speed against error: every stepper against a reference");
-    const auto options = std::make_shared<StudyAccuracyOptions>();
+    const auto options = std::make_shared<AccuracyOptions>();
+    options->name = "accuracy";
     command.option("SCENE", options->scenes,
-                   "scene files or names, with an own window as powder:2 (default: liquid solid powder fountain honey; "
+                   "scene files or names, each with a window of its own as in powder:2 (default: liquid solid powder "
+                   "fountain honey; "
                    "powder:2 too unless quick)");
-    command.option("-o,--output", options->folder, "folder to write to (default: out/study-accuracy)").of("DIR");
     command.option("--set", options->overrides, "change a key of every scene").of("KEY=VALUE").oneAtATime();
     command.option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
         .atLeastZero();
     command.option("--window", options->window, "how long they run, s (default: 0.2)").aboveZero();
-    command.flag("--quick", options->quick, "a coarse look: fewer runs, timed once");
-    addTo(command, options->run);
+    addStudyFlags(command, *options, "a coarse measurement: fewer runs, timed once");
     command.example("globular study accuracy liquid powder -o out/accuracy --threads 2");
     command.run([options] {
         if (options->scenes.empty()) {
             options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
-            // Long enough for chaos: statistics instead of positions.
+            // Long enough for chaos, so that statistics are compared instead of positions.
             if (!options->quick) options->scenes.emplace_back("powder:2");
         }
         study(*options);

@@ -13,28 +13,23 @@
 #include "render/output/child_process.h"
 #include "render/picture/system_error.h"
 #include "studies/common/timing.h"
-#include "tools/commands/commands.h"
-#include "tools/pages/scaling_page.h"
-#include "tools/run/scene_options.h"
+#include "tools/commands/study_command.h"
+#include "tools/pages/study_pages.h"
+#include "tools/run/threads.h"
 #include "tools/system/gnuplot.h"
-#include "tools/system/json.h"
 #include "tools/system/output_file.h"
-#include "tools/system/standard_streams.h"
-#include "tools/system/threads.h"
 
 namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ScalingOptions {
-    RunOptions run;
-    std::string folder = "out/study-scaling";
+struct ScalingOptions : StudyOptions {
     std::string peer;
-    bool quick = false;
 };
 
-/// Fountain, liquid, solid and powder of the paper's figures, and cubes of the same materials.
+/// The scenes of the paper's figures (a fountain, a liquid, a solid and a powder), and the materials of cubes of
+/// particles.
 constexpr std::array kScenes = {"paper/figure-1", "paper/figure-2", "paper/figure-3", "paper/figure-4"};
 constexpr std::array kMaterials = {"solid", "liquid", "powder"};
 
@@ -50,17 +45,15 @@ studies::ScalingSettings settingsFor(const ScalingOptions& options) {
     return settings;
 }
 
-studies::ScalingListener rowReporter(Verbosity verbosity) {
-    return [verbosity](const studies::ScalingRow& row) {
-        if (verbosity == Verbosity::json)
-            printJson(Json{{"event", "row"},
-                           {"subject", row.subject},
-                           {"particles", row.particles},
-                           {"seconds", row.list},
-                           {"state_hash", row.stateHash}});
-        else if (verbosity == Verbosity::normal)
-            printToStderr(
-                fmt::format("{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list));
+studies::ScalingListener rowReporter(const ScalingOptions& options) {
+    return [&options](const studies::ScalingRow& row) {
+        reportProgress(options,
+                       {{"event", "row"},
+                        {"subject", row.subject},
+                        {"particles", row.particles},
+                        {"seconds", row.list},
+                        {"state_hash", row.stateHash}},
+                       fmt::format("{}: {} particles, {:.4g} ms a step\n", row.subject, row.particles, 1e3 * row.list));
     };
 }
 
@@ -74,19 +67,18 @@ ScalingResults measure(const ScalingOptions& options) {
     };
     for (const char* name : kScenes) {
         const scenes::Scene scene = load({name, {}, {}});
-        take(studies::measureScene(name, scene, settings, rowReporter(options.run.verbosity())));
+        take(studies::measureScene(name, scene, settings, rowReporter(options)));
     }
-    for (const char* material : kMaterials)
-        take(studies::measureBlocks(material, settings, rowReporter(options.run.verbosity())));
+    for (const char* material : kMaterials) take(studies::measureCubes(material, settings, rowReporter(options)));
     return results;
 }
 
 struct LammpsRun {
     std::string output;
-    std::string ending;  ///< as ChildProcess::wait() says it
+    std::string ending;  ///< how it ended, as ChildProcess::wait() returns it
 };
 
-/// Throws render::SystemError where there is no mpirun.
+/// @throws render::SystemError if mpirun cannot be started
 LammpsRun runLammps(const std::string& script, int ranks) {
     std::vector<std::string> arguments = {"mpirun", "--bind-to", "none", "-np", fmt::format("{}", ranks)};
     if (geteuid() == 0) arguments.emplace_back("--allow-run-as-root");
@@ -98,8 +90,8 @@ LammpsRun runLammps(const std::string& script, int ranks) {
     return {lammps.output(kMostBytes), ending};
 }
 
-/// Seconds of the timed loop of a script. Throws render::SystemError with what kept the program from it, and what to do
-/// about it where that is no error of LAMMPS' own.
+/// Seconds of the timed loop of a script.
+/// @throws render::SystemError with LAMMPS' own error, or else with what failed and how to install LAMMPS
 double lammpsSeconds(const std::string& script, int ranks) {
     constexpr std::string_view kRemedy = "(install LAMMPS: Debian's package lammps)";
     LammpsRun run;
@@ -116,8 +108,8 @@ double lammpsSeconds(const std::string& script, int ranks) {
         fmt::format("mpirun lmp ended with {} {}", run.ending.empty() ? "no time" : run.ending, kRemedy));
 }
 
-/// Our times of a step at the peer's number of particles.
-studies::ScalingRow rowBeside(const ScalingOptions& options) {
+/// This program's times of a step at the peer's number of particles.
+studies::ScalingRow rowForPeer(const ScalingOptions& options) {
     studies::ScalingSettings settings = settingsFor(options);
     settings.cubeSizes = {studies::kPeerParticles};
     settings.mostByEveryPair = 0;
@@ -135,10 +127,10 @@ void measurePeer(ScalingResults& results, const ScalingOptions& options) {
         try {
             for (int round = 0; round < kRounds; ++round) {
                 rounds.push_back(lammpsSeconds(studies::lammpsScript(force), ranks));
-                studies::ScalingRow beside;
-                onThreads(ranks, [&] { beside = rowBeside(options); });
-                ours.push_back(beside.list);
-                oursInFloat.push_back(beside.listInFloat);
+                studies::ScalingRow own;
+                onThreads(ranks, [&] { own = rowForPeer(options); });
+                ours.push_back(own.list);
+                oursInFloat.push_back(own.listInFloat);
             }
         } catch (const render::SystemError& error) {
             results.peerText += fmt::format(" {}: {}.", studies::nameOf(force), error.what());
@@ -153,28 +145,17 @@ void measurePeer(ScalingResults& results, const ScalingOptions& options) {
     }
 }
 
-std::string commandOf(const ScalingOptions& options) {
-    return fmt::format("globular study scaling{}{} --threads {}", options.quick ? " --quick" : "",
-                       options.peer.empty() ? "" : " --peer " + options.peer, threadCount(options.run));
-}
-
-void print(const ScalingResults& results) {
-    fmt::print("{:16} {:>9} {:>10} {:>13} {:>14} {:>10} {:>17}\n", "scene, material", "particles", "neighbors",
-               "published, ms", "every pair, ms", "list, ms", "list in float, ms");
-    const auto milliseconds = [](const std::optional<double>& seconds) {
-        return seconds ? fmt::format("{:.4g}", 1e3 * *seconds) : std::string("-");
-    };
-    for (const studies::ScalingRow& row : results.rows)
-        fmt::print("{:16} {:>9} {:>10.1f} {:>13} {:>14} {:>10} {:>17}\n", row.subject, row.particles, row.neighbors,
-                   milliseconds(row.published), milliseconds(row.everyPair), milliseconds(row.list),
-                   milliseconds(row.listInFloat));
+/// The results as the terminal shows them.
+std::string summaryOf(const ScalingResults& results) {
+    std::string text = textTable(scalingTable(results.rows, false));
     for (const studies::ScalingFit& fit : results.fits)
-        fmt::print("{}, {}: time grows like N^{:.2f} from {} to {}\n", fit.subject, fit.method, fit.exponent, fit.from,
-                   fit.to);
-    if (!results.peerText.empty()) fmt::print("{}\n", results.peerText);
+        text += fmt::format("{}, {}: time grows like N^{:.2f} from {} to {}\n", fit.subject, fit.method, fit.exponent,
+                            fit.from, fit.to);
+    if (!results.peerText.empty()) text += results.peerText + "\n";
     for (const studies::PeerRow& row : results.peers)
-        fmt::print("{}: {:.2f} million particle-steps a second; ours {:.2f} times that, {:.2f} in float\n", row.name,
-                   1e-6 * row.particleStepsPerSecond(), row.ratio, row.ratioInFloat);
+        text += fmt::format("{}: {:.2f} million particle-steps a second; ours {:.2f} times that, {:.2f} in float\n",
+                            row.name, 1e-6 * row.particleStepsPerSecond(), row.ratio, row.ratioInFloat);
+    return text;
 }
 
 void study(const ScalingOptions& options) {
@@ -182,15 +163,16 @@ void study(const ScalingOptions& options) {
     createFolder(folder);
     ScalingResults results;
     onThreads(threadCount(options.run), [&] { results = measure(options); });
-    if (!options.peer.empty()) measurePeer(results, options);
+    std::vector<std::string> words;
+    if (!options.peer.empty()) {
+        measurePeer(results, options);
+        words = {"--peer", options.peer};
+    }
     writeFile(folder / "scaling.csv", studies::scalingCsv(results.rows));
     writeFile(folder / "exponents.csv", studies::fitsCsv(results.fits));
-    const std::string plot = drawPlot(studies::scalingPlot(results.rows));
-    writeFile(folder / "scaling.svg", plot);
-    writeFile(folder / "index.html", scalingPage(results, plot, commandOf(options)));
-    if (options.run.verbosity() != Verbosity::normal) return;
-    print(results);
-    fmt::print("all of it: {}\n", (folder / "index.html").string());
+    results.plot = drawPlot(studies::scalingPlot(results.rows));
+    writeFile(folder / "scaling.svg", results.plot);
+    finishStudy(options, scalingPage(results, commandLineOf(options, words)), summaryOf(results));
 }
 
 }  // namespace
@@ -199,11 +181,10 @@ void addStudyScaling(const Command& study) {
     const Command command =
         study.command("scaling", "time per step against the number of particles, beside the paper's Table 2");
     const auto options = std::make_shared<ScalingOptions>();
-    command.option("-o,--output", options->folder, "folder to write to (default: out/study-scaling)").of("DIR");
+    options->name = "scaling";
     command.option("--peer", options->peer, "another program to measure in the same run, if it is installed")
         .oneOf({"lammps"});
-    command.flag("--quick", options->quick, "fewer sizes, one round");
-    addTo(command, options->run);
+    addStudyFlags(command, *options, "fewer sizes, one round");
     command.example("globular study scaling --peer lammps -o out/scaling");
     command.run([options] { tools::study(*options); });
 }

@@ -11,11 +11,11 @@
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
 #include "tools/compare/picture_pairs.h"
+#include "tools/compare/picture_provenance.h"
 #include "tools/run/manifest.h"
-#include "tools/run/picture_provenance.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
-#include "tools/system/shell_words.h"
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {

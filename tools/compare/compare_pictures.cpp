@@ -1,10 +1,11 @@
-// Pair by pair: read, compare, explain.
+// Reads both pictures of a pair, compares them, and explains a difference.
 #include "tools/compare/compare_pictures.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "render/output/png.h"
 #include "render/picture/system_error.h"
@@ -30,7 +31,7 @@ PictureSide readSide(const std::optional<fs::path>& path, std::vector<std::strin
     return side;
 }
 
-void judge(PictureResult& result, const CompareJob& job) {
+void evaluate(PictureResult& result, const CompareJob& job) {
     const render::Image& expected = *result.expected.image;
     if (!job.mask.rgb.empty() && (job.mask.width != expected.width || job.mask.height != expected.height))
         throw render::SystemError(fmt::format("the mask is {}x{}, {} is {}x{}", job.mask.width, job.mask.height,
@@ -47,13 +48,13 @@ void judge(PictureResult& result, const CompareJob& job) {
     if (!identical || statesDiffer) result.explanation = explain(result.actual.provenance, result.expected.provenance);
 }
 
-/// A picture of a folder or a film as its user knows it.
-std::string nameWithin(const fs::path& whole, const std::string& name) {
+/// How messages name a picture of a folder or a frame of a video.
+std::string displayName(const fs::path& whole, const std::string& name) {
     if (whole.extension() == ".png") return whole.string();
     return whole.extension() == ".mp4" ? fmt::format("{} in {}", name, whole.string()) : (whole / name).string();
 }
 
-PictureResult resultOf(const PicturePair& pair, const CompareJob& job) {
+PictureResult comparePair(const PicturePair& pair, const CompareJob& job) {
     PictureResult result;
     result.name = pair.name;
     result.actual = readSide(pair.actual, result.reasons);
@@ -63,38 +64,14 @@ PictureResult resultOf(const PicturePair& pair, const CompareJob& job) {
     } else if (!pair.expected) {
         result.status = PictureStatus::extra;
         result.reasons.push_back(
-            fmt::format("there is no golden {}; approve it, or remove it", nameWithin(job.expected, pair.name)));
+            fmt::format("there is no golden {}; approve it, or remove it", displayName(job.expected, pair.name)));
     } else if (!pair.actual) {
         result.status = PictureStatus::missing;
-        result.reasons.push_back(fmt::format("there is no picture {}", nameWithin(job.actual, pair.name)));
+        result.reasons.push_back(fmt::format("there is no picture {}", displayName(job.actual, pair.name)));
     } else {
-        judge(result, job);
+        evaluate(result, job);
     }
     return result;
-}
-
-void count(CompareCounts& counts, PictureStatus status) {
-    ++counts.pictures;
-    switch (status) {
-        case PictureStatus::identical:
-            ++counts.identical;
-            break;
-        case PictureStatus::withinLimits:
-            ++counts.withinLimits;
-            break;
-        case PictureStatus::different:
-            ++counts.different;
-            break;
-        case PictureStatus::missing:
-            ++counts.missing;
-            break;
-        case PictureStatus::extra:
-            ++counts.extra;
-            break;
-        case PictureStatus::unreadable:
-            ++counts.unreadable;
-            break;
-    }
 }
 
 Json metricsJson(const render::PictureMetrics& metrics) {
@@ -135,6 +112,10 @@ const char* nameOf(PictureStatus status) {
     return kNames[static_cast<std::size_t>(status)];
 }
 
+int CompareCounts::pictures() const {
+    return std::accumulate(counts_.begin(), counts_.end(), 0);
+}
+
 std::string PictureResult::rule() const {
     return comparison ? render::nameOf(comparison->rule) : nameOf(status);
 }
@@ -146,12 +127,12 @@ CompareCounts comparePictures(const CompareJob& job, const std::function<void(co
     const PictureSet expected = picturesOf(job.expected);
     CompareCounts counts;
     for (const PicturePair& pair : pairsOf(actual, expected)) {
-        const PictureResult result = resultOf(pair, job);
-        count(counts, result.status);
+        const PictureResult result = comparePair(pair, job);
+        counts.add(result.status);
         visit(result);
     }
-    // A check that looked at nothing must not pass.
-    if (counts.pictures == 0)
+    // A check that has compared nothing must not pass.
+    if (counts.pictures() == 0)
         throw render::SystemError(
             fmt::format("there are no PNG files in {} and {}", job.actual.string(), job.expected.string()));
     return counts;

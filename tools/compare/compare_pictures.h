@@ -1,7 +1,8 @@
-// Pictures held against each other one pair at a time, so that memory does not grow with a folder. `compare` and the
-// golden suite call it.
+// Compares pictures pair by pair, so that the memory does not grow with the folder. Called by `compare` and by the
+// golden suite.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,22 +12,23 @@
 
 #include "render/compare/compare.h"
 #include "tools/compare/picture_pairs.h"
-#include "tools/run/picture_provenance.h"
+#include "tools/compare/picture_provenance.h"
 #include "tools/system/json.h"
 
 namespace tools {
 
+/// The outcome for one pair. The most urgent comes first, as in a report. `extra` means that there is no golden,
+/// `missing` that there is no actual picture.
 enum class PictureStatus { unreadable, different, extra, missing, withinLimits, identical };
 
-/// Of the most pressing first, as in a report: "unreadable", "different", "extra" (there is no golden), "missing"
-/// (there is no actual picture), "within-limits", "identical".
+/// "unreadable", "different", "extra", "missing", "within-limits" or "identical".
 const char* nameOf(PictureStatus status);
 
 /// One side of a pair.
 struct PictureSide {
-    std::filesystem::path path;  ///< empty: there is none
+    std::filesystem::path path;  ///< empty if there is no picture
     std::vector<std::uint8_t> bytes;
-    std::optional<render::Image> image;  ///< if it can be read
+    std::optional<render::Image> image;  ///< empty if it cannot be read
     PictureProvenance provenance;
 };
 
@@ -36,11 +38,11 @@ struct PictureResult {
     PictureSide actual;
     PictureSide expected;
     std::vector<std::string> reasons;              ///< why it fails; empty if it passed
-    std::optional<render::Comparison> comparison;  ///< where both sides can be read
-    std::optional<Explanation> explanation;        ///< where the pictures or their states differ
+    std::optional<render::Comparison> comparison;  ///< if both sides can be read
+    std::optional<Explanation> explanation;        ///< if the pictures or their states differ
 
     bool passed() const { return status == PictureStatus::identical || status == PictureStatus::withinLimits; }
-    /// What decided: a comparison's rule, else the status.
+    /// The name of the comparison rule that decided, or of the status if nothing was compared.
     std::string rule() const;
 };
 
@@ -48,21 +50,28 @@ struct CompareJob {
     std::filesystem::path actual;
     std::filesystem::path expected;
     render::CompareLimits limits;
-    render::Image mask;  ///< empty: every pixel counts
+    render::Image mask;  ///< black pixels do not count; empty: every pixel counts
 };
 
-struct CompareCounts {
-    int pictures = 0, identical = 0, withinLimits = 0, different = 0, missing = 0, extra = 0, unreadable = 0;
+/// How many pairs had which outcome.
+class CompareCounts {
+ public:
+    void add(PictureStatus status) { ++counts_[static_cast<std::size_t>(status)]; }
+    int of(PictureStatus status) const { return counts_[static_cast<std::size_t>(status)]; }
+    int pictures() const;
+    int failed() const { return pictures() - of(PictureStatus::identical) - of(PictureStatus::withinLimits); }
 
-    int failed() const { return pictures - identical - withinLimits; }
+ private:
+    std::array<int, 6> counts_ = {};
 };
 
-/// Compares every pair and hands each result over once, by name. Pictures that are missing or cannot be read are
-/// results like any other. Throws render::SystemError when nothing can be compared: no such file or folder, no pictures
-/// at all, a mask of another size.
+/// Compares every pair and passes each result to `visit`, ordered by name. Missing and unreadable pictures are results
+/// like any other.
+/// @throws render::SystemError if nothing can be compared: no such file or folder, no pictures at all, or a mask of
+/// another size
 CompareCounts comparePictures(const CompareJob& job, const std::function<void(const PictureResult&)>& visit);
 
-/// A result as an object for scripts: status, rule, reasons, metrics, worst pixels, what changed, the provenance of
+/// A result as an object for scripts: status, rule, reasons, metrics, worst pixels, what changed, and the provenance of
 /// both sides.
 Json resultJson(const PictureResult& result);
 

@@ -74,7 +74,7 @@ Json headingJson(const PageHeading& heading) {
               {"largest", limits.largest},
               {"mean", limits.mean},
               {"ssim", limits.ssim}}},
-            {"counts", {{"pictures", heading.counts.pictures}, {"failed", heading.counts.failed()}}},
+            {"counts", {{"pictures", heading.counts.pictures()}, {"failed", heading.counts.failed()}}},
             {"approve", heading.approval}};
 }
 

@@ -5,16 +5,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/compare/compare_pictures.h"
 #include "tools/system/json.h"
 
 namespace tools {
-
-/// The text of a file of tools/pages, embedded by the build.
-std::string_view pageSource(std::string_view name);
 
 /// What the page says of the comparison as a whole.
 struct PageHeading {

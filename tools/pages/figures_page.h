@@ -1,4 +1,4 @@
-// The page that shows the figures: one HTML file with everything in it, to be opened from disk or sent by mail.
+// The page of `globular figures`: one HTML file that shows the paper's figures as drawn by this program.
 #pragma once
 
 #include <string>
@@ -7,23 +7,24 @@
 
 namespace tools {
 
-/// What the page shows of one figure.
+/// One figure on the page.
 struct FigureEntry {
     int number = 0;
     std::string title;
     std::string description;
-    std::string constants;                                        ///< of its law and step, in one line
+    std::string constants;                                        ///< the force law and the step, in one line
     std::string stillPath;                                        ///< PNG
-    std::string stripPath;                                        ///< PNG, several moments side by side
+    std::string stripPath;                                        ///< PNG, several times side by side
     std::string videoPath;                                        ///< MP4
-    double stillTime = 0.0;                                       ///< s
+    double stillTime = 0.0;                                       ///< seconds
     std::vector<double> stripTimes;                               ///< s
     std::vector<std::pair<std::string, std::string>> parameters;  ///< key and value as in the scene file
     std::string command;                                          ///< renders the scene again
     std::string stateHash;
 };
 
-/// The page as HTML, pictures and videos embedded. Reads the files; throws render::SystemError.
+/// Reads the pictures and videos and embeds them in the page.
+/// @throws render::SystemError if one cannot be read
 std::string figuresPage(const std::vector<FigureEntry>& figures);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// Character by character, three bytes to four digits, tables row by row.
+// HTML as strings: escaping, base64, tables, and the frame that all pages but that of compare share.
 #include "tools/pages/html.h"
 
 #include <fmt/format.h>
@@ -7,16 +7,6 @@
 #include <cstdint>
 
 namespace tools {
-namespace {
-
-std::string line(const char* tag, const Cells& cells) {
-    std::string html = "<tr>";
-    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
-    return html + "</tr>\n";
-}
-
-}  // namespace
-
 std::string escaped(const std::string& text) {
     std::string html;
     for (const char c : text) {
@@ -48,35 +38,37 @@ std::string base64(const std::vector<unsigned char>& bytes) {
     return text;
 }
 
-std::string table(const Cells& head, const std::vector<Cells>& rows) {
-    std::string html = "<table>\n" + line("th", head);
-    for (const Cells& row : rows) html += line("td", row);
-    return html + "</table>\n";
-}
-
 std::string dataUri(const std::string& type, const std::vector<unsigned char>& bytes) {
     return "data:" + type + ";base64," + base64(bytes);
 }
 
-std::string studyHead(const std::string& title, const std::string& style) {
+std::string htmlTable(const Table& table, const std::vector<bool>& isBad) {
+    std::string html = "<table>\n";
+    const auto addRow = [&](const Cells& cells, const char* attributes, const char* tag) {
+        html += fmt::format("<tr{}>", attributes);
+        for (const std::string& text : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped(text));
+        html += "</tr>\n";
+    };
+    addRow(table.head, "", "th");
+    for (std::size_t row = 0; row < table.rows.size(); ++row)
+        addRow(table.rows[row], row < isBad.size() && isBad[row] ? " class=\"bad\"" : "", "td");
+    return html + "</table>\n";
+}
+
+std::string svgImage(const std::string& alt, const std::string& svg) {
+    return fmt::format("<img alt=\"{}\" src=\"{}\">\n", alt, dataUri("image/svg+xml", {svg.begin(), svg.end()}));
+}
+
+std::string htmlPage(const std::string& title, const std::string& body) {
     return fmt::format(R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>{0}</title>
 <style>
-body {{ font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; padding: 2rem 1rem; color: #222; background: #f6f6f4; }}
-img {{ max-width: 100%; background: #fff; border: 1px solid #ddd; }}
-table {{ border-collapse: collapse; font-size: 0.85rem; background: #fff; font-variant-numeric: tabular-nums; }}
-th, td {{ border: 1px solid #ddd; vertical-align: top; }}
-th {{ background: #eee; }}
-code {{ background: #f0f0ec; padding: 0 0.2rem; }}
 {1}</style></head><body>
 <h1>{0}</h1>
+{2}</body></html>
 )",
-                       title, style);
-}
-
-std::string picture(const std::string& alt, const std::string& svg) {
-    return fmt::format("<img alt=\"{}\" src=\"{}\">\n", alt, dataUri("image/svg+xml", {svg.begin(), svg.end()}));
+                       title, pageSource("page.css"), body);
 }
 
 }  // namespace tools

@@ -1,30 +1,39 @@
-// What the pages of the program share: escaped text, files inlined.
+// Parts of the HTML pages that the program writes. Every page is one file with all pictures in it, to be opened from
+// disk or sent by mail.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "tools/system/text.h"
 
 namespace tools {
 
-/// The text with the characters that HTML gives a meaning to replaced.
+/// The text of a file of tools/pages, embedded by the build (tools/CMakeLists.txt).
+std::string_view pageSource(std::string_view name);
+
+/// The text with the characters that have a meaning in HTML replaced.
 std::string escaped(const std::string& text);
 
 /// Standard base64 (RFC 4648) with padding.
 std::string base64(const std::vector<unsigned char>& bytes);
 
-/// A file within the page. Shape: type as in "image/png".
+/// The bytes of a file as a URI that a page can use as a source.
+/// @param type  the media type, such as "image/png"
 std::string dataUri(const std::string& type, const std::vector<unsigned char>& bytes);
 
-/// The texts of one row of a table.
-using Cells = std::vector<std::string>;
+/// A table of unescaped texts.
+/// @param isBad  which rows are highlighted; empty: none
+std::string htmlTable(const Table& table, const std::vector<bool>& isBad = {});
 
-/// A table of escaped texts.
-std::string table(const Cells& head, const std::vector<Cells>& rows);
+/// An SVG as an image.
+/// @param alt  needs no escaping
+std::string svgImage(const std::string& alt, const std::string& svg);
 
-/// The beginning of a study's page: title, style and heading. Shape: neither text needs escaping.
-std::string studyHead(const std::string& title, const std::string& style);
-
-/// An SVG as an image within the page. Shape: alt needs no escaping.
-std::string picture(const std::string& alt, const std::string& svg);
+/// A whole page with the program's style.
+/// @param title  also its heading; needs no escaping
+/// @param body  HTML
+std::string htmlPage(const std::string& title, const std::string& body);
 
 }  // namespace tools

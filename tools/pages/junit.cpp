@@ -37,7 +37,8 @@ std::string JunitReport::text(const CompareCounts& counts) const {
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<testsuite name=\"globular compare\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n{}</testsuite>\n",
-        counts.pictures, counts.failed() - counts.unreadable, counts.unreadable, cases_);
+        counts.pictures(), counts.failed() - counts.of(PictureStatus::unreadable), counts.of(PictureStatus::unreadable),
+        cases_);
 }
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// Every file is written whole before the manifest lists it, so a run may end at any moment.
+// A file is complete before the manifest lists it, so that a run can be resumed after ending at any moment.
 #include "tools/run/frame_folder.h"
 
 #include <fcntl.h>
@@ -16,29 +16,21 @@
 #include "render/picture/system_error.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
+#include "tools/system/process.h"
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// One to go on from, and one more for when the newest is damaged or lies after a damaged frame.
-constexpr std::ptrdiff_t kCheckpoints = 2;
+/// Chosen: one to resume from, and one more in case the newest is damaged or lies after a damaged frame.
+constexpr std::ptrdiff_t kCheckpointCount = 2;
 
-/// Chosen: what a kill may leave unlisted, and is made again.
-constexpr std::chrono::seconds kBetweenListings{1};
+/// Chosen: a kill costs at most the frames of this time, because frames that the manifest does not list are made again.
+constexpr std::chrono::seconds kManifestInterval{1};
 
-constexpr const char* kCheckpointPrefix = "checkpoint-";
-constexpr const char* kCheckpointExtension = ".state";
-
-/// Whether a file is called prefix, digits, extension.
-bool isNumbered(const fs::path& file, std::string_view prefix, std::string_view extension) {
-    const std::string name = file.filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(extension)) return false;
-    const std::string_view digits =
-        std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - extension.size());
-    return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
-}
+constexpr FrameNames kCheckpointNames = {"checkpoint-", ".state"};
 
 void removeFile(const fs::path& path) {
     std::error_code error;
@@ -46,18 +38,33 @@ void removeFile(const fs::path& path) {
     if (error) throw render::SystemError(fmt::format("cannot remove {}: {}", path.string(), error.message()));
 }
 
+void warn(const std::string& message) {
+    printToStderr(fmt::format("warning: {}\n", message));
+}
+
 bool isFrame(const fs::path& file) {
-    return isNumbered(file, kPictureNames.prefix, kPictureNames.extension) ||
-           isNumbered(file, kStateNames.prefix, kStateNames.extension);
+    return kPictureNames.frameOf(file) || kStateNames.frameOf(file);
 }
 
-bool isCheckpoint(const fs::path& file) {
-    return isNumbered(file, kCheckpointPrefix, kCheckpointExtension);
+/// Whether a run leaves a file of this name in its folder.
+bool isRunFile(const fs::path& file) {
+    return isFrame(file) || kCheckpointNames.frameOf(file) || file.filename() == "manifest.json" ||
+           file.filename() == "run.json";
 }
 
-/// Every file that a run leaves in its folder.
-bool isOurs(const fs::path& file) {
-    return isFrame(file) || isCheckpoint(file) || file.filename() == "manifest.json" || file.filename() == "run.json";
+}  // namespace
+
+std::string FrameNames::fileName(int frame) const {
+    return fmt::format("{}{:05}{}", prefix, frame, extension);
+}
+
+std::optional<int> FrameNames::frameOf(const fs::path& file) const {
+    const std::string name = file.filename().string();
+    if (!name.starts_with(prefix) || !name.ends_with(extension)) return std::nullopt;
+    const std::string_view digits = std::string_view(name).substr(prefix.size());
+    const auto frame = parseNumber(digits.substr(0, digits.size() - std::min(digits.size(), extension.size())));
+    if (!frame || *frame < 0 || name != fileName(*frame)) return std::nullopt;
+    return frame;
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {
@@ -67,8 +74,6 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
     if (error) throw render::SystemError(fmt::format("cannot read folder {}: {}", folder.string(), error.message()));
     return files;
 }
-
-}  // namespace
 
 FolderLock::FolderLock(const fs::path& folder) {
     createFolder(folder);
@@ -87,13 +92,9 @@ FolderLock::~FolderLock() {
 }
 
 FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity)
-    : folder_(options.path),
-      lock_(folder_),
-      resumes_(options.existing == Existing::keep),
-      names_(names),
-      warn_(options.warn) {
+    : folder_(options.path), lock_(folder_), resumes_(options.resume), names_(names) {
     const fs::path path = folder_ / "manifest.json";
-    if (options.existing == Existing::overwrite) {
+    if (options.overwrite) {
         removeAll();
     } else if (fs::exists(path)) {
         manifest_ = decodeManifest(readFile(path), path.string());
@@ -109,26 +110,26 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const J
                         folder_.string()));
     }
     manifest_.identity = identity;
-    removeHalfWritten();
-    if (resumes_) keepWhole();
+    removePartialFiles();
+    if (resumes_) keepIntactFrames();
     writeManifest();
 }
 
 FrameFolder::~FrameFolder() {
     try {
-        if (!isListed_) writeManifest();
+        if (!isManifestCurrent_) writeManifest();
     } catch (const render::SystemError&) {
-        // Frames that are not listed are made again.
+        // The frames that the manifest on disk does not list will be made again.
     }
 }
 
-/// What a run that was killed was writing.
-void FrameFolder::removeHalfWritten() const {
+/// Removes the temporary files that a killed run has left.
+void FrameFolder::removePartialFiles() const {
     constexpr std::string_view kPartial = ".partial";
     for (const fs::path& file : filesIn(folder_)) {
         const std::string name = file.filename().string();
         if (name.starts_with(".") && name.ends_with(kPartial) &&
-            isOurs(name.substr(1, name.size() - 1 - kPartial.size())))
+            isRunFile(name.substr(1, name.size() - 1 - kPartial.size())))
             removeFile(file);
     }
 }
@@ -140,16 +141,16 @@ bool FrameFolder::hasFrames() const {
 
 void FrameFolder::removeAll() {
     for (const fs::path& file : filesIn(folder_))
-        if (isOurs(file)) removeFile(file);
+        if (isRunFile(file)) removeFile(file);
 }
 
-void FrameFolder::keepWhole() {
+void FrameFolder::keepIntactFrames() {
     for (const auto& [frame, record] : manifest_.frames) {
         const fs::path path = pathOf(frame);
         if (!fs::exists(path))
-            warn_(fmt::format("{} is missing: it does not count as done", path.string()));
+            warn(fmt::format("{} is missing: it does not count as done", path.string()));
         else if (checksumOf(readFile(path)) != record.checksum)
-            warn_(fmt::format("{} is damaged: it does not count as done", path.string()));
+            warn(fmt::format("{} is damaged: it does not count as done", path.string()));
         else
             kept_[frame] = record;
     }
@@ -157,24 +158,20 @@ void FrameFolder::keepWhole() {
 }
 
 fs::path FrameFolder::pathOf(int frame) const {
-    return folder_ / fmt::format("{}{:05}{}", names_.prefix, frame, names_.extension);
+    return folder_ / names_.fileName(frame);
 }
 
-fs::path FrameFolder::checkpointPath(int frame) const {
-    return folder_ / fmt::format("{}{:05}{}", kCheckpointPrefix, frame, kCheckpointExtension);
-}
-
-std::optional<Restart> FrameFolder::restart(const engine::Setup& setup, int latest) const {
+std::optional<RestartPoint> FrameFolder::restartPoint(const engine::Setup& setup, int latest) const {
     if (!resumes_) return std::nullopt;
     for (auto next = manifest_.checkpoints.upper_bound(latest); next != manifest_.checkpoints.begin();) {
         const auto& [frame, record] = *--next;
-        const fs::path path = checkpointPath(frame);
+        const fs::path path = folder_ / kCheckpointNames.fileName(frame);
         try {
             const auto bytes = readFile(path);
-            if (checksumOf(bytes) != record.checksum) throw engine::CheckpointError("it is damaged or cut short");
-            return Restart{frame, engine::decodeCheckpoint(setup, bytes), record.report};
+            if (checksumOf(bytes) != record.checksum) throw engine::CheckpointError("it is damaged or truncated");
+            return RestartPoint{frame, engine::decodeCheckpoint(setup, bytes), record.report};
         } catch (const std::exception& error) {
-            warn_(fmt::format("cannot go on from {}: {}", path.string(), error.what()));
+            warn(fmt::format("cannot resume from {}: {}", path.string(), error.what()));
         }
     }
     return std::nullopt;
@@ -183,33 +180,33 @@ std::optional<Restart> FrameFolder::restart(const engine::Setup& setup, int late
 void FrameFolder::write(int frame, std::span<const std::uint8_t> bytes, const std::string& stateHash) {
     writeFile(pathOf(frame), bytes);
     manifest_.frames[frame] = {checksumOf(bytes), stateHash};
-    isListed_ = false;
-    if (std::chrono::steady_clock::now() - lastListing_ > kBetweenListings) writeManifest();
+    isManifestCurrent_ = false;
+    if (std::chrono::steady_clock::now() - lastManifest_ > kManifestInterval) writeManifest();
 }
 
 void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report) {
-    writeFile(checkpointPath(frame), bytes);
+    writeFile(folder_ / kCheckpointNames.fileName(frame), bytes);
     auto& all = manifest_.checkpoints;
     all[frame] = {checksumOf(bytes), report};
-    // Of those of a run that had come further the newest stays of use to it.
+    // Of the checkpoints after this frame, which a longer run has left, that run can resume from the newest.
     const auto later = all.upper_bound(frame);
     if (later != all.end()) all.erase(later, std::prev(all.end()));
-    while (std::distance(all.begin(), all.upper_bound(frame)) > kCheckpoints) all.erase(all.begin());
+    while (std::distance(all.begin(), all.upper_bound(frame)) > kCheckpointCount) all.erase(all.begin());
     writeManifest();
     removeUnlistedCheckpoints();
 }
 
 void FrameFolder::writeManifest() {
     writeFile(folder_ / "manifest.json", encodeManifest(manifest_));
-    isListed_ = true;
-    lastListing_ = std::chrono::steady_clock::now();
+    isManifestCurrent_ = true;
+    lastManifest_ = std::chrono::steady_clock::now();
 }
 
 void FrameFolder::removeUnlistedCheckpoints() const {
     std::set<fs::path> listed;
-    for (const auto& [frame, record] : manifest_.checkpoints) listed.insert(checkpointPath(frame));
+    for (const auto& [frame, record] : manifest_.checkpoints) listed.insert(folder_ / kCheckpointNames.fileName(frame));
     for (const fs::path& file : filesIn(folder_))
-        if (isCheckpoint(file) && listed.count(file) == 0) removeFile(file);
+        if (kCheckpointNames.frameOf(file) && listed.count(file) == 0) removeFile(file);
 }
 
 }  // namespace tools

@@ -1,41 +1,43 @@
-// A folder that a run writes its frames into, one file each, with a manifest and the last two checkpoints beside them:
-// all that is needed to go on after any end. Used by `render` and `simulate`.
+// The folder that a run writes its frames into: one file for each frame, a manifest, and the last two checkpoints. That
+// is all that is needed to resume the run, however it ended. Used by `render` and `simulate`.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
-#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "engine/run/advance.h"
 #include "tools/run/manifest.h"
+#include "tools/run/options.h"
 #include "tools/system/json.h"
 
 namespace tools {
 
-/// What to do with frames that are there already.
-enum class Existing {
-    replace,   ///< those of the same run are written again, those of another stop this one
-    keep,      ///< those of the same run stay: --resume
-    overwrite  ///< all of them are removed
-};
-
-/// How the files of a folder's frames are called: frame-00042.png, or particles-00042.ply.
+/// How the files of a series are named: a prefix, the frame number with at least five digits, an extension.
 struct FrameNames {
     std::string_view prefix;
     std::string_view extension;
+
+    /// The name of a frame's file, such as "frame-00042.png".
+    std::string fileName(int frame) const;
+    /// The frame whose file has this name, in any folder; nothing if the file is not one of the series.
+    std::optional<int> frameOf(const std::filesystem::path& file) const;
 };
 inline constexpr FrameNames kPictureNames = {"frame-", ".png"};
 inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
 
-/// A folder that no other run may write into meanwhile. The lock is the system's: it goes with the process, however
-/// that ends.
+/// The files in a folder, in no order.
+/// @throws render::SystemError
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder);
+
+/// A folder, created if needed, that no other run can write into while the object exists. The lock is the operating
+/// system's, so that it ends with the process, however that ends.
 class FolderLock {
  public:
-    /// Throws: render::SystemError where another run holds it.
+    /// @throws render::SystemError if another run holds the lock
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
@@ -45,67 +47,58 @@ class FolderLock {
     int descriptor_ = -1;
 };
 
-/// A folder as the command line says it.
-struct FolderOptions {
-    std::string path;
-    Existing existing = Existing::replace;
-    double checkpointSeconds = 5.0;                                            ///< between two checkpoints
-    std::function<void(const std::string&)> warn = [](const std::string&) {};  ///< told of what is damaged, a line each
-};
-
-/// A state to go on from, as it was read.
-struct Restart {
+/// A state to resume from, as read from a checkpoint.
+struct RestartPoint {
     int frame = 0;
     engine::Simulation simulation;
-    Json report;
+    Json report;  ///< as it was given to writeCheckpoint()
 };
 
 class FrameFolder {
  public:
-    /// Creates the folder and takes hold of it until the object goes. Looks at what is there: with Existing::keep the
-    /// frames that are whole stay.
-    /// Shape:  identity as in Manifest.
-    /// Throws: render::SystemError where another run is at work in it, or its frames are of another run.
+    /// Locks the folder and examines its files; damaged ones are reported as warnings on standard error.
+    /// @param identity  as in Manifest
+    /// @throws render::SystemError if another run is writing into the folder, or if the folder holds frames of another
+    /// run that are not to be overwritten
     FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity);
-    /// Lists what was written.
+    /// Writes the manifest if frames are missing from it.
     ~FrameFolder();
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
 
-    /// Whether a frame was there, whole, when the folder was opened, and stays.
+    /// Whether the frame's file was there and intact when the folder was opened, so that it need not be made again.
     bool isKept(int frame) const { return kept_.count(frame) == 1; }
 
     std::filesystem::path pathOf(int frame) const;
 
-    /// The newest state at or before a frame that can be gone on from; nothing for a run that starts at the start, as
-    /// all do but those that keep what is there.
-    std::optional<Restart> restart(const engine::Setup& setup, int latest) const;
+    /// The newest usable checkpoint of a frame up to `latest`; nothing if there is none or the run does not resume.
+    std::optional<RestartPoint> restartPoint(const engine::Setup& setup, int latest) const;
 
-    /// Puts a frame's file in its place.
+    /// Writes the file of a frame.
     void write(int frame, std::span<const std::uint8_t> bytes, const std::string& stateHash);
 
-    /// Puts a checkpoint (encodeCheckpoint) of a frame in its place, when all frames up to it are in theirs. The last
-    /// two up to it stay, and the newest of all.
+    /// Writes a checkpoint of a frame. The last two up to this frame are kept, and the newest of all.
+    /// @param bytes  engine::encodeCheckpoint()
+    /// @param report  what the run has measured so far
+    /// @pre the files of all frames up to this one are written
     void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report);
 
  private:
-    void removeHalfWritten() const;
+    void removePartialFiles() const;
     bool hasFrames() const;
     void removeAll();
-    void keepWhole();
+    void keepIntactFrames();
     void writeManifest();
-    std::filesystem::path checkpointPath(int frame) const;
     void removeUnlistedCheckpoints() const;
 
     std::filesystem::path folder_;
     FolderLock lock_;
     bool resumes_ = false;
     FrameNames names_;
-    std::function<void(const std::string&)> warn_;
     Manifest manifest_;
     std::map<int, FrameRecord> kept_;
-    bool isListed_ = true;  ///< the manifest's file has all frames
-    std::chrono::steady_clock::time_point lastListing_;
+    bool isManifestCurrent_ = true;  ///< the manifest on disk lists every frame
+    std::chrono::steady_clock::time_point lastManifest_;
 };
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// Frames before the first wanted one are gone through one by one too, so that a signal or a kill costs little there.
+// Frames before the first wanted one are also simulated one by one, so that a signal or a kill costs little there.
 #include "tools/run/frame_sequence.h"
 
 #include <algorithm>
@@ -7,19 +7,19 @@
 #include "engine/run/diagnostics.h"
 #include "scenes/view/frame_steps.h"
 #include "tools/system/json.h"
-#include "tools/system/stopwatch.h"
 
 namespace tools {
 namespace {
 
-/// Chosen: the error of a fixed step is sampled on at most this many frames of a run, which costs three frames each.
-constexpr int kErrorSamples = 8;
+/// The error of a fixed step is estimated at no more than this many frames of a run. Chosen, because each estimate
+/// costs as much as three frames.
+constexpr int kErrorSampleCount = 8;
 
 int sampleStride(const FrameRange& frames) {
-    return (frames.last - frames.first + kErrorSamples) / kErrorSamples;
+    return (frames.count() - 1 + kErrorSampleCount) / kErrorSampleCount;
 }
 
-/// Which frames are sampled depends on it.
+/// As recorded in a checkpoint: the range decides at which frames errors are sampled.
 Json rangeOf(const FrameRange& frames) {
     return {frames.first, frames.last};
 }
@@ -34,15 +34,15 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, Fram
       checkpointSeconds_(checkpointSeconds),
       lastCheckpoint_(std::chrono::steady_clock::now()) {
     if (folder_ != nullptr) interrupts_.emplace();
-    if (folder_ == nullptr || !goOn()) run_.simulation = engine::start(scene_.setup);
+    if (folder_ == nullptr || !resume()) run_.simulation = engine::start(scene_.setup);
 }
 
-/// From the newest checkpoint before the first frame that has to be made; where none has, from the last frame's own.
-/// False where there is none.
-bool FrameSequence::goOn() {
+/// Resumes from the newest checkpoint before the first frame that has to be made, or from the newest of all if no frame
+/// has to be made. Returns false if there is no checkpoint.
+bool FrameSequence::resume() {
     int firstToMake = frames_.first;
     while (firstToMake <= frames_.last && folder_->isKept(firstToMake)) ++firstToMake;
-    auto restart = folder_->restart(scene_.setup, firstToMake - 1);
+    auto restart = folder_->restartPoint(scene_.setup, firstToMake - 1);
     if (!restart) return false;
     position_ = restart->frame;
     run_.simulation = std::move(restart->simulation);
@@ -54,7 +54,8 @@ bool FrameSequence::goOn() {
 
 std::optional<SequencedFrame> FrameSequence::next() {
     if (next_ > frames_.last) return std::nullopt;
-    // Frames that are only passed on cost little, and a film of some of them would be worth less than the one there is.
+    // A signal is ignored while kept frames are passed on: that costs little, and a video of some of them would be
+    // worth less than the video that is there.
     if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
     if (run_.report.interruptedBy != 0) return std::nullopt;
     SequencedFrame frame;
@@ -77,7 +78,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     return frame;
 }
 
-/// False where the simulation became unstable: the frames before are still on their way to their files.
+/// Returns false if the simulation became unstable. That is not thrown, because earlier frames are still being written.
 bool FrameSequence::advanceTo(int frame) {
     const Stopwatch watch(run_.report.seconds.simulating);
     try {
@@ -109,7 +110,7 @@ void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint
 }
 
 void FrameSequence::finish() {
-    // Of an unstable run the simulation is within a frame that is not there.
+    // An unstable simulation has stopped between two frames.
     if (!run_.report.unstable.empty()) return;
     if (folder_ != nullptr && position_ >= 0)
         folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation), checkpointReport());

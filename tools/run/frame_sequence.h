@@ -1,5 +1,5 @@
-// The simulation's side of a run over frames: where it starts or goes on, the next frame, what is measured on the way,
-// checkpoints, and the ways to end early. Used by the loops of `render` and `simulate`.
+// The simulation's side of a run over frames: where it starts or resumes, the next frame, error samples, checkpoints,
+// and the ways to end early. Used by the loops of `render` and `simulate`.
 #pragma once
 
 #include <chrono>
@@ -10,38 +10,38 @@
 
 #include "scenes/model/scene.h"
 #include "tools/run/frame_folder.h"
+#include "tools/run/options.h"
 #include "tools/run/run_report.h"
-#include "tools/run/scene_options.h"
-#include "tools/system/interrupt.h"
 #include "tools/system/json.h"
+#include "tools/system/process.h"
 
 namespace tools {
 
-/// One frame of a run, in order.
+/// One frame of a run.
 struct SequencedFrame {
     int number = 0;
-    double time = 0.0;                     ///< s
-    bool isWanted = true;                  ///< false on the way to the first that was asked for
-    bool isKept = false;                   ///< its file is there; the simulation may stand elsewhere
-    std::string stateHash;                 ///< of a frame that is wanted and not kept, where there is a folder
-    std::vector<std::uint8_t> checkpoint;  ///< of the simulation at this frame; mostly empty
-    Json report;                           ///< goes with the checkpoint
+    double time = 0.0;                     ///< seconds
+    bool isWanted = true;                  ///< false for the frames before the first one that was asked for
+    bool isKept = false;                   ///< its file is there already; the simulation may be at another frame
+    std::string stateHash;                 ///< of a frame that is wanted and not kept, if there is a folder
+    std::vector<std::uint8_t> checkpoint;  ///< of the simulation at this frame; empty if none is due
+    Json report;                           ///< belongs to the checkpoint
 };
 
 class FrameSequence {
  public:
-    /// folder: where the frames go, nullptr for a run that cannot be gone on with. checkpointSeconds: between two
-    /// checkpoints.
+    /// @param folder  where the frames go; nullptr for a run that cannot be resumed
+    /// @param checkpointSeconds  time between two checkpoints
     FrameSequence(const scenes::Scene& scene, FrameRange frames, FrameFolder* folder, double checkpointSeconds);
 
-    /// Goes to the next frame; the simulation stands there unless it is kept. Nothing after the last one, after a
-    /// signal, and where the simulation became unstable, which the report then says.
+    /// Advances to the next frame. The simulation is at that frame unless the frame is kept. Returns nothing after the
+    /// last frame, after a signal, and when the simulation has become unstable; report() tells which.
     std::optional<SequencedFrame> next();
 
-    /// Puts the files of a frame that next() gave in their places: first the frame's own, where it has one.
+    /// Writes the file of a frame that next() returned, unless it is kept or not wanted, and then its checkpoint.
     void store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes);
 
-    /// When all frames are stored: the last checkpoint, and the fields of the report that are known by now.
+    /// Writes the last checkpoint and completes the report, when all frames are stored.
     void finish();
 
     const engine::Simulation& simulation() const { return run_.simulation; }
@@ -49,7 +49,7 @@ class FrameSequence {
     FinishedRun take() { return std::move(run_); }
 
  private:
-    bool goOn();
+    bool resume();
     bool advanceTo(int frame);
     bool isCheckpointDue() const;
     Json checkpointReport() const;
@@ -59,8 +59,8 @@ class FrameSequence {
     FrameFolder* folder_;
     double checkpointSeconds_;
     FinishedRun run_;
-    std::optional<InterruptWatch> interrupts_;  ///< where the run can be gone on with
-    int position_ = -1;                         ///< the frame that the simulation stands at; -1 before the first
+    std::optional<InterruptWatch> interrupts_;  ///< if the run can be resumed
+    int position_ = -1;                         ///< the frame that the simulation is at; -1 before the first
     int next_ = 0;
     std::chrono::steady_clock::time_point lastCheckpoint_;
 };

@@ -1,4 +1,4 @@
-// The manifest as JSON.
+// The manifest as JSON. Everything that is read is checked, because the file may be damaged or foreign.
 #include "tools/run/manifest.h"
 
 #include <fmt/format.h>
@@ -9,24 +9,24 @@
 #include "engine/core/hash.h"
 #include "render/picture/system_error.h"
 #include "tools/system/json.h"
-#include "tools/system/parse_number.h"
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {
 
-/// Changed whenever the meaning of a field is.
+/// The version of the format. It changes whenever the meaning of a field changes.
 constexpr int kFormat = 1;
 
 int frameNumber(const std::string& text) {
     const auto number = parseNumber(text);
-    if (!number || *number < 0) throw render::SystemError(fmt::format("\"{}\" is no frame number", text));
+    if (!number || *number < 0) throw render::SystemError(fmt::format("\"{}\" is not a frame number", text));
     return *number;
 }
 
-/// What is no whole number, or a huge one, would not survive the conversion.
-int frameIn(const Json& json) {
+/// nlohmann::json would convert fractions and huge numbers silently.
+int frameNumber(const Json& json) {
     if (!json.is_number_integer() || json < 0 || json > std::numeric_limits<int>::max())
-        throw render::SystemError(fmt::format("{} is no frame number", compactText(json)));
+        throw render::SystemError(fmt::format("{} is not a frame number", compactText(json)));
     return json.get<int>();
 }
 
@@ -35,14 +35,14 @@ Manifest parsed(const Json& json) {
         throw render::SystemError(fmt::format("its format is {}, not {}", compactText(json.at("format")), kFormat));
     Manifest manifest;
     manifest.identity = json.at("run");
-    if (!manifest.identity.is_object()) throw render::SystemError("\"run\" is no object");
+    if (!manifest.identity.is_object()) throw render::SystemError("\"run\" is not an object");
     for (const auto& [number, frame] : json.at("frames").items())
         manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
                                                 frame.at("state_hash").get<std::string>()};
     for (const Json& checkpoint : json.at("checkpoints")) {
-        if (!checkpoint.at("report").is_object()) throw render::SystemError("a checkpoint's report is no object");
-        manifest.checkpoints[frameIn(checkpoint.at("frame"))] = {checkpoint.at("checksum").get<std::string>(),
-                                                                 checkpoint.at("report")};
+        if (!checkpoint.at("report").is_object()) throw render::SystemError("a checkpoint's report is not an object");
+        manifest.checkpoints[frameNumber(checkpoint.at("frame"))] = {checkpoint.at("checksum").get<std::string>(),
+                                                                     checkpoint.at("report")};
     }
     return manifest;
 }
@@ -61,7 +61,7 @@ std::string encodeManifest(const Manifest& manifest) {
     Json checkpoints = Json::array();
     for (const auto& [frame, checkpoint] : manifest.checkpoints)
         checkpoints.push_back({{"frame", frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
-    // A line a frame, one after the other: a tree of them all would take many times their memory.
+    // Frames are appended line by line. Building a JSON tree of all of them would take many times the memory.
     std::string frames;
     for (const auto& [number, frame] : manifest.frames)
         frames += fmt::format("{}\n  \"{:05}\": {}", frames.empty() ? "" : ",", number,
@@ -74,7 +74,7 @@ Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& n
     try {
         return parsed(parsedJson(text));
     } catch (const std::exception& error) {
-        throw render::SystemError(fmt::format("{} is no manifest of frames: {}", name, error.what()));
+        throw render::SystemError(fmt::format("{} is not a manifest of frames: {}", name, error.what()));
     }
 }
 

@@ -1,5 +1,5 @@
-// manifest.json: what a folder of frames holds. It says which run the frames belong to, so that those of another are
-// never mixed in, and has a checksum of every frame and checkpoint, so that a damaged one is noticed.
+// manifest.json: what a folder of frames holds. It identifies the run, so that frames of two runs are never mixed, and
+// it has a checksum of every frame and checkpoint, so that a damaged file is noticed.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace tools {
 
-/// One frame's file.
+/// The file of one frame.
 struct FrameRecord {
-    std::string checksum;   ///< of the file's bytes, checksumOf
-    std::string stateHash;  ///< of the particles that it shows
+    std::string checksum;   ///< checksumOf() the file
+    std::string stateHash;  ///< engine::stateHash() of the particles that it shows
 };
 
-/// A state to go on from.
+/// The file of one checkpoint.
 struct CheckpointRecord {
-    std::string checksum;  ///< of the file's bytes
+    std::string checksum;  ///< checksumOf() the file
     Json report;           ///< what the run had measured by then
 };
 
 struct Manifest {
-    Json identity;  ///< an object; what decides the bytes of the frames
+    Json identity;  ///< an object with everything that determines the bytes of the frames
     std::map<int, FrameRecord> frames;
     std::map<int, CheckpointRecord> checkpoints;  ///< by the frame whose state they hold
 };
@@ -35,10 +35,11 @@ std::string checksumOf(std::span<const std::uint8_t> bytes);
 
 std::string encodeManifest(const Manifest& manifest);
 
-/// Throws render::SystemError with the name for a text that is not a manifest.
+/// @param name  names the file in the error
+/// @throws render::SystemError if the text is not a manifest
 Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name);
 
-/// What of two identities differs, as in "scene_hash: 12ab there, 34cd here"; empty where nothing does.
+/// How two identities differ, such as "scene_hash: 12ab there, 34cd here"; empty if they are equal.
 std::string differences(const Json& there, const Json& here);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// An oneTBB pipeline of in-order stages. With one thread its stages take turns.
+// A oneTBB pipeline of in-order stages. With one thread the stages take turns.
 #include "tools/run/render_loop.h"
 
 #include <tbb/parallel_pipeline.h>
@@ -17,27 +17,25 @@
 #include "render/renderer.h"
 #include "scenes/view/frame_view.h"
 #include "tools/run/frame_sequence.h"
-#include "tools/run/open_context.h"
+#include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
-#include "tools/system/stopwatch.h"
-#include "tools/system/threads.h"
 
 namespace tools {
 namespace {
 
-/// Frames in flight: one a stage, and one to even out their times.
+/// Frames in flight. Chosen: one for each stage, and one more to even out their times.
 constexpr std::size_t kTokens = 4;
 
 /// A frame on its way through the stages.
 struct FrameInFlight {
     SequencedFrame frame;
-    std::optional<render::View> view;    ///< of a frame that is to be drawn, until it is
-    std::optional<render::Image> image;  ///< of one that was drawn
-    render::Image old;                   ///< of a frame that is done
+    std::optional<render::View> view;    ///< what to draw; empty once it is drawn, and for frames that are not drawn
+    std::optional<render::Image> image;  ///< the drawn picture
+    render::Image oldImage;              ///< the picture of an earlier frame, whose memory the next one reuses
 };
 
-/// What decides the bytes of the frames of a run.
+/// Everything that determines the bytes of the frames of a run.
 Json identityOf(const RenderJob& job, const std::string& glRenderer) {
     constexpr std::array kNames = {"draft", "normal", "final"};
     Json identity = sceneIdentity(*job.scene);
@@ -47,16 +45,16 @@ Json identityOf(const RenderJob& job, const std::string& glRenderer) {
     return identity;
 }
 
-/// The four calls between a scene and its files, one method a stage.
-class Run {
+/// One run of the pipeline; simulate(), draw() and encode() are its stages.
+class RenderRun {
  public:
-    explicit Run(const RenderJob& job)
+    explicit RenderRun(const RenderJob& job)
         : job_(job),
           context_(openContext(job.backend, job.threads)),
           folder_(openFolder(job, context_.rendererName())),
           renderer_(context_, job.scene->size, job.quality),
           frames_(*job.scene, job.frames, folder_.get(), job.folder ? job.folder->checkpointSeconds : 0.0),
-          progress_(job.title, job.frames.last - job.frames.first + 1, job.verbosity) {
+          progress_(job.title, job.frames.count(), job.verbosity) {
         report().threads = job.threads;
         report().glRenderer = context_.rendererName();
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
@@ -75,12 +73,12 @@ class Run {
  private:
     static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
         if (!job.folder) return nullptr;
-        // Before frames of another run are removed for a film that cannot be made.
-        if (!job.videoPath.empty() && job.folder->existing == Existing::overwrite) requireFilm(videoOptions(job));
+        // Checked first, so that no frames of another run are removed for a video that cannot be made.
+        if (!job.videoPath.empty() && job.folder->overwrite) requireVideo(videoOptions(job));
         return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
     }
 
-    static void requireFilm(const render::VideoOptions& options) {
+    static void requireVideo(const render::VideoOptions& options) {
         render::requireEncoder(options);
         const render::PartialFilm begun(options.path);
     }
@@ -112,9 +110,9 @@ class Run {
             flow.stop();
             return nullptr;
         }
-        // Stages are in order, so the frame that was here before has left them.
-        FrameInFlight& flight = flights_[started_++ % kTokens];
-        if (flight.image) flight.old = std::move(*flight.image);
+        // The stages are in order, so the frame that used this slot before has left the pipeline.
+        FrameInFlight& flight = flights_[startedCount_++ % kTokens];
+        if (flight.image) flight.oldImage = std::move(*flight.image);
         flight.frame = std::move(*frame);
         flight.image.reset();
         if (flight.frame.isWanted && !flight.frame.isKept)
@@ -125,9 +123,9 @@ class Run {
     void draw(FrameInFlight& flight) {
         if (!flight.view) return;
         const Stopwatch watch(report().seconds.drawing);
-        // Isolated: a thread that waits for others here must not take up a frame's simulation and hold the context
-        // meanwhile.
-        tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view, std::move(flight.old)); });
+        // Isolated, so that a thread that waits for others here does not take up the simulation of another frame while
+        // it holds the context.
+        tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view, std::move(flight.oldImage)); });
         flight.view.reset();
     }
 
@@ -138,13 +136,13 @@ class Run {
         if (flight.image && folder_) png = render::encodePng(*flight.image);
         if (folder_) frames_.store(frame, png);
         if (!frame.isWanted) return;
-        if (video_) video_->add(flight.image ? *flight.image : kept(frame.number));
+        if (video_) video_->add(flight.image ? *flight.image : readKept(frame.number));
         ++report().frames;
         progress_.frameDone(frame.number, frame.time);
     }
 
-    /// A frame that an earlier run has drawn.
-    render::Image kept(int frame) const {
+    /// The picture of a kept frame, read from its file.
+    render::Image readKept(int frame) const {
         const std::filesystem::path path = folder_->pathOf(frame);
         return render::decodePng(readFile(path), path.string());
     }
@@ -157,7 +155,7 @@ class Run {
     render::Renderer renderer_;
     FrameSequence frames_;
     std::array<FrameInFlight, kTokens> flights_;
-    std::size_t started_ = 0;
+    std::size_t startedCount_ = 0;
     std::unique_ptr<render::VideoWriter> video_;
     Progress progress_;
 };
@@ -165,7 +163,7 @@ class Run {
 }  // namespace
 
 FinishedRun renderFrames(const RenderJob& job) {
-    return Run(job).all();
+    return RenderRun(job).all();
 }
 
 }  // namespace tools

@@ -1,5 +1,5 @@
-// The main loop: simulate frame k+1, draw frame k, encode frame k-1, at the same time where there are threads for it.
-// Called by `render` and `figures`.
+// The render loop: simulates frame k + 1, draws frame k and encodes frame k - 1, at the same time if there are threads
+// for it. Called by `render` and `figures`.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,8 @@
 #include "render/opengl/context.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
-#include "tools/run/frame_folder.h"
+#include "tools/run/options.h"
 #include "tools/run/run_report.h"
-#include "tools/run/scene_options.h"
 #include "tools/system/progress.h"
 
 namespace tools {
@@ -18,7 +17,7 @@ namespace tools {
 struct RenderJob {
     const scenes::Scene* scene = nullptr;
     FrameRange frames;
-    std::optional<FolderOptions> folder;  ///< that frames go to, with what is needed to go on; none: no frames
+    std::optional<FolderOptions> folder;  ///< where frames and checkpoints go; none: only a video is made
     std::string videoPath;                ///< empty: no video
     render::Quality quality = render::Quality::normal;
     render::Backend backend = render::Backend::osmesa;
@@ -27,9 +26,10 @@ struct RenderJob {
     std::string title;  ///< in the progress
 };
 
-/// Draws the frames of a job. A simulation that becomes unstable ends the run after the frames before that moment, and
-/// a signal, where there is a folder, after the frames in hand; the report has the reason. The outside world's failures
-/// are thrown.
+/// Draws the frames of a job. If the simulation becomes unstable, the run ends after the frames before that. After a
+/// signal it ends when the frames in flight are written, if there is a folder to resume from. The report has the
+/// reason.
+/// @throws render::SystemError
 FinishedRun renderFrames(const RenderJob& job);
 
 }  // namespace tools

@@ -1,10 +1,11 @@
-// The fields of run.json.
+// Collects the fields of run.json.
 #include "tools/run/run_report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "engine/error_control/error_estimate.h"
@@ -13,25 +14,23 @@
 #include "engine/stepping/steppers.h"
 #include "render/cpu/metaballs/metaball_cast.h"
 #include "render/picture/system_error.h"
-#include "tools/system/exit_status.h"
 #include "tools/system/json.h"
+#include "tools/system/output_file.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
 
-/// More frames than any run has.
+/// A larger count in a checkpoint is nonsense: no run has as many frames.
 constexpr int kMostSamples = 1 << 30;
-
-/// Exit codes of programs that a signal ended, as shells have them, come after this.
-constexpr int kSignaled = 128;
 
 Json vectorJson(const engine::Vec3& vector) {
     return {vector.x(), vector.y(), vector.z()};
 }
 
-/// Counts under their names, those that are not zero, the largest first.
+/// An object with the counts that are not zero under their names, the largest first.
 template <class Names, std::size_t size>
-Json sharesJson(const std::array<std::uint64_t, size>& counts, const Names& nameOfIndex) {
+Json countsJson(const std::array<std::uint64_t, size>& counts, const Names& nameOfIndex) {
     std::vector<std::size_t> indices;
     for (std::size_t index = 0; index < size; ++index)
         if (counts[index] > 0) indices.push_back(index);
@@ -45,16 +44,16 @@ Json stepsJson(const engine::StepStatistics& steps) {
     return {{"count", steps.count},
             {"shortest", steps.shortest},
             {"longest", steps.longest},
-            {"limited_by", sharesJson(steps.limitedBy,
+            {"limited_by", countsJson(steps.limitedBy,
                                       [](std::size_t i) { return engine::nameOf(static_cast<engine::StepLimit>(i)); })},
-            {"taken_by", sharesJson(steps.takenBy,
+            {"taken_by", countsJson(steps.takenBy,
                                     [](std::size_t i) { return engine::nameOf(static_cast<engine::StepperKind>(i)); })},
             {"rejected", steps.rejected},
             {"force_evaluations", steps.forceEvaluations},
             {"matrix_products", steps.products}};
 }
 
-/// What the automatic stepper measured itself, else what the run's sampled frames say.
+/// The error estimates of the automatic stepper, or else those sampled by the run.
 ErrorSamples errorsOf(const engine::Simulation& simulation, const ErrorSamples& samples) {
     if (simulation.setup.stepper != engine::StepperKind::automatic) return samples;
     const engine::AutoState& state = simulation.automatic;
@@ -112,18 +111,8 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
         samples.sum += error;
         samples.largest = std::max(samples.largest, error);
     } catch (const engine::InstabilityError&) {
-        // The run itself will say so when it gets there.
+        // The run will report this when it gets there.
     }
-}
-
-void requireComplete(const RunReport& report, const std::string& folder) {
-    if (!report.unstable.empty()) throw engine::InstabilityError(report.unstable);
-    if (report.interruptedBy == 0) return;
-    throw ExitStatus(
-        kSignaled + report.interruptedBy,
-        fmt::format("interrupted after {} frames, which are whole in {}; the same command with --resume, and "
-                    "without --overwrite, goes on from there",
-                    report.frames, folder));
 }
 
 Json sceneIdentity(const scenes::Scene& scene) {
@@ -134,7 +123,9 @@ Json sceneIdentity(const scenes::Scene& scene) {
             {"fps", scene.fps}};
 }
 
-Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report) {
+Json runJson(const scenes::Scene& scene, FinishedRun& run) {
+    engine::Simulation& simulation = run.simulation;
+    const RunReport& report = run.report;
     Json json = sceneIdentity(scene);
     json["source"] = scene.sourceName;
     json["threads"] = report.threads;
@@ -163,6 +154,17 @@ Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const R
     }
     json["state_hash"] = report.stateHash;
     return json;
+}
+
+Json saveReport(const std::string& folder, const scenes::Scene& scene, FinishedRun& run) {
+    Json json = runJson(scene, run);
+    writeFile(std::filesystem::path(folder) / "run.json", indentedText(json));
+    if (!run.report.unstable.empty()) throw engine::InstabilityError(run.report.unstable);
+    if (run.report.interruptedBy == 0) return json;
+    throw ExitStatus(kSignalExitBase + run.report.interruptedBy,
+                     fmt::format("interrupted after {} frames, which are whole in {}; to go on, give the same command "
+                                 "with --resume (and without --overwrite)",
+                                 run.report.frames, folder));
 }
 
 }  // namespace tools

@@ -1,6 +1,7 @@
-// run.json: what a run did, for people and scripts. Filled in by the loops that simulate and draw.
+// run.json: what a run did, for people and scripts. Filled in by the loops of `render`, `simulate` and `figures`.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -10,7 +11,7 @@
 
 namespace tools {
 
-/// Where a run's time went, s of wall clock; stages overlap, so they may add up to more than all.
+/// Wall-clock seconds of a run by stage. Stages overlap, so that their sum may exceed the total.
 struct StageSeconds {
     double simulating = 0.0;
     double drawing = 0.0;
@@ -18,46 +19,63 @@ struct StageSeconds {
     double all = 0.0;
 };
 
-/// Errors of sampled frames, in radii per second of motion.
+/// Adds the wall-clock seconds of its lifetime to a sum.
+class Stopwatch {
+ public:
+    explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+    ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+/// Error estimates of a run with a fixed step, in radii per second of motion.
 struct ErrorSamples {
     int count = 0;
     double sum = 0.0;
     double largest = 0.0;
 };
 
-/// As JSON, for a checkpoint, and back; none for JSON that is something else.
+/// Error samples as JSON, for a checkpoint.
 Json encodeErrors(const ErrorSamples& errors);
+/// The inverse of encodeErrors(); no samples if the JSON is anything else.
 ErrorSamples decodeErrors(const Json& json);
 
-/// Measures the error of the frame to come, at the step that the run takes, and adds it. Nothing for the automatic
-/// stepper, which measures itself, and for a run that is about to become unstable.
+/// Estimates the error of the next frame at the step of the run and adds it to the samples. Does nothing for the
+/// automatic stepper, which estimates its own error, and for a run that becomes unstable within that frame.
 void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation);
 
 struct RunReport {
     StageSeconds seconds;
     ErrorSamples errors;
-    int frames = 0;  ///< of those asked for, written by this run or kept
+    int frames = 0;  ///< number of frames asked for that were written or kept
     int threads = 1;
-    std::string glRenderer;          ///< empty where nothing was drawn
-    std::string stateHash;           ///< of the last frame; empty: there is none
-    std::string unstable;            ///< why the run ended early; empty for a whole one
+    std::string glRenderer;          ///< empty if nothing was drawn
+    std::string stateHash;           ///< of the last frame; empty if there is none
+    std::string unstable;            ///< why the simulation became unstable; empty if it did not
     int interruptedBy = 0;           ///< the signal that ended the run early, or 0
-    std::optional<int> resumedFrom;  ///< the frame whose checkpoint the run went on from
+    std::optional<int> resumedFrom;  ///< the frame whose checkpoint the run resumed from
 };
 
-/// What a run leaves behind besides its files.
 struct FinishedRun {
     engine::Simulation simulation;  ///< at the last frame
     RunReport report;
 };
 
-/// What of a scene decides what its frames show: the first fields of run.json, and of a folder's manifest.
+/// The parts of a scene that determine what its frames show. They are the first fields of run.json and part of the
+/// identity in a folder's manifest.
 Json sceneIdentity(const scenes::Scene& scene);
 
-/// Throws engine::InstabilityError or ExitStatus for a run that ended early, with what to do about it.
-void requireComplete(const RunReport& report, const std::string& folder);
+/// The content of run.json.
+Json runJson(const scenes::Scene& scene, FinishedRun& run);
 
-/// The content of run.json for a run that has come to the given state.
-Json runJson(const scenes::Scene& scene, engine::Simulation& simulation, const RunReport& report);
+/// Writes run.json into the folder of a run and returns its content.
+/// @throws engine::InstabilityError if the simulation became unstable
+/// @throws ExitStatus if a signal ended the run, with how to resume
+/// @throws render::SystemError
+Json saveReport(const std::string& folder, const scenes::Scene& scene, FinishedRun& run);
 
 }  // namespace tools

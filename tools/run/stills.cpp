@@ -1,4 +1,4 @@
-// One pass over the frames that are wanted, in order of time.
+// One simulation passes the selected frames in order of time.
 #include "tools/run/stills.h"
 
 #include <algorithm>
@@ -14,23 +14,22 @@
 #include "scenes/view/frame_steps.h"
 #include "scenes/view/frame_view.h"
 #include "scenes/view/overlay_view.h"
-#include "tools/run/open_context.h"
-#include "tools/system/threads.h"
+#include "tools/run/threads.h"
 
 namespace tools {
 namespace {
 
-/// Leaves to a panel what a reader needs there.
+/// Removes the parts of the overlay that a reader does not need on this panel.
 void trimOverlay(const scenes::Scene& scene, const std::vector<int>& frames, int frame, render::Overlay& overlay) {
     overlay.stamp.clear();
     if (frame != frames.back()) overlay.colorBar.reset();
     if (frame != frames.front() && scene.camera.keys.size() == 1) overlay.scaleBar.reset();
 }
 
-StillPictures drawAll(const StillsJob& job, const StillSelection& moments) {
+StillPictures drawAll(const StillsJob& job, const StillSelection& selection) {
     const scenes::Scene& scene = *job.scene;
-    std::set<int> frames(moments.stripFrames.begin(), moments.stripFrames.end());
-    if (moments.stillFrame) frames.insert(*moments.stillFrame);
+    std::set<int> frames(selection.stripFrames.begin(), selection.stripFrames.end());
+    if (selection.stillFrame) frames.insert(*selection.stillFrame);
     render::Context context = openContext(job.backend, job.threads);
     render::Renderer renderer(context, scene.size, job.quality);
     engine::Simulation simulation = engine::start(scene.setup);
@@ -40,9 +39,9 @@ StillPictures drawAll(const StillsJob& job, const StillSelection& moments) {
     for (const int frame : frames) {
         scenes::advanceToFrame(scene, simulation, frame);
         render::View view = scenes::frameView(scene, simulation);
-        if (frame == moments.stillFrame) pictures.still = renderer.draw(view);
-        if (std::binary_search(moments.stripFrames.begin(), moments.stripFrames.end(), frame)) {
-            trimOverlay(scene, moments.stripFrames, frame, view.overlay);
+        if (frame == selection.stillFrame) pictures.still = renderer.draw(view);
+        if (std::binary_search(selection.stripFrames.begin(), selection.stripFrames.end(), frame)) {
+            trimOverlay(scene, selection.stripFrames, frame, view.overlay);
             panels.push_back({renderer.draw(view), scenes::timeText(scene, simulation.time)});
         }
         progress.frameDone(frame, simulation.time);
@@ -52,7 +51,8 @@ StillPictures drawAll(const StillsJob& job, const StillSelection& moments) {
     return pictures;
 }
 
-/// A strip is drawn panel by panel, and takes few bytes a pixel; but all its panels are held at once.
+/// @throws scenes::InputError if the strip is too large. A strip may have more pixels than a frame, because it is drawn
+/// panel by panel, but all panels are in memory at once. The factor is chosen: far more panels than a page can show.
 void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
     const double most = 16.0 * scenes::Limits().pixels;
     const double pixels = static_cast<double>(panels) * scene.size.width * scene.size.height;
@@ -66,10 +66,10 @@ void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
 
 }  // namespace
 
-StillPictures drawStills(const StillsJob& job, const StillSelection& moments) {
-    requireStripSize(*job.scene, moments.stripFrames.size());
+StillPictures drawStills(const StillsJob& job, const StillSelection& selection) {
+    requireStripSize(*job.scene, selection.stripFrames.size());
     StillPictures pictures;
-    onThreads(job.threads, [&] { pictures = drawAll(job, moments); });
+    onThreads(job.threads, [&] { pictures = drawAll(job, selection); });
     return pictures;
 }
 

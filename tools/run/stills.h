@@ -1,5 +1,5 @@
-// Pictures of single moments of a scene, drawn in one simulation: stills, and the panels of strips. Called by `strip`
-// and `figures`.
+// Single pictures of a scene at chosen times, drawn in one simulation: stills, and strips of several panels. Called by
+// `strip` and `figures`.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,6 @@
 
 namespace tools {
 
-/// How the pictures are made.
 struct StillsJob {
     const scenes::Scene* scene = nullptr;
     render::Quality quality = render::Quality::final;
@@ -24,21 +23,23 @@ struct StillsJob {
     std::string title;  ///< in the progress
 };
 
-/// What is drawn in them: a still as the scene asks for it, a strip, or both.
+/// The frames to draw: one for a still, several for a strip, or both.
 struct StillSelection {
     std::optional<int> stillFrame;
     std::vector<int> stripFrames;  ///< ascending
 };
 
 struct StillPictures {
-    render::Image still;    ///< empty if none was wanted
-    render::Image strip;    ///< likewise
-    std::string stateHash;  ///< of the last moment
+    render::Image still;    ///< empty if no still was selected
+    render::Image strip;    ///< empty if no strip was selected
+    std::string stateHash;  ///< of the last frame drawn
 };
 
-/// Frames between the moments are simulated but not drawn. The panels of a strip have their time below them and no time
-/// stamp; the color bar is on the last panel, the scale bar on the first, or on each if the camera moves.
-/// Throws: engine::InstabilityError, render::SystemError.
-StillPictures drawStills(const StillsJob& job, const StillSelection& moments);
+/// Simulates up to the last selected frame and draws the selected ones. The panels of a strip have their time below
+/// them and no time stamp. The color bar is on the last panel; the scale bar is on the first, or on each if the camera
+/// moves.
+/// @throws engine::InstabilityError, render::SystemError
+/// @throws scenes::InputError if the strip would have too many pixels
+StillPictures drawStills(const StillsJob& job, const StillSelection& selection);
 
 }  // namespace tools

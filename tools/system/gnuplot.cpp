@@ -1,4 +1,4 @@
-// The script goes in by a pipe, the picture comes out by the child's output; no file of gnuplot's own is left behind.
+// The script is piped to gnuplot and the SVG is read from its output, so that gnuplot writes no files.
 #include "tools/system/gnuplot.h"
 
 #include <fmt/format.h>
@@ -11,12 +11,12 @@
 namespace tools {
 namespace {
 
-/// Larger than any plot of ours, which take some 50 kB.
+/// A limit for broken output. The studies' plots take about 50 kB.
 constexpr std::size_t kMostBytes = 64U << 20;
 
 constexpr std::string_view kEnd = "</svg>";
 
-render::ChildProcess started() {
+render::ChildProcess startGnuplot() {
     try {
         return render::ChildProcess({"gnuplot", "-"});
     } catch (const render::SystemError& error) {
@@ -27,14 +27,14 @@ render::ChildProcess started() {
 }  // namespace
 
 std::string drawPlot(const std::string& script) {
-    render::ChildProcess gnuplot = started();
+    render::ChildProcess gnuplot = startGnuplot();
     const bool taken = gnuplot.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
     const std::string ending = gnuplot.wait();
     const std::string output = gnuplot.output(kMostBytes);
     const std::size_t first = output.find("<?xml");
     const std::size_t last = output.rfind(kEnd);
     const bool whole = first != std::string::npos && last != std::string::npos;
-    // Its warnings come the same way, before the picture.
+    // Output before the picture consists of warnings.
     if (!taken || !ending.empty() || !whole)
         throw render::SystemError(
             fmt::format("gnuplot ended with {}: {}", ending.empty() ? "no plot" : ending, output.substr(0, first)));

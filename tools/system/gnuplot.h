@@ -1,4 +1,4 @@
-// Plots, drawn by the program gnuplot.
+// Plots of the studies, drawn by the program gnuplot.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 namespace tools {
 
 /// The SVG that gnuplot writes to its standard output for a script.
-/// Throws: render::SystemError when gnuplot is missing, naming the package, or fails, with its own words.
+/// @throws render::SystemError naming the package if gnuplot is missing, or with gnuplot's own message if it fails
 std::string drawPlot(const std::string& script);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// The library's calls, and how bytes that are no UTF-8 are treated everywhere.
+// Calls of nlohmann::json, with one policy for bytes that are not UTF-8: they are replaced.
 #include "tools/system/json.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The only way the program writes files: whole or not at all. Libraries hand over bytes; this puts them on disk.
+// Reading and writing whole files. Every file except a video is written by this code: complete or not at all.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,17 @@
 
 namespace tools {
 
-/// Creates a folder and its parents. Throws render::SystemError with the system's own words.
+/// Creates a folder and its parents.
+/// @throws render::SystemError with the system's reason
 void createFolder(const std::filesystem::path& folder);
 
-/// Writes bytes under another name in the same folder and renames when they are on disk.
-/// Throws render::SystemError; what stood under the name before is then untouched.
+/// Writes bytes to a temporary file in the same folder and renames it when they are on disk.
+/// @throws render::SystemError on any failure; a file of that name is then unchanged
 void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void writeFile(const std::filesystem::path& path, const std::string& text);
 
-/// The bytes of a file. Throws render::SystemError.
+/// The bytes of a file.
+/// @throws render::SystemError
 std::vector<std::uint8_t> readFile(const std::filesystem::path& path);
 
 }  // namespace tools

@@ -1,23 +1,23 @@
-// Progress to stderr, or JSON lines to stdout.
+// Formats the bar, the plain lines and the JSON lines of Progress.
 #include "tools/system/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "tools/system/json.h"
-#include "tools/system/standard_streams.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
 
-/// Chosen: seldom enough for a log file, often enough to see that it is alive, s.
+/// Time between plain lines, in seconds. Chosen: rare enough for a log file, often enough to show that work goes on.
 constexpr double kLineInterval = 10.0;
-constexpr int kBarWidth = 30;
+constexpr std::int64_t kBarWidth = 30;
 
-/// Minutes and seconds left at the rate so far.
+/// Minutes and seconds left if the rate stays what it has been.
 std::string timeLeft(int done, int total, double elapsed) {
     const int seconds = static_cast<int>(elapsed / done * (total - done));
     return fmt::format("{}:{:02} left", seconds / 60, seconds % 60);
@@ -29,39 +29,40 @@ Progress::Progress(std::string title, int total, Verbosity verbosity)
     : title_(std::move(title)),
       total_(total),
       verbosity_(verbosity),
-      terminal_(isatty(STDERR_FILENO) == 1),
+      isTerminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-    if (verbosity_ == Verbosity::normal && terminal_ && done_ > 0) printToStderr("\n");
+    if (verbosity_ == Verbosity::normal && isTerminal_ && doneCount_ > 0) printToStderr("\n");
 }
 
 void Progress::frameDone(int frame, double sceneTime) {
-    ++done_;
+    ++doneCount_;
     if (verbosity_ == Verbosity::quiet) return;
     if (verbosity_ == Verbosity::json) {
-        const Json line = {{"event", "frame"},  {"scene", title_}, {"frame", frame},
-                           {"time", sceneTime}, {"done", done_},   {"total", total_}};
+        const Json line = {{"event", "frame"},  {"scene", title_},    {"frame", frame},
+                           {"time", sceneTime}, {"done", doneCount_}, {"total", total_}};
         printJson(line);
         return;
     }
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    if (terminal_)
+    if (isTerminal_)
         drawBar(elapsed);
-    else if (elapsed - lastLine_ >= kLineInterval)
+    else if (elapsed - lastLineSeconds_ >= kLineInterval)
         printLine(elapsed);
 }
 
 void Progress::drawBar(double elapsed) const {
-    const int filled = kBarWidth * done_ / total_;
+    const std::int64_t filled = kBarWidth * doneCount_ / total_;
     printToStderr(fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "",
-                              kBarWidth - filled, done_, total_, done_ / elapsed, timeLeft(done_, total_, elapsed)));
+                              kBarWidth - filled, doneCount_, total_, doneCount_ / elapsed,
+                              timeLeft(doneCount_, total_, elapsed)));
 }
 
 void Progress::printLine(double elapsed) {
-    lastLine_ = elapsed;
-    printToStderr(fmt::format("{}: frame {} of {}, {:.1f} frames/s, {}\n", title_, done_, total_, done_ / elapsed,
-                              timeLeft(done_, total_, elapsed)));
+    lastLineSeconds_ = elapsed;
+    printToStderr(fmt::format("{}: frame {} of {}, {:.1f} frames/s, {}\n", title_, doneCount_, total_,
+                              doneCount_ / elapsed, timeLeft(doneCount_, total_, elapsed)));
 }
 
 }  // namespace tools

@@ -1,16 +1,16 @@
-// Flags to settings.
-#include "tools/run/scene_options.h"
+// From the texts of flags to settings.
+#include "tools/run/options.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <thread>
 
 #include "scenes/build/library.h"
 #include "scenes/text/input_error.h"
-#include "tools/system/parse_number.h"
-#include "tools/system/standard_streams.h"
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
     throw scenes::InputError({{flag, 0, 0, message}});
 }
 
-/// The limits of the flags: names and whole numbers, at least 1.
+/// The limits that the --limit flags set; each is a name and a whole number of at least 1.
 scenes::Limits limitsOf(const std::vector<std::string>& flags) {
     scenes::Limits limits;
     for (const std::string& flag : flags) {
@@ -43,62 +43,14 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
 
 }  // namespace
 
-void addTo(const Command& command, RunOptions& options) {
-    command.flag("--quiet", options.quiet, "no progress and no summary");
-    command.flag("--json", options.json, "progress and result as JSON, one object a line, on stdout");
-    command.option("--threads", options.threads, "how many threads to use (default: all of the machine)")
-        .within(1, 1024);
-}
-
-void addTo(const Command& command, SceneOptions& options) {
-    command.option("SCENE", options.scene, "a scene file, or the name of a built-in scene (see globular scenes)")
-        .required();
-    command.option("--set", options.changes, "change a key of the scene, e.g. --set physics.step=0.005")
-        .of("KEY=VALUE")
-        .oneAtATime();
-    command.option("--limit", options.limits, "allow a larger scene: particles=N, frames=N or pixels=N (of a picture)")
-        .of("NAME=N")
-        .oneAtATime();
-}
-
-void addTo(const Command& command, DrawOptions& options) {
-    command.option("--size", options.size, "picture size in pixels (default: the scene's)").of("WxH");
-    command.option("--style", options.style, "spheres or metaballs (default: the scene's)")
-        .oneOf({"spheres", "metaballs"});
-    command.option("--quality", options.quality, "draft, normal or final (default: normal)")
-        .oneOf({"draft", "normal", "final"});
-    command.option("--gl", options.backend, "OpenGL backend: osmesa or egl (default: osmesa)").of("NAME");
-}
-
-void addTo(const Command& command, FolderFlags& options) {
-    command.option("-o,--output", options.path, "folder for frames and run.json (default: out/NAME)").of("DIR");
-    const Flag resume =
-        command.flag("--resume", options.resume, "go on with a run that ended early: what is whole stays");
-    command.flag("--overwrite", options.overwrite, "remove the frames of another run from the folder first")
-        .notWith(resume);
-    command.option("--checkpoint", options.checkpointSeconds, "seconds between two checkpoints (default: 5)")
-        .of("SECONDS")
-        .atLeastZero();
-}
-
-FolderOptions folderOf(const FolderFlags& flags, const std::string& name) {
-    FolderOptions options;
-    options.path = flags.path.empty() ? (fs::path("out") / name).string() : flags.path;
-    if (flags.resume) options.existing = Existing::keep;
-    if (flags.overwrite) options.existing = Existing::overwrite;
-    options.checkpointSeconds = flags.checkpointSeconds;
-    options.warn = [](const std::string& line) { printToStderr(fmt::format("warning: {}\n", line)); };
-    return options;
-}
-
 int threadCount(const RunOptions& options) {
     if (options.threads > 0) return options.threads;
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-scenes::Scene load(const SceneOptions& options, const scenes::Overrides& others) {
+scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     scenes::Overrides overrides(options.changes.begin(), options.changes.end());
-    overrides.insert(overrides.end(), others.begin(), others.end());
+    overrides.insert(overrides.end(), more.begin(), more.end());
     return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), overrides, limitsOf(options.limits));
 }
 
@@ -107,12 +59,8 @@ scenes::Overrides overridesOf(const DrawOptions& options) {
     if (!options.style.empty()) overrides.emplace_back("look.style=" + options.style, "--style " + options.style);
     if (options.size.empty()) return overrides;
     const std::string flag = "--size " + options.size;
-    const std::size_t cross = options.size.find('x');
-    const auto width = parseNumber(std::string_view(options.size).substr(0, cross));
-    const auto height =
-        cross == std::string::npos ? std::nullopt : parseNumber(std::string_view(options.size).substr(cross + 1));
-    if (!width || !height) failFlag(flag, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
-    overrides.emplace_back(fmt::format("look.size=[{}, {}]", *width, *height), flag);
+    const render::PictureSize size = parseSize(options.size, flag);
+    overrides.emplace_back(fmt::format("look.size=[{}, {}]", size.width, size.height), flag);
     return overrides;
 }
 
@@ -124,9 +72,18 @@ render::Quality qualityOf(const DrawOptions& options) {
 render::Backend backendOf(const DrawOptions& options) {
     const auto backend = render::backendNamed(options.backend);
     if (!backend)
-        throw UsageError(fmt::format("there is no OpenGL backend \"{}\"; choose one of: {}", options.backend,
-                                     render::kBackendNames));
+        failFlag("--gl " + options.backend,
+                 fmt::format("there is no such OpenGL backend; choose one of: {}", render::kBackendNames));
     return *backend;
+}
+
+render::PictureSize parseSize(const std::string& text, const std::string& flag) {
+    const std::size_t cross = text.find('x');
+    const auto width = parseNumber(std::string_view(text).substr(0, cross));
+    const auto height =
+        cross == std::string::npos ? std::nullopt : parseNumber(std::string_view(text).substr(cross + 1));
+    if (!width || !height) failFlag(flag, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
+    return {*width, *height};
 }
 
 std::vector<std::string> sceneFolders() {

@@ -1,5 +1,5 @@
 // Commands and flags by CLI11.
-#include "tools/run/command_line.h"
+#include "tools/commands/command_line.h"
 
 #include <fmt/format.h>
 
@@ -121,15 +121,15 @@ Command CommandLine::program() const {
     return Command(*app_);
 }
 
-bool CommandLine::run(int argc, char** argv) const {
+void CommandLine::run(int argc, char** argv) const {
     try {
         app_->parse(argc, argv);
-        return !app_->get_subcommands().empty();
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw UsageError(error.what());
-        app_->exit(error);  // --help, --version
-        return true;
+        app_->exit(error);  // prints the help or the version
+        return;
     }
+    if (app_->get_subcommands().empty()) throw UsageError("missing command; see globular --help");
 }
 
 }  // namespace tools

@@ -1,5 +1,5 @@
-// The command line: commands with their flags, help, and what they do. CLI11 stays behind this, in one file: its
-// classes are compiled anew wherever they are included, which was most of what the subcommands took to compile.
+// The command line: commands with their flags, their help, and what they do. The rest of the program sees CLI11 through
+// these classes alone, because its headers take longer to compile than a whole subcommand.
 #pragma once
 
 #include <functional>
@@ -21,15 +21,15 @@ class Flag {
     explicit Flag(CLI::Option& option) : option_(&option) {}
 
     Flag& required();
-    /// Shape: what stands for the value in the help, as in "DIR".
+    /// Sets what stands for the value in the help, such as "DIR".
     Flag& of(const std::string& placeholder);
-    /// The value lies in [least, most].
+    /// Requires a number from least to most, both included.
     Flag& within(int least, int most);
     Flag& within(double least, double most);
     Flag& atLeastZero();
     Flag& aboveZero();
     Flag& oneOf(const std::vector<std::string>& names);
-    /// Given again for each further value: --set A --set B.
+    /// Each further value needs the flag again: --set A --set B.
     Flag& oneAtATime();
     Flag& showDefault();
     Flag& notWith(const Flag& other);
@@ -38,30 +38,32 @@ class Flag {
     CLI::Option* option_;
 };
 
-/// A command or subcommand. What its flags are read into has to live until it is run.
+/// A command or subcommand. The variables that its flags are read into must live until it has run.
 class Command {
  public:
     explicit Command(CLI::App& app) : app_(&app) {}
 
     Command command(const std::string& name, const std::string& help) const;
 
-    /// Shape: names as in "-o,--output", or "SCENE" for an argument; value: std::string, std::filesystem::path, int,
-    /// double, std::optional of a number, or std::vector of strings or whole numbers.
+    /// Adds a flag with a value, or an argument.
+    /// @param names  "-o,--output" for a flag, "SCENE" for an argument
+    /// @param value  std::string, std::filesystem::path, int, double, std::optional of a number, or std::vector of
+    ///               strings or whole numbers
     template <class Value>
     Flag option(const std::string& names, Value& value, const std::string& help) const;
     Flag flag(const std::string& names, bool& value, const std::string& help) const;
 
-    /// The end of the help: notes, if there are any, then the example.
+    /// Sets the end of the help: the notes, if there are any, then the example.
     void example(const std::string& text, const std::string& notes = "") const;
     void run(std::function<void()> action) const;
-    /// It is nothing without one of its subcommands.
+    /// Makes it an error to call the command without one of its subcommands.
     void needsCommand() const;
 
  private:
     CLI::App* app_;
 };
 
-/// Flags that are wrong; what() says which and why.
+/// Wrong flags; what() says which and why.
 class UsageError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
@@ -74,9 +76,9 @@ class CommandLine {
     ~CommandLine();
 
     Command program() const;
-    /// Runs the command that was called. Returns whether there was one (or help or version were asked for and printed).
-    /// Errors: UsageError; whatever the command throws.
-    bool run(int argc, char** argv) const;
+    /// Runs the command that was called, or prints the help or the version.
+    /// @throws UsageError if there is no command or a flag is wrong, and whatever the command throws
+    void run(int argc, char** argv) const;
 
  private:
     std::unique_ptr<CLI::App> app_;

@@ -1,5 +1,5 @@
-// JSON that may be absent, broken or about another picture.
-#include "tools/run/picture_provenance.h"
+// Reads JSON files that may be absent, broken or about another picture.
+#include "tools/compare/picture_provenance.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ std::string textIn(const nlohmann::json& json, const char* key) {
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string{};
 }
 
-/// What sidecars, manifests and run.json say in the same words.
+/// The fields that sidecars, manifests and run.json have in common.
 PictureProvenance commonProvenance(const nlohmann::json& json, const fs::path& source) {
     PictureProvenance provenance;
     provenance.source = source.string();
@@ -31,7 +31,7 @@ PictureProvenance commonProvenance(const nlohmann::json& json, const fs::path& s
     return provenance;
 }
 
-/// "00012" of frame-00012.png, as manifests number frames; empty for other names.
+/// "00012" for frame-00012.png, the frame's key in a manifest; empty for other names.
 std::string frameKey(const fs::path& picture) {
     const std::string stem = picture.stem().string();
     return stem.starts_with("frame-") ? stem.substr(6) : std::string{};
@@ -43,7 +43,7 @@ PictureProvenance aboutOtherBytes(const fs::path& source) {
     return provenance;
 }
 
-/// Without a source when the file is no sidecar or manifest that knows the picture.
+/// The provenance in the sidecar, with an empty source if there is no sidecar for these bytes.
 PictureProvenance sidecarProvenance(const fs::path& picture, const std::string& checksum) {
     const fs::path path = sidecarPath(picture);
     const nlohmann::json json = readJson(path);
@@ -77,7 +77,7 @@ Json textOrNull(const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
 }
 
-/// "; GL renderer A instead of B" where both are known and differ.
+/// "; GL renderer A instead of B" if both are known and differ.
 std::string changeOf(const char* what, const std::string& actual, const std::string& expected) {
     if (actual.empty() || expected.empty() || actual == expected) return {};
     return fmt::format("; {} {} instead of {}", what, actual, expected);

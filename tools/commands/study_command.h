@@ -1,0 +1,43 @@
+// What the subcommands of `globular study` have in common: flags, the command line that repeats a study, and how a
+// study reports its progress and its results.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/commands/commands.h"
+#include "tools/system/json.h"
+
+namespace tools {
+
+void addStudyAccuracy(const Command& study);
+void addStudyPictures(const Command& study);
+void addStudyScaling(const Command& study);
+void addStudyStability(const Command& study);
+
+/// The options of every study.
+struct StudyOptions {
+    RunOptions run;
+    std::string name;  ///< of the subcommand
+    std::string folder;
+    bool quick = false;
+};
+
+/// Adds the flags of every study; the folder defaults to out/study-NAME.
+/// @param options  its name is set
+/// @param quickHelp  what --quick leaves out
+void addStudyFlags(const Command& command, StudyOptions& options, const std::string& quickHelp);
+
+/// The command line that repeats a study.
+/// @param words  its own arguments and flags
+std::string commandLineOf(const StudyOptions& options, const std::vector<std::string>& words);
+
+/// Reports one finished part of a study: an object with --json, else a line on standard error unless --quiet.
+void reportProgress(const StudyOptions& options, const Json& json, const std::string& line);
+
+/// Writes index.html into the study's folder and reports that the study is done.
+/// @param summary  tables for the terminal; printed unless --quiet or --json
+void finishStudy(const StudyOptions& options, const std::string& page, const std::string& summary);
+
+}  // namespace tools

@@ -1,0 +1,54 @@
+// Where a picture comes from: the sidecar beside it, the manifest of its folder, or the run.json of its run record
+// that. `compare` reads them to tell whether the simulation or the renderer changed; `approve` writes sidecars.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "tools/system/json.h"
+
+namespace tools {
+
+/// What is recorded of a picture. A text is empty if it is not recorded.
+struct PictureProvenance {
+    std::string source;  ///< the file that it was read from
+    std::string sceneHash;
+    std::string stateHash;  ///< of the particles that the picture shows
+    std::string version;
+    std::string glRenderer;
+    std::string quality;
+    std::string note;  ///< why a file that should record it does not
+};
+
+/// PICTURE.json beside PICTURE.png, where `approve` writes it.
+std::filesystem::path sidecarPath(const std::filesystem::path& picture);
+
+/// Reads the first that exists of the sidecar, the folder's manifest.json and its run.json (which has no states of
+/// single frames). A sidecar or manifest whose checksum is not that of the bytes is skipped with a note. Never throws
+/// because of what these files contain.
+/// @param bytes  the content of the picture's file
+PictureProvenance provenanceOf(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes);
+
+/// The content of a sidecar; what is not known is null.
+/// @param checksum  checksumOf() the picture's file
+/// @param width, height  of the picture in pixels
+Json sidecarJson(const PictureProvenance& provenance, const std::string& checksum, int width, int height);
+
+/// The JSON in a file; null if it cannot be read or is not JSON.
+nlohmann::json readJson(const std::filesystem::path& path);
+
+/// The part of the program because of which a picture differs.
+enum class Cause { simulation, renderer, unknown };
+
+struct Explanation {
+    Cause cause = Cause::unknown;
+    std::string text;
+};
+
+/// Compares the state hashes of two pictures. States are the same bits on every machine, so that equal hashes leave
+/// only the renderer as the cause of a difference, and different hashes mean that the simulation or the scene changed.
+Explanation explain(const PictureProvenance& actual, const PictureProvenance& expected);
+
+}  // namespace tools

@@ -1,0 +1,202 @@
+// The pages of `globular study`. Tables that a study also writes as a CSV file are made from that file's text, so that
+// both have the same columns.
+#include "tools/pages/study_pages.h"
+
+#include <fmt/format.h>
+
+#include "engine/stepping/steppers.h"
+#include "studies/accuracy/accuracy_csv.h"
+#include "studies/stability/stability_text.h"
+#include "tools/pages/html.h"
+
+namespace tools {
+namespace {
+
+/// @param skippedColumns  how many columns on the left are not shown
+std::string csvHtml(const std::string& csv, std::size_t skippedColumns = 0) {
+    return htmlTable(parseCsv(csv, skippedColumns));
+}
+
+std::string costRatio(const std::optional<studies::HandPicked>& picked, double cost) {
+    if (!picked) return "none errs as little";
+    return fmt::format("{:.2f} \u00d7 {}", cost / picked->cost, engine::nameOf(picked->stepper));
+}
+
+std::string autoTable(const studies::SceneAccuracy& accuracy) {
+    std::vector<Cells> rows;
+    for (const studies::AutoRow& row : accuracy.autos)
+        rows.push_back({fmt::format("{:g}", row.asked), fmt::format("{:.2e}", row.obtained),
+                        fmt::format("{:.2f}{}", row.obtained / row.asked, row.resolved ? "" : " or less"),
+                        fmt::format("{:.3g}", row.seconds), costRatio(row.secondsAtObtained, row.seconds),
+                        costRatio(row.secondsAtAsked, row.seconds),
+                        costRatio(row.evaluationsAtObtained, row.evaluationCost),
+                        costRatio(row.evaluationsAtAsked, row.evaluationCost)});
+    return htmlTable(
+        {{"asked (radii/s)", "obtained (radii/s)", "ratio", "seconds", "seconds over best, at the error obtained",
+          "at the error asked", "force evaluations over best, at the error obtained", "at the error asked"},
+         rows});
+}
+
+std::string referenceText(const studies::SceneAccuracy& accuracy) {
+    const studies::ReferenceFacts& facts = accuracy.reference;
+    return fmt::format(
+        "<p>{} particles, {:g} s of motion from {:.4g} s on; every run starts from the same state. Reference: {} at "
+        "{:.4g} &micro;s, {:.3g} s; the last halving of its step changed it by {:.1e} radii{}. Errors below {:.1e} "
+        "radii are not told from its own. Twins that begin 1e-9 radii apart end {:.1e} radii apart{}: errors are "
+        "measured in {}.</p>\n",
+        accuracy.particleCount, accuracy.window, accuracy.from, engine::nameOf(facts.variant.stepper),
+        1e6 * facts.variant.asked, facts.seconds, facts.change,
+        facts.settled ? "" : ", more than a twentieth of the smallest error (budget spent)", facts.resolution,
+        facts.twinSeparation, facts.birthsDiffer ? ", and even the finest runs have other births" : "",
+        studies::nameOf(facts.measure));
+}
+
+std::string accuracySection(const AccuracySection& section) {
+    const studies::SceneAccuracy& accuracy = section.accuracy;
+    return fmt::format("<section><h2>{}: {}</h2>\n", escaped(accuracy.name), escaped(accuracy.title)) +
+           referenceText(accuracy) + "<div class=\"row\">\n" + svgImage("error against seconds", section.secondsPlot) +
+           svgImage("error against force evaluations", section.evaluationsPlot) +
+           "</div>\n<h3>auto against the best hand-picked stepper and step</h3>\n" + autoTable(accuracy) +
+           "<h3>Orders</h3>\n" + csvHtml(studies::ordersCsv({accuracy}), 1) + "<details><summary>All runs</summary>\n" +
+           csvHtml(studies::accuracyCsv({accuracy}), 1) + "</details></section>\n";
+}
+
+std::string accuracyText(const AccuracyRun& run) {
+    return fmt::format(
+        "<p><code>{}</code>, {} thread{}. Seconds are wall clock, {}. Costs in force evaluations include the implicit "
+        "steppers' matrix-vector products, each at the share of an evaluation that the plots state, and the automatic "
+        "stepper's error estimates within the window. The automatic stepper begins the window with its choice made, "
+        "as in the middle of a run: its first error estimates are not counted, nor is the comparison of all steppers "
+        "at every fifth estimate, some dozens of intervals apart, which so short a window seldom contains. The cost of "
+        "a hand-picked stepper at an error is read off its line in the plot, log-linear between its points; the best "
+        "is the cheapest of all fixed steppers. Drifts are differences from the reference "
+        "at the end: of the energy, over the reference's kinetic energy and the sizes of its pair and contact "
+        "energies; of the momenta, over its sums of |p| and of |x &times; p|. The same numbers are in accuracy.csv, "
+        "orders.csv, auto.csv and references.csv.</p>\n",
+        escaped(run.command), run.threads, run.threads == 1 ? "" : "s",
+        run.isTimedOnce ? "each run timed once"
+                        : "the least of three rounds for runs below 5 s, of up to twelve for short ones");
+}
+
+std::string milliseconds(const std::optional<double>& seconds) {
+    return seconds ? fmt::format("{:.4g}", 1e3 * *seconds) : "-";
+}
+
+std::string peerTable(const std::vector<studies::PeerRow>& peers) {
+    std::vector<Cells> cells;
+    for (const studies::PeerRow& row : peers)
+        cells.push_back({row.name, fmt::format("{}", row.particles), fmt::format("{:.1f}", row.neighbors),
+                         fmt::format("{:.2f}", 1e-6 * row.particleStepsPerSecond()), fmt::format("{:.2f}", row.ratio),
+                         fmt::format("{:.2f}", row.ratioInFloat)});
+    return htmlTable({{"program and force", "particles", "neighbors", "million particle-steps a second",
+                       "ours over it, in double", "in float"},
+                      cells});
+}
+
+std::string stabilitySummary(const std::vector<studies::CaseResult>& results) {
+    Table table{{studies::kStabilityColumns.begin(), studies::kStabilityColumns.end()}, {}};
+    std::vector<bool> isBad;
+    for (const studies::CaseResult& result : results) {
+        const studies::StabilityRow row = studies::rowOf(result);
+        table.rows.emplace_back(row.begin(), row.end());
+        isBad.push_back(!studies::oursPasses(result) || !studies::paperIsAsExpected(result));
+    }
+    return htmlTable(table, isBad);
+}
+
+std::string stabilitySection(const studies::CaseResult& result) {
+    return fmt::format("<h2>{}. {}</h2>\n<p>{} <code>hard/{}</code></p>\n", result.study.number, escaped(result.name),
+                       escaped(result.title), escaped(result.name)) +
+           csvHtml(studies::stabilityCsv({result}), 2);
+}
+
+std::string glossary() {
+    std::string html = "<h2>The observables</h2>\n<dl>\n";
+    for (const scenes::ObservableInfo& info : scenes::observables())
+        html += fmt::format("<dt><code>{}</code></dt><dd>{}</dd>\n", escaped(std::string(info.name)),
+                            escaped(std::string(info.help)));
+    return html + "</dl>\n";
+}
+
+}  // namespace
+
+Table scalingTable(const std::vector<studies::ScalingRow>& rows, bool withHashes) {
+    Table table{{"scene or material", "particles", "neighbors", "published, ms", "every pair, ms", "list, ms",
+                 "list in float, ms"},
+                {}};
+    if (withHashes) table.head.emplace_back("state hash");
+    for (const studies::ScalingRow& row : rows) {
+        table.rows.push_back({row.subject, fmt::format("{}", row.particles), fmt::format("{:.1f}", row.neighbors),
+                              milliseconds(row.published), milliseconds(row.everyPair), milliseconds(row.list),
+                              milliseconds(row.listInFloat)});
+        if (withHashes) table.rows.back().push_back(row.stateHash);
+    }
+    return table;
+}
+
+std::string accuracyPage(const std::vector<AccuracySection>& sections, const AccuracyRun& run) {
+    std::string body = accuracyText(run);
+    for (const AccuracySection& each : sections) body += accuracySection(each);
+    return htmlPage("Globular dynamics: speed against error", body);
+}
+
+std::string picturesPage(const PictureResults& results, const std::string& command) {
+    std::string body = fmt::format(
+        "<p>Made by <code>{}</code>. A dam that splashes, as many particles as the table says, in its full look. "
+        "<em>Frame</em> is drawing and reading back; <em>quads</em> is the simplest way to draw spheres with OpenGL, a "
+        "quad facing the eye for each sphere, with its depth written by the fragment shader, lit and nothing else, "
+        "drawn in the same run. The camera moves from frame to frame, but <em>at rest</em> only the particles do, and "
+        "the parts of the picture without particles are kept. Bin, occlusion and shadow run side by side, so that "
+        "together they may take longer than the frame. <em>With PNG</em> and <em>with MP4</em> are milliseconds a "
+        "frame of a run in which one frame is encoded while the next is drawn. <em>MP4, once</em> is what a video "
+        "takes besides its frames, for the encoder to start and to end; it is in no other column. Stages, frames and "
+        "quads are medians, PNG is a mean of three, MP4 and what is drawn with encoding are means over a run.</p>\n",
+        escaped(command));
+    body += svgImage("milliseconds a frame against particles", results.timesPlot);
+    body +=
+        "<h2>Error</h2>\n<p>Against a ray caster in double precision, in windows spread evenly over the picture; depth "
+        "and normal are means over the right hits on particles.</p>\n";
+    body += svgImage("error against milliseconds", results.errorsPlot) + csvHtml(studies::picturesCsv(results.rows));
+    body +=
+        "<h2>Steadiness</h2>\n<p>A still scene while the camera moves an eighth of a pixel a frame: RMSE in steps of "
+        "255 between one frame and the next (<em>change</em>), and between one such difference and the next "
+        "(<em>jerk</em>: what flickers rather than moves).</p>\n" +
+        csvHtml(studies::flickerCsv(results.flicker));
+    body +=
+        "<h2>Skins of metaballs</h2>\n<p>Frames of normal quality; the volume within the surface of a level pool over "
+        "its particles' cells, and within that of a particle alone over its sphere; the tilt of the pool's normals, "
+        "RMS.</p>\n" +
+        csvHtml(studies::smoothingCsv(results.smoothing));
+    return htmlPage("globular: what pictures cost and how exact they are", body);
+}
+
+std::string scalingPage(const ScalingResults& results, const std::string& command) {
+    std::string body = fmt::format(
+        "<p>Made by <code>{}</code>. Milliseconds of one step: in the scenes of the paper's figures of 0.01 s, as the "
+        "paper takes one for every frame, in face-centered cubic lattices of 0.002 s; medians of rounds that took "
+        "turns. "
+        "<em>Published</em> is Table 2 of the paper, with drawing, on its author's "
+        "machine (GeForce RTX 4080, Ryzen 7 at 3.4 GHz). <em>Every pair</em> is the paper's method on this one, on one "
+        "thread; <em>list</em> is ours. Hashes are of the state after the steps in double.</p>\n",
+        escaped(command));
+    body +=
+        svgImage("milliseconds a step against particles", results.plot) + htmlTable(scalingTable(results.rows, true));
+    body += "<h2>How time grows</h2>\n" + csvHtml(studies::fitsCsv(results.fits));
+    if (!results.peerText.empty())
+        body += fmt::format("<h2>Beside a peer</h2>\n<p>{}</p>\n", escaped(results.peerText));
+    if (!results.peers.empty()) body += peerTable(results.peers);
+    return htmlPage("globular: time against the number of particles", body);
+}
+
+std::string stabilityPage(const std::vector<studies::CaseResult>& results, const std::string& command) {
+    std::string body = fmt::format(
+        "<p>Made by <code>{}</code>. Each row shows the worst variant of a case: the paper's stepper (symplectic Euler "
+        "at its published step, with its clamp of the distance) and ours, with the stepper that the scene names. "
+        "Seconds and steps are ours.</p>\n",
+        escaped(command));
+    body += stabilitySummary(results);
+    for (const studies::CaseResult& result : results) body += stabilitySection(result);
+    return htmlPage("globular: the hard cases", body + glossary());
+}
+
+}  // namespace tools

@@ -1,0 +1,86 @@
+// The options that several commands share, as plain data, and what they mean. The commands fill them in from flags
+// (tools/commands/shared_flags.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/opengl/context.h"
+#include "render/picture/view.h"
+#include "scenes/model/scene.h"
+#include "tools/system/progress.h"
+
+namespace tools {
+
+/// What the program prints and how many threads it uses.
+struct RunOptions {
+    bool quiet = false;
+    bool json = false;
+    int threads = 0;  ///< 0: as many as the machine has
+
+    Verbosity verbosity() const { return json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal; }
+};
+
+/// A scene and changes to it.
+struct SceneOptions {
+    std::string scene;                 ///< path or built-in name
+    std::vector<std::string> changes;  ///< "key=value"
+    std::vector<std::string> limits;   ///< "name=number"
+};
+
+/// How frames are drawn.
+struct DrawOptions {
+    std::string size;   ///< "WIDTHxHEIGHT" in pixels; empty: the scene's
+    std::string style;  ///< "spheres" or "metaballs"; empty: the scene's
+    std::string quality = "normal";
+    std::string backend = "osmesa";
+};
+
+/// The folder that the frames of a run go to, and what happens to frames that are already in it. Without `resume` and
+/// `overwrite`, frames of the same run are written again, and frames of another run are an error.
+struct FolderOptions {
+    std::string path;
+    bool resume = false;             ///< intact frames of the same run stay
+    bool overwrite = false;          ///< all files of the earlier run are removed first
+    double checkpointSeconds = 5.0;  ///< time between two checkpoints
+};
+
+/// Frame numbers from first to last, both included.
+struct FrameRange {
+    int first = 0;
+    int last = 0;
+
+    int count() const { return last - first + 1; }
+};
+
+/// The number of threads to use, at least 1.
+int threadCount(const RunOptions& options);
+
+/// Loads the scene with its changes.
+/// @param more  changes that other flags ask for, applied last
+/// @throws scenes::InputError
+scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = {});
+
+/// The size and the style that flags ask for, as changes to the scene.
+/// @throws scenes::InputError
+scenes::Overrides overridesOf(const DrawOptions& options);
+
+render::Quality qualityOf(const DrawOptions& options);
+
+/// @throws scenes::InputError if there is no backend of that name
+render::Backend backendOf(const DrawOptions& options);
+
+/// Width and height of a text such as "1280x720".
+/// @param flag  names the flag in the error
+/// @throws scenes::InputError if the text is not two whole numbers
+render::PictureSize parseSize(const std::string& text, const std::string& flag);
+
+/// The folders of the built-in scenes: beside the installed program, or else in the sources that it was built from.
+std::vector<std::string> sceneFolders();
+
+/// The frames that "A-B" or "A" names; an empty text stands for all.
+/// @param count  the scene has frames 0 to count - 1
+/// @throws scenes::InputError for anything else, and for frames that the scene does not have
+FrameRange frameRange(const std::string& text, int count);
+
+}  // namespace tools

@@ -1,0 +1,62 @@
+// Standard streams by the C library, whose error flags stay set until someone asks; signals by sigaction.
+#include "tools/system/process.h"
+
+#include <fcntl.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+
+#include "render/picture/system_error.h"
+
+namespace tools {
+namespace {
+
+constexpr std::array kSignals = {SIGINT, SIGTERM};
+
+std::atomic<int> receivedSignal = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait for a lock");
+
+/// The signal handler. It restores the default actions, so that the next signal ends the program.
+void recordSignal(int signal) {
+    receivedSignal = signal;
+    for (const int each : kSignals) ::signal(each, SIG_DFL);
+}
+
+}  // namespace
+
+void prepareStandardStreams() {
+    for (const int descriptor : {0, 1, 2})
+        if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);  // takes the lowest free descriptor
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+void printToStderr(const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+void flushStandardOutput() {
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    if (errno == EPIPE) throw ExitStatus(kReaderGoneCode, "");
+    throw render::SystemError("cannot write to standard output");
+}
+
+InterruptWatch::InterruptWatch() {
+    receivedSignal = 0;
+    struct sigaction action = {};
+    action.sa_handler = recordSignal;
+    action.sa_flags = SA_RESTART;
+    for (std::size_t s = 0; s < kSignals.size(); ++s) ::sigaction(kSignals[s], &action, &previousActions_[s]);
+}
+
+InterruptWatch::~InterruptWatch() {
+    for (std::size_t s = 0; s < kSignals.size(); ++s) ::sigaction(kSignals[s], &previousActions_[s], nullptr);
+}
+
+int InterruptWatch::signal() const {
+    return receivedSignal;
+}
+
+}  // namespace tools

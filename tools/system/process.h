@@ -1,0 +1,58 @@
+// The process as the operating system and the shell see it: standard streams, exit codes and signals. Used by main()
+// and by every command that prints results or can be interrupted.
+#pragma once
+
+#include <array>
+#include <csignal>
+#include <stdexcept>
+#include <string>
+
+namespace tools {
+
+/// A shell reports a program that a signal ended with this code plus the number of the signal.
+inline constexpr int kSignalExitBase = 128;
+
+/// The exit code that a shell reports for a program that wrote to a pipe without a reader.
+inline constexpr int kReaderGoneCode = kSignalExitBase + SIGPIPE;
+
+/// Thrown by a command to end the program with a given exit code. main() prints the message as an error unless it is
+/// empty.
+class ExitStatus : public std::runtime_error {
+ public:
+    ExitStatus(int code, const std::string& message) : std::runtime_error(message), code_(code) {}
+    int code() const { return code_; }
+
+ private:
+    int code_;
+};
+
+/// Opens /dev/null for each of the three standard streams that is closed, so that no file opened later takes its
+/// descriptor. SIGPIPE is ignored from then on, so that a reader that goes away is an error of the write and does not
+/// end a run halfway.
+void prepareStandardStreams();
+
+/// Writes to standard error and ignores failures, because a lost message must not end a run.
+void printToStderr(const std::string& text);
+
+/// Flushes standard output.
+/// @throws render::SystemError if anything printed so far could not be written
+/// @throws ExitStatus with kReaderGoneCode and no message if the reader of the pipe is gone
+void flushStandardOutput();
+
+/// While an object of this class exists, the first SIGINT or SIGTERM is recorded instead of ending the program, so that
+/// a run can finish its frame and save what it needs to resume. A second signal ends the program at once.
+class InterruptWatch {
+ public:
+    InterruptWatch();
+    ~InterruptWatch();
+    InterruptWatch(const InterruptWatch&) = delete;
+    InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+    /// The number of the signal that arrived, or 0.
+    int signal() const;
+
+ private:
+    std::array<struct sigaction, 2> previousActions_ = {};
+};
+
+}  // namespace tools

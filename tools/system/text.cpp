@@ -1,0 +1,79 @@
+// Shell quoting, where single quotes protect every character except the single quote itself, and columns of text.
+#include "tools/system/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace tools {
+namespace {
+
+std::string quoted(const std::string& word) {
+    bool isPlain = !word.empty();
+    for (const char c : word)
+        isPlain = isPlain && (std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                              std::string("-_./=,:+@%").find(c) != std::string::npos);
+    if (isPlain) return word;
+    std::string text(1, '\'');
+    for (const char c : word) {
+        if (c == '\'') text.append("'\\'");
+        text.push_back(c);
+    }
+    text.push_back('\'');
+    return text;
+}
+
+}  // namespace
+
+std::string shellLine(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) {
+        if (!line.empty()) line.push_back(' ');
+        line.append(quoted(word));
+    }
+    return line;
+}
+
+Table parseCsv(const std::string& csv, std::size_t skippedColumns) {
+    std::vector<Cells> lines(1, Cells(1));
+    bool isQuoted = false;
+    for (std::size_t k = 0; k < csv.size(); ++k) {
+        const char c = csv[k];
+        if (c == '"' && isQuoted && csv[k + 1] == '"')
+            lines.back().back() += csv[k++];
+        else if (c == '"')
+            isQuoted = !isQuoted;
+        else if (c == ',' && !isQuoted)
+            lines.back().emplace_back();
+        else if (c == '\n' && !isQuoted)
+            lines.emplace_back(1);
+        else
+            lines.back().back() += c;
+    }
+    lines.pop_back();  // after the last line end
+    for (Cells& line : lines) line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(skippedColumns));
+    Table table{lines.front(), {lines.begin() + 1, lines.end()}};
+    for (std::string& text : table.head) std::replace(text.begin(), text.end(), '_', ' ');
+    return table;
+}
+
+std::string textTable(const Table& table) {
+    std::vector<std::size_t> widths;
+    for (const std::string& text : table.head) widths.push_back(text.size());
+    for (const Cells& row : table.rows)
+        for (std::size_t column = 0; column < row.size(); ++column)
+            widths[column] = std::max(widths[column], row[column].size());
+    std::string text;
+    const auto addLine = [&](const Cells& row) {
+        text += fmt::format("{:{}}", row[0], widths[0]);
+        for (std::size_t column = 1; column < row.size(); ++column)
+            text += fmt::format("  {:>{}}", row[column], widths[column]);
+        text += '\n';
+    };
+    addLine(table.head);
+    for (const Cells& row : table.rows) addLine(row);
+    return text;
+}
+
+}  // namespace tools

@@ -1,0 +1,41 @@
+// Text on the command line and on the terminal: numbers in flags and file names, commands to copy, and tables.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace tools {
+
+/// The number that the whole text spells, in any locale; nothing if the text is anything else.
+template <class Number = int>
+std::optional<Number> parseNumber(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+/// The words as one line for a POSIX shell, each quoted if it needs to be.
+std::string shellLine(const std::vector<std::string>& words);
+
+/// The texts of one row of a table.
+using Cells = std::vector<std::string>;
+
+/// A table for the terminal or for a page.
+struct Table {
+    Cells head;
+    std::vector<Cells> rows;
+};
+
+/// The table in a CSV file's text (RFC 4180), whose first line is the head. Underscores in the head become spaces.
+/// @param skippedColumns  how many columns on the left are left out
+Table parseCsv(const std::string& csv, std::size_t skippedColumns);
+
+/// The table in aligned columns, the first to the left and the others to the right.
+std::string textTable(const Table& table);
+
+}  // namespace tools
