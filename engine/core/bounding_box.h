@@ -13,18 +13,18 @@
 
 namespace engine {
 
-struct Extent {
+struct BoundingBox {
     Vec3 low;   ///< smallest coordinates
     Vec3 high;  ///< largest coordinates
 
     /// Of nobody.
-    static Extent empty() {
+    static BoundingBox empty() {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return {Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
     }
 
     /// The box that contains every vector.
-    static Extent unbounded() {
+    static BoundingBox unbounded() {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
     }
@@ -39,7 +39,7 @@ struct Extent {
     /// From the middle to a corner.
     double halfDiagonal() const { return 0.5 * std::sqrt(squaredLength(high - low)); }
 
-    void include(const Extent& other) {
+    void include(const BoundingBox& other) {
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = std::min(low[axis], other.low[axis]);
             high[axis] = std::max(high[axis], other.high[axis]);
@@ -49,19 +49,19 @@ struct Extent {
 
 /// The box of vectorOf(index) over 0 ... count - 1, at least one.
 template <class VectorOf>
-Extent extentOver(std::size_t count, const VectorOf& vectorOf) {
+BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
     const auto extentOf = [&](std::size_t begin, std::size_t end) {
         const Vec3 first = vectorOf(begin);
-        Extent extent{first, first};
+        BoundingBox extent{first, first};
         for (std::size_t index = begin + 1; index < end; ++index) {
             const Vec3 vector = vectorOf(index);
             extent.include({vector, vector});
         }
         return extent;
     };
-    const std::vector<Extent> parts = resultsOfChunks<Extent>(count, extentOf);
-    Extent extent = parts.front();
-    for (const Extent& part : parts) extent.include(part);
+    const std::vector<BoundingBox> parts = resultsOfChunks<BoundingBox>(count, extentOf);
+    BoundingBox extent = parts.front();
+    for (const BoundingBox& part : parts) extent.include(part);
     return extent;
 }
 

@@ -22,17 +22,17 @@ namespace HWY_NAMESPACE {
 /// same order of products and sums. Of planes, containers and spheres heights alone tell who touches them: mayReach()
 /// spares a single particle work, and changes nothing.
 template <class D>
-class LaneContacts {
+class SimdContacts {
     using V = hn::Vec<D>;
     static constexpr D kTag{};
     static constexpr std::size_t kMost = hn::MaxLanes(D());
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
  public:
-    LaneContacts(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+    SimdContacts(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  std::size_t first)
         : materials_(law.materials),
-          law_(law.scenery.law),
+          law_(law.obstacles.law),
           particles_(particles),
           velocities_(velocities),
           first_(first),
@@ -166,9 +166,9 @@ template <class D>
 void addTo(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities, std::size_t first,
            Vec3& firstForce) {
     constexpr D kTag{};
-    LaneContacts<D> contacts(law, particles, velocities, first);
-    for (const Collider& collider : law.scenery.colliders)
-        std::visit([&](const auto& shape) { contacts.meet(shape); }, collider);
+    SimdContacts<D> contacts(law, particles, velocities, first);
+    for (const Obstacle& obstacle : law.obstacles.shapes)
+        std::visit([&](const auto& shape) { contacts.meet(shape); }, obstacle);
     const auto mass = hn::LoadU(kTag, &particles.mass[first]);
     auto sum = contacts.read(firstForce);
     const auto add = [&](auto& force, double gravity, auto contact) {
@@ -180,8 +180,8 @@ void addTo(const ForceLaw& law, const Particles& particles, const std::vector<Ve
     hn::StoreInterleaved3(sum.x, sum.y, sum.z, kTag, firstForce.data());
 }
 
-void addOuterForcesHere(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
-                        std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
+void addExternalForcesHere(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                           std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
     using Many = hn::ScalableTag<double>;
     using One = hn::CappedTag<double, 1>;
     std::size_t p = begin;
@@ -197,12 +197,12 @@ HWY_AFTER_NAMESPACE();
 
 namespace engine {
 
-HWY_EXPORT(addOuterForcesHere);
+HWY_EXPORT(addExternalForcesHere);
 
-void addOuterForces(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
-                    std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
+void addExternalForces(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+                       std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
     if (begin == end) return;
-    HWY_DYNAMIC_DISPATCH(addOuterForcesHere)(law, particles, velocities, begin, end, forces);
+    HWY_DYNAMIC_DISPATCH(addExternalForcesHere)(law, particles, velocities, begin, end, forces);
 }
 
 }  // namespace engine

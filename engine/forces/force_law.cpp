@@ -33,10 +33,10 @@ std::vector<Material> mixedPairs(const std::vector<Material>& materials) {
     return pairs;
 }
 
-double reachOf(const std::vector<Material>& materials) {
+double cutoffRatio(const std::vector<Material>& materials) {
     double reach = 0.0;
     for (const Material& material : materials) {
-        // The mix's reaches lie between those of its parts.
+        // The mix's reaches lie between those of its blocks.
         reach = std::max(reach, material.repulsionReach);
         if (material.damping > 0.0) reach = std::max(reach, material.dampingReach);
     }
@@ -57,7 +57,7 @@ ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
     const bool isOneRadius = allEqual(radii);
     terms.uniform &= isOneRadius;
     const double largest = radii.empty() ? 0.0 : isOneRadius ? radii.front() : *std::ranges::max_element(radii);
-    terms.cutoff = reachOf(law.materials) * 2.0 * largest;
+    terms.cutoff = cutoffRatio(law.materials) * 2.0 * largest;
     return terms;
 }
 

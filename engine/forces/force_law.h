@@ -14,7 +14,7 @@ namespace engine {
 struct ForceLaw {
     std::vector<Material> materials;
     Vec3 gravity = Vec3::Zero();  ///< m/s^2
-    Scenery scenery;
+    Obstacles obstacles;
 };
 
 /// What some pair of the particles needs; the rest is not compiled into their kernel.
@@ -25,7 +25,7 @@ struct ForceTerms {
 };
 
 /// How far a pair of these materials may act on each other, in sums of radii.
-double reachOf(const std::vector<Material>& materials);
+double cutoffRatio(const std::vector<Material>& materials);
 
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles);
 

@@ -15,9 +15,9 @@ ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision preci
 void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
                               std::vector<Vec3>& forces, double step) {
     evaluatePairs(particles, velocities, forces, step);
-    if (law_.scenery.colliders.empty()) return addGravity(particles, forces);
-    inRanges(particles.count(), grainAmong(law_.scenery), [&](std::size_t begin, std::size_t end) {
-        addOuterForces(law_, particles, velocities, begin, end, forces);
+    if (law_.obstacles.shapes.empty()) return addGravity(particles, forces);
+    inRanges(particles.count(), contactGrain(law_.obstacles), [&](std::size_t begin, std::size_t end) {
+        addExternalForces(law_, particles, velocities, begin, end, forces);
     });
 }
 
@@ -47,13 +47,13 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     double energy = 0.0;
     forces.resize(particles.count());
     pairs_.prepare(law_, particles, particles.velocity, step);
-    pairs_.makeRecords(particles, particles.velocity);
+    pairs_.packParticles(particles, particles.velocity);
     addUpPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
     // The matrix has no slow twin: products of the reference's pairs would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
     matrix.mass.resize(particles.count());
     inParallel(particles.count(), kParticleGrain,
-               [&](std::size_t place) { matrix.mass[place] = particles.mass[order()[place]]; });
+               [&](std::size_t sortedIndex) { matrix.mass[sortedIndex] = particles.mass[order()[sortedIndex]]; });
     addGravity(particles, forces);
     return energy;
 }
@@ -62,20 +62,20 @@ void ForceEvaluator::renewList(const Particles& particles) {
     if (needsList()) pairs_.renewList(law_, particles, particles.velocity);
 }
 
-bool ForceEvaluator::isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
-                             std::uint32_t& companion) const {
+bool ForceEvaluator::hasNoNeighborWithin(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
+                                         std::uint32_t& cachedNeighbor) const {
     const NeighborList& list = pairs_.list;
-    if (p >= list.placeOf.size()) return false;
-    const std::size_t known = std::min(positions.size(), list.placeOf.size());
+    if (p >= list.sortedIndexOf.size()) return false;
+    const std::size_t known = std::min(positions.size(), list.sortedIndexOf.size());
     const auto isNear = [&](std::uint32_t other) {
         return other < known && squaredLength(positions[p] - positions[other]) < cutoff * cutoff;
     };
-    if (companion != p && isNear(companion)) return false;
-    const std::size_t seat = list.seatOf(p);
-    for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k) {
-        const std::uint32_t other = list.order[list.rows.placeAt(seat, k)];
+    if (cachedNeighbor != p && isNear(cachedNeighbor)) return false;
+    const std::size_t laneSlot = list.laneSlotOf(p);
+    for (std::uint32_t k = 0; k < list.rows.length[laneSlot]; ++k) {
+        const std::uint32_t other = list.order[list.rows.sortedIndexAt(laneSlot, k)];
         if (!isNear(other)) continue;
-        companion = other;
+        cachedNeighbor = other;
         return false;
     }
     return true;
@@ -101,7 +101,7 @@ void ForceEvaluator::addUp(const Particles& particles, const std::vector<Vec3>& 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {
     if (particles.count() < 2) return 0.0;
     pairs_.prepare(law_, particles, particles.velocity);
-    pairs_.makeRecords(particles, particles.velocity);
+    pairs_.packParticles(particles, particles.velocity);
     return pairEnergySum(pairs_);
 }
 

@@ -18,7 +18,7 @@ namespace engine {
 void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                          std::vector<Vec3>& forces);
 
-/// Energy of the conservative part of one pair, in joules.
+/// Energy of the conservative block of one pair, in joules.
 double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i);
 
 /// The same of every pair.
@@ -43,8 +43,8 @@ class ForceEvaluator {
     /// Since the last call or evaluation over the list every particle has moved by some vector in a box (m), and
     /// nothing but its velocity has changed besides: spares the next evaluation a look at all of them. Births may
     /// follow; whoever else moves particles afterward notes that, too, or has the moves forgotten.
-    void noteMoves(const Extent& moves) { pairs_.noteMoves(moves); }
-    void forgetMoves() { pairs_.forgetMoves(); }
+    void addDisplacementBound(const BoundingBox& moves) { pairs_.addDisplacementBound(moves); }
+    void invalidateDisplacementBound() { pairs_.invalidateDisplacementBound(); }
 
     /// The same as evaluate without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
     double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
@@ -54,7 +54,7 @@ class ForceEvaluator {
     double assemble(const Particles& particles, const MatrixWeights& weights, std::vector<Vec3>& forces,
                     PairMatrix& matrix, double step = 0.0);
 
-    /// Particle index at each place of the matrix that was assembled last.
+    /// Particle index at each sortedIndex of the matrix that was assembled last.
     const std::vector<std::uint32_t>& order() const { return pairs_.list.order; }
 
     /// The neighbor list as it was built last.
@@ -75,14 +75,15 @@ class ForceEvaluator {
     /// Whether nobody in a particle's row of the list is within a cutoff (m), at these positions (m): nobody at all, as
     /// long as the list covers them. False for a newborn, which is in no row and may have been placed beside anyone.
     /// Holds:  as long as the list covers the positions the same answer whoever is looked at first.
-    /// Shape:  companion: who that is, any number; becomes whoever is found: company that stays needs no search.
-    bool isAlone(const std::vector<Vec3>& positions, double cutoff, std::size_t p, std::uint32_t& companion) const;
+    /// Shape:  cachedNeighbor: who that is, any number; becomes whoever is found: company that stays needs no search.
+    bool hasNoNeighborWithin(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
+                             std::uint32_t& cachedNeighbor) const;
 
     /// The pair forces of equation 1 alone, over the neighbor list.
     void pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                         double step = 0.0);
 
-    /// Pair energy of the conservative part, in joules, over the neighbor list.
+    /// Pair energy of the conservative block, in joules, over the neighbor list.
     double pairEnergyGrid(const Particles& particles);
 
     const ForceLaw& law() const { return law_; }

@@ -16,9 +16,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_MAX_BYTES >= 32
-/// singleRecord() over lanes.
-class SingleWriter {
-    static_assert(offsetof(SinglePrecisionRecord, id) == 12 && offsetof(SinglePrecisionRecord, rest) == 28);
+/// packFloat() over lanes.
+class FloatPacker {
+    static_assert(offsetof(PackedParticleFloat, id) == 12 && offsetof(PackedParticleFloat, rest) == 28);
     static constexpr hn::CappedTag<double, 4> kTag{};
     static constexpr hn::RebindToUnsigned<decltype(kTag)> kBits{};
     static constexpr hn::Rebind<std::uint32_t, decltype(kTag)> kWhole{};
@@ -26,21 +26,21 @@ class SingleWriter {
     using V = hn::Vec<decltype(kTag)>;
 
  public:
-    explicit SingleWriter(double perMeter) : perMeter_(hn::Set(kTag, perMeter)) {}
+    explicit FloatPacker(double perMeter) : perMeter_(hn::Set(kTag, perMeter)) {}
 
-    HWY_INLINE void write(const OrderedParticles& from, std::size_t p, SinglePrecisionRecord& record) const {
+    HWY_INLINE void write(const SortedParticles& from, std::size_t p, PackedParticleFloat& record) const {
         const Vec3& position = from.position[p];
         const auto velocity = hn::BitCast(kWhole, hn::DemoteTo(kFloat, three(from.velocity[p])));
         auto* const to = reinterpret_cast<std::uint32_t*>(&record);
-        hn::Store(hn::InsertLane(wrappedUnits(position), 3, from.id[p]), kWhole, to);
-        const std::uint32_t rest = restOf(position.x(), position.y(), position.z());
+        hn::Store(hn::InsertLane(toFixedPoint(position), 3, from.id[p]), kWhole, to);
+        const std::uint32_t rest = lowBits(position.x(), position.y(), position.z());
         hn::Store(hn::InsertLane(velocity, 3, rest), kWhole, to + 4);
     }
 
  private:
     static V three(const Vec3& vector) { return hn::MaskedLoad(hn::FirstN(kTag, 3), kTag, vector.data()); }
 
-    hn::Vec<decltype(kWhole)> wrappedUnits(const Vec3& position) const {
+    hn::Vec<decltype(kWhole)> toFixedPoint(const Vec3& position) const {
         const V units = hn::Mul(three(position), perMeter_);
         const V rounding = hn::Set(kTag, kWholeRounding);
         const V turns = hn::Sub(hn::Add(hn::Mul(units, hn::Set(kTag, 1.0 / kWordTurn)), rounding), rounding);
@@ -51,12 +51,12 @@ class SingleWriter {
     V perMeter_;
 };
 #else
-class SingleWriter {
+class FloatPacker {
  public:
-    explicit SingleWriter(double perMeter) : perMeter_(perMeter) {}
+    explicit FloatPacker(double perMeter) : perMeter_(perMeter) {}
 
-    void write(const OrderedParticles& from, std::size_t p, SinglePrecisionRecord& record) const {
-        record = singleRecord(from.position[p], from.velocity[p], from.id[p], perMeter_);
+    void write(const SortedParticles& from, std::size_t p, PackedParticleFloat& record) const {
+        record = packFloat(from.position[p], from.velocity[p], from.id[p], perMeter_);
     }
 
  private:
@@ -64,13 +64,13 @@ class SingleWriter {
 };
 #endif
 
-void makeSinglesHere(const OrderedParticles& of, double perMeter, std::size_t begin, std::size_t end,
-                     SinglePrecisionRecord* all) {
-    const OrderedParticles from = of;  // nothing that is written is part of it
-    const SingleWriter writer(perMeter);
-    for (std::size_t place = begin; place < end; ++place) {
-        from.fetchAhead<SinglePrecisionRecord>(place);
-        writer.write(from, from.order[place], all[place]);
+void packFloatsHere(const SortedParticles& of, double perMeter, std::size_t begin, std::size_t end,
+                    PackedParticleFloat* all) {
+    const SortedParticles from = of;  // nothing that is written is block of it
+    const FloatPacker writer(perMeter);
+    for (std::size_t sortedIndex = begin; sortedIndex < end; ++sortedIndex) {
+        from.fetchAhead<PackedParticleFloat>(sortedIndex);
+        writer.write(from, from.order[sortedIndex], all[sortedIndex]);
     }
 }
 
@@ -82,19 +82,19 @@ HWY_AFTER_NAMESPACE();
 
 namespace engine {
 
-HWY_EXPORT(makeSinglesHere);
+HWY_EXPORT(packFloatsHere);
 
-void makeDoubles(const OrderedParticles& of, std::size_t begin, std::size_t end, PairRecord* all) {
-    const OrderedParticles from = of;  // nothing that is written is part of it
-    for (std::size_t place = begin; place < end; ++place) {
-        from.fetchAhead<PairRecord>(place);
-        all[place] = doubleRecord(from, from.order[place]);
+void packDoubles(const SortedParticles& of, std::size_t begin, std::size_t end, PackedParticle* all) {
+    const SortedParticles from = of;  // nothing that is written is block of it
+    for (std::size_t sortedIndex = begin; sortedIndex < end; ++sortedIndex) {
+        from.fetchAhead<PackedParticle>(sortedIndex);
+        all[sortedIndex] = packDouble(from, from.order[sortedIndex]);
     }
 }
 
-void makeSingles(const OrderedParticles& from, double perMeter, std::size_t begin, std::size_t end,
-                 SinglePrecisionRecord* all) {
-    HWY_DYNAMIC_DISPATCH(makeSinglesHere)(from, perMeter, begin, end, all);
+void packFloats(const SortedParticles& from, double perMeter, std::size_t begin, std::size_t end,
+                PackedParticleFloat* all) {
+    HWY_DYNAMIC_DISPATCH(packFloatsHere)(from, perMeter, begin, end, all);
 }
 
 }  // namespace engine

@@ -13,10 +13,10 @@
 
 namespace engine {
 
-/// Pointers, for loops to have at hand: what they write might be part of a vector, for all a compiler knows, which then
-/// looks for its numbers anew.
-struct OrderedParticles {
-    const std::uint32_t* order;  ///< particle index at each place
+/// Pointers, for loops to have at hand: what they write might be block of a vector, for all a compiler knows, which
+/// then looks for its numbers anew.
+struct SortedParticles {
+    const std::uint32_t* order;  ///< particle index at each sortedIndex
     std::size_t count;
     const std::uint32_t* id;  ///< of each particle index, as what follows
     const Vec3* position;     ///< m
@@ -24,7 +24,7 @@ struct OrderedParticles {
     const double* radius;     ///< m
     const std::uint32_t* material;
 
-    OrderedParticles(const NeighborList& list, const Particles& particles, const std::vector<Vec3>& velocities)
+    SortedParticles(const NeighborList& list, const Particles& particles, const std::vector<Vec3>& velocities)
         : order(list.order.data()),
           count(list.count()),
           id(particles.id.data()),
@@ -33,18 +33,18 @@ struct OrderedParticles {
           radius(particles.radius.data()),
           material(particles.material.data()) {}
 
-    /// Fetches what a record has of a particle some places ahead into the cache: the list's order is not that of the
-    /// particles, so that no processor does it by itself. Measured with `globular bench --filter forces` on Zen 5: a
-    /// tenth less time at 256,000 particles in float, a twentieth in double, nothing at 32,000.
-    /// Always inline: gcc takes a call that does nothing but this for one that does nothing.
+    /// Fetches what a record has of a particle some sortedIndices ahead into the cache: the list's order is not that of
+    /// the particles, so that no processor does it by itself. Measured with `globular bench --filter forces` on Zen 5:
+    /// a tenth less time at 256,000 particles in float, a twentieth in double, nothing at 32,000. Always inline: gcc
+    /// takes a call that does nothing but this for one that does nothing.
     template <class Record>
-    [[gnu::always_inline]] void fetchAhead(std::size_t place) const {
+    [[gnu::always_inline]] void fetchAhead(std::size_t sortedIndex) const {
         constexpr std::size_t kPlaces = 32;
-        const std::size_t ahead = order[std::min(place + kPlaces, count - 1)];
+        const std::size_t ahead = order[std::min(sortedIndex + kPlaces, count - 1)];
         __builtin_prefetch(&position[ahead]);
         __builtin_prefetch(&velocity[ahead]);
         __builtin_prefetch(&id[ahead]);
-        if constexpr (std::is_same_v<Record, PairRecord>) {
+        if constexpr (std::is_same_v<Record, PackedParticle>) {
             __builtin_prefetch(&radius[ahead]);
             __builtin_prefetch(&material[ahead]);
         }
@@ -59,36 +59,35 @@ inline constexpr double kWholeRounding = 0x1.8p52;
 inline constexpr double kWordTurn = 0x1p32;
 
 /// Rounded to a whole number, modulo 2^32; some number for what is no number or beyond all worlds.
-inline std::int32_t wrappedUnits(double units) {
+inline std::int32_t toFixedPoint(double units) {
     const double turns = (units / kWordTurn + kWholeRounding) - kWholeRounding;
     const double rest = units - turns * kWordTurn;  // exact
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(rest + kWholeRounding)));
 }
 
 /// The record of one particle in double.
-inline PairRecord doubleRecord(const OrderedParticles& from, std::size_t p) {
+inline PackedParticle packDouble(const SortedParticles& from, std::size_t p) {
     const Vec3& x = from.position[p];
     const Vec3& v = from.velocity[p];
     return {x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), from.radius[p], from.material[p], from.id[p]};
 }
 
-/// The record of one particle in float: the plain twin of makeSingles. Shape: position in m, velocity in m/s; units in
+/// The record of one particle in float: the plain twin of packFloats. Shape: position in m, velocity in m/s; units in
 /// a meter.
-inline SinglePrecisionRecord singleRecord(const Vec3& position, const Vec3& velocity, std::uint32_t id,
-                                          double perMeter) {
+inline PackedParticleFloat packFloat(const Vec3& position, const Vec3& velocity, std::uint32_t id, double perMeter) {
     const Vec3 units = position * perMeter;
-    return {wrappedUnits(units.x()),          wrappedUnits(units.y()),
-            wrappedUnits(units.z()),          id,
+    return {toFixedPoint(units.x()),          toFixedPoint(units.y()),
+            toFixedPoint(units.z()),          id,
             static_cast<float>(velocity.x()), static_cast<float>(velocity.y()),
-            static_cast<float>(velocity.z()), restOf(position.x(), position.y(), position.z())};
+            static_cast<float>(velocity.z()), lowBits(position.x(), position.y(), position.z())};
 }
 
-/// Writes the records of the places from begin to end to where they belong among all.
-void makeDoubles(const OrderedParticles& from, std::size_t begin, std::size_t end, PairRecord* all);
+/// Writes the packed of the sortedIndices from begin to end to where they belong among all.
+void packDoubles(const SortedParticles& from, std::size_t begin, std::size_t end, PackedParticle* all);
 
 /// The same in float. Shape: perMeter: as above.
-/// Holds:  equal to singleRecord's on any instruction set.
-void makeSingles(const OrderedParticles& from, double perMeter, std::size_t begin, std::size_t end,
-                 SinglePrecisionRecord* all);
+/// Holds:  equal to packFloat's on any instruction set.
+void packFloats(const SortedParticles& from, double perMeter, std::size_t begin, std::size_t end,
+                PackedParticleFloat* all);
 
 }  // namespace engine

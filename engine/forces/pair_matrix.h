@@ -1,7 +1,7 @@
 // The matrix of the implicit steppers, never formed: A = M + C' + K', where M is the mass, C' the weighted damping and
 // K' the weighted stiffness of all pairs at one configuration, both acting along the line between the two; friction
 // adds weighted damping across it. Each entry is kept as a number: a product is another pass over the pairs, with what
-// is multiplied in the place of the velocities.
+// is multiplied in the sortedIndex of the velocities.
 #pragma once
 
 #include <array>
@@ -19,16 +19,17 @@ struct MatrixWeights {
     double stiffness = 0.0;  ///< s^2; 0 leaves the stiffness out
 };
 
-/// All vectors are by place in the neighbor list that it was assembled over. The block of a pair is
+/// All vectors are by sortedIndex in the neighbor list that it was assembled over. The block of a pair is
 /// -(along P P^T + across 1), its two entries are equal bit for bit. Coincident pairs, which have no direction, add
 /// nothing.
 struct PairMatrix {
-    std::vector<double> mass;         ///< of each particle, kg
-    std::vector<Matrix3> own;         ///< what obstacles add to each particle's own block, kg; empty without any
-    std::vector<PairRecord> records;  ///< positions; a product puts what it multiplies in the place of the velocities
-    LaneRows rows;                    ///< of the pairs that have an entry
+    std::vector<double> mass;  ///< of each particle, kg
+    std::vector<Matrix3> own;  ///< what obstacles add to each particle's own block, kg; empty without any
+    std::vector<PackedParticle>
+        packed;         ///< positions; a product puts what it multiplies in the sortedIndex of the velocities
+    NeighborRows rows;  ///< of the pairs that have an entry
 
-    /// Of each entry of a part of the rows.
+    /// Of each entry of a block of the rows.
     using Entries = std::vector<std::vector<double>>;
 
     Entries along;   ///< kg/m^2
@@ -36,8 +37,8 @@ struct PairMatrix {
 
     std::size_t count() const { return mass.size(); }
 
-    /// Appends an entry to the row of a seat; the seat's own thread alone may.
-    void add(std::size_t seat, std::uint32_t other, double alongOf, double acrossOf);
+    /// Appends an entry to the row of a laneSlot; the laneSlot's own thread alone may.
+    void add(std::size_t laneSlot, std::uint32_t other, double alongOf, double acrossOf);
 };
 
 /// Empties the matrix and gives it room for the pairs of a list.
@@ -50,13 +51,13 @@ void close(PairMatrix& matrix);
 /// Holds: what the pairs add has neither a total nor a moment, to rounding.
 void multiply(PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>& product);
 
-/// The pairs' share of a product for the particles of one group, by seat.
-struct LaneProduct {
-    std::array<double, kGroup> x, y, z;
+/// The pairs' share of a product for the particles of one cluster, by laneSlot.
+struct ClusterProduct {
+    std::array<double, kClusterSize> x, y, z;
 };
 
-/// Sum over the others of along P (P . d) + across d, where d is what the records' velocities differ by; a particle a
+/// Sum over the others of along P (P . d) + across d, where d is what the packed' velocities differ by; a particle a
 /// lane. Called by multiply().
-void multiplyGroup(const PairMatrix& matrix, std::size_t group, LaneProduct& product);
+void multiplyCluster(const PairMatrix& matrix, std::size_t cluster, ClusterProduct& product);
 
 }  // namespace engine

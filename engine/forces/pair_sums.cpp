@@ -26,7 +26,7 @@ struct Slip {
 };
 
 /// Inline, so that what the pair's coefficient has in common with it is computed once.
-[[gnu::always_inline]] inline Slip slipOf(const PairRecord& p, const PairRecord& i, const Vec3& separation,
+[[gnu::always_inline]] inline Slip slipOf(const PackedParticle& p, const PackedParticle& i, const Vec3& separation,
                                           double distanceSq, const PairConstants<double>& constants) {
     const double coefficient = pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, constants);
     if (!(coefficient > 0.0)) return {};
@@ -39,7 +39,7 @@ struct Slip {
 
 /// A coincident pair is parted by a force that its energy at D = 0 does not know: it counts as much above that energy
 /// as its stand-in lies below.
-[[gnu::always_inline]] inline double energyOf(const PairRecord& p, const PairRecord& i, double distance,
+[[gnu::always_inline]] inline double energyOf(const PackedParticle& p, const PackedParticle& i, double distance,
                                               const PairConstants<double>& constants) {
     const double energy = pairEnergy(distance, constants);
     if (!coincide(p, i)) return energy;
@@ -58,8 +58,8 @@ Sums operator+(const Sums& a, const Sums& b) {
 
 /// Two particles that act on each other. Shape: as visitPair() has it.
 struct Pair {
-    const PairRecord& p;
-    const PairRecord& i;
+    const PackedParticle& p;
+    const PackedParticle& i;
     const Vec3& separation;
     double distanceSq;
 };
@@ -87,20 +87,20 @@ struct Kernel {
     const PairTraversal& pairs;
     const PairSums& wanted;
 
-    Sums operator()(std::size_t seat) const {
-        const PairRecord& p = pairs.records[pairs.placeAt(seat)];
+    Sums operator()(std::size_t laneSlot) const {
+        const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
         Sums sums;
-        pairs.forEachNeighbor(seat, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
-            const PairRecord& i = pairs.records[other];
+        pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+            const PackedParticle& i = pairs.packed[other];
             const auto constants = pairs.constants<variant.uniform>(p, i);
             const double slipDamping = addPair<variant>({p, i, separation, distanceSq}, constants, sums);
-            if constexpr (variant.matrix) addEntry(seat, other, distanceSq, slipDamping, constants);
+            if constexpr (variant.matrix) addEntry(laneSlot, other, distanceSq, slipDamping, constants);
         });
         return sums;
     }
 
     /// Across the pair acts friction, along it the damping b_d s_d and the stiffness max(k, 0), each times its weight.
-    void addEntry(std::size_t seat, std::uint32_t other, double distanceSq, double slipDamping,
+    void addEntry(std::size_t laneSlot, std::uint32_t other, double distanceSq, double slipDamping,
                   const PairConstants<double>& constants) const {
         double along = 0.0;
         if constexpr (variant.terms.damping) along = wanted.weights.damping * pairDampingOverSq(distanceSq, constants);
@@ -109,47 +109,47 @@ struct Kernel {
             along += wanted.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
         }
         const double across = wanted.weights.damping * slipDamping;
-        const PairRecord& p = pairs.records[pairs.placeAt(seat)];
-        const PairRecord& i = pairs.records[other];
+        const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
+        const PackedParticle& i = pairs.packed[other];
         if ((along == 0.0 && across == 0.0) || coincide(p, i)) return;
         // across (1 - n n^T) = across 1 - (across / D^2) P P^T
-        wanted.matrix->add(seat, other, along - across / distanceSq, across);
+        wanted.matrix->add(laneSlot, other, along - across / distanceSq, across);
     }
 };
 
-/// Seats of a group.
-struct Group {
+/// Seats of a cluster.
+struct Cluster {
     std::size_t first, end;
 };
 
-/// Calls addUp(group) for every group, shared out over the threads; returns the sum of the energies that it returns, J.
-/// Where nobody asks for them there is none.
+/// Calls addUp(cluster) for every cluster, shared out over the threads; returns the sum of the energies that it
+/// returns, J. Where nobody asks for them there is none.
 template <class AddUp>
-double overGroups(const PairTraversal& pairs, bool hasEnergy, const AddUp& addUp) {
+double overClusters(const PairTraversal& pairs, bool hasEnergy, const AddUp& addUp) {
     const std::size_t count = pairs.list.count();
-    const std::size_t groups = (count + kGroup - 1) / kGroup;
-    std::vector<double> energies(hasEnergy ? groups : 0);
+    const std::size_t clusters = (count + kClusterSize - 1) / kClusterSize;
+    std::vector<double> energies(hasEnergy ? clusters : 0);
     constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
-    inParallel(groups, kGrain, [&](std::size_t number) {
-        const double energy = addUp(Group{number * kGroup, std::min((number + 1) * kGroup, count)});
+    inParallel(clusters, kGrain, [&](std::size_t number) {
+        const double energy = addUp(Cluster{number * kClusterSize, std::min((number + 1) * kClusterSize, count)});
         if (hasEnergy) energies[number] = energy;
     });
-    return sumOver(energies.size(), [&](std::size_t group) { return energies[group]; });
+    return sumOver(energies.size(), [&](std::size_t cluster) { return energies[cluster]; });
 }
 
-/// The force (N) on the particle in a seat.
-Vec3& forceOn(const PairTraversal& pairs, std::size_t seat, const PairSums& wanted) {
-    return wanted.forces[pairs.list.order[pairs.placeAt(seat)]];
+/// The force (N) on the particle in a laneSlot.
+Vec3& forceOn(const PairTraversal& pairs, std::size_t laneSlot, const PairSums& wanted) {
+    return wanted.forces[pairs.list.order[pairs.sortedIndexAt(laneSlot)]];
 }
 
 template <Variant variant>
 double run(const PairTraversal& pairs, const PairSums& wanted) {
     const Kernel<variant> kernel{pairs, wanted};
-    return overGroups(pairs, variant.energy, [&](const Group& group) {
+    return overClusters(pairs, variant.energy, [&](const Cluster& cluster) {
         double energy = 0.0;
-        for (std::size_t seat = group.first; seat < group.end; ++seat) {
-            const Sums sums = kernel(seat);
-            forceOn(pairs, seat, wanted) = sums.force;
+        for (std::size_t laneSlot = cluster.first; laneSlot < cluster.end; ++laneSlot) {
+            const Sums sums = kernel(laneSlot);
+            forceOn(pairs, laneSlot, wanted) = sums.force;
             energy += sums.energy;
         }
         return energy;
@@ -157,29 +157,29 @@ double run(const PairTraversal& pairs, const PairSums& wanted) {
 }
 
 /// Whether a particle shares its position with a neighbor.
-bool isCoincident(const PairTraversal& pairs, std::size_t seat) {
-    const PairRecord& p = pairs.records[pairs.placeAt(seat)];
-    const LaneRows& rows = pairs.list.rows;
-    for (std::uint32_t k = 0; k < rows.length[seat]; ++k)
-        if (coincide(p, pairs.records[rows.placeAt(seat, k)])) return true;
+bool isCoincident(const PairTraversal& pairs, std::size_t laneSlot) {
+    const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
+    const NeighborRows& rows = pairs.list.rows;
+    for (std::uint32_t k = 0; k < rows.length[laneSlot]; ++k)
+        if (coincide(p, pairs.packed[rows.sortedIndexAt(laneSlot, k)])) return true;
     return false;
 }
 
 /// In float: what those who share its position do to a particle. Of them lanes know only the energy at D = 0.
 template <PairTerms terms>
-Sums partingSums(const PairTraversal& pairs, std::size_t seat) {
+Sums partingSums(const PairTraversal& pairs, std::size_t laneSlot) {
     // What is left of a record where P is zero.
-    const auto record = [&](const SinglePrecisionRecord& of) {
-        return PairRecord{0.0, 0.0, 0.0, of.vx, of.vy, of.vz, pairs.uniformRadius, 0, of.id};
+    const auto record = [&](const PackedParticleFloat& of) {
+        return PackedParticle{0.0, 0.0, 0.0, of.vx, of.vy, of.vz, pairs.uniformRadius, 0, of.id};
     };
-    const SinglePrecisionRecord& own = pairs.singles[pairs.placeAt(seat)];
-    const LaneRows& rows = pairs.list.rows;
+    const PackedParticleFloat& own = pairs.packedFloats[pairs.sortedIndexAt(laneSlot)];
+    const NeighborRows& rows = pairs.list.rows;
     Sums sums;
-    for (std::uint32_t k = 0; k < rows.length[seat]; ++k) {
-        const SinglePrecisionRecord& other = pairs.singles[rows.placeAt(seat, k)];
+    for (std::uint32_t k = 0; k < rows.length[laneSlot]; ++k) {
+        const PackedParticleFloat& other = pairs.packedFloats[rows.sortedIndexAt(laneSlot, k)];
         if (!coincide(own, other)) continue;
-        const PairRecord p = record(own);
-        const PairRecord i = record(other);
+        const PackedParticle p = record(own);
+        const PackedParticle i = record(other);
         PairTraversal::visitPair(p, i, [&](const Vec3& separation, double distanceSq) {
             addPair<Variant{terms, true, true, false}>({p, i, separation, distanceSq}, pairs.uniform, sums);
         });
@@ -188,11 +188,11 @@ Sums partingSums(const PairTraversal& pairs, std::size_t seat) {
     return sums;
 }
 
-Sums sumsOf(const LaneSums& of, std::size_t lane) {
+Sums sumsOf(const ClusterSums& of, std::size_t lane) {
     return {Vec3(of.x[lane], of.y[lane], of.z[lane]), of.energy[lane]};
 }
 
-void keep(const Sums& sums, std::size_t lane, LaneSums& of) {
+void keep(const Sums& sums, std::size_t lane, ClusterSums& of) {
     of.x[lane] = sums.force.x();
     of.y[lane] = sums.force.y();
     of.z[lane] = sums.force.z();
@@ -200,66 +200,67 @@ void keep(const Sums& sums, std::size_t lane, LaneSums& of) {
 }
 
 /// What lanes do not know of coincident particles. In double they are done again by the scalar kernel, which knows how
-/// to part them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be rounded
+/// to block them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be rounded
 /// differently.
 template <PairTerms terms>
-void partCoincident(const PairTraversal& pairs, const PairSums& wanted, const Group& group, LaneSums& of) {
+void partCoincident(const PairTraversal& pairs, const PairSums& wanted, const Cluster& cluster, ClusterSums& of) {
     const Kernel<Variant{terms, true, true, false}> scalar{pairs, wanted};
-    for (std::size_t seat = group.first; seat < group.end; ++seat) {
-        const std::size_t lane = seat - group.first;
+    for (std::size_t laneSlot = cluster.first; laneSlot < cluster.end; ++laneSlot) {
+        const std::size_t lane = laneSlot - cluster.first;
         if ((of.coincident >> lane & 1U) == 0) continue;
-        if (!pairs.singles.empty())
-            keep(sumsOf(of, lane) + partingSums<terms>(pairs, seat), lane, of);
-        else if (isCoincident(pairs, seat))
-            keep(scalar(seat), lane, of);
+        if (!pairs.packedFloats.empty())
+            keep(sumsOf(of, lane) + partingSums<terms>(pairs, laneSlot), lane, of);
+        else if (isCoincident(pairs, laneSlot))
+            keep(scalar(laneSlot), lane, of);
     }
 }
 
-/// Fetches a group's share of the records that the next part comes upon into the cache. Measured with `globular bench
+/// Fetches a cluster's share of the packed that the next block comes upon into the cache. Measured with `globular bench
 /// --filter forces` on Zen 5: a fifth less time at a million particles, little at 32,000.
 /// Always inline: gcc takes a call that does nothing but this for one that does nothing.
 template <class Record>
-[[gnu::always_inline]] inline void fetchFront(const PairTraversal& pairs, const std::vector<Record>& records,
-                                              std::size_t group) {
-    const std::size_t next = group / kGroupsPerPart + 1;
+[[gnu::always_inline]] inline void fetchFront(const PairTraversal& pairs, const std::vector<Record>& packed,
+                                              std::size_t cluster) {
+    const std::size_t next = cluster / kClustersPerBlock + 1;
     if (next >= pairs.list.fronts.size()) return;
-    const std::size_t share = group % kGroupsPerPart;
+    const std::size_t share = cluster % kClustersPerBlock;
     for (const CellRange& range : pairs.list.fronts[next]) {
-        // At its turn into the next layer a front is long, and soon forgotten. Chosen: others are little above a part.
-        constexpr std::size_t kMost = 4 * kSeatsPerPart;
+        // At its turn into the next layer a front is long, and soon forgotten. Chosen: others are little above a block.
+        constexpr std::size_t kMost = 4 * kSlotsPerBlock;
         const std::size_t count = std::min<std::size_t>(range.end - range.begin, kMost);
-        const std::size_t end = range.begin + count * (share + 1) / kGroupsPerPart;
+        const std::size_t end = range.begin + count * (share + 1) / kClustersPerBlock;
         constexpr std::size_t kPerLine = 64 / sizeof(Record);
-        for (std::size_t place = range.begin + count * share / kGroupsPerPart; place < end; place += kPerLine)
-            __builtin_prefetch(&records[place]);
+        for (std::size_t sortedIndex = range.begin + count * share / kClustersPerBlock; sortedIndex < end;
+             sortedIndex += kPerLine)
+            __builtin_prefetch(&packed[sortedIndex]);
     }
 }
 
 /// What is wanted of uniform particles, a particle a lane.
 template <PairTerms terms>
-double addUpGroups(const PairTraversal& pairs, const PairSums& wanted) {
+double addUpClusters(const PairTraversal& pairs, const PairSums& wanted) {
     const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
-    const bool isSingle = !pairs.singles.empty();
-    const LanePass pass{.rows = pairs.list.rows,
-                        .records = pairs.records,
-                        .singles = pairs.singles,
+    const bool isSingle = !pairs.packedFloats.empty();
+    const SimdPass pass{.rows = pairs.list.rows,
+                        .packed = pairs.packed,
+                        .packedFloats = pairs.packedFloats,
                         .unit = isSingle ? pairs.unit : 1.0,
                         .constants = pairs.uniform,
                         .terms = terms,
                         .energy = hasEnergy,
                         .matrix = wanted.matrix,
                         .weights = wanted.weights};
-    return overGroups(pairs, hasEnergy, [&](const Group& group) {
-        LaneSums of;
-        isSingle ? fetchFront(pairs, pairs.singles, group.first / kGroup)
-                 : fetchFront(pairs, pairs.records, group.first / kGroup);
-        addUpGroup(pass, group.first / kGroup, of);
-        if (of.coincident != 0) partCoincident<terms>(pairs, wanted, group, of);
-        for (std::size_t seat = group.first; seat < group.end; ++seat)
-            forceOn(pairs, seat, wanted) = sumsOf(of, seat - group.first).force;
+    return overClusters(pairs, hasEnergy, [&](const Cluster& cluster) {
+        ClusterSums of;
+        isSingle ? fetchFront(pairs, pairs.packedFloats, cluster.first / kClusterSize)
+                 : fetchFront(pairs, pairs.packed, cluster.first / kClusterSize);
+        addUpCluster(pass, cluster.first / kClusterSize, of);
+        if (of.coincident != 0) partCoincident<terms>(pairs, wanted, cluster, of);
+        for (std::size_t laneSlot = cluster.first; laneSlot < cluster.end; ++laneSlot)
+            forceOn(pairs, laneSlot, wanted) = sumsOf(of, laneSlot - cluster.first).force;
         // A sum in order takes a fifth of a pass over few neighbors (`globular bench --filter "forces powder"`).
         const auto* const energies = of.energy.data();
-        return hasEnergy ? std::accumulate(energies, energies + (group.end - group.first), 0.0) : 0.0;
+        return hasEnergy ? std::accumulate(energies, energies + (cluster.end - cluster.first), 0.0) : 0.0;
     });
 }
 
@@ -268,7 +269,7 @@ using Pass = double (*)(const PairTraversal&, const PairSums&);
 template <PairTerms terms, bool isUniform>
 Pass passFor(const PairSums& wanted) {
     if constexpr (isUniform) {
-        return addUpGroups<terms>;
+        return addUpClusters<terms>;
     } else {
         if (wanted.matrix != nullptr) return run<Variant{terms, false, true, true}>;
         return wanted.energy != nullptr ? run<Variant{terms, false, true, false}>
@@ -293,7 +294,7 @@ Pass passFor(PairTerms terms, const PairSums& wanted) {
 void addUpPairs(const PairTraversal& pairs, const PairSums& wanted) {
     if (wanted.matrix != nullptr) {
         makeRoom(*wanted.matrix, pairs.list, pairs.terms.pair.friction);
-        wanted.matrix->records = pairs.records;
+        wanted.matrix->packed = pairs.packed;
     }
     const PairTerms terms = pairs.terms.pair;
     const Pass pass = pairs.terms.uniform ? passFor<true>(terms, wanted) : passFor<false>(terms, wanted);
@@ -303,11 +304,11 @@ void addUpPairs(const PairTraversal& pairs, const PairSums& wanted) {
 }
 
 double pairEnergySum(const PairTraversal& pairs) {
-    const auto energyOfOne = [&](std::size_t seat) {
+    const auto energyOfOne = [&](std::size_t laneSlot) {
         double energy = 0.0;
-        const PairRecord& p = pairs.records[pairs.placeAt(seat)];
-        pairs.forEachNeighbor(seat, [&](std::uint32_t other, const Vec3&, double distanceSq) {
-            const PairRecord& i = pairs.records[other];
+        const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
+        pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3&, double distanceSq) {
+            const PackedParticle& i = pairs.packed[other];
             energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), pairs.constants<false>(p, i));
         });
         return energy;

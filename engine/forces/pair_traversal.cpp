@@ -13,10 +13,11 @@ namespace {
 /// Units in the reach of a list: differences within it stay below 2^24, which float holds exactly.
 constexpr double kUnits = 8388608.0;
 
-/// How fast particles leave the place they have in the crowd, at most, m/s: what all have in common moves no list.
+/// How fast particles leave the sortedIndex they have in the crowd, at most, m/s: what all have in common moves no
+/// list.
 double fastest(const std::vector<Vec3>& velocities) {
     const auto velocity = [&](std::size_t p) -> const Vec3& { return velocities[p]; };
-    return farthestFrom(extentOver(velocities.size(), velocity).middle(), velocities.size(), velocity);
+    return farthestFrom(boundingBoxOf(velocities.size(), velocity).middle(), velocities.size(), velocity);
 }
 
 /// Entries of a row that lie within the cutoff (m), if they are spread evenly.
@@ -34,17 +35,17 @@ void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, c
                               double step) {
     const bool areTheSame = areMovesNoted && particles.count() == list.count();
     if (!areTheSame) terms = termsFor(law, particles);
-    if (!std::exchange(areMovesNoted, false)) forgetMoves();
+    if (!std::exchange(areMovesNoted, false)) invalidateDisplacementBound();
     const bool isCovered = (displacements && coversWithin(list, *displacements, particles.count(), terms.cutoff)) ||
                            covers(list, particles.position, terms.cutoff);
     if (!isCovered) {
         const bool isForeseen = step > 0.0 && list.count() > 0 && particles.count() > 0;
         const double skin =
-            isForeseen ? cheapestSkin(neighborsWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
-                       : kListSkin;
+            isForeseen ? optimalSkin(neighborsWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
+                       : kDefaultSkin;
         build(list, particles.position, terms.cutoff, skin * terms.cutoff);
-        displacements = Extent{Vec3::Zero(), Vec3::Zero()};
-        hasRecords = false;  // they are in another order
+        displacements = BoundingBox{Vec3::Zero(), Vec3::Zero()};
+        arePacked = false;  // they are in another order
     }
 }
 
@@ -56,40 +57,41 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);
     }
     const bool hasSingles = terms.uniform && precision == Precision::singles;
-    hasRecords = false;
-    if (!hasSingles) makeRecords(particles, velocities);
-    singles.resize(hasSingles ? particles.count() : 0);
+    arePacked = false;
+    if (!hasSingles) packParticles(particles, velocities);
+    packedFloats.resize(hasSingles ? particles.count() : 0);
     unit = list.reach / kUnits;
-    const OrderedParticles from(list, particles, velocities);
-    inRanges(singles.size(), kParticleGrain,
-             [&](std::size_t begin, std::size_t end) { makeSingles(from, 1.0 / unit, begin, end, singles.data()); });
+    const SortedParticles from(list, particles, velocities);
+    inRanges(packedFloats.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+        packFloats(from, 1.0 / unit, begin, end, packedFloats.data());
+    });
 }
 
 void PairTraversal::forgetList() {
     list.builtAt.clear();
-    list.placeOf.clear();
-    forgetMoves();
+    list.sortedIndexOf.clear();
+    invalidateDisplacementBound();
 }
 
-void PairTraversal::noteMoves(const Extent& moves) {
+void PairTraversal::addDisplacementBound(const BoundingBox& moves) {
     if (!displacements) return;
     areMovesNoted = true;
     displacements->low += moves.low;
     displacements->high += moves.high;
 }
 
-void PairTraversal::forgetMoves() {
+void PairTraversal::invalidateDisplacementBound() {
     areMovesNoted = false;
     displacements.reset();
 }
 
-void PairTraversal::makeRecords(const Particles& particles, const std::vector<Vec3>& velocities) {
-    if (hasRecords) return;
-    hasRecords = true;
-    records.resize(particles.count());
-    const OrderedParticles from(list, particles, velocities);
-    inRanges(records.size(), kParticleGrain,
-             [&](std::size_t begin, std::size_t end) { makeDoubles(from, begin, end, records.data()); });
+void PairTraversal::packParticles(const Particles& particles, const std::vector<Vec3>& velocities) {
+    if (arePacked) return;
+    arePacked = true;
+    packed.resize(particles.count());
+    const SortedParticles from(list, particles, velocities);
+    inRanges(packed.size(), kParticleGrain,
+             [&](std::size_t begin, std::size_t end) { packDoubles(from, begin, end, packed.data()); });
 }
 
 }  // namespace engine

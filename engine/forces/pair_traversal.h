@@ -27,14 +27,14 @@ struct PairTraversal {
     PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
     double uniformRadius = 0.0;     ///< of every particle there, m
     NeighborList list;
-    Precision precision = Precision::doubles;             ///< of forces where the terms are uniform
-    Scratch<std::vector<PairRecord>> records;             ///< in the list's order, where there are any
-    Scratch<std::vector<SinglePrecisionRecord>> singles;  ///< in the list's order; empty in double
-    double unit = 0.0;                                    ///< of the singles' positions, m
+    Precision precision = Precision::doubles;                ///< of forces where the terms are uniform
+    Scratch<std::vector<PackedParticle>> packed;             ///< in the list's order, where there are any
+    Scratch<std::vector<PackedParticleFloat>> packedFloats;  ///< in the list's order; empty in double
+    double unit = 0.0;                                       ///< of the packedFloats' positions, m
     /// Since the list was built, m; none where somebody has prepared without saying how far particles have moved.
-    std::optional<Extent> displacements;
+    std::optional<BoundingBox> displacements;
     bool areMovesNoted = false;  ///< since the last prepare(), in the displacements
-    bool hasRecords = false;     ///< not in float, unless they are asked for
+    bool arePacked = false;      ///< not in float, unless they are asked for
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
@@ -44,69 +44,71 @@ struct PairTraversal {
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
 
-    /// The first part of it: brings the list up to date, but makes no records.
+    /// The first block of it: brings the list up to date, but makes no packed.
     void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
     /// Since the last call, or else renewList(), every particle has moved by some vector in a box (m), and nothing but
     /// its velocity has changed besides. Spares the next renewList() a look at each of them.
-    void noteMoves(const Extent& moves);
+    void addDisplacementBound(const BoundingBox& moves);
 
     /// Particles are moved in ways that nobody notes.
-    void forgetMoves();
+    void invalidateDisplacementBound();
 
     /// Particles have other indices now: the list serves nobody any more.
     void forgetList();
 
-    /// After prepare(), for the same: the records, where there are none yet, for whatever float is not enough for.
-    void makeRecords(const Particles& particles, const std::vector<Vec3>& velocities);
+    /// After prepare(), for the same: the packed, where there are none yet, for whatever float is not enough for.
+    void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
 
     /// Brings back the list that was built for these positions (m) with this reach (m).
     void restoreList(const std::vector<Vec3>& builtAt, double reach) {
         build(list, builtAt, reach, 0.0);
-        forgetMoves();
+        invalidateDisplacementBound();
     }
 
     template <bool isUniform>
-    PairConstants<double> constants(const PairRecord& p, const PairRecord& i) const {
+    PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {
         if constexpr (isUniform) return uniform;
         return pairConstants<double>(pairMaterials[p.material * materialCount + i.material], p.radius + i.radius);
     }
 
-    /// Place of the particle in a seat of the list.
-    std::uint32_t placeAt(std::size_t seat) const { return static_cast<std::uint32_t>(list.rows.selves[seat]); }
+    /// Place of the particle in a laneSlot of the list.
+    std::uint32_t sortedIndexAt(std::size_t laneSlot) const {
+        return static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]);
+    }
 
-    /// Calls visit(other place, P, P.P) for every other particle within the cutoff of the one in a seat of the list.
-    /// A list's row holds some beyond the cutoff, unpredictably so: they are sifted without branches first.
+    /// Calls visit(other sortedIndex, P, P.P) for every other particle within the cutoff of the one in a laneSlot of
+    /// the list. A list's row holds some beyond the cutoff, unpredictably so: they are sifted without branches first.
     template <class Visit>
-    void forEachNeighbor(std::size_t seat, const Visit& visit) const {
-        const PairRecord& p = records[placeAt(seat)];
+    void forEachNeighbor(std::size_t laneSlot, const Visit& visit) const {
+        const PackedParticle& p = packed[sortedIndexAt(laneSlot)];
         const double cutoffSq = terms.cutoff * terms.cutoff;
         constexpr std::uint32_t kSieve = 128;  // chosen: longer than most rows
         std::array<std::uint32_t, kSieve> within;
-        const RowPart& part = list.rows.parts[LaneRows::partOf(seat)];
-        const std::size_t first = list.rows.at(seat, 0);
-        const std::uint32_t length = list.rows.length[seat];
+        const RowBlock& block = list.rows.blocks[NeighborRows::blockOf(laneSlot)];
+        const std::size_t first = list.rows.at(laneSlot, 0);
+        const std::uint32_t length = list.rows.length[laneSlot];
         for (std::uint32_t begin = 0; begin < length; begin += kSieve) {
             const std::uint32_t end = std::min(begin + kSieve, length);
             std::size_t found = 0;
             for (std::uint32_t k = begin; k < end; ++k) {
-                const std::uint32_t other = part.placeAt(first + k * kGroup);
+                const std::uint32_t other = block.sortedIndexAt(first + k * kClusterSize);
                 within[found] = other;
-                found += squaredLength(separationOf(p, records[other])) < cutoffSq ? 1U : 0U;
+                found += squaredLength(separationOf(p, packed[other])) < cutoffSq ? 1U : 0U;
             }
             for (std::size_t k = 0; k < found; ++k) {
                 const auto visitIt = [&](const Vec3& separation, double distanceSq) {
                     visit(within[k], separation, distanceSq);
                 };
-                visitPair(p, records[within[k]], visitIt);
+                visitPair(p, packed[within[k]], visitIt);
             }
         }
     }
 
     /// Calls visit(P, P.P) for a pair; one that coincides has a stand-in for P.
     template <class Visit>
-    static void visitPair(const PairRecord& p, const PairRecord& i, const Visit& visit) {
+    static void visitPair(const PackedParticle& p, const PackedParticle& i, const Visit& visit) {
         Vec3 separation = separationOf(p, i);
         double distanceSq = squaredLength(separation);
         if (distanceSq == 0.0) {
@@ -117,7 +119,7 @@ struct PairTraversal {
         visit(separation, distanceSq);
     }
 
-    /// Calls body(seat in the list) for every particle, shared out over the threads.
+    /// Calls body(laneSlot in the list) for every particle, shared out over the threads.
     template <class Body>
     void forEachParticle(const Body& body) const {
         constexpr std::size_t kGrain = 64;  // chosen: particles of a dense scene take half a microsecond each
@@ -125,7 +127,9 @@ struct PairTraversal {
     }
 
  private:
-    static Vec3 separationOf(const PairRecord& p, const PairRecord& i) { return {p.x - i.x, p.y - i.y, p.z - i.z}; }
+    static Vec3 separationOf(const PackedParticle& p, const PackedParticle& i) {
+        return {p.x - i.x, p.y - i.y, p.z - i.z};
+    }
 };
 
 }  // namespace engine

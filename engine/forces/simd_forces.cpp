@@ -14,26 +14,26 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-Doubles sourceOf(const LanePass& pass, const std::int32_t* selves, std::uint32_t from, Doubles* /*kind*/) {
-    return Doubles(pass.records.data(), selves, from);
+Doubles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, std::uint32_t from, Doubles* /*kind*/) {
+    return Doubles(pass.packed.data(), ownIndices, from);
 }
 
-Singles sourceOf(const LanePass& pass, const std::int32_t* selves, std::uint32_t from, Singles* /*kind*/) {
-    return Singles(pass.singles.data(), selves, from);
+Singles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, std::uint32_t from, Singles* /*kind*/) {
+    return Singles(pass.packedFloats.data(), ownIndices, from);
 }
 
-/// The matrix's rows of a block of lanes as they fill up: every pair is written, and the place to write moves on where
-/// it has an entry.
+/// The matrix's rows of a block of lanes as they fill up: every pair is written, and the sortedIndex to write moves on
+/// where it has an entry.
 template <class T>
 struct MatrixRows {
     PairMatrix* matrix;
-    std::size_t first;  ///< seat of the first lane
-    std::array<std::uint32_t, kGroup> length = {};
+    std::size_t first;  ///< laneSlot of the first lane
+    std::array<std::uint32_t, kClusterSize> length = {};
 
     template <bool hasFriction, class Entry>
     void add(const Entry* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
         constexpr Tag<T> kTag{};
-        std::array<T, kGroup> alongOf, acrossOf;
+        std::array<T, kClusterSize> alongOf, acrossOf;
         hn::StoreU(along, kTag, alongOf.data());
         auto isEntry = hn::Ne(along, hn::Zero(kTag));
         if constexpr (hasFriction) {
@@ -41,12 +41,12 @@ struct MatrixRows {
             isEntry = hn::Or(isEntry, hn::Ne(across, hn::Zero(kTag)));
         }
         const std::uint32_t bits = bitsOf<T>(hn::And(isPair, isEntry));
-        const std::size_t part = LaneRows::partOf(first);
+        const std::size_t block = NeighborRows::blockOf(first);
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane) {
             const std::size_t at = matrix->rows.at(first + lane, length[lane]);
-            entriesOf<Entry>(matrix->rows.parts[part])[at] = others[lane];
-            matrix->along[part][at] = static_cast<double>(alongOf[lane]);
-            if constexpr (hasFriction) matrix->across[part][at] = static_cast<double>(acrossOf[lane]);
+            entriesOf<Entry>(matrix->rows.blocks[block])[at] = others[lane];
+            matrix->along[block][at] = static_cast<double>(alongOf[lane]);
+            if constexpr (hasFriction) matrix->across[block][at] = static_cast<double>(acrossOf[lane]);
             length[lane] += (bits >> lane) & 1U;
         }
     }
@@ -66,28 +66,28 @@ void add(Vector3<V>& sum, V factor, const Vector3<V>& vector) {
     sum.z = hn::Add(sum.z, hn::Mul(factor, vector.z));
 }
 
-/// A block of lanes of a group, from one of its lanes on. Flattened: where anything in the loop is a call, every vector
-/// goes through memory and it takes twice as long under AVX-512.
+/// A block of lanes of a cluster, from one of its lanes on. Flattened: where anything in the loop is a call, every
+/// vector goes through memory and it takes twice as long under AVX-512.
 template <class Source, class Kind, class Entry>
-HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t lane, LaneSums& sums) {
+HWY_FLATTEN void addUpBlock(const SimdPass& pass, std::size_t cluster, std::size_t lane, ClusterSums& sums) {
     using T = typename Source::T;
     constexpr Tag<T> kTag{};
-    const std::size_t first = group * kGroup + lane;
+    const std::size_t first = cluster * kClusterSize + lane;
     const std::uint32_t longest = longestRow<T>(pass.rows, first);
-    const RowPart& part = pass.rows.parts[LaneRows::partOf(first)];
-    const Source source = sourceOf(pass, &pass.rows.selves[first], part.base, static_cast<Source*>(nullptr));
+    const RowBlock& block = pass.rows.blocks[NeighborRows::blockOf(first)];
+    const Source source = sourceOf(pass, &pass.rows.ownIndices[first], block.base, static_cast<Source*>(nullptr));
     const Law<T, Kind> law(pass.constants, pass.weights, pass.unit);
     Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     Lanes<T> energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     [[maybe_unused]] MatrixRows<T> matrixRows{pass.matrix, first};
-    const Entry* entry = &entriesOf<Entry>(part)[pass.rows.at(first, 0)];
+    const Entry* entry = &entriesOf<Entry>(block)[pass.rows.at(first, 0)];
     constexpr bool kVelocity = Kind::kPair.damping;
     auto ahead = source.template load<kVelocity>(entry);
-    for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
+    for (std::uint32_t k = 0; k < longest; ++k, entry += kClusterSize) {
         fetchAhead(entry);
         const auto others = kReadsAhead ? ahead : source.template load<kVelocity>(entry);
-        if constexpr (kReadsAhead) ahead = source.template load<kVelocity>(entry + kGroup);
+        if constexpr (kReadsAhead) ahead = source.template load<kVelocity>(entry + kClusterSize);
         const Row<T> row = source.template row<kVelocity>(entry, others);
         const Lanes<T> separationSq = dot(row.separation, row.separation);
         const Lanes<T> distanceSq = law.squareMeters(separationSq);
@@ -96,7 +96,7 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
             coincident = hn::Or(coincident, source.sharePlace(entry, isCoincident));
         Lanes<T> approach = hn::Zero(kTag);
         if constexpr (Kind::kPair.damping) approach = dot(row.velocity, row.separation);
-        // A place that fills up a row is the particle itself, for which P is zero.
+        // A sortedIndex that fills up a row is the particle itself, for which P is zero.
         const auto inverse = law.inverseOf(distanceSq);
         const Lanes<T> conservative = law.conservative(inverse);
         add(force, law.coefficient(inverse, approach, conservative), row.separation);
@@ -122,7 +122,7 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
     }
     if constexpr (Kind::kMatrix) matrixRows.finish();
     const double unit = pass.unit;  // here, where nobody can change it meanwhile: the loop becomes one of vectors
-    std::array<T, kGroup> x, y, z, e;
+    std::array<T, kClusterSize> x, y, z, e;
     hn::StoreU(force.x, kTag, x.data());
     hn::StoreU(force.y, kTag, y.data());
     hn::StoreU(force.z, kTag, z.data());
@@ -137,44 +137,44 @@ HWY_FLATTEN void addUpBlock(const LanePass& pass, std::size_t group, std::size_t
 }
 
 template <class Source, class Kind>
-void addUpLanes(const LanePass& pass, std::size_t group, LaneSums& sums) {
+void addUpLanes(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
     const std::size_t step = hn::Lanes(Tag<typename Source::T>());
-    const bool isWide = pass.rows.parts[LaneRows::partOf(group * kGroup)].isWide();
-    for (std::size_t lane = 0; lane < kGroup; lane += step)
-        isWide ? addUpBlock<Source, Kind, std::int32_t>(pass, group, lane, sums)
-               : addUpBlock<Source, Kind, std::uint16_t>(pass, group, lane, sums);
+    const bool uses32Bits = pass.rows.blocks[NeighborRows::blockOf(cluster * kClusterSize)].uses32Bits();
+    for (std::size_t lane = 0; lane < kClusterSize; lane += step)
+        uses32Bits ? addUpBlock<Source, Kind, std::int32_t>(pass, cluster, lane, sums)
+                   : addUpBlock<Source, Kind, std::uint16_t>(pass, cluster, lane, sums);
 }
 
 template <class Source, PairTerms terms>
-void addUpWith(const LanePass& pass, std::size_t group, LaneSums& sums) {
+void addUpWith(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
     if (pass.matrix != nullptr)
-        addUpLanes<Source, Terms<terms, Besides::energyAndMatrix>>(pass, group, sums);
+        addUpLanes<Source, Terms<terms, Besides::energyAndMatrix>>(pass, cluster, sums);
     else if (pass.energy)
-        addUpLanes<Source, Terms<terms, Besides::energy>>(pass, group, sums);
+        addUpLanes<Source, Terms<terms, Besides::energy>>(pass, cluster, sums);
     else
-        addUpLanes<Source, Terms<terms, Besides::nothing>>(pass, group, sums);
+        addUpLanes<Source, Terms<terms, Besides::nothing>>(pass, cluster, sums);
 }
 
 template <class Source>
-void addUpFrom(const LanePass& pass, std::size_t group, LaneSums& sums) {
+void addUpFrom(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
     if (pass.terms.friction)
-        addUpWith<Source, PairTerms{true, true, true}>(pass, group, sums);
+        addUpWith<Source, PairTerms{true, true, true}>(pass, cluster, sums);
     else if (pass.terms.damping && pass.terms.oneReach)
-        addUpWith<Source, PairTerms{true, true, false, true}>(pass, group, sums);
+        addUpWith<Source, PairTerms{true, true, false, true}>(pass, cluster, sums);
     else if (pass.terms.attraction)
-        pass.terms.damping ? addUpWith<Source, PairTerms{true, true}>(pass, group, sums)
-                           : addUpWith<Source, PairTerms{true, false}>(pass, group, sums);
+        pass.terms.damping ? addUpWith<Source, PairTerms{true, true}>(pass, cluster, sums)
+                           : addUpWith<Source, PairTerms{true, false}>(pass, cluster, sums);
     else
-        pass.terms.damping ? addUpWith<Source, PairTerms{false, true}>(pass, group, sums)
-                           : addUpWith<Source, PairTerms{false, false}>(pass, group, sums);
+        pass.terms.damping ? addUpWith<Source, PairTerms{false, true}>(pass, cluster, sums)
+                           : addUpWith<Source, PairTerms{false, false}>(pass, cluster, sums);
 }
 
-void addUpGroupHere(const LanePass& pass, std::size_t group, LaneSums& sums) {
+void addUpClusterHere(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
     sums.coincident = 0;
-    if (pass.singles.empty())
-        addUpFrom<Doubles>(pass, group, sums);
+    if (pass.packedFloats.empty())
+        addUpFrom<Doubles>(pass, cluster, sums);
     else
-        addUpFrom<Singles>(pass, group, sums);
+        addUpFrom<Singles>(pass, cluster, sums);
 }
 
 const char* instructionSetHere() {
@@ -189,14 +189,14 @@ HWY_AFTER_NAMESPACE();
 
 namespace engine {
 
-HWY_EXPORT(addUpGroupHere);
+HWY_EXPORT(addUpClusterHere);
 HWY_EXPORT(instructionSetHere);
 
-void addUpGroup(const LanePass& pass, std::size_t group, LaneSums& sums) {
-    HWY_DYNAMIC_DISPATCH(addUpGroupHere)(pass, group, sums);
+void addUpCluster(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
+    HWY_DYNAMIC_DISPATCH(addUpClusterHere)(pass, cluster, sums);
 }
 
-const char* laneInstructionSet() {
+const char* simdInstructionSet() {
     return HWY_DYNAMIC_DISPATCH(instructionSetHere)();
 }
 

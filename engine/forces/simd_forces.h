@@ -13,12 +13,12 @@
 
 namespace engine {
 
-/// One pass over groups of particles.
-struct LanePass {
-    const LaneRows& rows;
-    const std::vector<PairRecord>& records;             ///< read in double
-    const std::vector<SinglePrecisionRecord>& singles;  ///< read in float; empty: in double
-    double unit = 1.0;                                  ///< of the positions that are read, m
+/// One pass over clusters of particles.
+struct SimdPass {
+    const NeighborRows& rows;
+    const std::vector<PackedParticle>& packed;             ///< read in double
+    const std::vector<PackedParticleFloat>& packedFloats;  ///< read in float; empty: in double
+    double unit = 1.0;                                     ///< of the positions that are read, m
     PairConstants<double> constants;
     PairTerms terms;
     bool energy = false;
@@ -26,16 +26,16 @@ struct LanePass {
     MatrixWeights weights = {};    ///< of the matrix
 };
 
-/// Forces (N) and, where asked for, half of the pair energies (J) of a group's particles, by seat.
-struct LaneSums {
-    std::array<double, kGroup> x, y, z, energy;
+/// Forces (N) and, where asked for, half of the pair energies (J) of a cluster's particles, by laneSlot.
+struct ClusterSums {
+    std::array<double, kClusterSize> x, y, z, energy;
     /// A bit each: shares its position with another, as its record tells; in double also who is so near that P.P is 0.
     std::uint32_t coincident = 0;
 };
 
-void addUpGroup(const LanePass& pass, std::size_t group, LaneSums& sums);
+void addUpCluster(const SimdPass& pass, std::size_t cluster, ClusterSums& sums);
 
 /// Of the vectors that this machine runs: "AVX2", for example.
-const char* laneInstructionSet();
+const char* simdInstructionSet();
 
 }  // namespace engine

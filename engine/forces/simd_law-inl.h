@@ -1,10 +1,10 @@
 // Equation 2 and what follows from it over lanes: as pair_law.h has it, with the same order of products and sums; a
 // pair out of reach gives a zero instead of being skipped. Included once per instruction set.
-#if defined(ENGINE_LANE_LAW_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef ENGINE_LANE_LAW_INL_H
-#undef ENGINE_LANE_LAW_INL_H
+#if defined(ENGINE_SIMD_LAW_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ENGINE_SIMD_LAW_INL_H
+#undef ENGINE_SIMD_LAW_INL_H
 #else
-#define ENGINE_LANE_LAW_INL_H
+#define ENGINE_SIMD_LAW_INL_H
 #endif
 
 #include <cmath>
@@ -51,17 +51,17 @@ struct Law {
     }
 
     /// Shape:  unit of the rows' separations, m.
-    Law(const PairConstants<double>& wide, const MatrixWeights& weights, double unitLength) {
-        c.b1 = static_cast<T>(wide.b1);
-        c.bd = static_cast<T>(wide.bd);
-        c.inverseRestSq = inverseOfRounded(wide.inverseRestSq);
-        c.inverseReachSq = inverseOfRounded(wide.inverseReachSq);
-        c.inverseDampingSq = inverseOfRounded(wide.inverseDampingSq);
-        c.reachSq = static_cast<T>(wide.reachSq);
-        c.coreSq = static_cast<T>(wide.coreSq);
+    Law(const PairConstants<double>& entries32, const MatrixWeights& weights, double unitLength) {
+        c.b1 = static_cast<T>(entries32.b1);
+        c.bd = static_cast<T>(entries32.bd);
+        c.inverseRestSq = inverseOfRounded(entries32.inverseRestSq);
+        c.inverseReachSq = inverseOfRounded(entries32.inverseReachSq);
+        c.inverseDampingSq = inverseOfRounded(entries32.inverseDampingSq);
+        c.reachSq = static_cast<T>(entries32.reachSq);
+        c.coreSq = static_cast<T>(entries32.coreSq);
         b1 = set(c.b1);
         bd = set(c.bd);
-        bdPerUnit = set(static_cast<T>(wide.bd * unitLength));
+        bdPerUnit = set(static_cast<T>(entries32.bd * unitLength));
         inverseRestSq = set(c.inverseRestSq);
         inverseReachSq = set(c.inverseReachSq);
         reachSq = set(c.reachSq);
@@ -69,7 +69,7 @@ struct Law {
         coreSq = set(c.coreSq);
         unitSq = set(static_cast<T>(unitLength * unitLength));
         perUnit = set(static_cast<T>(1.0 / unitLength));
-        if constexpr (Kind::kPair.friction) friction = set(static_cast<T>(wide.friction));
+        if constexpr (Kind::kPair.friction) friction = set(static_cast<T>(entries32.friction));
         if constexpr (Kind::kEnergy) {
             const T reachOf = std::sqrt(c.reachSq);
             const T inverse = T(1) / reachOf;

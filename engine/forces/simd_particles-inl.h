@@ -1,10 +1,10 @@
-// Particles as lanes: how the kernels on vector units read records. Included once per instruction set, by Highway's
+// Particles as lanes: how the kernels on vector units read packed. Included once per instruction set, by Highway's
 // rules; the guard below is theirs.
-#if defined(ENGINE_LANE_RECORDS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef ENGINE_LANE_RECORDS_INL_H
-#undef ENGINE_LANE_RECORDS_INL_H
+#if defined(ENGINE_SIMD_RECORDS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ENGINE_SIMD_RECORDS_INL_H
+#undef ENGINE_SIMD_RECORDS_INL_H
 #else
-#define ENGINE_LANE_RECORDS_INL_H
+#define ENGINE_SIMD_RECORDS_INL_H
 #endif
 
 #include <algorithm>
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-/// What a row of places refers to, as it was read.
+/// What a row of sortedIndices refers to, as it was read.
 template <class Position, class Velocity>
 struct Others {
     Vector3<Position> position;
@@ -35,7 +35,7 @@ struct Row {
 
 /// Entries of the longest row of a block of lanes.
 template <class T>
-std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {
+std::uint32_t longestRow(const NeighborRows& rows, std::size_t first) {
     std::uint32_t longest = 0;
     for (std::size_t lane = 0; lane < hn::Lanes(Tag<T>()); ++lane)
         longest = std::max(longest, rows.length[first + lane]);
@@ -44,7 +44,7 @@ std::uint32_t longestRow(const LaneRows& rows, std::size_t first) {
 
 /// Entries of a row as numbers of 32 bits.
 template <class T, class Entry>
-Places<T> placesFrom(const Entry* entries) {
+Indices<T> indicesFrom(const Entry* entries) {
     constexpr hn::Rebind<std::int32_t, Tag<T>> kPlaces;
     const auto read = hn::LoadU(hn::Rebind<Entry, Tag<T>>(), entries);
     if constexpr (sizeof(Entry) < sizeof(std::int32_t))
@@ -54,8 +54,8 @@ Places<T> placesFrom(const Entry* entries) {
 }
 
 template <class V>
-V countedFrom(std::uint32_t base, V places) {
-    return hn::Sub(places, hn::Set(hn::DFromV<V>(), static_cast<std::int32_t>(base)));
+V countedFrom(std::uint32_t base, V sortedIndices) {
+    return hn::Sub(sortedIndices, hn::Set(hn::DFromV<V>(), static_cast<std::int32_t>(base)));
 }
 
 /// The particles of a block of lanes in double: positions as they are.
@@ -63,36 +63,39 @@ struct Doubles {
     using T = double;
     using V = Lanes<double>;
     static constexpr Tag<double> kTag{};
-    static constexpr std::int64_t kStride = sizeof(PairRecord) / sizeof(double);
+    static constexpr std::int64_t kStride = sizeof(PackedParticle) / sizeof(double);
 
-    const double* base;   ///< of the first record that a place of a row can mean
-    Places<double> self;  ///< places as rows have them
+    const double* base;    ///< of the first record that a sortedIndex of a row can mean
+    Indices<double> self;  ///< sortedIndices as rows have them
     Others<V, V> own;
 
-    /// Shape:  where the particles are among the records; the record that places of rows count from.
-    Doubles(const PairRecord* records, const std::int32_t* selves, std::uint32_t from) : base(&records[0].x) {
-        own = load<true>(selves);
-        base = &records[from].x;
-        self = countedFrom(from, hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), selves));
+    /// Shape:  where the particles are among the packed; the record that sortedIndices of rows count from.
+    Doubles(const PackedParticle* packed, const std::int32_t* ownIndices, std::uint32_t from) : base(&packed[0].x) {
+        own = load<true>(ownIndices);
+        base = &packed[from].x;
+        self = countedFrom(from, hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), ownIndices));
     }
 
     template <bool needsVelocity, class Entry>
-    Others<V, V> load(const Entry* places) const {
+    Others<V, V> load(const Entry* sortedIndices) const {
         Vector3<V> x;
         Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
 #if HWY_TARGET == HWY_SCALAR
-        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
+        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * sortedIndices[0] + of); };
         x = {field(0), field(1), field(2)};
         if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
 #elif HWY_TARGET <= HWY_AVX3
-        // x y z and vx of two records two apart, then of these two by two.
-        const auto halves = [&](int first) { return halvesFrom(base, kStride, places[first], places[first + 2]); };
+        // x y z and vx of two packed two apart, then of these two by two.
+        const auto halves = [&](int first) {
+            return halvesFrom(base, kStride, sortedIndices[first], sortedIndices[first + 2]);
+        };
         const V a = halves(0), b = halves(1), c = halves(4), d = halves(5);
         const V xz0 = hn::InterleaveLower(kTag, a, b), xz1 = hn::InterleaveLower(kTag, c, d);
         const V yu0 = hn::InterleaveUpper(kTag, a, b), yu1 = hn::InterleaveUpper(kTag, c, d);
         x = {evenBlocks(xz0, xz1), evenBlocks(yu0, yu1), oddBlocks(xz0, xz1)};
         if constexpr (needsVelocity) {
-            const V vw0 = blocksOf(base + 4, kStride, places), vw1 = blocksOf(base + 4, kStride, places + 1);
+            const V vw0 = blocksOf(base + 4, kStride, sortedIndices),
+                    vw1 = blocksOf(base + 4, kStride, sortedIndices + 1);
             v = {oddBlocks(yu0, yu1), hn::InterleaveLower(kTag, vw0, vw1), hn::InterleaveUpper(kTag, vw0, vw1)};
         }
 #else
@@ -100,12 +103,12 @@ struct Doubles {
         const auto pairs = [](const double* field, const Entry* from) {
             return blocksFrom(kTag, field, kStride, from, 2);
         };
-        const V xy0 = pairs(base, places), xy1 = pairs(base, places + 1);
-        const V zu0 = pairs(base + 2, places), zu1 = pairs(base + 2, places + 1);
+        const V xy0 = pairs(base, sortedIndices), xy1 = pairs(base, sortedIndices + 1);
+        const V zu0 = pairs(base + 2, sortedIndices), zu1 = pairs(base + 2, sortedIndices + 1);
         x = {hn::InterleaveLower(kTag, xy0, xy1), hn::InterleaveUpper(kTag, xy0, xy1),
              hn::InterleaveLower(kTag, zu0, zu1)};
         if constexpr (needsVelocity) {
-            const V vw0 = pairs(base + 4, places), vw1 = pairs(base + 4, places + 1);
+            const V vw0 = pairs(base + 4, sortedIndices), vw1 = pairs(base + 4, sortedIndices + 1);
             v = {hn::InterleaveUpper(kTag, zu0, zu1), hn::InterleaveLower(kTag, vw0, vw1),
                  hn::InterleaveUpper(kTag, vw0, vw1)};
         }
@@ -114,11 +117,11 @@ struct Doubles {
     }
 
     template <bool needsVelocity, class Entry>
-    Row<double> row(const Entry* places, const Others<V, V>& others) const {
+    Row<double> row(const Entry* sortedIndices, const Others<V, V>& others) const {
         const hn::Rebind<std::int64_t, Tag<double>> kWide;
         Row<double> row;
-        row.isPair =
-            hn::RebindMask(kTag, hn::Ne(hn::PromoteTo(kWide, placesFrom<double>(places)), hn::PromoteTo(kWide, self)));
+        row.isPair = hn::RebindMask(
+            kTag, hn::Ne(hn::PromoteTo(kWide, indicesFrom<double>(sortedIndices)), hn::PromoteTo(kWide, self)));
         row.separation = difference(own.position, others.position);
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
         return row;
@@ -126,7 +129,7 @@ struct Doubles {
 
     /// Of pairs of a row without separation those that share their position: all, or nearly.
     template <class Entry>
-    hn::Mask<Tag<double>> sharePlace(const Entry* /*places*/, hn::Mask<Tag<double>> pairs) const {
+    hn::Mask<Tag<double>> sharePlace(const Entry* /*sortedIndices*/, hn::Mask<Tag<double>> pairs) const {
         return pairs;
     }
 };
@@ -136,31 +139,31 @@ struct Doubles {
 struct Singles {
     using T = float;
     using V = Lanes<float>;
-    using I = Places<float>;
+    using I = Indices<float>;
     static constexpr Tag<float> kTag{};
     static constexpr hn::Rebind<std::int32_t, Tag<float>> kWhole{};
-    static constexpr std::int64_t kStride = sizeof(SinglePrecisionRecord) / sizeof(float);
+    static constexpr std::int64_t kStride = sizeof(PackedParticleFloat) / sizeof(float);
 
-    const SinglePrecisionRecord* records;  ///< the first that a place of a row can mean
-    const float* base;                     ///< the same; positions are bits of integers
-    I self;                                ///< places as rows have them
+    const PackedParticleFloat* packed;  ///< the first that a sortedIndex of a row can mean
+    const float* base;                  ///< the same; positions are bits of integers
+    I self;                             ///< sortedIndices as rows have them
     Others<I, V> own;
 
     /// Shape:  as Doubles has it.
-    Singles(const SinglePrecisionRecord* all, const std::int32_t* selves, std::uint32_t from)
-        : records(all + from), base(reinterpret_cast<const float*>(all)) {
-        own = load<true>(selves);
-        base = reinterpret_cast<const float*>(records);
-        self = countedFrom(from, hn::LoadU(kWhole, selves));
+    Singles(const PackedParticleFloat* all, const std::int32_t* ownIndices, std::uint32_t from)
+        : packed(all + from), base(reinterpret_cast<const float*>(all)) {
+        own = load<true>(ownIndices);
+        base = reinterpret_cast<const float*>(packed);
+        self = countedFrom(from, hn::LoadU(kWhole, ownIndices));
     }
 
     template <bool needsVelocity, class Entry>
-    Others<I, V> load(const Entry* places) const {
+    Others<I, V> load(const Entry* sortedIndices) const {
         Vector3<I> x;
         Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
         const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
 #if HWY_TARGET == HWY_SCALAR
-        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * places[0] + of); };
+        const auto field = [&](int of) { return hn::Load(kTag, base + kStride * sortedIndices[0] + of); };
         x = {whole(field(0)), whole(field(1)), whole(field(2))};
         if constexpr (needsVelocity) v = {field(4), field(5), field(6)};
 #else
@@ -171,12 +174,14 @@ struct Singles {
         const auto firsts = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
         const auto seconds = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
 #if HWY_TARGET <= HWY_AVX3
-        // Of eight records x and vx, y and vy, z and vz, in blocks of four each.
+        // Of eight packed x and vx, y and vy, z and vz, in blocks of four each.
         struct Eight {
             V xu, yv, zw;
         };
         const auto eight = [&](int first) {
-            const auto halves = [&](int at) { return halvesFrom(base, kStride, places[at], places[at + 4]); };
+            const auto halves = [&](int at) {
+                return halvesFrom(base, kStride, sortedIndices[at], sortedIndices[at + 4]);
+            };
             const V a = halves(first), b = halves(first + 1), c = halves(first + 2), d = halves(first + 3);
             const auto xy01 = lower(a, b), xy23 = lower(c, d);
             return Eight{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
@@ -190,8 +195,8 @@ struct Singles {
             return blocksFrom(kTag, field, kStride, from, 4);
         };
         const auto fields = [&](const float* field) {
-            const V a = fours(field, places), b = fours(field, places + 1);
-            const V c = fours(field, places + 2), d = fours(field, places + 3);
+            const V a = fours(field, sortedIndices), b = fours(field, sortedIndices + 1);
+            const V c = fours(field, sortedIndices + 2), d = fours(field, sortedIndices + 3);
             const auto xy01 = lower(a, b), xy23 = lower(c, d);
             return Vector3<V>{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
         };
@@ -204,9 +209,9 @@ struct Singles {
     }
 
     template <bool needsVelocity, class Entry>
-    Row<float> row(const Entry* places, const Others<I, V>& others) const {
+    Row<float> row(const Entry* sortedIndices, const Others<I, V>& others) const {
         Row<float> row;
-        row.isPair = hn::RebindMask(kTag, hn::Ne(placesFrom<float>(places), self));
+        row.isPair = hn::RebindMask(kTag, hn::Ne(indicesFrom<float>(sortedIndices), self));
         const Vector3<I> units = difference(own.position, others.position);
         row.separation = {hn::ConvertTo(kTag, units.x), hn::ConvertTo(kTag, units.y), hn::ConvertTo(kTag, units.z)};
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
@@ -215,13 +220,13 @@ struct Singles {
 
     /// Of pairs of a row without separation those that share their position: others are only nearer than a unit.
     template <class Entry>
-    hn::Mask<Tag<float>> sharePlace(const Entry* places, hn::Mask<Tag<float>> pairs) const {
+    hn::Mask<Tag<float>> sharePlace(const Entry* sortedIndices, hn::Mask<Tag<float>> pairs) const {
         std::array<std::uint8_t, 8> bits = {};
-        std::array<std::int32_t, kGroup> selves;
-        hn::StoreU(self, kWhole, selves.data());
+        std::array<std::int32_t, kClusterSize> ownIndices;
+        hn::StoreU(self, kWhole, ownIndices.data());
         hn::StoreMaskBits(kTag, pairs, bits.data());
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane)
-            if (!coincide(records[selves[lane]], records[places[lane]]))
+            if (!coincide(packed[ownIndices[lane]], packed[sortedIndices[lane]]))
                 bits[lane / 8] &= static_cast<std::uint8_t>(~(1U << lane % 8));
         return hn::LoadMaskBits(kTag, bits.data());
     }

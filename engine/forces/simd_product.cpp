@@ -14,27 +14,28 @@ namespace HWY_NAMESPACE {
 
 /// Flattened, as the forces' kernel is.
 template <bool hasFriction, class Entry>
-HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std::size_t lane, LaneProduct& product) {
+HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t cluster, std::size_t lane,
+                               ClusterProduct& product) {
     constexpr Tag<double> kTag{};
-    const std::size_t first = group * kGroup + lane;
-    const std::size_t part = LaneRows::partOf(first);
-    const RowPart& rows = matrix.rows.parts[part];
-    const Doubles source(matrix.records.data(), &matrix.rows.selves[first], rows.base);
+    const std::size_t first = cluster * kClusterSize + lane;
+    const std::size_t block = NeighborRows::blockOf(first);
+    const RowBlock& rows = matrix.rows.blocks[block];
+    const Doubles source(matrix.packed.data(), &matrix.rows.ownIndices[first], rows.base);
     const std::uint32_t longest = longestRow<double>(matrix.rows, first);
     Vector3<Lanes<double>> sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     std::size_t entry = matrix.rows.at(first, 0);
-    for (std::uint32_t k = 0; k < longest; ++k, entry += kGroup) {
-        const Entry* places = &entriesOf<Entry>(rows)[entry];
-        fetchAhead(places);
-        fetchAhead(&matrix.along[part][entry]);
-        const Row<double> row = source.row<true>(places, source.load<true>(places));
-        const auto along = hn::LoadU(kTag, &matrix.along[part][entry]);
+    for (std::uint32_t k = 0; k < longest; ++k, entry += kClusterSize) {
+        const Entry* sortedIndices = &entriesOf<Entry>(rows)[entry];
+        fetchAhead(sortedIndices);
+        fetchAhead(&matrix.along[block][entry]);
+        const Row<double> row = source.row<true>(sortedIndices, source.load<true>(sortedIndices));
+        const auto along = hn::LoadU(kTag, &matrix.along[block][entry]);
         const auto push = hn::Mul(along, dot(row.velocity, row.separation));
         sum.x = hn::Add(sum.x, hn::Mul(push, row.separation.x));
         sum.y = hn::Add(sum.y, hn::Mul(push, row.separation.y));
         sum.z = hn::Add(sum.z, hn::Mul(push, row.separation.z));
         if constexpr (hasFriction) {
-            const auto across = hn::LoadU(kTag, &matrix.across[part][entry]);
+            const auto across = hn::LoadU(kTag, &matrix.across[block][entry]);
             sum.x = hn::Add(sum.x, hn::Mul(across, row.velocity.x));
             sum.y = hn::Add(sum.y, hn::Mul(across, row.velocity.y));
             sum.z = hn::Add(sum.z, hn::Mul(across, row.velocity.z));
@@ -46,16 +47,17 @@ HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t group, std:
 }
 
 template <class Entry>
-void multiplyLanes(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
+void multiplyLanes(const PairMatrix& matrix, std::size_t cluster, ClusterProduct& product) {
     const bool hasFriction = !matrix.across.empty();
-    for (std::size_t lane = 0; lane < kGroup; lane += hn::Lanes(Tag<double>()))
-        hasFriction ? multiplyBlock<true, Entry>(matrix, group, lane, product)
-                    : multiplyBlock<false, Entry>(matrix, group, lane, product);
+    for (std::size_t lane = 0; lane < kClusterSize; lane += hn::Lanes(Tag<double>()))
+        hasFriction ? multiplyBlock<true, Entry>(matrix, cluster, lane, product)
+                    : multiplyBlock<false, Entry>(matrix, cluster, lane, product);
 }
 
-void multiplyGroupHere(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
-    matrix.rows.parts[LaneRows::partOf(group * kGroup)].isWide() ? multiplyLanes<std::int32_t>(matrix, group, product)
-                                                                 : multiplyLanes<std::uint16_t>(matrix, group, product);
+void multiplyClusterHere(const PairMatrix& matrix, std::size_t cluster, ClusterProduct& product) {
+    matrix.rows.blocks[NeighborRows::blockOf(cluster * kClusterSize)].uses32Bits()
+        ? multiplyLanes<std::int32_t>(matrix, cluster, product)
+        : multiplyLanes<std::uint16_t>(matrix, cluster, product);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -66,10 +68,10 @@ HWY_AFTER_NAMESPACE();
 
 namespace engine {
 
-HWY_EXPORT(multiplyGroupHere);
+HWY_EXPORT(multiplyClusterHere);
 
-void multiplyGroup(const PairMatrix& matrix, std::size_t group, LaneProduct& product) {
-    HWY_DYNAMIC_DISPATCH(multiplyGroupHere)(matrix, group, product);
+void multiplyCluster(const PairMatrix& matrix, std::size_t cluster, ClusterProduct& product) {
+    HWY_DYNAMIC_DISPATCH(multiplyClusterHere)(matrix, cluster, product);
 }
 
 }  // namespace engine

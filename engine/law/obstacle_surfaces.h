@@ -63,11 +63,11 @@ void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadi
                   sphere.radius, 1.0 / sphere.radius});
 }
 
-/// Every surface of the scenery, near or far.
+/// Every surface of the obstacles, near or far.
 template <class Visit>
-void forEachSurface(const Scenery& scenery, const Vec3& point, const Visit& visit) {
-    for (const Collider& collider : scenery.colliders)
-        std::visit([&](const auto& shape) { forEachSurface(shape, point, scenery.law.radius, visit); }, collider);
+void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& visit) {
+    for (const Obstacle& obstacle : obstacles.shapes)
+        std::visit([&](const auto& shape) { forEachSurface(shape, point, obstacles.law.radius, visit); }, obstacle);
 }
 
 /// Whether a shape may have a surface nearer than a reach (m). Far obstacles, which most are, need no root and no
@@ -90,16 +90,16 @@ bool mayReach(const Shape& shape, const Vec3& point, double reach) {
 
 /// Every surface whose distance from a particle's center is less than its radius (m).
 template <class Visit>
-void forEachTouched(const Scenery& scenery, const Vec3& point, double radius, const Visit& visit) {
-    for (const Collider& collider : scenery.colliders)
+void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius, const Visit& visit) {
+    for (const Obstacle& obstacle : obstacles.shapes)
         std::visit(
             [&](const auto& shape) {
                 if (!mayReach(shape, point, radius)) return;
-                forEachSurface(shape, point, scenery.law.radius, [&](const Surface& surface) {
+                forEachSurface(shape, point, obstacles.law.radius, [&](const Surface& surface) {
                     if (surface.height < radius) visit(surface);
                 });
             },
-            collider);
+            obstacle);
 }
 
 /// A surface and a particle as a pair: the repulsor sits repulsorRadius behind the face.
@@ -134,7 +134,7 @@ inline double normalForce(const Contact& contact, double normalSpeed) {
            pairCoefficient<kRepulsorTerms>(distanceSq, contact.distance * normalSpeed, contact.constants);
 }
 
-/// Energy of the conservative part, J.
+/// Energy of the conservative block, J.
 inline double contactEnergy(const Contact& contact) {
     return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
 }

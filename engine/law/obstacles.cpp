@@ -6,30 +6,30 @@
 
 namespace engine {
 
-std::size_t grainAmong(const Scenery& scenery) {
+std::size_t contactGrain(const Obstacles& obstacles) {
     constexpr std::size_t kContactGrain = 256;  // chosen: most contacts take a tenth of a microsecond, some a hundred
-    return scenery.colliders.empty() ? kParticleGrain : kContactGrain;
+    return obstacles.shapes.empty() ? kParticleGrain : kContactGrain;
 }
 
-Vec3 contactForce(const Scenery& scenery, const Probe& probe) {
+Vec3 contactForce(const Obstacles& obstacles, const Probe& probe) {
     Vec3 force = Vec3::Zero();
-    forEachTouched(scenery, probe.position, probe.radius, [&](const Surface& surface) {
-        addForce(surface, contactWith(surface, scenery.law, probe), probe, force);
+    forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
+        addForce(surface, contactWith(surface, obstacles.law, probe), probe, force);
     });
     return force;
 }
 
-double contactEnergy(const Scenery& scenery, const Probe& probe) {
+double contactEnergy(const Obstacles& obstacles, const Probe& probe) {
     double energy = 0.0;
-    forEachTouched(scenery, probe.position, probe.radius,
-                   [&](const Surface& surface) { energy += surfaceEnergy(surface, scenery.law, probe); });
+    forEachTouched(obstacles, probe.position, probe.radius,
+                   [&](const Surface& surface) { energy += surfaceEnergy(surface, obstacles.law, probe); });
     return energy;
 }
 
-ContactAnswer contactForceAndEnergy(const Scenery& scenery, const Probe& probe) {
+ContactAnswer contactForceAndEnergy(const Obstacles& obstacles, const Probe& probe) {
     ContactAnswer answer;
-    forEachTouched(scenery, probe.position, probe.radius, [&](const Surface& surface) {
-        const Contact contact = contactWith(surface, scenery.law, probe);
+    forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
+        const Contact contact = contactWith(surface, obstacles.law, probe);
         addForce(surface, contact, probe, answer.force);
         answer.energy += contactEnergy(contact);
     });

@@ -35,7 +35,7 @@ struct Sphere {
     bool literalRepulsor = false;  ///< one repulsor of the sphere's own radius at its center, as the paper has it
 };
 
-using Collider = std::variant<Plane, Container, Box, Sphere>;
+using Obstacle = std::variant<Plane, Container, Box, Sphere>;
 
 /// The constants of section 3.2, equal for all obstacles.
 struct RepulsorLaw {
@@ -45,13 +45,13 @@ struct RepulsorLaw {
     double coreFraction = 0.25;  ///< the guard of the pair law, see Material::coreFraction
 };
 
-struct Scenery {
-    std::vector<Collider> colliders;
+struct Obstacles {
+    std::vector<Obstacle> shapes;
     RepulsorLaw law;
 };
 
 /// How many particles are worth a thread where each of them meets the obstacles, or cheap work if there are none.
-std::size_t grainAmong(const Scenery& scenery);
+std::size_t contactGrain(const Obstacles& obstacles);
 
 /// What an obstacle sees of a particle.
 struct Probe {
@@ -64,10 +64,10 @@ struct Probe {
 
 /// Force of all obstacles on a particle, in newtons; zero where it touches none.
 /// Source: section 3.2. Planes push along their fixed normal however deep the particle is.
-Vec3 contactForce(const Scenery& scenery, const Probe& probe);
+Vec3 contactForce(const Obstacles& obstacles, const Probe& probe);
 
-/// Energy of the conservative part of contactForce, in joules.
-double contactEnergy(const Scenery& scenery, const Probe& probe);
+/// Energy of the conservative block of contactForce, in joules.
+double contactEnergy(const Obstacles& obstacles, const Probe& probe);
 
 struct ContactAnswer {
     Vec3 force = Vec3::Zero();  ///< N
@@ -75,6 +75,6 @@ struct ContactAnswer {
 };
 
 /// Both for one walk over the surfaces.
-ContactAnswer contactForceAndEnergy(const Scenery& scenery, const Probe& probe);
+ContactAnswer contactForceAndEnergy(const Obstacles& obstacles, const Probe& probe);
 
 }  // namespace engine

@@ -92,7 +92,7 @@ template <PairTerms terms, class Scalar>
     return pull * (toRest * toReach) - c.bd * approach * toDamping;
 }
 
-/// Pair energy U(D) of the conservative part, in joules: minus the integral of the force from the cutoff.
+/// Pair energy U(D) of the conservative block, in joules: minus the integral of the force from the cutoff.
 ///   U = b1 { (D^-3 - R^-3)/3 - A (1/D - 1/R) + B (R - D) },  A = 1/D0^2 + 1/R^2,  B = 1/(D0^2 R^2)
 /// Below the core distance Dc, where F = F(Dc) D/Dc:  U = U(Dc) + F(Dc) (Dc^2 - D^2) / (2 Dc).
 template <class Scalar>
@@ -112,7 +112,7 @@ template <class Scalar>
     return outside + slope * (c.coreSq - distance * distance) / Scalar(2);
 }
 
-/// Stiffness k = -dF/dD of the conservative part, in N/m; negative where the force softens with approach.
+/// Stiffness k = -dF/dD of the conservative block, in N/m; negative where the force softens with approach.
 ///   k = b1 (4 D^-5 - 2 A D^-3), and -F(Dc)/Dc below the core distance.
 template <class Scalar>
 Scalar pairStiffness(Scalar distance, const PairConstants<Scalar>& c) {
@@ -128,9 +128,9 @@ Scalar pairStiffness(Scalar distance, const PairConstants<Scalar>& c) {
 /// Friction, a departure from the paper, whose law has nothing tangential: the coefficient c_t of -V_t, in kg/s.
 ///   c_t = mu N / max(|V_t|, kStickingSpeed),   N = max(0, conservative force),   V_t = V - (V.n) n
 /// So the friction is Coulomb's mu N against the slip, and below the sticking speed a viscous creep that takes its
-/// place: what would stick creeps, at most at that speed. It only removes energy, since F.V = -c_t V_t^2. It keeps
-/// linear momentum; angular momentum it does not keep, since particles have no spin to take it up. Shape:  normalForce
-/// N, newtons; slipSq |V_t|^2, m^2/s^2.
+/// sortedIndex: what would stick creeps, at most at that speed. It only removes energy, since F.V = -c_t V_t^2. It
+/// keeps linear momentum; angular momentum it does not keep, since particles have no spin to take it up. Shape:
+/// normalForce N, newtons; slipSq |V_t|^2, m^2/s^2.
 template <class Scalar>
 Scalar slipDamping(Scalar friction, Scalar normalForce, Scalar slipSq) {
     return friction * std::max(Scalar(0), normalForce) / std::max(std::sqrt(slipSq), Scalar(kStickingSpeed));
@@ -140,7 +140,7 @@ Scalar slipDamping(Scalar friction, Scalar normalForce, Scalar slipSq) {
 /// Shape:  length kCoincidentShare * restLength, m. Holds: swapping the ids negates it bit for bit.
 std::array<double, 3> coincidentSeparation(std::uint32_t idP, std::uint32_t idI, double restLength);
 
-/// Chosen: long enough for the linear core to part the pair within a few steps, short beside any core.
+/// Chosen: long enough for the linear core to block the pair within a few steps, short beside any core.
 inline constexpr double kCoincidentShare = 0.01;
 
 }  // namespace engine

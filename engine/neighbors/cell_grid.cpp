@@ -16,7 +16,7 @@ std::int64_t cellLimit(std::size_t particleCount) {
     return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount));
 }
 
-std::array<std::int64_t, 3> chooseDimensions(const Extent& extent, std::size_t particleCount, double width) {
+std::array<std::int64_t, 3> chooseDimensions(const BoundingBox& extent, std::size_t particleCount, double width) {
     const std::int64_t limit = cellLimit(particleCount);
     std::array<std::int64_t, 3> dimensions{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -55,10 +55,11 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     if (positions.empty()) return;
 
     const double width = cellWidth * kRoundingMargin;
-    const Extent extent = extentOver(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
+    const BoundingBox extent =
+        boundingBoxOf(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
     grid.dimensions = chooseDimensions(extent, positions.size(), width);
     const std::array<std::int64_t, 3>& size = grid.dimensions;
-    // One more than there are, and counts two places further on: filling leaves each start where it belongs.
+    // One more than there are, and counts two sortedIndices further on: filling leaves each start where it belongs.
     grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 2, 0);
     const CellAxes axes{CellAxis(width, size[0], extent.low.x()), CellAxis(width, size[1], extent.low.y()),
                         CellAxis(width, size[2], extent.low.z())};
@@ -72,8 +73,8 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     grid.start.pop_back();
 }
 
-std::uint32_t cellOfPlace(const CellGrid& grid, std::uint32_t place) {
-    const auto next = std::upper_bound(grid.start.begin(), grid.start.end(), place);
+std::uint32_t cellOfSortedIndex(const CellGrid& grid, std::uint32_t sortedIndex) {
+    const auto next = std::upper_bound(grid.start.begin(), grid.start.end(), sortedIndex);
     return static_cast<std::uint32_t>(next - grid.start.begin() - 1);
 }
 
@@ -125,7 +126,7 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
 
 Front frontOf(const CellGrid& grid, std::uint32_t first, std::uint32_t last) {
     const auto [nx, ny, nz] = grid.dimensions;
-    // The first place of a cell in the row next to that of another, some cells further along.
+    // The first sortedIndex of a cell in the row next to that of another, some cells further along.
     const auto startAt = [&, nx = nx, ny = ny, nz = nz](const auto& indices, std::int64_t dx, std::int64_t dz) {
         const auto& [x, y, z] = indices;
         const std::int64_t row = wrappedStep(z + dz, nz) * ny + wrappedStep(y + 1, ny);

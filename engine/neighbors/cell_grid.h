@@ -1,7 +1,7 @@
-// The cell grid: particles sorted into cubic cells at least as wide as the cutoff, so that everything a particle can
-// feel is in the 27 cells around it. The grid is periodic in its indices: far away cells share storage with near ones
-// and are told apart by the distance test alone. So an outlier costs nothing, memory is linear in n, and no box has to
-// bound the world.
+// The cell grid: particles sorted into cubic cells at least as entries32 as the cutoff, so that everything a particle
+// can feel is in the 27 cells around it. The grid is periodic in its indices: far away cells share storage with near
+// ones and are told apart by the distance test alone. So an outlier costs nothing, memory is linear in n, and no box
+// has to bound the world.
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ struct CellGrid {
 /// Holds:  the order within a cell is that of the indices, so that it depends on the positions alone.
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth);
 
-/// The cell of a place in the order, where somebody is.
-std::uint32_t cellOfPlace(const CellGrid& grid, std::uint32_t place);
+/// The cell of a sortedIndex in the order, where somebody is.
+std::uint32_t cellOfSortedIndex(const CellGrid& grid, std::uint32_t sortedIndex);
 
 /// Cells side by side along x; a cell at either end of a row is a run of its own.
 struct CellRun {

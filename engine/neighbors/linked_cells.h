@@ -1,5 +1,5 @@
-// Who is near a place, where particles are added one at a time: every cell is a chain through those in it. For the few
-// moments at which particles are born; lists of neighbors come from the sorted CellGrid.
+// Who is near a sortedIndex, where particles are added one at a time: every cell is a chain through those in it. For
+// the few moments at which particles are born; lists of neighbors come from the sorted CellGrid.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ class LinkedCells {
     /// Adds the next particle.
     void add(const Vec3& position);
 
-    /// Calls visit(particle) once for each particle within a width of the place, and for others; in an order that
+    /// Calls visit(particle) once for each particle within a width of the sortedIndex, and for others; in an order that
     /// depends on the positions alone.
     template <class Visit>
-    void forEachNear(const Vec3& place, const Visit& visit) const {
+    void forEachNear(const Vec3& sortedIndex, const Visit& visit) const {
         if (links_.empty()) return;
-        const Cell home = cellOf(place);
+        const Cell home = cellOf(sortedIndex);
         for (std::int64_t z = home.z - 1; z <= home.z + 1; ++z)
             for (std::int64_t y = home.y - 1; y <= home.y + 1; ++y)
                 for (std::int64_t x = home.x - 1; x <= home.x + 1; ++x) {

@@ -38,16 +38,16 @@ std::uint32_t countOf(const Neighborhood& around) {
 
 /// As CompressStore, whose table gcc copies to the stack whenever it looks something up, and with which lists take four
 /// times as long on processors (Zen 4) that are slow to store what they pack. Shape: a bit a lane.
-std::size_t pack(hn::Vec<decltype(kPlaces)> places, std::uint16_t chosen, std::uint32_t* to) {
+std::size_t pack(hn::Vec<decltype(kPlaces)> sortedIndices, std::uint16_t chosen, std::uint32_t* to) {
 #if HWY_TARGET <= HWY_AVX3
     const std::array<std::uint8_t, 8> bytes = {static_cast<std::uint8_t>(chosen),
                                                static_cast<std::uint8_t>(chosen >> 8U)};
-    hn::StoreU(hn::Compress(places, hn::LoadMaskBits(kPlaces, bytes.data())), kPlaces, to);
+    hn::StoreU(hn::Compress(sortedIndices, hn::LoadMaskBits(kPlaces, bytes.data())), kPlaces, to);
 #else
     static_assert(hn::MaxLanes(kPlaces) <= kPacked);
     constexpr hn::Rebind<std::uint8_t, decltype(kPlaces)> kBytes{};
     const auto numbers = hn::PromoteTo(kPlaces, hn::LoadU(kBytes, kPackings[chosen].data()));
-    hn::StoreU(hn::TableLookupLanes(places, hn::IndicesFromVec(kPlaces, numbers)), kPlaces, to);
+    hn::StoreU(hn::TableLookupLanes(sortedIndices, hn::IndicesFromVec(kPlaces, numbers)), kPlaces, to);
 #endif
     return static_cast<std::size_t>(std::popcount(chosen));
 }
@@ -61,13 +61,13 @@ struct Search {
     Surroundings& seen;
     Vec3 origin;
 
-    Vec3 positionOf(std::uint32_t place) const {
-        return {candidates.x[place], candidates.y[place], candidates.z[place]};
+    Vec3 positionOf(std::uint32_t sortedIndex) const {
+        return {candidates.x[sortedIndex], candidates.y[sortedIndex], candidates.z[sortedIndex]};
     }
 
     /// Whether float, from the origin, tells apart what is near to a particle.
-    bool seesWell(std::uint32_t place) const {
-        return ((positionOf(place) - origin).array().abs() < kClearSight / perReach).all();
+    bool seesWell(std::uint32_t sortedIndex) const {
+        return ((positionOf(sortedIndex) - origin).array().abs() < kClearSight / perReach).all();
     }
 
     void look(const Vec3& from) {
@@ -82,7 +82,7 @@ struct Search {
                 see(candidates.x, other, origin.x(), &seen.x[at]);
                 see(candidates.y, other, origin.y(), &seen.y[at]);
                 see(candidates.z, other, origin.z(), &seen.z[at]);
-                hn::StoreU(hn::Add(hn::Set(kFew, other), counting), kFew, &seen.places[at]);
+                hn::StoreU(hn::Add(hn::Set(kFew, other), counting), kFew, &seen.sortedIndices[at]);
             }
             used += range.end - range.begin;
         }
@@ -95,12 +95,12 @@ struct Search {
         hn::StoreU(hn::DemoteTo(kNarrow, hn::Mul(away, hn::Set(kWide, perReach))), kNarrow, to);
     }
 
-    /// Where a place stands among the candidates.
-    std::uint32_t candidateAt(std::uint32_t place) const {
+    /// Where a sortedIndex stands among the candidates.
+    std::uint32_t candidateAt(std::uint32_t sortedIndex) const {
         std::uint32_t before = 0;
         for (int r = 0; r < around.count; ++r) {
             const CellRange range = around.ranges[static_cast<std::size_t>(r)];
-            if (range.begin <= place && place < range.end) return before + place - range.begin;
+            if (range.begin <= sortedIndex && sortedIndex < range.end) return before + sortedIndex - range.begin;
             before += range.end - range.begin;
         }
         throw std::logic_error("who searches is not among those around");
@@ -113,9 +113,9 @@ struct Search {
 
     /// Notes who is near, for each of some candidates side by side. A vector is compared with all of them while it is
     /// at hand.
-    void sift(std::uint32_t first, std::uint32_t selves) {
+    void sift(std::uint32_t first, std::uint32_t ownIndices) {
         const std::size_t stride = vectors();
-        const std::size_t room = selves * stride + hn::Lanes(kNear);  // some are read beyond the last
+        const std::size_t room = ownIndices * stride + hn::Lanes(kNear);  // some are read beyond the last
         if (seen.near.size() < room) seen.near.resize(2 * room);
         const float* const xs = seen.x.data();
         const float* const ys = seen.y.data();
@@ -126,7 +126,7 @@ struct Search {
             const auto x = hn::LoadU(kTag, xs + k * lanes());
             const auto y = hn::LoadU(kTag, ys + k * lanes());
             const auto z = hn::LoadU(kTag, zs + k * lanes());
-            for (std::uint32_t candidate = first; candidate < first + selves; ++candidate, near += stride) {
+            for (std::uint32_t candidate = first; candidate < first + ownIndices; ++candidate, near += stride) {
                 const auto dx = hn::Sub(hn::Set(kTag, xs[candidate]), x);
                 const auto dy = hn::Sub(hn::Set(kTag, ys[candidate]), y);
                 const auto dz = hn::Sub(hn::Set(kTag, zs[candidate]), z);
@@ -135,7 +135,7 @@ struct Search {
             }
         }
         // Nobody is near to himself.
-        for (std::uint32_t nth = 0; nth < selves; ++nth)
+        for (std::uint32_t nth = 0; nth < ownIndices; ++nth)
             seen.near[nth * stride + (first + nth) / lanes()] &=
                 static_cast<std::uint16_t>(~(1U << (first + nth) % lanes()));
     }
@@ -144,7 +144,7 @@ struct Search {
     std::size_t pick(std::uint32_t nth, std::uint32_t* row) const {
         const auto atOnce = static_cast<std::uint32_t>(hn::Lanes(kNear));
         const std::uint16_t* const near = &seen.near[std::size_t{nth} * vectors()];
-        const std::uint32_t* const all = seen.places.data();
+        const std::uint32_t* const all = seen.sortedIndices.data();
         std::size_t length = 0;
         const auto take = [&](std::uint32_t k) {
             length += pack(hn::LoadU(kPlaces, all + k * lanes()), near[k], row + length);
@@ -168,27 +168,28 @@ struct Search {
     }
 };
 
-void findInReachHere(const Candidates& candidates, const Neighborhood& around, CellRange selves, double reach,
+void findInReachHere(const Candidates& candidates, const Neighborhood& around, CellRange ownIndices, double reach,
                      Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths) {
     const std::uint32_t count = countOf(around);
     const std::size_t room = count + 2 * kSearchOverhang + kRowPadding;
-    if (scratch.places.size() < room) {
+    if (scratch.sortedIndices.size() < room) {
         for (std::vector<float>* of : {&scratch.x, &scratch.y, &scratch.z}) of->resize(2 * room);
-        scratch.places.resize(2 * room);
+        scratch.sortedIndices.resize(2 * room);
     }
     Search search{candidates, around, 1.0 / reach, count, scratch, {}};
-    for (std::uint32_t begin = selves.begin; begin < selves.end;) {
+    for (std::uint32_t begin = ownIndices.begin; begin < ownIndices.end;) {
         // Particles that are far apart may share a cell.
         search.look(search.positionOf(begin));
         std::uint32_t end = begin + 1;
-        while (end < selves.end && search.seesWell(end)) ++end;
+        while (end < ownIndices.end && search.seesWell(end)) ++end;
         search.sift(search.candidateAt(begin), end - begin);
         for (std::uint32_t self = begin; self < end; ++self) {
-            if (rows.places.size() < rows.used + room) rows.places.resize(rows.used + rows.used / 2 + room);
-            const std::size_t length = search.pick(self - begin, &rows.places[rows.used]);
-            lengths[self - selves.begin] = static_cast<std::uint32_t>(length);
+            if (rows.sortedIndices.size() < rows.used + room)
+                rows.sortedIndices.resize(rows.used + rows.used / 2 + room);
+            const std::size_t length = search.pick(self - begin, &rows.sortedIndices[rows.used]);
+            lengths[self - ownIndices.begin] = static_cast<std::uint32_t>(length);
             rows.used += length;
-            std::fill_n(&rows.places[rows.used], kRowPadding, self);
+            std::fill_n(&rows.sortedIndices[rows.used], kRowPadding, self);
             rows.used += kRowPadding;
         }
         begin = end;
@@ -205,9 +206,9 @@ namespace engine {
 
 HWY_EXPORT(findInReachHere);
 
-void findInReach(const Candidates& candidates, const Neighborhood& around, CellRange selves, double reach,
+void findInReach(const Candidates& candidates, const Neighborhood& around, CellRange ownIndices, double reach,
                  Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths) {
-    HWY_DYNAMIC_DISPATCH(findInReachHere)(candidates, around, selves, reach, scratch, rows, lengths);
+    HWY_DYNAMIC_DISPATCH(findInReachHere)(candidates, around, ownIndices, reach, scratch, rows, lengths);
 }
 
 }  // namespace engine

@@ -13,8 +13,8 @@ namespace engine {
 /// Candidates that a search reads beyond those that there are.
 inline constexpr std::size_t kSearchOverhang = 8;
 
-/// Positions by place, m: cells lie one after the other, so that candidates are read in a row. After the last one come
-/// kSearchOverhang more of any value.
+/// Positions by sortedIndex, m: cells lie one after the other, so that candidates are read in a row. After the last one
+/// come kSearchOverhang more of any value.
 struct Candidates {
     std::vector<double> x, y, z;
 };
@@ -23,13 +23,13 @@ struct Candidates {
 /// vector. Scratch of a search.
 struct Surroundings {
     std::vector<float> x, y, z;  ///< from the origin, in reaches
-    std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> sortedIndices;
     std::vector<std::uint16_t> near;  ///< for each particle and vector of candidates a bit a lane: whether it is near
 };
 
 /// Rows one after the other, each followed by its padding.
 struct FoundRows {
-    std::vector<std::uint32_t> places;  ///< more than are used
+    std::vector<std::uint32_t> sortedIndices;  ///< more than are used
     std::size_t used = 0;
 };
 
@@ -41,10 +41,10 @@ inline constexpr double kClearSight = 8.0;
 /// squares and sums add 3e-7.
 inline constexpr float kFloatMargin = 1.00001F;
 
-/// Appends for one place of a run of cells after the other the row of the places of all others within reach (m) of it,
-/// in the order of the neighborhood's ranges; of none whose distance squared is beyond reach^2 kFloatMargin by more
-/// than float's error. Writes the length of each.
-void findInReach(const Candidates& candidates, const Neighborhood& around, CellRange selves, double reach,
+/// Appends for one sortedIndex of a run of cells after the other the row of the sortedIndices of all others within
+/// reach (m) of it, in the order of the neighborhood's ranges; of none whose distance squared is beyond reach^2
+/// kFloatMargin by more than float's error. Writes the length of each.
+void findInReach(const Candidates& candidates, const Neighborhood& around, CellRange ownIndices, double reach,
                  Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths);
 
 }  // namespace engine

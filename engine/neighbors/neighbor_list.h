@@ -1,6 +1,6 @@
-// Who is near whom: for every particle the places of all others within the cutoff and a skin around it. The list serves
-// as long as no particle has moved by half the skin beside what all have in common, so that most steps need no search
-// and a crowd that falls as one needs none at all. Kept by PairTraversal.
+// Who is near whom: for every particle the sortedIndices of all others within the cutoff and a skin around it. The list
+// serves as long as no particle has moved by half the skin beside what all have in common, so that most steps need no
+// search and a crowd that falls as one needs none at all. Kept by PairTraversal.
 #pragma once
 
 #include <cstdint>
@@ -20,22 +20,22 @@ struct BuildScratch {
     Candidates candidates;
 };
 
-/// Particles have places, which follow the cells of the grid that the list was built with, and seats, in the same part,
-/// of which the longest rows come first.
+/// Particles have sortedIndices, which follow the cells of the grid that the list was built with, and lane slots, in
+/// the same block, of which the longest rows come first.
 struct NeighborList {
-    std::vector<std::uint32_t> order;    ///< particle index at each place
-    std::vector<std::uint32_t> placeOf;  ///< of each particle index
-    LaneRows rows;                       ///< neighbors of each seat
-    std::vector<Front> fronts;           ///< of each part of the rows: neighbors that those before it do not have
-    std::size_t entryCount = 0;          ///< of all rows
-    std::vector<Vec3> builtAt;           ///< positions by particle index when the list was built, m
-    double reach = 0.0;                  ///< cutoff and skin together, m
+    std::vector<std::uint32_t> order;          ///< particle index at each sortedIndex
+    std::vector<std::uint32_t> sortedIndexOf;  ///< of each particle index
+    NeighborRows rows;                         ///< neighbors of each laneSlot
+    std::vector<Front> fronts;   ///< of each block of the rows: neighbors that those before it do not have
+    std::size_t entryCount = 0;  ///< of all rows
+    std::vector<Vec3> builtAt;   ///< positions by particle index when the list was built, m
+    double reach = 0.0;          ///< cutoff and skin together, m
     Scratch<BuildScratch> scratch;
 
     std::size_t count() const { return order.size(); }
 
     /// Seat of a particle index.
-    std::size_t seatOf(std::size_t p) const;
+    std::size_t laneSlotOf(std::size_t p) const;
 };
 
 /// Builds the list for positions in meters. Holds: the same rows for any number of threads and any instruction set.
@@ -47,19 +47,19 @@ bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double
 
 /// The same for so many particles whose displacements since the list was built lie in a box (m), wherever in it.
 /// Holds:  where covers() says no, so does this, if the box leaves kDisplacementMargin a step for rounding.
-bool coversWithin(const NeighborList& list, const Extent& displacements, std::size_t count, double cutoff);
+bool coversWithin(const NeighborList& list, const BoundingBox& displacements, std::size_t count, double cutoff);
 
 /// How much wider a step's box is to be at each end, m, for what roundings do in a world that reaches to kWorldLimit.
-/// With u = 2^-53 and places up to 1e8 m: the new place is rounded by u 1e8, the box and the sum of boxes by 2 u 1e8
-/// each, and what covers() subtracts, once and not in each step, by 6 u 1e8: 1.2e-7 together. (The way itself is
-/// rounded as the ends of its box are: rounding is monotone.)
+/// With u = 2^-53 and sortedIndices up to 1e8 m: the new sortedIndex is rounded by u 1e8, the box and the sum of boxes
+/// by 2 u 1e8 each, and what covers() subtracts, once and not in each step, by 6 u 1e8: 1.2e-7 together. (The way
+/// itself is rounded as the ends of its box are: rounding is monotone.)
 inline constexpr double kDisplacementMargin = 2e-7;
 
 /// Entries for which the rows have room, with those that fill them up.
-std::size_t roomOf(const LaneRows& rows);
+std::size_t roomOf(const NeighborRows& rows);
 
 /// Bytes that the rows hold.
-std::size_t bytesOf(const LaneRows& rows);
+std::size_t bytesOf(const NeighborRows& rows);
 
 /// Bytes that the list holds, with the scratch of its build.
 std::size_t bytesOf(const NeighborList& list);

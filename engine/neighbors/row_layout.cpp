@@ -1,5 +1,5 @@
 // Compiled once per instruction set. Four words of a row at a time: what Highway interleaves are blocks of a row of the
-// group.
+// cluster.
 #include "engine/neighbors/row_layout.h"
 
 #include <algorithm>
@@ -40,26 +40,26 @@ void interleaveWords(std::size_t columns, std::uint32_t longest, const Word& wor
 }
 
 /// Entries of a lane from one on. Beyond the end of a row its padding goes on.
-HWY_INLINE hn::Vec<decltype(kPlaces)> entriesOfLane(const GroupRows& rows, std::uint32_t base, std::size_t lane,
+HWY_INLINE hn::Vec<decltype(kPlaces)> entriesOfLane(const ClusterRows& rows, std::uint32_t base, std::size_t lane,
                                                     std::uint32_t k) {
-    const auto places = hn::LoadU(kPlaces, rows.row[lane] + std::min(k, rows.length[lane]));
-    return hn::Sub(places, hn::Set(kPlaces, base));
+    const auto sortedIndices = hn::LoadU(kPlaces, rows.row[lane] + std::min(k, rows.length[lane]));
+    return hn::Sub(sortedIndices, hn::Set(kPlaces, base));
 }
 
-void interleaveWideHere(const GroupRows& rows, std::uint32_t base, std::int32_t* to) {
+void interleaveWideHere(const ClusterRows& rows, std::uint32_t base, std::int32_t* to) {
     const auto oneLane = [&](std::size_t column, std::uint32_t k) { return entriesOfLane(rows, base, column, k); };
-    interleaveWords(kGroup, rows.longest, oneLane, to);
+    interleaveWords(kClusterSize, rows.longest, oneLane, to);
 }
 
 static_assert(std::endian::native == std::endian::little);
 
 /// The half words of two lanes are a word.
-void interleaveNarrowHere(const GroupRows& rows, std::uint32_t base, std::uint16_t* to) {
+void interleaveNarrowHere(const ClusterRows& rows, std::uint32_t base, std::uint16_t* to) {
     const auto twoLanes = [&](std::size_t column, std::uint32_t k) {
         const auto odd = entriesOfLane(rows, base, 2 * column + 1, k);
         return hn::Or(entriesOfLane(rows, base, 2 * column, k), hn::ShiftLeft<16>(odd));
     };
-    interleaveWords(kGroup / 2, rows.longest, twoLanes, to);
+    interleaveWords(kClusterSize / 2, rows.longest, twoLanes, to);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -73,11 +73,11 @@ namespace engine {
 HWY_EXPORT(interleaveWideHere);
 HWY_EXPORT(interleaveNarrowHere);
 
-void interleave(const GroupRows& rows, std::uint32_t base, std::int32_t* to) {
+void interleave(const ClusterRows& rows, std::uint32_t base, std::int32_t* to) {
     HWY_DYNAMIC_DISPATCH(interleaveWideHere)(rows, base, to);
 }
 
-void interleave(const GroupRows& rows, std::uint32_t base, std::uint16_t* to) {
+void interleave(const ClusterRows& rows, std::uint32_t base, std::uint16_t* to) {
     HWY_DYNAMIC_DISPATCH(interleaveNarrowHere)(rows, base, to);
 }
 

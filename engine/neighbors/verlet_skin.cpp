@@ -26,7 +26,7 @@ double costOf(double skin, double neighbors, double way) {
 
 }  // namespace
 
-double cheapestSkin(double neighbors, double way) {
+double optimalSkin(double neighbors, double way) {
     double best = kWidths.front();
     double least = std::numeric_limits<double>::infinity();
     for (const double skin : kWidths) {

@@ -14,7 +14,7 @@ Simulation start(const Setup& setup) {
     simulation.setup = setup;
     simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
     simulation.cache->evaluator =
-        ForceEvaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces, setup.precision);
+        ForceEvaluator({setup.materials, setup.gravity, setup.obstacles}, setup.forces, setup.precision);
     simulation.particles = setup.initial;
     for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
     emitDue(simulation);

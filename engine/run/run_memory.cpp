@@ -13,7 +13,7 @@ std::size_t bytesOfState(const Simulation& simulation) {
     constexpr std::size_t kForces = 3 * sizeof(Vec3);  // with predicted velocities and positions at the start
     constexpr std::size_t kDrift = sizeof(double) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
     const std::size_t initial = simulation.setup.initial.count() * kState;
-    return initial + simulation.particles.count() * (kState + kForces + kDrift + sizeof(PairRecord));
+    return initial + simulation.particles.count() * (kState + kForces + kDrift + sizeof(PackedParticle));
 }
 
 /// The states that the audit can go back to, and one that the automatic stepper keeps.
@@ -25,13 +25,13 @@ std::size_t bytesBefore(const Simulation& simulation) {
 /// The implicit steppers' matrix and the vectors of its solver.
 std::size_t bytesOfMatrix(const Simulation& simulation) {
     const bool hasFriction = termsFor(simulation.cache->evaluator.law(), simulation.particles).pair.friction;
-    const bool hasObstacles = !simulation.setup.scenery.colliders.empty();
-    const LaneRows& rows = simulation.cache->evaluator.list().rows;
+    const bool hasObstacles = !simulation.setup.obstacles.shapes.empty();
+    const NeighborRows& rows = simulation.cache->evaluator.list().rows;
     const std::size_t entries = (hasFriction ? 2 : 1) * sizeof(double) * roomOf(rows);
     const std::size_t own = hasObstacles ? sizeof(Matrix3) : 0;
     constexpr std::size_t kVectors = 5 * sizeof(Vec3);
     return bytesOf(rows) + entries +
-           simulation.particles.count() * (sizeof(double) + own + sizeof(PairRecord) + kVectors);
+           simulation.particles.count() * (sizeof(double) + own + sizeof(PackedParticle) + kVectors);
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ struct Setup {
     std::vector<Material> materials = {Material{}};
     Vec3 gravity = Vec3(0.0, -9.8, 0.0);  ///< m/s^2
     double drag = 0.0;                    ///< k, 1/s: free motion decays like exp(-k t)
-    Scenery scenery;
-    std::optional<Extent> world;  ///< a particle outside is removed from the run
+    Obstacles obstacles;
+    std::optional<BoundingBox> world;  ///< a particle outside is removed from the run
     std::vector<Emitter> emitters;
     Particles initial;  ///< at time zero
     StepperKind stepper = StepperKind::velocityVerlet;

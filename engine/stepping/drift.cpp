@@ -46,11 +46,12 @@ bool isClear(const Simulation& simulation, std::size_t p) {
 }
 
 void prepareDrift(Simulation& simulation) {
-    simulation.cache->evaluator.forgetMoves();  // each particle goes its own way now, maybe before any evaluation
-    if (simulation.setup.scenery.colliders.empty()) return;
+    simulation.cache->evaluator
+        .invalidateDisplacementBound();  // each particle goes its own way now, maybe before any evaluation
+    if (simulation.setup.obstacles.shapes.empty()) return;
     simulation.cache->swept.resize(simulation.particles.count());
     simulation.cache->clearance.resize(simulation.particles.count(), kUnknown);
-    simulation.cache->companions.resize(simulation.particles.count(), kNobody);
+    simulation.cache->cachedNeighbors.resize(simulation.particles.count(), kNobody);
     copy(simulation.particles.position, simulation.cache->startPositions);
     // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
     simulation.cache->startCutoff = termsFor(simulation.cache->evaluator.law(), simulation.particles).cutoff;
@@ -61,61 +62,61 @@ void prepareDrift(Simulation& simulation) {
 }
 
 Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
-    const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty()) return Vec3::Zero();
+    const Obstacles& obstacles = simulation.setup.obstacles;
+    if (obstacles.shapes.empty()) return Vec3::Zero();
     simulation.cache->swept[p] = 0;
     const double way = h * std::sqrt(squaredLength(simulation.particles.velocity[p]));
     if (way <= simulation.cache->clearance[p]) return Vec3::Zero();
     const Flight flight = flightOf(simulation, p);
-    const Contacts contacts = contactsAhead(scenery, flight, h, isVerlet(simulation.stepper));
+    const Contacts contacts = contactsAhead(obstacles, flight, h, isVerlet(simulation.stepper));
     simulation.cache->clearance[p] = contacts.gap - kMargin * flight.radius;
     // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
     // what the whole heap does.
-    const auto isAlone = [&] {
-        return simulation.cache->startIsListed &&
-               simulation.cache->evaluator.isAlone(simulation.cache->startPositions, simulation.cache->startCutoff, p,
-                                                   simulation.cache->companions[p]);
+    const auto hasNoNeighborWithin = [&] {
+        return simulation.cache->startIsListed && simulation.cache->evaluator.hasNoNeighborWithin(
+                                                      simulation.cache->startPositions, simulation.cache->startCutoff,
+                                                      p, simulation.cache->cachedNeighbors[p]);
     };
-    if (!contacts.needsSweep && !(way > contacts.gap && isAlone())) return contacts.force;
+    if (!contacts.needsSweep && !(way > contacts.gap && hasNoNeighborWithin())) return contacts.force;
     simulation.cache->swept[p] = 1;
     return Vec3::Zero();
 }
 
 void driftSwept(Simulation& simulation, std::size_t p, double h) {
     Flight flight = flightOf(simulation, p);
-    fly(simulation.setup.scenery, flight, h);
+    fly(simulation.setup.obstacles, flight, h);
     simulation.particles.position[p] = flight.position;
     simulation.particles.velocity[p] = flight.velocity;
     simulation.cache->clearance[p] = kUnknown;
 }
 
 Vec3 slowContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
-    const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty() || simulation.cache->swept[p] || isClear(simulation, p)) return Vec3::Zero();
-    return contactForce(scenery, probeOf(simulation, p, velocity));
+    const Obstacles& obstacles = simulation.setup.obstacles;
+    if (obstacles.shapes.empty() || simulation.cache->swept[p] || isClear(simulation, p)) return Vec3::Zero();
+    return contactForce(obstacles, probeOf(simulation, p, velocity));
 }
 
 ContactAnswer slowContact(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
-    const Scenery& scenery = simulation.setup.scenery;
-    if (scenery.colliders.empty() || isClear(simulation, p)) return {};
-    ContactAnswer answer = contactForceAndEnergy(scenery, probeOf(simulation, p, velocity));
+    const Obstacles& obstacles = simulation.setup.obstacles;
+    if (obstacles.shapes.empty() || isClear(simulation, p)) return {};
+    ContactAnswer answer = contactForceAndEnergy(obstacles, probeOf(simulation, p, velocity));
     if (simulation.cache->swept[p]) answer.force = Vec3::Zero();
     return answer;
 }
 
 void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     const Particles& particles = simulation.particles;
-    const Scenery& scenery = simulation.setup.scenery;
+    const Obstacles& obstacles = simulation.setup.obstacles;
     const MatrixWeights weights{0.5 * h, 0.25 * h * h};
-    matrix.own.resize(scenery.colliders.empty() ? 0 : particles.count());
+    matrix.own.resize(obstacles.shapes.empty() ? 0 : particles.count());
     const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
-    inParallel(matrix.own.size(), grainAmong(scenery), [&](std::size_t place) {
+    inParallel(matrix.own.size(), contactGrain(obstacles), [&](std::size_t place) {
         matrix.own[place] = Matrix3::Zero();
         const std::size_t p = order[place];
         if (simulation.cache->swept[p] || isClear(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);
-        forEachTouched(scenery, probe.position, probe.radius, [&](const Surface& surface) {
-            const Contact contact = contactWith(surface, scenery.law, probe);
+        forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
+            const Contact contact = contactWith(surface, obstacles.law, probe);
             const double along = weights.damping * dampingAlong(contact) + weights.stiffness * stiffnessAlong(contact);
             const Matrix3 projection = surface.normal * surface.normal.transpose();
             matrix.own[place] += along * projection;

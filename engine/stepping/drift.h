@@ -23,7 +23,7 @@ void driftSwept(Simulation& simulation, std::size_t p, double h);
 
 /// Moves a particle for h seconds.
 inline void drift(Simulation& simulation, std::size_t p, double h) {
-    const bool hasContacts = !simulation.setup.scenery.colliders.empty();
+    const bool hasContacts = !simulation.setup.obstacles.shapes.empty();
     if (hasContacts && simulation.cache->swept[p]) return driftSwept(simulation, p, h);
     const Vec3 way = h * simulation.particles.velocity[p];
     simulation.particles.position[p] += way;

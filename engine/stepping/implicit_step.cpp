@@ -37,7 +37,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const double pairEnergy = simulation.cache->evaluator.assemble(particles, weights, simulation.cache->forces,
                                                                    simulation.cache->implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
-    inParallel(particles.count(), grainAmong(simulation.setup.scenery), [&](std::size_t p) {
+    inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
         simulation.cache->forces[p] += slowContactForce(simulation, p, particles.velocity[p]);
     });
     addContacts(simulation, h, simulation.cache->implicit.matrix);
@@ -58,7 +58,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
 void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights) {
     Particles& particles = simulation.particles;
     const double decay = expNegative(simulation.setup.drag * (0.5 * h));
-    const std::size_t grain = grainAmong(simulation.setup.scenery);
+    const std::size_t grain = contactGrain(simulation.setup.obstacles);
     prepareDrift(simulation);
     inParallel(particles.count(), grain, [&](std::size_t p) {
         chooseSwept(simulation, p, h);  // its force is of the start; the middle's is asked for there
@@ -72,7 +72,7 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
         drift(simulation, p, 0.5 * h);
     });
     simulation.cache->forcesCurrent = false;
-    simulation.cache->evaluator.forgetMoves();
+    simulation.cache->evaluator.invalidateDisplacementBound();
 }
 
 }  // namespace engine

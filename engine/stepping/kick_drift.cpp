@@ -54,8 +54,8 @@ class Kicker {
             high.fill(hn::Set(kTag, -std::numeric_limits<double>::infinity()));
         }
 
-        Extent extent() const {
-            Extent extent = Extent::empty();
+        BoundingBox extent() const {
+            BoundingBox extent = BoundingBox::empty();
             std::array<double, kMost> lows, highs;
             for (std::size_t k = 0; k < kAxes; ++k) {
                 hn::StoreU(low[k], kTag, lows.data());

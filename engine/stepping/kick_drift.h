@@ -20,8 +20,8 @@ struct KickDrift {
 
 /// What is known of particles that have been moved.
 struct Moved {
-    bool areValid = true;                 ///< all of them (soundness.h)
-    Extent velocities = Extent::empty();  ///< the box around theirs, m/s, if they are sound
+    bool areValid = true;                           ///< all of them (soundness.h)
+    BoundingBox velocities = BoundingBox::empty();  ///< the box around theirs, m/s, if they are sound
 
     void include(const Moved& others) {
         areValid &= others.areValid;

@@ -96,7 +96,7 @@ double largestRadiusOf(const Simulation& simulation) {
 /// 0 where neither is needed.
 double cellWidthFor(const Simulation& simulation) {
     const double largestRadius = largestRadiusOf(simulation);
-    double width = simulation.cache->energy ? reachOf(simulation.setup.materials) * 2.0 * largestRadius : 0.0;
+    double width = simulation.cache->energy ? cutoffRatio(simulation.setup.materials) * 2.0 * largestRadius : 0.0;
     for (const Emitter& emitter : simulation.setup.emitters)
         width = std::max(width, clearanceDistance(emitter, largestRadius));
     return width;
@@ -158,7 +158,7 @@ void emitDue(Simulation& simulation) {
 
 void removeOutOfBounds(Simulation& simulation) {
     if (!simulation.setup.world) return;
-    const Extent& world = *simulation.setup.world;
+    const BoundingBox& world = *simulation.setup.world;
     Particles& particles = simulation.particles;
     const auto stays = [&](std::size_t p) { return world.contains(particles.position[p]); };
     if (largestOver(particles.count(), [&](std::size_t p) { return stays(p) ? 0.0 : 1.0; }) == 0.0) return;

@@ -18,9 +18,9 @@ constexpr double kSlow = 0.1;
 constexpr double kRounding = 1e-13;
 
 double contactEnergyOf(const Simulation& simulation, std::size_t p) {
-    if (simulation.setup.scenery.colliders.empty() || isClear(simulation, p)) return 0.0;
+    if (simulation.setup.obstacles.shapes.empty() || isClear(simulation, p)) return 0.0;
     const Particles& particles = simulation.particles;
-    return contactEnergy(simulation.setup.scenery, {particles.position[p], Vec3::Zero(), particles.radius[p], 1.0});
+    return contactEnergy(simulation.setup.obstacles, {particles.position[p], Vec3::Zero(), particles.radius[p], 1.0});
 }
 
 /// Of a newborn with all that are older, J.
@@ -35,7 +35,7 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p, const Link
 /// Alone, a particle may go as far as it likes, but where it may have passed an obstacle unseen.
 bool mayGoFar(const Simulation& simulation) {
     if (simulation.particles.count() > 1) return false;
-    return simulation.particles.count() == 0 || simulation.setup.scenery.colliders.empty() ||
+    return simulation.particles.count() == 0 || simulation.setup.obstacles.shapes.empty() ||
            simulation.cache->swept[0] != 0 || isClear(simulation, 0);
 }
 
@@ -106,8 +106,9 @@ void takeBack(Simulation& simulation, const BeforeStep& kept) {
     simulation.particles.position = kept.position;
     simulation.particles.velocity = kept.velocity;
     simulation.cache->clearance.clear();
-    simulation.cache->evaluator.forgetMoves();
-    simulation.cache->companions.clear();  // they are from before, and a run that is gone on with does not know them
+    simulation.cache->evaluator.invalidateDisplacementBound();
+    simulation.cache->cachedNeighbors
+        .clear();  // they are from before, and a run that is gone on with does not know them
     simulation.cache->forcesCurrent = kept.forcesCurrent;
     if (kept.forcesCurrent) {
         simulation.cache->forces = kept.forces;

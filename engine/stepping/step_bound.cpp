@@ -1,7 +1,7 @@
 // Each particle's own sums, and the eigenvalues that bound the step.
 //
-// The pair's conservative part has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step, so
-// negative parts count as zero. Its damping has b_d s_d along n and nothing across.
+// The pair's conservative block has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step,
+// so negative blocks count as zero. Its damping has b_d s_d along n and nothing across.
 #include "engine/stepping/step_bound.h"
 
 #include <Eigen/Eigenvalues>
@@ -19,11 +19,11 @@ struct OwnSums {
     Matrix3 damping = Matrix3::Zero();    ///< kg/s
 };
 
-OwnSums sumsOf(const PairTraversal& pairs, std::size_t seat) {
+OwnSums sumsOf(const PairTraversal& pairs, std::size_t laneSlot) {
     OwnSums sums;
-    const PairRecord& p = pairs.records[pairs.placeAt(seat)];
-    pairs.forEachNeighbor(seat, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
-        const auto c = pairs.constants<false>(p, pairs.records[other]);
+    const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
+    pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+        const auto c = pairs.constants<false>(p, pairs.packed[other]);
         const double distance = std::sqrt(distanceSq);
         const Vec3 normal = separation / distance;
         const Matrix3 along = normal * normal.transpose();
@@ -52,7 +52,7 @@ double longestStep(StepperKind stepper, double frequencySq, double decay) {
 struct PairSystem {
     PairMatrix damping;
     PairMatrix stiffness;
-    std::vector<double> mass;  ///< kg, by place
+    std::vector<double> mass;  ///< kg, by sortedIndex
 };
 
 PairSystem systemOf(const PairTraversal& pairs, const Particles& particles) {
@@ -80,7 +80,7 @@ double refined(const PairTraversal& pairs, const Particles& particles, StepperKi
     std::vector<Vec3> x(count), kx(count), cx(count), mx(count);
     for (std::size_t p = 0; p < count; ++p)
         for (std::uint64_t axis = 0; axis < 3; ++axis)
-            x[p][static_cast<int>(axis)] = symmetricUnit(randomBits(1, pairs.records[p].id, axis));
+            x[p][static_cast<int>(axis)] = symmetricUnit(randomBits(1, pairs.packed[p].id, axis));
     for (int iteration = 0; iteration < kIterations; ++iteration) {
         multiply(system.stiffness, x, kx);
         multiply(system.damping, x, cx);
@@ -103,9 +103,9 @@ std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particl
     PairTraversal pairs(law, Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<StepBound> bounds(particles.count());
-    pairs.forEachParticle([&](std::size_t seat) {
-        const std::size_t p = pairs.list.order[pairs.placeAt(seat)];
-        const OwnSums sums = sumsOf(pairs, seat);
+    pairs.forEachParticle([&](std::size_t laneSlot) {
+        const std::size_t p = pairs.list.order[pairs.sortedIndexAt(laneSlot)];
+        const OwnSums sums = sumsOf(pairs, laneSlot);
         const double frequencySq = 2.0 * largestEigenvalue(sums.stiffness) / particles.mass[p];
         const double decay = 2.0 * largestEigenvalue(sums.damping) / particles.mass[p];
         const double seconds = longestStep(stepper, frequencySq, decay);

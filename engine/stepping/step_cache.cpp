@@ -7,7 +7,7 @@ void StepCache::invalidate() {
     forcesCurrent = false;
     energy.reset();
     clearance.clear();
-    companions.clear();
+    cachedNeighbors.clear();
     evaluator.forgetList();
 }
 

@@ -39,7 +39,7 @@ struct StepCache {
     double startCutoff = 0.0;                   ///< cutoff of the pairs at startPositions, m
     bool startIsListed = false;                 ///< whether the neighbor list covers startPositions within startCutoff
     /// For each particle near obstacles the neighbor found last, where the next search begins.
-    Scratch<std::vector<std::uint32_t>> companions;
+    Scratch<std::vector<std::uint32_t>> cachedNeighbors;
 
     Scratch<std::vector<Vec3>> predictedVelocities;  ///< velocity Verlet's, m/s
     Scratch<ImplicitScratch> implicit;

@@ -76,10 +76,10 @@ struct Outlook {
 /// What is done for a surface is inline by force: most are far, and a call takes longer than to see that. Measured with
 /// `globular simulate powder --threads 1`: a twentieth less time.
 template <class Visit>
-Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way, const Visit& visit) {
+Outlook lookAhead(const Obstacles& obstacles, const Flight& flight, double way, const Visit& visit) {
     Outlook ahead;
     forEachSurface(
-        scenery, flight.position, [&](const Surface& surface) __attribute__((always_inline)) {
+        obstacles, flight.position, [&](const Surface& surface) __attribute__((always_inline)) {
             const double gap = surface.height - flight.radius;
             ahead.gap = std::min(ahead.gap, gap);
             // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
@@ -87,10 +87,10 @@ Outlook lookAhead(const Scenery& scenery, const Flight& flight, double way, cons
             const double above = std::min(surface.height, flight.radius);
             const double shallow = std::max(least, above);
             const bool isBarrierAsked = way > kResolved * shallow && shallow < ahead.scale;
-            const double depth = isBarrierAsked ? barrierDepth(surface, scenery.law, flight) : 0.0;
+            const double depth = isBarrierAsked ? barrierDepth(surface, obstacles.law, flight) : 0.0;
             ahead.scale = std::min(ahead.scale, std::max(least, above + depth));
             if (gap >= 0.0) return;
-            const Contact contact = contactWith(surface, scenery.law, probeOf(flight));
+            const Contact contact = contactWith(surface, obstacles.law, probeOf(flight));
             ahead.scale = std::min(ahead.scale, contact.distance);
             ahead.stiffness = std::max(ahead.stiffness, stiffnessAlong(contact));
             ahead.damping = std::max(ahead.damping, dampingAlong(contact));
@@ -118,13 +118,13 @@ void brake(Flight& flight, const Vec3& normal, double impulse) {
 }
 
 /// The implicit midpoint kick of the contacts at the flight's position.
-void kick(const Scenery& scenery, Flight& flight, double step) {
+void kick(const Obstacles& obstacles, Flight& flight, double step) {
     Vec3 force = Vec3::Zero();
     Matrix3 damping = Matrix3::Zero();
     const Probe probe = probeOf(flight);
     bool touched = false;
-    forEachTouched(scenery, flight.position, flight.radius, [&](const Surface& surface) {
-        const Contact contact = contactWith(surface, scenery.law, probe);
+    forEachTouched(obstacles, flight.position, flight.radius, [&](const Surface& surface) {
+        const Contact contact = contactWith(surface, obstacles.law, probe);
         force += normalForce(contact, 0.0) * surface.normal;
         damping += dampingAlong(contact) * surface.normal * surface.normal.transpose();
         if (flight.friction > 0.0) brake(flight, surface.normal, flight.friction * normalForce(contact, 0.0) * step);
@@ -136,9 +136,9 @@ void kick(const Scenery& scenery, Flight& flight, double step) {
     flight.velocity = 2.0 * middle - flight.velocity;
 }
 
-void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
-    forEachSurface(scenery, flight.position, [&](const Surface& surface) {
-        if (surface.height >= 0.0 || surface.height >= -barrierDepth(surface, scenery.law, flight)) return;
+void reflectAtBarriers(const Obstacles& obstacles, Flight& flight) {
+    forEachSurface(obstacles, flight.position, [&](const Surface& surface) {
+        if (surface.height >= 0.0 || surface.height >= -barrierDepth(surface, obstacles.law, flight)) return;
         const double inwards = dot(flight.velocity, surface.normal);
         if (inwards < 0.0) flight.velocity -= 2.0 * inwards * surface.normal;
     });
@@ -146,11 +146,11 @@ void reflectAtBarriers(const Scenery& scenery, Flight& flight) {
 
 }  // namespace
 
-Contacts contactsAhead(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit) {
+Contacts contactsAhead(const Obstacles& obstacles, const Flight& flight, double duration, bool isExplicit) {
     const Probe probe = probeOf(flight);
     const double way = duration * std::sqrt(squaredLength(flight.velocity));
     Contacts contacts;
-    const Outlook ahead = lookAhead(scenery, flight, way, [&](const Surface& surface, const Contact& contact) {
+    const Outlook ahead = lookAhead(obstacles, flight, way, [&](const Surface& surface, const Contact& contact) {
         addForce(surface, contact, probe, contacts.force);
     });
     contacts.gap = ahead.gap;
@@ -161,12 +161,12 @@ Contacts contactsAhead(const Scenery& scenery, const Flight& flight, double dura
     return contacts;
 }
 
-void fly(const Scenery& scenery, Flight& flight, double duration) {
+void fly(const Obstacles& obstacles, Flight& flight, double duration) {
     double remaining = duration;
     for (int count = 0; remaining > 0.0 && count < kMostSteps; ++count) {
         const double speed = std::sqrt(squaredLength(flight.velocity));
         constexpr double kAnyWay = std::numeric_limits<double>::infinity();
-        const Outlook ahead = lookAhead(scenery, flight, kAnyWay, [](const Surface&, const Contact&) {});
+        const Outlook ahead = lookAhead(obstacles, flight, kAnyWay, [](const Surface&, const Contact&) {});
         // Written so that a speed that is not a number ends the flight; the check after the step reports it.
         if (!(speed * remaining > ahead.gap) && (ahead.gap > 0.0 || !(speed >= 0.0))) {
             flight.position += remaining * flight.velocity;
@@ -174,9 +174,9 @@ void fly(const Scenery& scenery, Flight& flight, double duration) {
         }
         const double step = stepFor(ahead, flight, speed, remaining);
         flight.position += 0.5 * step * flight.velocity;
-        kick(scenery, flight, step);
+        kick(obstacles, flight, step);
         flight.position += 0.5 * step * flight.velocity;
-        reflectAtBarriers(scenery, flight);
+        reflectAtBarriers(obstacles, flight);
         remaining = step >= remaining ? 0.0 : remaining - step;
     }
 }

@@ -26,13 +26,13 @@ struct Contacts {
 
 /// The contacts of the coming step (s). They are more than it bears where the particle may cover more than a fraction
 /// of a contact's depth in it, or, where contacts act explicitly, comes near the limit of stability.
-Contacts contactsAhead(const Scenery& scenery, const Flight& flight, double duration, bool isExplicit);
+Contacts contactsAhead(const Obstacles& obstacles, const Flight& flight, double duration, bool isExplicit);
 
 /// Flies on for a duration (s) under the forces of the obstacles alone, those of section 3.2.
 /// Holds:  at any finite speed the center stays on the side of a plane, of a box's face and of a sphere that it came
 ///         from. Where the repulsor cannot stop it, it is reflected: the barrier, a departure from the paper. Under a
 ///         plane it lies at the law's core distance from the repulsor, in a solid a tenth of the particle's radius or
 ///         of half the solid's thickness under the surface. Order 2 in the duration of the stepper's step.
-void fly(const Scenery& scenery, Flight& flight, double duration);
+void fly(const Obstacles& obstacles, Flight& flight, double duration);
 
 }  // namespace engine

@@ -22,7 +22,7 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
     ++simulation.steps.forceEvaluations;
     const double decay = expNegative(simulation.setup.drag * h);
     simulation.cache->clearance.clear();
-    const bool hasObstacles = !evaluator.law().scenery.colliders.empty();
+    const bool hasObstacles = !evaluator.law().obstacles.shapes.empty();
     const KickDrift step{.h = h,
                          .decay = decay,
                          .gravity = evaluator.law().gravity,
@@ -30,20 +30,20 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .hasWeight = hasObstacles};
     Moved moved;
     std::mutex merging;
-    inRanges(particles.count(), grainAmong(evaluator.law().scenery), [&](std::size_t begin, std::size_t end) {
+    inRanges(particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
         // Pairs, weight, obstacles: the order is part of the bits.
         if (hasObstacles)
-            addOuterForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
+            addExternalForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
         const Moved range = kickAndDrift(step, begin, end, particles);
         const std::scoped_lock lock(merging);
         moved.include(range);
     });
     if (!moved.areValid) {
-        evaluator.forgetMoves();
+        evaluator.invalidateDisplacementBound();
         return false;
     }
     const Vec3 margin = Vec3::Constant(kDisplacementMargin);
-    evaluator.noteMoves({h * moved.velocities.low - margin, h * moved.velocities.high + margin});
+    evaluator.addDisplacementBound({h * moved.velocities.low - margin, h * moved.velocities.high + margin});
     return true;
 }
 

@@ -33,7 +33,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.cache->predictedVelocities;
     predicted.resize(particles.count());
-    inParallel(particles.count(), grainAmong(simulation.setup.scenery), [&](std::size_t p) {
+    inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
         Vec3& velocity = particles.velocity[p];
         const Vec3 contacts = chooseSwept(simulation, p, h);
         const Vec3 change = halfKick(particles, p, h, simulation.cache->forces[p] + contacts);

@@ -40,7 +40,7 @@ engine::Plane planeFrom(Section& section, BuildContext& context) {
     return plane;
 }
 
-engine::Collider colliderFrom(Section& section, BuildContext& context) {
+engine::Obstacle colliderFrom(Section& section, BuildContext& context) {
     const std::string& shape = section.text("shape");
     if (shape == "plane") return planeFrom(section, context);
     if (shape == "box") return engine::Box{section.vector("minimum"), section.vector("maximum")};
@@ -70,7 +70,7 @@ Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, Bu
         }
         if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
         if (!section.isSound()) continue;
-        obstacles.colliders.push_back(colliderFrom(section, context));
+        obstacles.shapes.push_back(colliderFrom(section, context));
         obstacles.looks.push_back(lookOf(section, look));
     }
     return obstacles;

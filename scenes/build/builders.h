@@ -40,7 +40,7 @@ std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const
                                            BuildContext& context);
 
 struct Obstacles {
-    std::vector<engine::Collider> colliders;
+    std::vector<engine::Obstacle> shapes;
     std::vector<ObstacleLook> looks;
 };
 

@@ -175,7 +175,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     checkWorld(sections.world, scene.setup, context);
     scene.setup.materials = std::move(materials.list);
     scene.materialColors = std::move(materials.colors);
-    scene.setup.scenery.colliders = std::move(obstacles.colliders);
+    scene.setup.obstacles.shapes = std::move(obstacles.shapes);
     scene.obstacleLooks = std::move(obstacles.looks);
 }
 

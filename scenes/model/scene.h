@@ -35,7 +35,7 @@ struct Scene {
     std::uint64_t seed = 1;
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB, one for each material of the set-up
-    std::vector<ObstacleLook> obstacleLooks;   ///< one for each collider of the set-up
+    std::vector<ObstacleLook> obstacleLooks;   ///< one for each obstacle of the set-up
     CameraPath camera;
     Look look;
     Overlay overlay;

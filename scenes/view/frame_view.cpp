@@ -48,16 +48,16 @@ void addEdges(const BoxExtent& box, const glm::vec3& color, float width, render:
 
 void addObstacle(const Scene& scene, std::size_t index, render::View& view) {
     const ObstacleLook& seen = scene.obstacleLooks.at(index);
-    const engine::Collider& collider = scene.setup.scenery.colliders[index];
+    const engine::Obstacle& obstacle = scene.setup.obstacles.shapes[index];
     if (!seen.visible) return;
     const float width = single(scene.look.edgeWidth);
-    if (const auto* sphere = std::get_if<engine::Sphere>(&collider)) {
+    if (const auto* sphere = std::get_if<engine::Sphere>(&obstacle)) {
         view.sphereObstacles.push_back({single(sphere->center), single(sphere->radius), single(seen.color)});
-    } else if (const auto* box = std::get_if<engine::Box>(&collider)) {
+    } else if (const auto* box = std::get_if<engine::Box>(&obstacle)) {
         const BoxExtent extent{single(box->minimum), single(box->maximum)};
         view.boxObstacles.push_back({extent.minimum, extent.maximum, single(seen.color)});
         if (seen.edges) addEdges(extent, single(scene.look.edgeColor), width, view);
-    } else if (const auto* container = std::get_if<engine::Container>(&collider)) {
+    } else if (const auto* container = std::get_if<engine::Container>(&obstacle)) {
         const BoxExtent extent{single(container->minimum), single(container->maximum)};
         if (seen.edges) addEdges(extent, single(seen.color), width, view);
     }
@@ -105,7 +105,7 @@ render::View frameView(const Scene& scene, const engine::Particles& particles, d
     view.camera = cameraOf(camera);
     if (scene.look.ground) view.ground = groundOf(scene.look, camera.target);
     view.overlay = overlayOf(scene, time);
-    for (std::size_t index = 0; index < scene.setup.scenery.colliders.size(); ++index) addObstacle(scene, index, view);
+    for (std::size_t index = 0; index < scene.setup.obstacles.shapes.size(); ++index) addObstacle(scene, index, view);
     view.particles.reserve(particles.count());
     for (std::size_t index = 0; index < particles.count(); ++index)
         view.particles.push_back({single(particles.position[index]), single(particles.radius[index]),

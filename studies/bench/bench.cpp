@@ -45,7 +45,7 @@ double measured(const Work& work, const BenchSettings& settings) {
 }
 
 engine::ForceLaw lawOf(const engine::Setup& setup) {
-    return {setup.materials, setup.gravity, setup.scenery};
+    return {setup.materials, setup.gravity, setup.obstacles};
 }
 
 std::string hashOf(const std::vector<Vec3>& vectors) {
@@ -71,7 +71,7 @@ Subject subjectOf(const Packed& packed, std::size_t count) {
     subject.row.particles = particles.count();
     subject.row.neighbors = meanNeighbors(subject.setup, particles);
     subject.rowBytes = static_cast<double>(bytesOf(pairs.list.rows)) / static_cast<double>(particles.count());
-    subject.row.bytesPerParticle = subject.rowBytes + sizeof(engine::PairRecord);
+    subject.row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticle);
     return subject;
 }
 
@@ -124,7 +124,7 @@ class Bench {
         row.name = "forces";
         row.precision = precision;
         if (precision == Precision::singles)
-            row.bytesPerParticle = subject.rowBytes + sizeof(engine::SinglePrecisionRecord);
+            row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat);
         const Work pass = [&] { evaluator.pairForcesGrid(particles, particles.velocity, forces); };
         pass();  // builds the list
         row.seconds = measured(pass, settings_);
@@ -138,13 +138,13 @@ class Bench {
         engine::NeighborList list;
         BenchRow row = subject.row;
         row.name = "list";
-        const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kListSkin * cutoff); };
+        const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kDefaultSkin * cutoff); };
         work();
         row.seconds = measured(work, settings_);
         std::uint64_t hash = engine::fnv1a("");
-        for (const engine::RowPart& part : list.rows.parts)
-            for (std::size_t at = 0; at < part.start.back() * engine::kGroup; ++at)
-                hash = engine::fnv1a(std::uint64_t{part.placeAt(at)}, hash);
+        for (const engine::RowBlock& block : list.rows.blocks)
+            for (std::size_t at = 0; at < block.start.back() * engine::kClusterSize; ++at)
+                hash = engine::fnv1a(std::uint64_t{block.sortedIndexAt(at)}, hash);
         row.stateHash = engine::hexadecimal(hash);
         add(row);
     }

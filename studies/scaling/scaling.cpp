@@ -39,7 +39,7 @@ Simulation frozen(const Simulation& from, ForceMethod method, Precision precisio
     simulation.setup.emitters.clear();
     simulation.emitters.clear();
     simulation.cache->evaluator =
-        engine::ForceEvaluator({from.setup.materials, from.setup.gravity, from.setup.scenery}, method, precision);
+        engine::ForceEvaluator({from.setup.materials, from.setup.gravity, from.setup.obstacles}, method, precision);
     simulation.cache->forcesCurrent = false;
     return simulation;
 }

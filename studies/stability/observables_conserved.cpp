@@ -62,7 +62,7 @@ double momentumDrift(const ObservableInput& trial) {
 /// births.
 double energyRise(const ObservableInput& trial) {
     const engine::Setup& setup = trial.scene.setup;
-    engine::ForceEvaluator evaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces);
+    engine::ForceEvaluator evaluator({setup.materials, setup.gravity, setup.obstacles}, setup.forces);
     double worst = 0.0;
     engine::Energy earlier = engine::energy(evaluator, trial.run.frames.front());
     for (std::size_t k = 1; k < trial.run.frames.size(); ++k) {

@@ -74,14 +74,14 @@ bool isThrough(const engine::Sphere& sphere, const Flight& flight, double) {
 double tunnelingCount(const ObservableInput& trial) {
     const engine::Particles& first = trial.run.frames.front();
     const engine::Particles& last = trial.run.frames.back();
-    const double depth = trial.scene.setup.scenery.law.radius;
+    const double depth = trial.scene.setup.obstacles.law.radius;
     int count = 0;
     for (std::size_t p = 0; p < first.count(); ++p) {
         const Flight flight{first.position[p], last.position[p]};
         bool through = false;
-        for (const engine::Collider& collider : trial.scene.setup.scenery.colliders)
+        for (const engine::Obstacle& obstacle : trial.scene.setup.obstacles.shapes)
             through =
-                through || std::visit([&](const auto& shape) { return isThrough(shape, flight, depth); }, collider);
+                through || std::visit([&](const auto& shape) { return isThrough(shape, flight, depth); }, obstacle);
         if (through) ++count;
     }
     return count;

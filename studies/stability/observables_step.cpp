@@ -19,7 +19,7 @@ using engine::Simulation;
 using engine::StepperKind;
 
 engine::ForceLaw lawOf(const engine::Setup& setup) {
-    return {setup.materials, setup.gravity, setup.scenery};
+    return {setup.materials, setup.gravity, setup.obstacles};
 }
 
 /// The explicit stepper whose limit is asked for: the scene's own if it is one.
@@ -60,7 +60,7 @@ bool isStable(const Simulation& state, double h) {
         for (int axis = 0; axis < 3; ++axis)
             other.particles.position[p][axis] +=
                 kApart * engine::symmetricUnit(engine::randomBits(1, static_cast<std::uint64_t>(axis), p));
-    other.cache->evaluator.forgetMoves();
+    other.cache->evaluator.invalidateDisplacementBound();
     const double before = rmsDistance(one.particles, other.particles);
     for (int step = 0; step < kSteps; ++step) {
         engine::takeStep(one, h);

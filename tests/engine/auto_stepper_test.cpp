@@ -18,7 +18,7 @@ namespace {
 Setup fallingBlock(const Material& material, const std::array<std::uint32_t, 3>& counts = {4, 4, 4}) {
     Setup setup = runs::freeSetup(material, StepperKind::automatic, 0.01);
     setup.gravity = Vec3(0, -9.8, 0);
-    setup.scenery.colliders = {Plane{Vec3(0, -0.7, 0), Vec3::UnitY()}};
+    setup.obstacles.shapes = {Plane{Vec3(0, -0.7, 0), Vec3::UnitY()}};
     runs::addPacking(setup, counts);
     return setup;
 }

@@ -26,8 +26,8 @@ Setup busySetup(StepperKind stepper) {
     Setup setup = runs::freeSetup(solid, stepper, 0.004);
     setup.gravity = Vec3(0.0, -9.8, 0.0);
     setup.drag = 0.1;
-    setup.scenery.colliders = {engine::Plane{Vec3(0, -0.6, 0), Vec3::UnitY()},
-                               engine::Sphere{Vec3(0.4, -0.6, 0.4), 0.3}};
+    setup.obstacles.shapes = {engine::Plane{Vec3(0, -0.6, 0), Vec3::UnitY()},
+                              engine::Sphere{Vec3(0.4, -0.6, 0.4), 0.3}};
     setup.error = 0.05;
     runs::addPacking(setup, {5, 5, 5});
     engine::Emitter nozzle;

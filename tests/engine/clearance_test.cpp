@@ -16,7 +16,7 @@ Simulation falling(StepperKind stepper, double step) {
     Setup setup = runs::freeSetup(*materialPreset("powder"), stepper, step);
     setup.gravity = Vec3(0.0, -9.81, 0.0);
     runs::addPacking(setup, {6, 6, 6});
-    setup.scenery.colliders = {
+    setup.obstacles.shapes = {
         Plane{Vec3(0.0, -2.5, 0.0), Vec3::UnitY()}, Box{Vec3(-1.0, -1.6, -1.0), Vec3(1.0, -1.3, 1.0)},
         Sphere{Vec3(1.6, -1.5, 0.3), 0.4, false}, Container{Vec3(-2.5, -4.0, -2.5), Vec3(2.5, 4.0, 2.5)}};
     return start(setup);
@@ -24,7 +24,7 @@ Simulation falling(StepperKind stepper, double step) {
 
 double gapOf(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
-    return contactsAhead(simulation.setup.scenery,
+    return contactsAhead(simulation.setup.obstacles,
                          {.position = particles.position[p], .velocity = Vec3::Zero(), .radius = particles.radius[p]},
                          0.0, false)
         .gap;
@@ -82,7 +82,7 @@ TEST_CASE("Alone and from rest, too, nothing falls through a box in one long ste
         if (stepper == StepperKind::symplecticEuler) continue;  // the paper's judges no step
         Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 1.0);
         setup.gravity = Vec3(0.0, -9.8, 0.0);
-        setup.scenery.colliders = {Box{Vec3(-5.0, -0.5, -5.0), Vec3(5.0, 0.0, 5.0)}};
+        setup.obstacles.shapes = {Box{Vec3(-5.0, -0.5, -5.0), Vec3(5.0, 0.0, 5.0)}};
         const double radius = setup.materials[0].radius;
         append(setup.initial,
                {.position = Vec3(0.0, radius + 0.05, 0.0), .radius = radius, .mass = setup.materials[0].mass});

@@ -36,11 +36,11 @@ double reboundOf(const Flight& flight, const RepulsorLaw& law) {
 }
 
 /// The height (m) at which a particle rests on the plane y = 0.
-double restingHeight(const Scenery& scenery, double mass, double gravity) {
+double restingHeight(const Obstacles& obstacles, double mass, double gravity) {
     double low = -0.3, high = 0.15;
     for (int k = 0; k < 60; ++k) {
         const double middle = 0.5 * (low + high);
-        const double force = contactForce(scenery, {Vec3(0, middle, 0), Vec3::Zero(), 0.15, 2.0}).y();
+        const double force = contactForce(obstacles, {Vec3(0, middle, 0), Vec3::Zero(), 0.15, 2.0}).y();
         (force > mass * gravity ? low : high) = middle;
     }
     return 0.5 * (low + high);
@@ -49,7 +49,7 @@ double restingHeight(const Scenery& scenery, double mass, double gravity) {
 }  // namespace
 
 TEST_CASE("Rebounds from a plane are those of a hundred times finer steps", "[contact-drift]") {
-    const Scenery floor = only(Plane{});
+    const Obstacles floor = only(Plane{});
     for (const double mass : {0.1, 1.0})
         for (const double speed : {1.0, 5.0, 30.0, 100.0, 1000.0}) {
             const double expected = reboundOf({Vec3::Zero(), Vec3(0, -speed, 0), mass, 0.15, 2.0}, floor.law);
@@ -65,31 +65,31 @@ TEST_CASE("Rebounds from a plane are those of a hundred times finer steps", "[co
 }
 
 TEST_CASE("Free flight is one product and one sum", "[contact-drift]") {
-    Scenery scenery = only(Plane{});
-    scenery.colliders.emplace_back(Sphere{Vec3(50, 0, 0), 1.0, false});
-    scenery.colliders.emplace_back(Box{Vec3(-9, 0, 0), Vec3(-8, 1, 1)});
+    Obstacles obstacles = only(Plane{});
+    obstacles.shapes.emplace_back(Sphere{Vec3(50, 0, 0), 1.0, false});
+    obstacles.shapes.emplace_back(Box{Vec3(-9, 0, 0), Vec3(-8, 1, 1)});
     for (const double duration : {1e-3, 0.1, 0.9}) {
         Flight flight{Vec3(0.1, 4.0, 0.2), Vec3(1.7, -2.9, 0.3), 0.1, 0.15, 2.0};
         const Vec3 expected = flight.position + duration * flight.velocity;
-        CHECK_FALSE(contactsAhead(scenery, flight, duration, true).needsSweep);
-        fly(scenery, flight, duration);
+        CHECK_FALSE(contactsAhead(obstacles, flight, duration, true).needsSweep);
+        fly(obstacles, flight, duration);
         CHECK(flight.position == expected);
         CHECK(flight.velocity == Vec3(1.7, -2.9, 0.3));
     }
 }
 
 TEST_CASE("What passes by an obstacle is only moved", "[contact-drift]") {
-    const Scenery scenery = only(Sphere{Vec3::Zero(), 1.0, false});
+    const Obstacles obstacles = only(Sphere{Vec3::Zero(), 1.0, false});
     Flight flight{Vec3(-3, 1.16, 0), Vec3(40, 0, 0), 0.1, 0.15, 2.0};
-    fly(scenery, flight, 0.15);
+    fly(obstacles, flight, 0.15);
     CHECK(flight.velocity == Vec3(40, 0, 0));
     CHECK((flight.position - Vec3(3, 1.16, 0)).norm() < 1e-13);  // a rounding of 3 m for each of some hundred leaps
 }
 
 TEST_CASE("The force of the contacts ahead is that of the contacts as forces", "[contact-drift]") {
-    Scenery corner = only(Plane{});
-    corner.colliders.emplace_back(Box{Vec3(-1, -1, -1), Vec3(-0.1, 2, 1)});
-    corner.colliders.emplace_back(Sphere{Vec3(0.4, 0.3, 0.2), 0.35, false});
+    Obstacles corner = only(Plane{});
+    corner.shapes.emplace_back(Box{Vec3(-1, -1, -1), Vec3(-0.1, 2, 1)});
+    corner.shapes.emplace_back(Sphere{Vec3(0.4, 0.3, 0.2), 0.35, false});
     for (const double friction : {0.0, 0.6})
         for (const double height : {0.05, 0.12, 0.2, 3.0}) {
             const Flight flight{Vec3(0.0, height, 0.0), Vec3(0.3, -0.7, 0.1), 0.1, 0.15, 2.0, friction};
@@ -103,7 +103,7 @@ TEST_CASE("The force of the contacts ahead is that of the contacts as forces", "
 }
 
 TEST_CASE("Only what is too fast or too stiff for the step is swept", "[contact-drift]") {
-    const Scenery floor = only(Plane{});
+    const Obstacles floor = only(Plane{});
     const Flight fast{Vec3(0, 1, 0), Vec3(0, -100, 0), 0.1, 0.15, 2.0};
     CHECK(contactsAhead(floor, fast, 0.01, false).needsSweep);
     CHECK_FALSE(contactsAhead(floor, fast, 0.008, false).needsSweep);  // 0.8 of 0.85 m to the contact
@@ -122,8 +122,8 @@ TEST_CASE("What rests on a plane stays", "[contact-drift]") {
         for (const double step : {1e-3, 1.0 / 60, 1.0 / 30}) {
             Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, step);
             setup.gravity = Vec3(0, -9.8, 0);
-            setup.scenery = only(Plane{});
-            const double height = restingHeight(setup.scenery, 0.1, 9.8);
+            setup.obstacles = only(Plane{});
+            const double height = restingHeight(setup.obstacles, 0.1, 9.8);
             append(setup.initial, {.position = Vec3(0, height, 0), .mass = 0.1});
             Simulation simulation = start(setup);
             double far = 0.0;
@@ -138,7 +138,7 @@ TEST_CASE("What rests on a plane stays", "[contact-drift]") {
 
 TEST_CASE("What starts deep inside an obstacle comes out", "[contact-drift]") {
     struct Case {
-        Collider collider;
+        Obstacle obstacle;
         Vec3 position;
         Vec3 out;  ///< from any point of the face, m
     };
@@ -153,8 +153,8 @@ TEST_CASE("What starts deep inside an obstacle comes out", "[contact-drift]") {
     for (const Case& c : cases)
         for (const double mass : {0.01, 0.1, 1.0}) {
             Flight flight{c.position, Vec3::Zero(), mass, 0.15, 2.0};
-            const Scenery scenery = only(c.collider);
-            for (int call = 0; call < 200 && dot(flight.position, c.out) <= 0.0; ++call) fly(scenery, flight, 0.01);
+            const Obstacles obstacles = only(c.obstacle);
+            for (int call = 0; call < 200 && dot(flight.position, c.out) <= 0.0; ++call) fly(obstacles, flight, 0.01);
             INFO(mass << " kg from " << c.position.transpose() << " is at " << flight.position.transpose());
             CHECK(dot(flight.position, c.out) > 0.0);
         }
@@ -163,13 +163,13 @@ TEST_CASE("What starts deep inside an obstacle comes out", "[contact-drift]") {
 TEST_CASE("Flights of what is no number or too fast for one end", "[contact-drift]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
-    for (const Collider& collider : std::vector<Collider>{Plane{}, Box{Vec3(-1, -1, -1), Vec3(1, 1, 1)}, Sphere{}})
+    for (const Obstacle& obstacle : std::vector<Obstacle>{Plane{}, Box{Vec3(-1, -1, -1), Vec3(1, 1, 1)}, Sphere{}})
         for (const double bad : {nan, infinity, 1e300, 1e160}) {
             Flight flight{Vec3(0.2, 2, 0.1), Vec3(0, -bad, 0), 0.1, 0.15, 2.0};
-            fly(only(collider), flight, 0.01);
+            fly(only(obstacle), flight, 0.01);
             CHECK_FALSE(std::abs(flight.velocity.y()) < 1e100);
             Flight nowhere{Vec3(0.2, bad, 0.1), Vec3(0, -1, 0), 0.1, 0.15, 2.0};
-            fly(only(collider), nowhere, 0.01);
+            fly(only(obstacle), nowhere, 0.01);
             CHECK_FALSE(std::abs(nowhere.position.y()) < 1e100);
         }
 }

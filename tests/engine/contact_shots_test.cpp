@@ -19,7 +19,7 @@ using Verdict = std::function<bool(const Vec3& before, const Vec3& now)>;
 
 /// What is shot at, and how.
 struct Target {
-    Collider collider;
+    Obstacle obstacle;
     Vec3 aim;        ///< m
     Vec3 outward;    ///< the middle of the directions that shots come from
     double cone;     ///< least cosine between a shot and the way in
@@ -36,15 +36,15 @@ Vec3 directionOf(const Target& target, std::uint64_t number) {
 
 /// Flies 4 m from 1.5 m before the aim, in calls that cover `stride` meters at the initial speed.
 void shoot(const Target& target, const Vec3& direction, double stride) {
-    Scenery scenery;
-    scenery.colliders = {target.collider};
+    Obstacles obstacles;
+    obstacles.shapes = {target.obstacle};
     for (const double mass : kMasses)
         for (const double speed : kSpeeds) {
             Flight flight{target.aim - 1.5 * direction, speed * direction, mass, 0.15, 2.0};
             bool passed = false;
             for (double way = 0.0; way < 4.0 && !passed; way += stride) {
                 const Vec3 before = flight.position;
-                fly(scenery, flight, stride / speed);
+                fly(obstacles, flight, stride / speed);
                 passed = target.passed(before, flight.position);
             }
             INFO(mass << " kg at " << speed << " m/s along " << direction.transpose() << " is at "
@@ -136,8 +136,8 @@ TEST_CASE("No shot at a sphere's middle passes it", "[contact-shots]") {
 
 TEST_CASE("What goes on nearly straight past a sphere has only grazed it", "[contact-shots]") {
     for (const double radius : {0.05, 0.5, 3.0}) {
-        Scenery scenery;
-        scenery.colliders = {Sphere{Vec3::Zero(), radius, false}};
+        Obstacles obstacles;
+        obstacles.shapes = {Sphere{Vec3::Zero(), radius, false}};
         const double graze = 0.2 * std::min(radius, 0.15);  // twice the barrier's depth, for the step that meets it
         for (const double mass : kMasses)
             for (const double speed : kSpeeds)
@@ -146,7 +146,7 @@ TEST_CASE("What goes on nearly straight past a sphere has only grazed it", "[con
                     Flight flight{Vec3(-radius - 0.5, beside, 0), Vec3(speed, 0, 0), mass, 0.15, 2.0};
                     double least = radius;
                     for (double way = 0.0; way < 4.0 * radius + 4.0; way += 0.02) {
-                        fly(scenery, flight, 0.02 / speed);
+                        fly(obstacles, flight, 0.02 / speed);
                         least = std::min(least, flight.position.norm());
                     }
                     INFO(mass << " kg at " << speed << " m/s, " << beside << " m beside the middle of a sphere of "
@@ -160,8 +160,8 @@ TEST_CASE("What goes on nearly straight past a sphere has only grazed it", "[con
 }
 
 TEST_CASE("No shot leaves a container", "[contact-shots]") {
-    Scenery scenery;
-    scenery.colliders = {Container{Vec3(-1, -1, -1), Vec3(1, 1, 1)}};
+    Obstacles obstacles;
+    obstacles.shapes = {Container{Vec3(-1, -1, -1), Vec3(1, 1, 1)}};
     for (std::uint64_t number = 0; number < 20; ++number)
         for (const double mass : kMasses)
             for (const double speed : kSpeeds) {
@@ -169,7 +169,7 @@ TEST_CASE("No shot leaves a container", "[contact-shots]") {
                               speed * clouds::randomVector(42, number).normalized(), mass, 0.15, 2.0};
                 double far = 0.0;
                 for (int call = 0; call < 20; ++call) {
-                    fly(scenery, flight, 0.5 / speed);
+                    fly(obstacles, flight, 0.5 / speed);
                     far = std::max(far, flight.position.cwiseAbs().maxCoeff());
                 }
                 INFO(mass << " kg at " << speed << " m/s is at " << flight.position.transpose());

@@ -14,13 +14,13 @@ namespace {
 Setup overflowing(StepperKind stepper) {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 0.004);
     setup.gravity = Vec3(0.0, -9.8, 0.0);
-    setup.scenery.colliders = {Plane{Vec3(0.0, 0.0, 0.0), Vec3::UnitY()}};
+    setup.obstacles.shapes = {Plane{Vec3(0.0, 0.0, 0.0), Vec3::UnitY()}};
     Emitter emitter;
     emitter.sites = discSites(Vec3(0.0, 1.5, 0.0), Vec3(1.0, -1.0, 0.0), 0.5, 0.3);
     emitter.velocity = Vec3(4.0, -4.0, 0.0);
     emitter.interval = 0.06;
     setup.emitters = {emitter};
-    setup.world = Extent::unbounded();
+    setup.world = BoundingBox::unbounded();
     setup.world->high.x() = 2.5;
     return setup;
 }
@@ -30,7 +30,7 @@ Setup overflowing(StepperKind stepper) {
 TEST_CASE("Who is beyond the bounds leaves with the next interval; the others keep order and ids", "[deaths]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 0.01);
     for (const double x : {-3.0, 2.0, 3.0, 4.0, 2.0 + 1e-12}) append(setup.initial, {.position = Vec3(x, x, 0.0)});
-    setup.world = Extent::unbounded();
+    setup.world = BoundingBox::unbounded();
     setup.world->high = Vec3(3.5, 2.0, 1.0);  // a face belongs to it
     Simulation simulation = start(setup);
     CHECK(simulation.particles.count() == 5);
@@ -50,7 +50,7 @@ TEST_CASE("The others go on as if nobody had been there", "[deaths]") {
         runs::addPacking(alone, {4, 4, 4});
         Setup accompanied = alone;
         append(accompanied.initial, {.position = Vec3(0.1, 50.0, 0.0), .radius = alone.initial.radius[0]});
-        accompanied.world = Extent{Vec3::Constant(-40.0), Vec3::Constant(40.0)};
+        accompanied.world = BoundingBox{Vec3::Constant(-40.0), Vec3::Constant(40.0)};
         Simulation expected = start(alone);
         Simulation actual = start(accompanied);
         advance(expected, 3.0 * runs::kFrame);
@@ -154,9 +154,9 @@ TEST_CASE("A world that has emptied takes steps, births and checkpoints like one
          {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::automatic}) {
         Setup setup = runs::freeSetup(*materialPreset("honey"), stepper, 0.004);
         setup.gravity = Vec3(0.0, -9.8, 0.0);
-        setup.scenery.colliders = {Plane{Vec3(0.0, -50.0, 0.0), Vec3::UnitY()}};
+        setup.obstacles.shapes = {Plane{Vec3(0.0, -50.0, 0.0), Vec3::UnitY()}};
         runs::addPacking(setup, {2, 2, 2});
-        setup.world = Extent::unbounded();
+        setup.world = BoundingBox::unbounded();
         setup.world->low.y() = -0.5;
         Emitter emitter;
         emitter.sites = discSites(Vec3(0.0, 1.5, 0.0), Vec3::UnitY(), 0.4, 0.25);

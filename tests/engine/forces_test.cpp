@@ -208,7 +208,7 @@ TEST_CASE("Radii that change once are not one radius, wherever threads share the
 TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") {
     ForceLaw law = clouds::lawOf("liquid");
     law.gravity = Vec3(0, -9.8, 0);
-    law.scenery.colliders = {Plane{}};
+    law.obstacles.shapes = {Plane{}};
     Particles particles;
     append(particles, {.position = Vec3(0, 0.1, 0), .mass = 2.0});
     append(particles, {.position = Vec3(5, 3.0, 0), .mass = 2.0});
@@ -216,7 +216,7 @@ TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") 
         ForceEvaluator evaluator(law, method);
         std::vector<Vec3> forces;
         evaluator.evaluate(particles, particles.velocity, forces);
-        const Vec3 contact = contactForce(law.scenery, {particles.position[0], Vec3::Zero(), 0.15, 2.0});
+        const Vec3 contact = contactForce(law.obstacles, {particles.position[0], Vec3::Zero(), 0.15, 2.0});
         CHECK(contact.y() > 0.0);
         CHECK(forces[0].y() == Approx(-19.6 + contact.y()).epsilon(4 * kEps));  // two sums
         CHECK(forces[1] == Vec3(0, -19.6, 0));
@@ -226,7 +226,7 @@ TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") 
 TEST_CASE("Particles whose moves are noted are not looked at until they may have left the list", "[forces]") {
     Particles particles = clouds::strewn(300, 1.0);
     ForceEvaluator evaluator(clouds::lawOf("solid"), ForceMethod::grid);
-    const Extent nothing{Vec3::Zero(), Vec3::Zero()};
+    const BoundingBox nothing{Vec3::Zero(), Vec3::Zero()};
     const auto spread = [&] {
         for (Vec3& position : particles.position) position *= 2.0;
     };
@@ -236,41 +236,41 @@ TEST_CASE("Particles whose moves are noted are not looked at until they may have
         evaluator.pairForcesGrid(particles, particles.velocity, forces);
         return evaluator.list().builtAt != before;
     };
-    evaluator.noteMoves(nothing);  // of no list
+    evaluator.addDisplacementBound(nothing);  // of no list
     REQUIRE(isListedAnew());
     spread();
-    evaluator.noteMoves(nothing);  // a lie, to see who is believed
+    evaluator.addDisplacementBound(nothing);  // a lie, to see who is believed
     CHECK_FALSE(isListedAnew());
-    evaluator.noteMoves({Vec3::Zero(), Vec3::Constant(1.0)});
+    evaluator.addDisplacementBound({Vec3::Zero(), Vec3::Constant(1.0)});
     CHECK(isListedAnew());
     spread();
     CHECK(isListedAnew());  // nobody says anything
     spread();
-    evaluator.noteMoves(nothing);
-    evaluator.forgetMoves();
+    evaluator.addDisplacementBound(nothing);
+    evaluator.invalidateDisplacementBound();
     CHECK(isListedAnew());
     evaluator.restoreList(particles.position, 1.0);
     spread();
-    evaluator.noteMoves(nothing);  // of who knows what
+    evaluator.addDisplacementBound(nothing);  // of who knows what
     CHECK(isListedAnew());
     spread();
-    evaluator.noteMoves(nothing);
+    evaluator.addDisplacementBound(nothing);
     append(particles, {});
     CHECK(isListedAnew());
 }
 
-TEST_CASE("Whoever comes in somebody's place is not taken for him, whatever was noted", "[forces]") {
+TEST_CASE("Whoever comes in somebody's sortedIndex is not taken for him, whatever was noted", "[forces]") {
     const ForceLaw law = clouds::lawOf("solid");
     Particles particles = clouds::strewn(100, 1.0);
     ForceEvaluator evaluator(law, ForceMethod::grid);
-    const Extent nothing{Vec3::Zero(), Vec3::Zero()};
+    const BoundingBox nothing{Vec3::Zero(), Vec3::Zero()};
     std::vector<Vec3> forces;
     evaluator.pairForcesGrid(particles, particles.velocity, forces);
-    evaluator.noteMoves(nothing);
+    evaluator.addDisplacementBound(nothing);
     evaluator.forgetList();
     particles.radius.back() *= 0.5;
     std::swap(particles.position.front(), particles.position.back());
-    evaluator.noteMoves(nothing);
+    evaluator.addDisplacementBound(nothing);
     evaluator.pairForcesGrid(particles, particles.velocity, forces);
     CHECK(forces == onGrid(law, particles));
 }
@@ -292,27 +292,27 @@ TEST_CASE("Who is alone is told by positions, however far a list that covers the
         reaches.insert(evaluator.list().reach);
         std::vector<Vec3> positions = particles.position;
         // Whoever is looked at first, the answer is the same.
-        const auto isAlone = [&](std::size_t p, std::uint32_t& companion) {
-            const bool isNow = evaluator.isAlone(positions, kCutoff, p, companion);
-            CHECK(evaluator.isAlone(positions, kCutoff, p, companion) == isNow);
+        const auto hasNoNeighborWithin = [&](std::size_t p, std::uint32_t& cachedNeighbor) {
+            const bool isNow = evaluator.hasNoNeighborWithin(positions, kCutoff, p, cachedNeighbor);
+            CHECK(evaluator.hasNoNeighborWithin(positions, kCutoff, p, cachedNeighbor) == isNow);
             return isNow;
         };
         for (const std::uint32_t first : {0U, 1U, 2U, 3U, 0xffffffffU}) {
-            INFO("companion " << first);
-            std::uint32_t companion = first;
+            INFO("cachedNeighbor " << first);
+            std::uint32_t cachedNeighbor = first;
             positions[1].x() = particles.position[1].x();
-            for (std::size_t p = 0; p < 3; ++p) CHECK(isAlone(p, companion = first));
+            for (std::size_t p = 0; p < 3; ++p) CHECK(hasNoNeighborWithin(p, cachedNeighbor = first));
             positions[1].x() = 0.599;
-            CHECK_FALSE(isAlone(0, companion = first));
-            CHECK(companion == 1);
-            CHECK_FALSE(isAlone(1, companion = first));
-            CHECK(companion == 0);
-            CHECK(isAlone(2, companion = first));
-            CHECK_FALSE(isAlone(3, companion = first));  // a newborn
+            CHECK_FALSE(hasNoNeighborWithin(0, cachedNeighbor = first));
+            CHECK(cachedNeighbor == 1);
+            CHECK_FALSE(hasNoNeighborWithin(1, cachedNeighbor = first));
+            CHECK(cachedNeighbor == 0);
+            CHECK(hasNoNeighborWithin(2, cachedNeighbor = first));
+            CHECK_FALSE(hasNoNeighborWithin(3, cachedNeighbor = first));  // a newborn
         }
         positions.push_back(positions[2]);  // beside whom one has been placed, in nobody's row yet
-        std::uint32_t companion = 3;
-        CHECK(isAlone(2, companion));
+        std::uint32_t cachedNeighbor = 3;
+        CHECK(hasNoNeighborWithin(2, cachedNeighbor));
     }
     CHECK(reaches.size() == 3);
 }

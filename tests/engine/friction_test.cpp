@@ -26,7 +26,7 @@ Material grain(double friction) {
 double slopeOfHeap(double friction) {
     Setup setup = runs::freeSetup(grain(friction), StepperKind::velocityVerlet, 0.005);
     setup.gravity = Vec3(0, -9.81, 0);
-    setup.scenery.colliders = {Plane{}};
+    setup.obstacles.shapes = {Plane{}};
     for (const Vec3& position : gridPositions(Vec3(0, 1.5, 0), {7, 10, 7}, {.spacing = 0.3, .jitter = 0.1}))
         append(setup.initial, {.position = position, .mass = 0.1});
     Simulation simulation = start(setup);
@@ -50,7 +50,7 @@ TEST_CASE("A sliding grain stops where Coulomb's law says", "[friction]") {
         for (const double friction : {0.3, 0.8}) {
             Setup setup = runs::freeSetup(grain(friction), stepper, 0.002);
             setup.gravity = Vec3(0, -9.8, 0);
-            setup.scenery.colliders = {Plane{}};
+            setup.obstacles.shapes = {Plane{}};
             append(setup.initial, {.position = Vec3(0, 0.15, 0), .mass = 0.1});
             Simulation simulation = start(setup);
             advance(simulation, 2.0);  // comes to rest on the floor

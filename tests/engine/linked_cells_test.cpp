@@ -1,4 +1,4 @@
-// Who is near a place: nobody is missing, nobody twice, and not everybody is asked.
+// Who is near a sortedIndex: nobody is missing, nobody twice, and not everybody is asked.
 #include "engine/neighbors/linked_cells.h"
 
 #include <map>
@@ -20,9 +20,9 @@ std::vector<Vec3> scattered(std::size_t count, double edge) {
     return positions;
 }
 
-std::map<std::size_t, int> visitsNear(const LinkedCells& cells, const Vec3& place) {
+std::map<std::size_t, int> visitsNear(const LinkedCells& cells, const Vec3& sortedIndex) {
     std::map<std::size_t, int> visits;
-    cells.forEachNear(place, [&](std::size_t p) { ++visits[p]; });
+    cells.forEachNear(sortedIndex, [&](std::size_t p) { ++visits[p]; });
     return visits;
 }
 
@@ -38,12 +38,12 @@ TEST_CASE("Linked cells find everybody within a width, each once, however they w
     LinkedCells grown(width, first);
     for (std::size_t p = first.size(); p < positions.size(); ++p) grown.add(positions[p]);
     const LinkedCells whole(width, positions);
-    for (const Vec3& place : positions) {
-        const std::map<std::size_t, int> visits = visitsNear(whole, place);
-        CHECK(visits == visitsNear(grown, place));
+    for (const Vec3& sortedIndex : positions) {
+        const std::map<std::size_t, int> visits = visitsNear(whole, sortedIndex);
+        CHECK(visits == visitsNear(grown, sortedIndex));
         for (const auto& [p, count] : visits) CHECK(count == 1);
         for (std::size_t p = 0; p < positions.size(); ++p)
-            if ((positions[p] - place).norm() <= width) CHECK(visits.count(p) == 1);
+            if ((positions[p] - sortedIndex).norm() <= width) CHECK(visits.count(p) == 1);
     }
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("Linked cells ask a few of many", "[linked-cells]") {
     const std::vector<Vec3> positions = scattered(20000, 30.0);  // three quarters of a particle in a cell of width 1
     const LinkedCells cells(1.0, positions);
     std::size_t visits = 0;
-    for (const Vec3& place : positions) cells.forEachNear(place, [&](std::size_t) { ++visits; });
+    for (const Vec3& sortedIndex : positions) cells.forEachNear(sortedIndex, [&](std::size_t) { ++visits; });
     CHECK(visits < 30 * positions.size());  // 27 cells hold 20 of them
 }
 

@@ -17,30 +17,30 @@ namespace {
 constexpr double kCutoff = 0.6;  // m
 constexpr double kSkin = 0.06;   // m
 
-std::uint32_t particleIn(const NeighborList& list, std::size_t seat) {
-    return list.order[static_cast<std::size_t>(list.rows.selves[seat])];
+std::uint32_t particleIn(const NeighborList& list, std::size_t laneSlot) {
+    return list.order[static_cast<std::size_t>(list.rows.ownIndices[laneSlot])];
 }
 
-/// Particle indices in the row of a seat; fails on one that occurs twice.
-std::set<std::uint32_t> rowOf(const NeighborList& list, std::size_t seat) {
+/// Particle indices in the row of a laneSlot; fails on one that occurs twice.
+std::set<std::uint32_t> rowOf(const NeighborList& list, std::size_t laneSlot) {
     std::set<std::uint32_t> row;
-    for (std::uint32_t k = 0; k < list.rows.length[seat]; ++k)
-        CHECK(row.insert(list.order[list.rows.placeAt(seat, k)]).second);
+    for (std::uint32_t k = 0; k < list.rows.length[laneSlot]; ++k)
+        CHECK(row.insert(list.order[list.rows.sortedIndexAt(laneSlot, k)]).second);
     return row;
 }
 
 /// Entry by entry, with what fills the rows up.
 void checkSame(const NeighborList& list, const NeighborList& expected) {
     CHECK(list.order == expected.order);
-    CHECK(list.placeOf == expected.placeOf);
-    CHECK(list.rows.selves == expected.rows.selves);
+    CHECK(list.sortedIndexOf == expected.sortedIndexOf);
+    CHECK(list.rows.ownIndices == expected.rows.ownIndices);
     CHECK(list.rows.length == expected.rows.length);
-    REQUIRE(list.rows.parts.size() == expected.rows.parts.size());
-    for (std::size_t part = 0; part < list.rows.parts.size(); ++part) {
-        CHECK(list.rows.parts[part].start == expected.rows.parts[part].start);
-        CHECK(list.rows.parts[part].base == expected.rows.parts[part].base);
-        CHECK(list.rows.parts[part].narrow == expected.rows.parts[part].narrow);
-        CHECK(list.rows.parts[part].wide == expected.rows.parts[part].wide);
+    REQUIRE(list.rows.blocks.size() == expected.rows.blocks.size());
+    for (std::size_t block = 0; block < list.rows.blocks.size(); ++block) {
+        CHECK(list.rows.blocks[block].start == expected.rows.blocks[block].start);
+        CHECK(list.rows.blocks[block].base == expected.rows.blocks[block].base);
+        CHECK(list.rows.blocks[block].entries16 == expected.rows.blocks[block].entries16);
+        CHECK(list.rows.blocks[block].entries32 == expected.rows.blocks[block].entries32);
     }
 }
 
@@ -55,8 +55,8 @@ std::set<std::uint32_t> neighborsOf(const std::vector<Vec3>& positions, std::siz
 /// Of the reach squared: float errs by 4e-6 of it.
 constexpr double kFarthest = kFloatMargin + 4e-6;
 
-bool isWithin(const std::set<std::uint32_t>& part, const std::set<std::uint32_t>& all) {
-    return std::includes(all.begin(), all.end(), part.begin(), part.end());
+bool isWithin(const std::set<std::uint32_t>& block, const std::set<std::uint32_t>& all) {
+    return std::includes(all.begin(), all.end(), block.begin(), block.end());
 }
 
 /// Rows hold what is within reach, and nothing else but pairs that float does not know to be beyond it.
@@ -66,10 +66,10 @@ void checkRows(const std::vector<Vec3>& positions) {
     REQUIRE(list.count() == positions.size());
     std::size_t entries = 0;
     CHECK(std::set<std::uint32_t>(list.order.begin(), list.order.end()).size() == positions.size());
-    for (std::size_t seat = 0; seat < list.count(); ++seat) {
-        const std::uint32_t p = particleIn(list, seat);
+    for (std::size_t laneSlot = 0; laneSlot < list.count(); ++laneSlot) {
+        const std::uint32_t p = particleIn(list, laneSlot);
         INFO("particle " << p);
-        const auto row = rowOf(list, seat);
+        const auto row = rowOf(list, laneSlot);
         CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), row));
         CHECK(isWithin(row, neighborsOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
         entries += row.size();
@@ -131,7 +131,7 @@ TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbo
         build(list, positions, kCutoff, kSkin);
         for (std::uint32_t p = 0; p < positions.size(); ++p) {
             INFO("particle " << p << " with " << name);
-            CHECK(rowOf(list, list.seatOf(p)).count(p ^ 1U) == 1);
+            CHECK(rowOf(list, list.laneSlotOf(p)).count(p ^ 1U) == 1);
         }
     }
 }
@@ -145,8 +145,8 @@ TEST_CASE("Positions that are no numbers leave the rows of the others as they ar
         NeighborList list;
         build(list, positions, kCutoff, kSkin);
         for (std::size_t p = 1; p < positions.size(); ++p)
-            CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, list.seatOf(p))));
-        CHECK(rowOf(list, list.seatOf(0)).empty());
+            CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, list.laneSlotOf(p))));
+        CHECK(rowOf(list, list.laneSlotOf(0)).empty());
     }
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("A list covers neither a wider cutoff nor another number of particles"
     CHECK_FALSE(covers(list, positions, kCutoff));
 }
 
-TEST_CASE("A list covers a crowd until any of it parts from the others", "[neighbor-list]") {
+TEST_CASE("A list covers a crowd until any of it blocks from the others", "[neighbor-list]") {
     const std::vector<Vec3> before = clouds::strewn(3000, 2.5).position;
     NeighborList list;
     build(list, before, kCutoff, kSkin);
@@ -194,7 +194,7 @@ TEST_CASE("A list covers whoever goes which way in a small box", "[neighbor-list
     const Vec3 half(0.3 * kSkin, 0.4 * kSkin, 0.0);  // half a skin to the corners
     for (const double share : {0.9, 1.0 - 1e-6, 1.0 + 1e-6, 1.1}) {
         INFO(share << " of half the skin");
-        const Extent ways{common - share * half, common + share * half};
+        const BoundingBox ways{common - share * half, common + share * half};
         CHECK(coversWithin(list, ways, before.size(), kCutoff) == (share < 1.0));
         CHECK_FALSE(coversWithin(list, ways, before.size() + 1, kCutoff));
         CHECK_FALSE(coversWithin(list, ways, before.size(), kCutoff + kSkin));
@@ -214,9 +214,9 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
     for (std::size_t p = 0; p < positions.size(); ++p)
         positions[p] += 0.499 * kSkin * clouds::randomVector(12, p).normalized();
     REQUIRE(covers(list, positions, kCutoff));
-    for (std::size_t seat = 0; seat < list.count(); ++seat) {
-        const auto row = rowOf(list, seat);
-        const std::uint32_t p = particleIn(list, seat);
+    for (std::size_t laneSlot = 0; laneSlot < list.count(); ++laneSlot) {
+        const auto row = rowOf(list, laneSlot);
+        const std::uint32_t p = particleIn(list, laneSlot);
         for (const std::uint32_t i : neighborsOf(positions, p, kCutoff)) {
             INFO("particles " << p << " and " << i);
             CHECK(row.count(i) == 1);
@@ -227,29 +227,31 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
 TEST_CASE("Rows that wait for each other are of like length", "[neighbor-list]") {
     NeighborList list;
     build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
-    for (std::size_t seat = 1; seat < list.count(); ++seat)
-        if (seat % kSeatsPerPart != 0) CHECK(list.rows.length[seat] <= list.rows.length[seat - 1]);
-    for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.seatOf(p)) == p);
+    for (std::size_t laneSlot = 1; laneSlot < list.count(); ++laneSlot)
+        if (laneSlot % kSlotsPerBlock != 0) CHECK(list.rows.length[laneSlot] <= list.rows.length[laneSlot - 1]);
+    for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.laneSlotOf(p)) == p);
 }
 
-TEST_CASE("Rows are filled up to the longest of their group with their own particle", "[neighbor-list]") {
+TEST_CASE("Rows are filled up to the longest of their cluster with their own particle", "[neighbor-list]") {
     for (const std::size_t count : {1U, 37U, 3001U}) {
         NeighborList list;
         build(list, clouds::strewn(count, 2.5).position, kCutoff, kSkin);
-        for (std::size_t seat = 0; seat < list.rows.selves.size(); ++seat) {
-            const std::size_t first = seat / kGroup * kGroup;
+        for (std::size_t laneSlot = 0; laneSlot < list.rows.ownIndices.size(); ++laneSlot) {
+            const std::size_t first = laneSlot / kClusterSize * kClusterSize;
             const std::uint32_t longest =
-                *std::max_element(&list.rows.length[first], &list.rows.length[first] + kGroup);
-            if (seat >= count) CHECK(list.rows.length[seat] == 0);
-            for (std::uint32_t k = list.rows.length[seat]; k < longest; ++k)
-                CHECK(list.rows.placeAt(seat, k) == static_cast<std::uint32_t>(list.rows.selves[seat]));
+                *std::max_element(&list.rows.length[first], &list.rows.length[first] + kClusterSize);
+            if (laneSlot >= count) CHECK(list.rows.length[laneSlot] == 0);
+            for (std::uint32_t k = list.rows.length[laneSlot]; k < longest; ++k)
+                CHECK(list.rows.sortedIndexAt(laneSlot, k) ==
+                      static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]));
         }
     }
 }
 
 namespace {
 
-/// A slab of about one particle a cell: the layer in the middle has 2^16 places and more between those beside it.
+/// A slab of about one particle a cell: the layer in the middle has 2^16 sortedIndices and more between those beside
+/// it.
 std::vector<Vec3> slab() {
     constexpr std::uint64_t kCount = 110000;
     const Vec3 half = Vec3(95.0, 95.0, 1.4) * (kCutoff + kSkin);
@@ -260,7 +262,7 @@ std::vector<Vec3> slab() {
 
 }  // namespace
 
-TEST_CASE("Rows hold neighbors whose places are too far apart for half words", "[neighbor-list]") {
+TEST_CASE("Rows hold neighbors whose sortedIndices are too far apart for half words", "[neighbor-list]") {
     const std::vector<Vec3> positions = slab();
     std::vector<NeighborList> lists;
     for (const std::string& name : instructionSets()) {
@@ -270,23 +272,23 @@ TEST_CASE("Rows hold neighbors whose places are too far apart for half words", "
         checkSame(lists.back(), lists.front());
     }
     const NeighborList& list = lists.front();
-    std::size_t wide = 0;
-    for (const RowPart& part : list.rows.parts) {
-        wide += part.isWide() ? 1U : 0U;
-        CHECK(part.narrow.empty() == part.isWide());
+    std::size_t entries32 = 0;
+    for (const RowBlock& block : list.rows.blocks) {
+        entries32 += block.uses32Bits() ? 1U : 0U;
+        CHECK(block.entries16.empty() == block.uses32Bits());
     }
-    CHECK(wide > 0);
-    CHECK(wide < list.rows.parts.size());
-    CHECK(list.fronts.size() == list.rows.parts.size());
-    for (std::size_t seat = 0; seat < list.count(); seat += 1999) {
-        const std::uint32_t p = particleIn(list, seat);
+    CHECK(entries32 > 0);
+    CHECK(entries32 < list.rows.blocks.size());
+    CHECK(list.fronts.size() == list.rows.blocks.size());
+    for (std::size_t laneSlot = 0; laneSlot < list.count(); laneSlot += 1999) {
+        const std::uint32_t p = particleIn(list, laneSlot);
         INFO("particle " << p);
-        CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, seat)));
-        CHECK(isWithin(rowOf(list, seat), neighborsOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
+        CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, laneSlot)));
+        CHECK(isWithin(rowOf(list, laneSlot), neighborsOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
     }
 }
 
-TEST_CASE("Rows of either width take the place of the other's", "[neighbor-list]") {
+TEST_CASE("Rows of either width take the sortedIndex of the other's", "[neighbor-list]") {
     const std::vector<Vec3> cloud = clouds::strewn(110000, 8.0).position;
     const std::vector<Vec3> flat = slab();
     NeighborList expected[2];
@@ -299,8 +301,8 @@ TEST_CASE("Rows of either width take the place of the other's", "[neighbor-list]
         build(list, cloud, 0.1 * kCutoff, 0.1 * kSkin);
         checkSame(list, expected[1]);
     }
-    for (const RowPart& part : list.rows.parts)
-        CHECK((part.isWide() ? part.narrow.capacity() : part.wide.capacity()) == 0);
+    for (const RowBlock& block : list.rows.blocks)
+        CHECK((block.uses32Bits() ? block.entries16.capacity() : block.entries32.capacity()) == 0);
 }
 
 TEST_CASE("A list built again is that of the new positions", "[neighbor-list]") {
@@ -350,7 +352,7 @@ TEST_CASE("Rows are as complete in worlds of any size", "[neighbor-list]") {
         for (Vec3& position : positions) position *= unit;
         NeighborList list;
         build(list, positions, kCutoff * unit, kSkin * unit);
-        for (std::size_t seat = 0; seat < list.count(); ++seat)
-            CHECK(rowOf(list, seat) == rowOf(expected, expected.seatOf(particleIn(list, seat))));
+        for (std::size_t laneSlot = 0; laneSlot < list.count(); ++laneSlot)
+            CHECK(rowOf(list, laneSlot) == rowOf(expected, expected.laneSlotOf(particleIn(list, laneSlot))));
     }
 }

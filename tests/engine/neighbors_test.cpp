@@ -43,8 +43,8 @@ void checkComplete(const std::vector<Vec3>& positions, double width) {
     CHECK(grid.cellCount() <= std::max<std::size_t>(64, 2 * positions.size()));
     for (std::size_t p = 0; p < positions.size(); ++p)
         checkOffered(positions, width, p, candidates(grid, {grid.cellOf[p], grid.cellOf[p]}));
-    for (std::uint32_t place = 0; place < positions.size(); ++place)
-        CHECK(cellOfPlace(grid, place) == grid.cellOf[grid.order[place]]);
+    for (std::uint32_t sortedIndex = 0; sortedIndex < positions.size(); ++sortedIndex)
+        CHECK(cellOfSortedIndex(grid, sortedIndex) == grid.cellOf[grid.order[sortedIndex]]);
     for (std::uint32_t cell = 0; cell < grid.cellCount(); ++cell) {
         const CellRun run = runFrom(grid, cell, kMostParticles, kMostCells);
         CHECK(run.first == cell);
@@ -127,7 +127,8 @@ TEST_CASE("What comes into sight on the way through the cells is in the rows nex
                 const std::uint32_t firstCell = grid.cellOf[grid.order[range.begin]];
                 CHECK(grid.cellOf[grid.order[range.end - 1]] - firstCell < kStep + 2);
             }
-            for (std::uint32_t place = range.begin; place < range.end; ++place) ahead.insert(grid.order[place]);
+            for (std::uint32_t sortedIndex = range.begin; sortedIndex < range.end; ++sortedIndex)
+                ahead.insert(grid.order[sortedIndex]);
         }
         for (std::uint32_t cell = first; cell < first + kStep; ++cell)
             for (const std::uint32_t p : candidates(grid, {cell, cell})) {

@@ -3,8 +3,8 @@
 
 #include "engine/law/obstacles.h"
 
-inline engine::Scenery only(const engine::Collider& collider) {
-    engine::Scenery scenery;
-    scenery.colliders = {collider};
-    return scenery;
+inline engine::Obstacles only(const engine::Obstacle& obstacle) {
+    engine::Obstacles obstacles;
+    obstacles.shapes = {obstacle};
+    return obstacles;
 }

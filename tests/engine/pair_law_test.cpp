@@ -141,7 +141,7 @@ TEST_CASE("Below the core distance the force is linear and the energy finite", "
     CHECK(pairEnergy(0.0, c) > pairEnergy(core, c));
 }
 
-TEST_CASE("Coincident particles part along a direction drawn from their ids", "[pair_law]") {
+TEST_CASE("Coincident particles block along a direction drawn from their ids", "[pair_law]") {
     const auto there = coincidentSeparation(3, 8, 0.3);
     const auto back = coincidentSeparation(8, 3, 0.3);
     double lengthSq = 0.0;
@@ -155,11 +155,11 @@ TEST_CASE("Coincident particles part along a direction drawn from their ids", "[
 
 TEST_CASE("The law serves float as it serves double", "[pair_law]") {
     const Material material = *materialPreset("solid");
-    const auto wide = pairConstants<double>(material, 0.3);
-    const auto narrow = pairConstants<float>(material, 0.3);
+    const auto entries32 = pairConstants<double>(material, 0.3);
+    const auto entries16 = pairConstants<float>(material, 0.3);
     for (double d = 0.1; d < 0.7; d += 0.013) {
-        const double exact = pairCoefficient<kAll>(d * d, 0.1, wide);
-        const float rounded = pairCoefficient<kAll>(static_cast<float>(d * d), 0.1F, narrow);
+        const double exact = pairCoefficient<kAll>(d * d, 0.1, entries32);
+        const float rounded = pairCoefficient<kAll>(static_cast<float>(d * d), 0.1F, entries16);
         // A dozen float roundings of 1/D^2 - 1/D0^2 before the product: relative to b1/D^5 and b_d/D^2.
         const double largest = material.repulsion / std::pow(d, 5) + material.damping / (d * d);
         CHECK(std::abs(rounded - exact) <= 12 * 1.2e-7 * largest);

@@ -20,7 +20,7 @@ struct Case {
     ForceLaw law;
     Particles particles;
     MatrixWeights weights;
-    mutable PairMatrix matrix = {};  ///< products use its records as scratch
+    mutable PairMatrix matrix = {};  ///< products use its packed as scratch
     std::vector<std::uint32_t> order = {};
     Eigen::MatrixXd dense = {};
     Eigen::MatrixXd scale = {};  ///< the same sums over absolute values
@@ -86,15 +86,16 @@ std::vector<Vec3> randomVectors(std::size_t count, std::uint64_t seed) {
 /// From the order of the matrix to that of the particles, as one column.
 Eigen::VectorXd column(const Case& c, const std::vector<Vec3>& byPlace) {
     Eigen::VectorXd all(static_cast<Eigen::Index>(3 * c.count()));
-    for (std::size_t place = 0; place < c.count(); ++place)
-        all.segment<3>(static_cast<Eigen::Index>(3 * c.order[place])) = byPlace[place];
+    for (std::size_t sortedIndex = 0; sortedIndex < c.count(); ++sortedIndex)
+        all.segment<3>(static_cast<Eigen::Index>(3 * c.order[sortedIndex])) = byPlace[sortedIndex];
     return all;
 }
 
 /// Sum of a_p . b_p / m_p: the norm that the solver's tolerance is meant in.
 double inInverseMass(const Case& c, const std::vector<Vec3>& a) {
     double sum = 0.0;
-    for (std::size_t place = 0; place < c.count(); ++place) sum += squaredLength(a[place]) / c.matrix.mass[place];
+    for (std::size_t sortedIndex = 0; sortedIndex < c.count(); ++sortedIndex)
+        sum += squaredLength(a[sortedIndex]) / c.matrix.mass[sortedIndex];
     return std::sqrt(sum);
 }
 
@@ -155,26 +156,28 @@ TEST_CASE("The matrix is symmetric and at least the mass", "[pair-matrix]") {
         CHECK(std::abs(xay - column(c, y).dot(column(c, ax))) <=
               500 * kEps * size);  // sums of 120 and 120 terms, twice
         double mass = 0.0;
-        for (std::size_t place = 0; place < c.count(); ++place) mass += c.matrix.mass[place] * squaredLength(x[place]);
+        for (std::size_t sortedIndex = 0; sortedIndex < c.count(); ++sortedIndex)
+            mass += c.matrix.mass[sortedIndex] * squaredLength(x[sortedIndex]);
         CHECK(column(c, x).dot(column(c, ax)) > mass);  // some pair of the cloud resists a random motion
     }
 }
 
 TEST_CASE("The two entries of a pair are equal bit for bit", "[pair-matrix]") {
     for (const Case& c : smallCloudsAndSand()) {
-        const LaneRows& rows = c.matrix.rows;
-        std::vector<std::size_t> seatOf(c.count());
-        for (std::size_t seat = 0; seat < c.count(); ++seat) seatOf[static_cast<std::size_t>(rows.selves[seat])] = seat;
-        const auto entry = [&](const PairMatrix::Entries& entries, std::size_t seat, std::size_t k) {
-            return entries[LaneRows::partOf(seat)][rows.at(seat, k)];
+        const NeighborRows& rows = c.matrix.rows;
+        std::vector<std::size_t> laneSlotOf(c.count());
+        for (std::size_t laneSlot = 0; laneSlot < c.count(); ++laneSlot)
+            laneSlotOf[static_cast<std::size_t>(rows.ownIndices[laneSlot])] = laneSlot;
+        const auto entry = [&](const PairMatrix::Entries& entries, std::size_t laneSlot, std::size_t k) {
+            return entries[NeighborRows::blockOf(laneSlot)][rows.at(laneSlot, k)];
         };
         std::size_t pairs = 0;
         for (std::size_t p = 0; p < c.count(); ++p)
             for (std::uint32_t k = 0; k < rows.length[p]; ++k) {
-                const std::size_t i = seatOf[rows.placeAt(p, k)];
+                const std::size_t i = laneSlotOf[rows.sortedIndexAt(p, k)];
                 std::uint32_t twin = 0;
                 REQUIRE(rows.length[i] > 0);
-                while (rows.placeAt(i, twin) != static_cast<std::uint32_t>(rows.selves[p]))
+                while (rows.sortedIndexAt(i, twin) != static_cast<std::uint32_t>(rows.ownIndices[p]))
                     REQUIRE(++twin < rows.length[i]);
                 CHECK(entry(c.matrix.along, i, twin) == entry(c.matrix.along, p, k));
                 if (!c.matrix.across.empty()) CHECK(entry(c.matrix.across, i, twin) == entry(c.matrix.across, p, k));
@@ -200,9 +203,9 @@ TEST_CASE("Coincident particles leave the matrix symmetric and add nothing to it
         multiply(matrix, x, product);
         Vec3 sum = Vec3::Zero();
         double size = 0.0;
-        for (std::size_t place = 0; place < x.size(); ++place) {
-            sum += product[place] - matrix.mass[place] * x[place];
-            size += product[place].norm();
+        for (std::size_t sortedIndex = 0; sortedIndex < x.size(); ++sortedIndex) {
+            sum += product[sortedIndex] - matrix.mass[sortedIndex] * x[sortedIndex];
+            size += product[sortedIndex].norm();
         }
         CHECK(sum.norm() <= 200 * kEps * size);  // the pairs' impulses cancel, to the rounding of 200 sums
     }
@@ -235,7 +238,8 @@ TEST_CASE("What pairs push alone neither moves nor turns the whole, at any toler
         const auto y = randomVectors(c.count(), 25);
         std::vector<Vec3> b;
         multiply(c.matrix, y, b);
-        for (std::size_t place = 0; place < c.count(); ++place) b[place] -= c.matrix.mass[place] * y[place];
+        for (std::size_t sortedIndex = 0; sortedIndex < c.count(); ++sortedIndex)
+            b[sortedIndex] -= c.matrix.mass[sortedIndex] * y[sortedIndex];
         for (double tolerance = 0.1; tolerance > 0.5e-12; tolerance *= 0.1) {
             std::vector<Vec3> x;
             SolverScratch scratch;
@@ -243,11 +247,11 @@ TEST_CASE("What pairs push alone neither moves nor turns the whole, at any toler
             Vec3 momentum = Vec3::Zero();
             Vec3 spin = Vec3::Zero();
             double size = 0.0;
-            for (std::size_t place = 0; place < c.count(); ++place) {
-                const Vec3 impulse = c.matrix.mass[place] * x[place];
+            for (std::size_t sortedIndex = 0; sortedIndex < c.count(); ++sortedIndex) {
+                const Vec3 impulse = c.matrix.mass[sortedIndex] * x[sortedIndex];
                 momentum += impulse;
-                spin += c.particles.position[c.order[place]].cross(impulse);
-                size += b[place].norm();
+                spin += c.particles.position[c.order[sortedIndex]].cross(impulse);
+                size += b[sortedIndex].norm();
             }
             CHECK(size > 0.0);
             CHECK(momentum.norm() <= 100 * kEps * size);  // a rounding of the impulses of 100 products, at random signs

@@ -24,7 +24,7 @@ Setup busyScene(StepperKind stepper) {
     setup.step = 0.002;
     for (const Vec3& position : ballPositions(Vec3(0, 1.5, 0), 0.9, {.spacing = 0.3, .jitter = 0.05}))
         append(setup.initial, {.position = position, .mass = liquid.mass});
-    setup.scenery.colliders = {Plane{}, Sphere{Vec3(0, 0.2, 0), 0.4, false}};
+    setup.obstacles.shapes = {Plane{}, Sphere{Vec3(0, 0.2, 0), 0.4, false}};
     Emitter emitter;
     emitter.sites = discSites(Vec3(2, 1, 0), Vec3(-3, 1, 0), 0.3, 0.3);
     emitter.velocity = Vec3(-3, 1, 0);
@@ -40,9 +40,9 @@ Setup crowdAmongObstacles() {
     setup.stepper = StepperKind::symplecticEuler;
     setup.step = 0.002;
     setup.initial = clouds::strewn(1500, 1.2);
-    setup.scenery.colliders = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}, Sphere{Vec3(0.5, 0, 0), 0.4},
-                               Box{Vec3(-0.8, -0.5, -0.4), Vec3(-0.3, 0.2, 0.4)},
-                               Container{Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)}};
+    setup.obstacles.shapes = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}, Sphere{Vec3(0.5, 0, 0), 0.4},
+                              Box{Vec3(-0.8, -0.5, -0.4), Vec3(-0.3, 0.2, 0.4)},
+                              Container{Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)}};
     return setup;
 }
 
@@ -56,8 +56,8 @@ void checkLists(const Setup& setup) {
     for (int step = 1; step <= 100; ++step) {
         const std::vector<Vec3> before = noted.cache->evaluator.list().builtAt;
         for (Simulation* simulation : {&noted, &looked, &forgotten}) advance(*simulation, 0.002 * step);
-        looked.cache->evaluator.noteMoves({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
-        forgotten.cache->evaluator.forgetMoves();
+        looked.cache->evaluator.addDisplacementBound({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
+        forgotten.cache->evaluator.invalidateDisplacementBound();
         lists += noted.cache->evaluator.list().builtAt != before ? 1U : 0U;
         INFO("step " << step);
         REQUIRE(noted.cache->evaluator.list().builtAt == looked.cache->evaluator.list().builtAt);
@@ -126,7 +126,7 @@ TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]")
         advance(noted, 1e-3);
         noted.stepper = stepper;
         Simulation forgotten = noted;
-        forgotten.cache->evaluator.forgetMoves();
+        forgotten.cache->evaluator.invalidateDisplacementBound();
         for (Simulation* simulation : {&noted, &forgotten}) takeStep(*simulation, 0.1);
         INFO(nameOf(stepper));
         CHECK(noted.cache->evaluator.list().builtAt == forgotten.cache->evaluator.list().builtAt);
@@ -137,7 +137,7 @@ TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]")
 TEST_CASE("Lists are built when they have to be, whether moves are noted or looked at", "[simulation]") {
     Setup bounded = busyScene(StepperKind::symplecticEuler);
     bounded.emitters[0].interval = 0.01;
-    bounded.world = Extent{.low = Vec3(-2.0, 0.55, -2.0), .high = Vec3(2.2, 3.0, 2.0)};
+    bounded.world = BoundingBox{.low = Vec3(-2.0, 0.55, -2.0), .high = Vec3(2.2, 3.0, 2.0)};
     for (const Setup& setup : {busyScene(StepperKind::symplecticEuler), crowdAmongObstacles(), bounded})
         clouds::onThreads(3, [&] { checkLists(setup); });
 }

@@ -31,7 +31,7 @@ Setup busyNozzle(StepperKind stepper) {
     Setup setup = pressedLattice(stepper, "solid", 0.02);
     setup.gravity = Vec3(0, -9.8, 0);
     setup.drag = 0.1;
-    setup.scenery.colliders = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}};
+    setup.obstacles.shapes = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}};
     Emitter emitter;
     emitter.sites = discSites(Vec3(3, 1, 0), Vec3(-6, 1, 0), 0.3, 0.3);
     emitter.velocity = Vec3(-6, 1, 0);
@@ -125,7 +125,7 @@ TEST_CASE("A step that was too long for honey can be taken back and shortened", 
         for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480}) {
             Setup setup = runs::freeSetup(runs::honey(), stepper, step);
             setup.gravity = Vec3(0, -9.8, 0);
-            setup.scenery.colliders = {Plane{Vec3(0, -0.7, 0), Vec3::UnitY()}};
+            setup.obstacles.shapes = {Plane{Vec3(0, -0.7, 0), Vec3::UnitY()}};
             runs::addPacking(setup, {4, 4, 4});
             Simulation simulation = start(setup);
             const double before = freshEnergy(simulation).total;
@@ -227,16 +227,16 @@ TEST_CASE("A run that no step can save says which particle, when and what to cha
 TEST_CASE("After a step is taken back nobody is remembered whom a run that is gone on with would not know", "[audit]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 0.001);
     runs::addPacking(setup, {4, 4, 4});
-    setup.scenery.colliders = {Container{Vec3::Constant(-0.5), Vec3::Constant(0.5)}};
+    setup.obstacles.shapes = {Container{Vec3::Constant(-0.5), Vec3::Constant(0.5)}};
     Simulation simulation = start(setup);
     takeStep(simulation, 0.001);
     BeforeStep kept;
     keep(simulation, kept);
     takeStep(simulation, 0.002);
-    REQUIRE(std::ranges::any_of(simulation.cache->companions,
+    REQUIRE(std::ranges::any_of(simulation.cache->cachedNeighbors,
                                 [&](std::uint32_t p) { return p < simulation.particles.count(); }));
     takeBack(simulation, kept);
-    CHECK(simulation.cache->companions.empty());
+    CHECK(simulation.cache->cachedNeighbors.empty());
     Simulation resumed = simulation;
     for (Simulation* either : {&simulation, &resumed}) takeStep(*either, 0.001);
     CHECK(simulation.particles.position == resumed.particles.position);
@@ -245,7 +245,7 @@ TEST_CASE("After a step is taken back nobody is remembered whom a run that is go
 TEST_CASE("Who has company is not swept for a step that was taken back and led away from it", "[step-audit]") {
     for (const StepperKind stepper : kAudited) {
         Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 0.01);
-        setup.scenery.colliders = {Plane{Vec3::Zero(), Vec3::UnitY()}};
+        setup.obstacles.shapes = {Plane{Vec3::Zero(), Vec3::UnitY()}};
         append(setup.initial, {.position = Vec3(0, 0.155, 0), .velocity = Vec3(0, -1, 0)});
         append(setup.initial, {.position = Vec3(0.3, 0.2, 0), .velocity = Vec3(10, 0, 0)});
         Simulation simulation = start(setup);
@@ -269,7 +269,7 @@ TEST_CASE("Who has company is not swept for a step that was taken back and led a
 TEST_CASE("Where forces need no list Verlet trusts none that another stepper has left behind", "[step-audit]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::implicitDamping, 0.1);
     setup.forces = ForceMethod::reference;
-    setup.scenery.colliders = {Plane{}};
+    setup.obstacles.shapes = {Plane{}};
     append(setup.initial, {.position = Vec3(0, 1, 0)});
     append(setup.initial, {.position = Vec3(0.3, 1, 0), .velocity = Vec3(10, 0, 0)});
     Simulation simulation = start(setup);

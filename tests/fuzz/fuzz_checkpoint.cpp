@@ -22,7 +22,7 @@ engine::Setup setupOf(engine::StepperKind stepper) {
     nozzle.sites = {engine::Vec3(1.0, 1.0, 0.0)};
     nozzle.interval = 0.02;
     setup.emitters = {nozzle};
-    setup.scenery.colliders = {engine::Plane{}};
+    setup.obstacles.shapes = {engine::Plane{}};
     setup.stepper = stepper;
     return setup;
 }

@@ -189,27 +189,27 @@ TEST_CASE("a disc is filled with points of birth across its direction") {
     CHECK(tilted.sites == engine::discSites(Vec3(0, 1, 0), Vec3(1, 0, 0), 0.5, 0.25));
 }
 
-TEST_CASE("obstacles become colliders") {
+TEST_CASE("obstacles become shapes") {
     const auto plane = std::get<engine::Plane>(
-        obstacleScene("shape = \"plane\"\npoint = [0, 1, 0]\nnormal = [0, 3, 4]\n").setup.scenery.colliders.at(0));
+        obstacleScene("shape = \"plane\"\npoint = [0, 1, 0]\nnormal = [0, 3, 4]\n").setup.obstacles.shapes.at(0));
     CHECK(plane.point == Vec3(0, 1, 0));
     CHECK((plane.normal - Vec3(0.0, 0.6, 0.8)).norm() < 1e-15);  // two roundings of numbers below 1
     const auto box = std::get<engine::Box>(
-        obstacleScene("shape = \"box\"\nminimum = [0, 1, 2]\nmaximum = [3, 4, 5]\n").setup.scenery.colliders.at(0));
+        obstacleScene("shape = \"box\"\nminimum = [0, 1, 2]\nmaximum = [3, 4, 5]\n").setup.obstacles.shapes.at(0));
     CHECK(box.minimum == Vec3(0, 1, 2));
     CHECK(box.maximum == Vec3(3, 4, 5));
     const auto container = std::get<engine::Container>(
-        obstacleScene("shape = \"container\"\ncenter = [1, 0, 0]\nsize = [2, 4, 6]\n").setup.scenery.colliders.at(0));
+        obstacleScene("shape = \"container\"\ncenter = [1, 0, 0]\nsize = [2, 4, 6]\n").setup.obstacles.shapes.at(0));
     CHECK(container.minimum == Vec3(0, -2, -3));
     CHECK(container.maximum == Vec3(2, 2, 3));
     const auto sphere = std::get<engine::Sphere>(
         obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 0.75\nrepulsor = \"literal\"\n")
-            .setup.scenery.colliders.at(0));
+            .setup.obstacles.shapes.at(0));
     CHECK(sphere.center == Vec3(1, 2, 3));
     CHECK(sphere.radius == 0.75);
     CHECK(sphere.literalRepulsor);
     CHECK(!std::get<engine::Sphere>(
-               obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 1\n").setup.scenery.colliders.at(0))
+               obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 1\n").setup.obstacles.shapes.at(0))
                .literalRepulsor);
 }
 

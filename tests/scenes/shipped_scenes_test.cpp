@@ -98,11 +98,11 @@ TEST_CASE("the paper's scenes have its gravity, obstacles and particles") {
         CHECK(scene.setup.gravity == Vec3(0.0, isSheet ? 0.0 : -9.8, 0.0));
         CHECK(scene.setup.emitters.size() == (isSheet ? 0U : 1U));
         std::size_t containers = 0;
-        for (const engine::Collider& collider : scene.setup.scenery.colliders) {
-            if (std::holds_alternative<engine::Container>(collider))
+        for (const engine::Obstacle& obstacle : scene.setup.obstacles.shapes) {
+            if (std::holds_alternative<engine::Container>(obstacle))
                 ++containers;
             else
-                CHECK(std::get<engine::Sphere>(collider).literalRepulsor);
+                CHECK(std::get<engine::Sphere>(obstacle).literalRepulsor);
         }
         CHECK(containers == 1);
         for (const engine::Emitter& emitter : scene.setup.emitters) CHECK(emitter.clearance == 0.0);
@@ -112,7 +112,7 @@ TEST_CASE("the paper's scenes have its gravity, obstacles and particles") {
     CHECK(paperScene("repulsion-1").setup.initial.count() == 200);
     CHECK(paperScene("figure-1").setup.emitters.at(0).sites.size() == 5);
     CHECK(paperScene("figure-1").setup.emitters.at(0).pick == engine::Pick::random);
-    CHECK(paperScene("liquid-thin").setup.scenery.colliders.size() == 7);
+    CHECK(paperScene("liquid-thin").setup.obstacles.shapes.size() == 7);
 }
 
 TEST_CASE("the floor line of figure 3 is the last but one row of its picture, as published") {

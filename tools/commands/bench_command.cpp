@@ -37,7 +37,7 @@ Json jsonOf(const studies::BenchRow& row, int threads) {
                  {"particles", row.particles},
                  {"neighbors", row.neighbors},
                  {"threads", threads},
-                 {"isa", engine::laneInstructionSet()},
+                 {"isa", engine::simdInstructionSet()},
                  {"precision", nameOf(row.precision)},
                  {"seconds", row.seconds},
                  {"steps", row.steps}};
@@ -86,7 +86,7 @@ void bench(const BenchOptions& options) {
     const bool isText = !options.run.json;
     if (!options.instructionSet.empty()) engine::useInstructionSet(options.instructionSet);
     if (isText) {
-        fmt::print("{} threads, {}; medians of {} rounds\n", threads, engine::laneInstructionSet(),
+        fmt::print("{} threads, {}; medians of {} rounds\n", threads, engine::simdInstructionSet(),
                    options.settings.rounds);
         fmt::print("{:23} {:13} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
                    "particles", "neighbors", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");

@@ -125,7 +125,7 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
     engine::StepperKind stepper = scene.setup.stepper;
     for (const engine::StepperKind kind : engine::kSteppers)
         if (engine::nameOf(kind) == stepperName) stepper = kind;
-    const auto bound = engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.scenery},
+    const auto bound = engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.obstacles},
                                          scene.setup.initial, stepper);
     if (!bound) return nullptr;
     return {{"seconds", bound->seconds},
@@ -142,7 +142,7 @@ Json materialJson(const engine::Material& material) {
 
 Json checkJson(const scenes::Scene& scene) {
     const engine::ForceTerms terms =
-        engine::termsFor({scene.setup.materials, scene.setup.gravity, scene.setup.scenery}, everyKind(scene));
+        engine::termsFor({scene.setup.materials, scene.setup.gravity, scene.setup.obstacles}, everyKind(scene));
     const std::uint64_t births = plannedBirths(scene);
     const std::uint64_t most = scene.setup.initial.count() + births;
     const int frames = scenes::frameCount(scene);
@@ -165,7 +165,7 @@ Json checkJson(const scenes::Scene& scene) {
     for (const engine::Material& material : scene.setup.materials) json["materials"].push_back(materialJson(material));
     json["uniform"] = terms.uniform;
     json["cutoff"] = terms.cutoff;
-    json["obstacles"] = scene.setup.scenery.colliders.size();
+    json["obstacles"] = scene.setup.obstacles.shapes.size();
     json["stepper"] = engine::nameOf(scene.setup.stepper);
     json["wanted_error"] =
         scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);

@@ -14,12 +14,12 @@ using namespace engine;
 
 namespace {
 
-Vec3 forceAt(const Scenery& scenery, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
-    return contactForce(scenery, {position, velocity, 0.15, 2.0});
+Vec3 forceAt(const Obstacles& obstacles, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
+    return contactForce(obstacles, {position, velocity, 0.15, 2.0});
 }
 
-double energyAt(const Scenery& scenery, const Vec3& position) {
-    return contactEnergy(scenery, {position, Vec3::Zero(), 0.15, 2.0});
+double energyAt(const Obstacles& obstacles, const Vec3& position) {
+    return contactEnergy(obstacles, {position, Vec3::Zero(), 0.15, 2.0});
 }
 
 /// Force of a repulsor of radius rho at distance D, b1 = 10, c_r = 1.
@@ -30,8 +30,8 @@ double repulsion(double d, double rho) {
 
 }  // namespace
 
-TEST_CASE("Contact with a plane starts at the particle's radius", "[colliders]") {
-    const Scenery floor = only(Plane{});
+TEST_CASE("Contact with a plane starts at the particle's radius", "[obstacles]") {
+    const Obstacles floor = only(Plane{});
     CHECK(forceAt(floor, Vec3(3, 0.15, -2)) == Vec3::Zero());
     CHECK(forceAt(floor, Vec3(3, 0.1501, -2)) == Vec3::Zero());
     CHECK(forceAt(floor, Vec3(3, 0.1499, -2)).y() > 0.0);
@@ -41,8 +41,8 @@ TEST_CASE("Contact with a plane starts at the particle's radius", "[colliders]")
     CHECK(force.z() == 0.0);
 }
 
-TEST_CASE("A plane pushes out however deep a particle is", "[colliders]") {
-    const Scenery floor = only(Plane{Vec3(0, 1, 0), Vec3(0, -1, 0)});
+TEST_CASE("A plane pushes out however deep a particle is", "[obstacles]") {
+    const Obstacles floor = only(Plane{Vec3(0, 1, 0), Vec3(0, -1, 0)});
     const double core = 0.25 * 0.65;
     for (const double depth : {0.3, 0.5, 2.0, 100.0}) {
         const Vec3 force = forceAt(floor, Vec3(0, 1.0 + depth, 0));
@@ -52,8 +52,8 @@ TEST_CASE("A plane pushes out however deep a particle is", "[colliders]") {
     }
 }
 
-TEST_CASE("A contact damps with 5 c_d and only along the normal", "[colliders]") {
-    const Scenery floor = only(Plane{});
+TEST_CASE("A contact damps with 5 c_d and only along the normal", "[obstacles]") {
+    const Obstacles floor = only(Plane{});
     const Vec3 still = forceAt(floor, Vec3(0, 0.1, 0));
     const Vec3 falling = forceAt(floor, Vec3(0, 0.1, 0), Vec3(3, -2, 1));
     const double sd = 1.0 - 0.36 / (0.65 * 0.65);  // D = 0.6
@@ -63,8 +63,8 @@ TEST_CASE("A contact damps with 5 c_d and only along the normal", "[colliders]")
     CHECK(falling.z() == 0.0);
 }
 
-TEST_CASE("A container pushes inwards from each of its faces", "[colliders]") {
-    const Scenery box = only(Container{Vec3(-1, -2, -3), Vec3(1, 2, 3)});
+TEST_CASE("A container pushes inwards from each of its faces", "[obstacles]") {
+    const Obstacles box = only(Container{Vec3(-1, -2, -3), Vec3(1, 2, 3)});
     CHECK(forceAt(box, Vec3::Zero()) == Vec3::Zero());
     for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
@@ -79,8 +79,8 @@ TEST_CASE("A container pushes inwards from each of its faces", "[colliders]") {
     CHECK(corner.y() == Approx(repulsion(0.55, 0.5)).epsilon(1e3 * kEps));   // same
 }
 
-TEST_CASE("A solid box answers by signed distance", "[colliders]") {
-    const Scenery box = only(Box{Vec3(-1, -1, -1), Vec3(1, 1, 1)});
+TEST_CASE("A solid box answers by signed distance", "[obstacles]") {
+    const Obstacles box = only(Box{Vec3(-1, -1, -1), Vec3(1, 1, 1)});
     CHECK(forceAt(box, Vec3(0, 1.2, 0)) == Vec3::Zero());
     const Vec3 onTop = forceAt(box, Vec3(0.3, 1.1, 0.2));
     CHECK(onTop.y() == Approx(repulsion(0.6, 0.5)).epsilon(1e3 * kEps));  // 0.1 m off by the rounding of 1.1 - 1
@@ -95,53 +95,53 @@ TEST_CASE("A solid box answers by signed distance", "[colliders]") {
     CHECK(forceAt(box, Vec3::Zero()).allFinite());
 }
 
-TEST_CASE("A sphere answers under its surface, or literally with its own radius", "[colliders]") {
-    const Scenery surface = only(Sphere{Vec3(1, 0, 0), 2.0, false});
-    const Scenery literal = only(Sphere{Vec3(1, 0, 0), 2.0, true});
+TEST_CASE("A sphere answers under its surface, or literally with its own radius", "[obstacles]") {
+    const Obstacles surface = only(Sphere{Vec3(1, 0, 0), 2.0, false});
+    const Obstacles literal = only(Sphere{Vec3(1, 0, 0), 2.0, true});
     CHECK(forceAt(surface, Vec3(3.16, 0, 0)) == Vec3::Zero());
     CHECK(forceAt(surface, Vec3(3.1, 0, 0)).x() ==
           Approx(repulsion(0.6, 0.5)).epsilon(1e3 * kEps));  // rounding of 2.1 - 2
     CHECK(forceAt(literal, Vec3(3.1, 0, 0)).x() == Approx(repulsion(2.1, 2.0)).epsilon(1e4 * kEps));  // same, softer
     CHECK(forceAt(surface, Vec3(1, 0, 0)).y() > 0.0);  // at the very center: some direction, finite
-    const Scenery published = only(Sphere{Vec3::Zero(), 0.5, true});
-    const Scenery same = only(Sphere{Vec3::Zero(), 0.5, false});
+    const Obstacles published = only(Sphere{Vec3::Zero(), 0.5, true});
+    const Obstacles same = only(Sphere{Vec3::Zero(), 0.5, false});
     CHECK(forceAt(published, Vec3(0.3, 0.4, 0.1)) == forceAt(same, Vec3(0.3, 0.4, 0.1)));  // R = 0.5: one and the same
 }
 
-TEST_CASE("Contact forces are minus the gradient of the contact energy", "[colliders]") {
-    const std::vector<Collider> all = {Plane{}, Container{Vec3(-1, -1, -1), Vec3(1, 1, 1)},
+TEST_CASE("Contact forces are minus the gradient of the contact energy", "[obstacles]") {
+    const std::vector<Obstacle> all = {Plane{}, Container{Vec3(-1, -1, -1), Vec3(1, 1, 1)},
                                        Box{Vec3(-1, -1, -1), Vec3(0, 0, 0)}, Sphere{Vec3(0, -0.5, 0), 0.5, false}};
     const std::vector<Vec3> points = {
         {0.2, 0.06, 0.1}, {0.92, 0.93, -0.3}, {-0.3, -0.07, -0.4}, {0.06, 0.05, 0.08}, {0.1, -0.7, 0.2}};
-    for (const Collider& collider : all)
+    for (const Obstacle& obstacle : all)
         for (const Vec3& point : points) {
-            const Scenery scenery = only(collider);
-            const Vec3 force = forceAt(scenery, point);
+            const Obstacles obstacles = only(obstacle);
+            const Vec3 force = forceAt(obstacles, point);
             for (int axis = 0; axis < 3; ++axis) {
                 const double h = 1e-6;
                 Vec3 step = Vec3::Zero();
                 step[axis] = h;
-                const double slope = (energyAt(scenery, point + step) - energyAt(scenery, point - step)) / (2 * h);
+                const double slope = (energyAt(obstacles, point + step) - energyAt(obstacles, point - step)) / (2 * h);
                 // Rounding eps U/h and truncation h^2 F''/6 with U < 700 J and F'' < 1e6 N/m^2 above the core.
                 CHECK(std::abs(force[axis] + slope) <= 700 * 4 * kEps / h + 1e6 * h * h + 1e-9 * force.norm());
             }
         }
 }
 
-TEST_CASE("What a particle touches is every surface below its radius, to the last bit", "[colliders]") {
+TEST_CASE("What a particle touches is every surface below its radius, to the last bit", "[obstacles]") {
     const Vec3 center(0.3, -1.7, 2.9);
     const double radius = 0.15;
-    Scenery scenery = only(Sphere{center, 1.1});
-    scenery.colliders.push_back(Box{Vec3(-1, -2, -3), Vec3(1, 2, 3)});
-    scenery.colliders.push_back(Plane{});
-    scenery.colliders.push_back(Container{Vec3(-2, -3, -4), Vec3(2, 3, 4)});
+    Obstacles obstacles = only(Sphere{center, 1.1});
+    obstacles.shapes.push_back(Box{Vec3(-1, -2, -3), Vec3(1, 2, 3)});
+    obstacles.shapes.push_back(Plane{});
+    obstacles.shapes.push_back(Container{Vec3(-2, -3, -4), Vec3(2, 3, 4)});
     std::size_t touched = 0, untouched = 0;
     const auto compare = [&](const Vec3& point) {
         std::vector<double> near, visited;
-        forEachSurface(scenery, point, [&](const Surface& surface) {
+        forEachSurface(obstacles, point, [&](const Surface& surface) {
             if (surface.height < radius) near.push_back(surface.height);
         });
-        forEachTouched(scenery, point, radius, [&](const Surface& surface) { visited.push_back(surface.height); });
+        forEachTouched(obstacles, point, radius, [&](const Surface& surface) { visited.push_back(surface.height); });
         CHECK(visited == near);
         touched += near.size();
         untouched += 9 - near.size();

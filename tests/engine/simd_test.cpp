@@ -20,7 +20,7 @@ using namespace engine;
 
 namespace {
 
-/// A block of a few hundred particles: neither a multiple of a group nor of a vector.
+/// A block of a few hundred particles: neither a multiple of a cluster nor of a vector.
 Particles block(const Material& material, const Vec3& center) {
     Setup setup = runs::freeSetup(material, StepperKind::velocityVerlet, 0.01);
     runs::addPacking(setup, {7, 6, 9});
@@ -49,7 +49,7 @@ double relativeDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b
 std::string hashOfRun(const char* preset, StepperKind stepper, Precision precision) {
     Setup setup = runs::freeSetup(*materialPreset(preset), stepper, 0.002);
     setup.gravity = Vec3(0, -9.8, 0);
-    setup.scenery.colliders = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}};
+    setup.obstacles.shapes = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}};
     setup.precision = precision;
     runs::addPacking(setup, {7, 6, 9});
     Simulation simulation = start(setup);
@@ -76,17 +76,17 @@ OverRows overRows(const PairTraversal& pairs, const Particles& particles) {
 }
 
 /// The same rows in whole words.
-void widen(LaneRows& rows) {
-    for (RowPart& part : rows.parts) {
-        REQUIRE_FALSE(part.isWide());
-        part.wide.assign(part.narrow.begin(), part.narrow.end());
-        part.narrow.clear();
+void widen(NeighborRows& rows) {
+    for (RowBlock& block : rows.blocks) {
+        REQUIRE_FALSE(block.uses32Bits());
+        block.entries32.assign(block.entries16.begin(), block.entries16.end());
+        block.entries16.clear();
     }
 }
 
 }  // namespace
 
-TEST_CASE("A run has the same bits with every kind of vectors", "[lanes]") {
+TEST_CASE("A run has the same bits with every kind of vectors", "[simd]") {
     CHECK(instructionSets().size() > 1);  // what this machine has and at least one narrower kind
     for (const char* preset : {"liquid", "solid", "powder", "sand"})
         for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::linearlyImplicit})
@@ -95,13 +95,13 @@ TEST_CASE("A run has the same bits with every kind of vectors", "[lanes]") {
                 for (const std::string& name : instructionSets()) {
                     const OnInstructionSet only(name);
                     INFO(preset << ", " << nameOf(stepper) << " with " << name);
-                    CHECK(laneInstructionSet() == name);
+                    CHECK(simdInstructionSet() == name);
                     CHECK(hashOfRun(preset, stepper, precision) == expected);
                 }
             }
 }
 
-TEST_CASE("Rows give the same bits in words as in half words", "[lanes]") {
+TEST_CASE("Rows give the same bits in words as in half words", "[simd]") {
     for (const char* preset : {"liquid", "solid", "powder", "sand"})
         for (const Precision precision : {Precision::doubles, Precision::singles})
             for (const std::string& name : instructionSets()) {
@@ -112,14 +112,14 @@ TEST_CASE("Rows give the same bits in words as in half words", "[lanes]") {
                 particles.position[17] = particles.position[16];
                 PairTraversal pairs(law, precision);
                 pairs.prepare(law, particles, particles.velocity);
-                pairs.makeRecords(particles, particles.velocity);
+                pairs.packParticles(particles, particles.velocity);
                 const OverRows expected = overRows(pairs, particles);
                 widen(pairs.list.rows);
                 CHECK(overRows(pairs, particles) == expected);
             }
 }
 
-TEST_CASE("Records in float are those of the plain twin with every kind of vectors", "[lanes]") {
+TEST_CASE("Records in float are those of the plain twin with every kind of vectors", "[simd]") {
     // Coordinates of which 32 bits hold all units, and such as go round many times.
     for (const double size : {1.0, 1e4, 1e8}) {
         Particles particles = clouds::strewnUnequal(1003, size);
@@ -127,26 +127,27 @@ TEST_CASE("Records in float are those of the plain twin with every kind of vecto
         particles.position[5] = Vec3(0.0, -0.0, 0.5);
         for (std::uint32_t p = 0; p < 1003; ++p) particles.material[p] = p % 5;
         NeighborList list;
-        for (std::uint32_t place = 0; place < 1003; ++place) list.order.push_back(place * 7 % 1003);
+        for (std::uint32_t sortedIndex = 0; sortedIndex < 1003; ++sortedIndex)
+            list.order.push_back(sortedIndex * 7 % 1003);
         constexpr double kPerMeter = 8388608.0 / 0.66;
         for (const std::string& name : instructionSets()) {
             const OnInstructionSet only(name);
-            std::vector<SinglePrecisionRecord> singles(list.count());
-            const OrderedParticles from(list, particles, particles.velocity);
-            makeSingles(from, kPerMeter, 0, 501, singles.data());
-            makeSingles(from, kPerMeter, 501, 1003, singles.data());
-            for (std::size_t place = 0; place < list.count(); ++place) {
-                const std::size_t p = list.order[place];
+            std::vector<PackedParticleFloat> packedFloats(list.count());
+            const SortedParticles from(list, particles, particles.velocity);
+            packFloats(from, kPerMeter, 0, 501, packedFloats.data());
+            packFloats(from, kPerMeter, 501, 1003, packedFloats.data());
+            for (std::size_t sortedIndex = 0; sortedIndex < list.count(); ++sortedIndex) {
+                const std::size_t p = list.order[sortedIndex];
                 const auto expected =
-                    singleRecord(particles.position[p], particles.velocity[p], particles.id[p], kPerMeter);
-                INFO(size << " m, " << name << ", place " << place);
-                CHECK(std::memcmp(&singles[place], &expected, sizeof(expected)) == 0);
+                    packFloat(particles.position[p], particles.velocity[p], particles.id[p], kPerMeter);
+                INFO(size << " m, " << name << ", sortedIndex " << sortedIndex);
+                CHECK(std::memcmp(&packedFloats[sortedIndex], &expected, sizeof(expected)) == 0);
             }
         }
     }
 }
 
-TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vectors", "[lanes]") {
+TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vectors", "[simd]") {
     const Particles before = clouds::strewnUnequal(103, 2.0);
     std::vector<Vec3> forces;
     for (std::uint64_t p = 0; p < before.count(); ++p) forces.push_back(10.0 * clouds::randomVector(51, p));
@@ -160,7 +161,7 @@ TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vecto
             expected.velocity[p] = step.decay * (before.velocity[p] + step.h / before.mass[p] * force);
             expected.position[p] = before.position[p] + step.h * expected.velocity[p];
         }
-        const Extent box = extentOver(before.count(), [&](std::size_t p) { return expected.velocity[p]; });
+        const BoundingBox box = boundingBoxOf(before.count(), [&](std::size_t p) { return expected.velocity[p]; });
         for (const std::string& name : instructionSets()) {
             const OnInstructionSet only(name);
             for (const std::size_t split : {0U, 1U, 50U, 102U}) {
@@ -178,7 +179,7 @@ TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vecto
     }
 }
 
-TEST_CASE("Kick and drift tell of whoever is not sound", "[lanes]") {
+TEST_CASE("Kick and drift tell of whoever is not sound", "[simd]") {
     constexpr std::size_t kCount = 11;  // some in vectors, some not
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3> none(kCount, Vec3::Zero());
@@ -205,18 +206,18 @@ TEST_CASE("Kick and drift tell of whoever is not sound", "[lanes]") {
     }
 }
 
-TEST_CASE("Outer forces have the bits of weight and contacts one by one with every kind of vectors", "[lanes]") {
+TEST_CASE("Outer forces have the bits of weight and contacts one by one with every kind of vectors", "[simd]") {
     Particles particles = clouds::strewnUnequal(1003, 1.0);
     ForceLaw law;
     law.gravity = Vec3(0.3, -9.8, 0.1);
-    law.scenery.law = {.radius = 0.4, .repulsion = 9.0, .dampingFactor = 4.0, .coreFraction = 0.3};
+    law.obstacles.law = {.radius = 0.4, .repulsion = 9.0, .dampingFactor = 4.0, .coreFraction = 0.3};
     const Sphere sphere{Vec3(0.1, -0.2, 0.3), 0.4};
     particles.position[4] = sphere.center;
     // A wall as far as the first particle's radius, and one just nearer: these differences are exact.
     particles.position[0].x() = 0.25;
     particles.radius[0] = 0.125;
     constexpr double away = 0.125;
-    const std::vector<Collider> shapes = {Plane{Vec3(0.2, -0.5, 0), Vec3(1, 2, -3).normalized()},
+    const std::vector<Obstacle> shapes = {Plane{Vec3(0.2, -0.5, 0), Vec3(1, 2, -3).normalized()},
                                           Plane{Vec3(away, 0, 0), Vec3::UnitX()},
                                           Plane{Vec3(std::nextafter(away, 1.0), 0, 0), Vec3::UnitX()},
                                           Container{Vec3(-0.9, -0.8, -0.7), Vec3(0.9, 1.1, 0.6)},
@@ -229,7 +230,7 @@ TEST_CASE("Outer forces have the bits of weight and contacts one by one with eve
         law.materials = {*materialPreset("liquid"), *materialPreset(second)};
         for (std::uint32_t p = 0; p < particles.count(); ++p) particles.material[p] = p % 3 == 0 ? 1 : 0;
         for (std::size_t shape = 0; shape <= shapes.size(); ++shape) {  // each alone, then all
-            law.scenery.colliders = shape < shapes.size() ? std::vector{shapes[shape]} : shapes;
+            law.obstacles.shapes = shape < shapes.size() ? std::vector{shapes[shape]} : shapes;
             std::vector<Vec3> before;
             for (std::uint64_t p = 0; p < particles.count(); ++p) before.push_back(clouds::randomVector(53, p));
             std::vector<Vec3> expected = before;
@@ -237,8 +238,8 @@ TEST_CASE("Outer forces have the bits of weight and contacts one by one with eve
             for (std::size_t p = 0; p < particles.count(); ++p) {
                 const Material& material = law.materials[particles.material[p]];
                 const Vec3 contact =
-                    contactForce(law.scenery, {particles.position[p], particles.velocity[p], particles.radius[p],
-                                               material.dampingReach, material.friction});
+                    contactForce(law.obstacles, {particles.position[p], particles.velocity[p], particles.radius[p],
+                                                 material.dampingReach, material.friction});
                 expected[p] += particles.mass[p] * law.gravity;
                 expected[p] += contact;
                 if (contact != Vec3::Zero()) ++touched;
@@ -248,8 +249,8 @@ TEST_CASE("Outer forces have the bits of weight and contacts one by one with eve
                 const OnInstructionSet only(name);
                 for (const std::size_t split : {0U, 501U}) {
                     std::vector<Vec3> actual = before;
-                    addOuterForces(law, particles, particles.velocity, 0, split, actual);
-                    addOuterForces(law, particles, particles.velocity, split, particles.count(), actual);
+                    addExternalForces(law, particles, particles.velocity, 0, split, actual);
+                    addExternalForces(law, particles, particles.velocity, split, particles.count(), actual);
                     INFO(second << ", shape " << shape << ", " << name << ", split at " << split);
                     CHECK(std::memcmp(actual.data(), expected.data(), actual.size() * sizeof(Vec3)) == 0);
                 }
@@ -258,14 +259,14 @@ TEST_CASE("Outer forces have the bits of weight and contacts one by one with eve
     }
 }
 
-TEST_CASE("A step has the same bits with an obstacle out of reach as with none", "[lanes]") {
+TEST_CASE("A step has the same bits with an obstacle out of reach as with none", "[simd]") {
     for (const char* preset : {"liquid", "solid"}) {
         std::string hashes[2];
         for (const bool hasPlane : {false, true}) {
             Setup setup = runs::freeSetup(*materialPreset(preset), StepperKind::symplecticEuler, 0.002);
             setup.gravity = Vec3(0.3, -9.8, 0);
             setup.drag = 0.5;
-            if (hasPlane) setup.scenery.colliders = {Plane{Vec3(0, -1000, 0), Vec3::UnitY()}};
+            if (hasPlane) setup.obstacles.shapes = {Plane{Vec3(0, -1000, 0), Vec3::UnitY()}};
             runs::addPacking(setup, {7, 6, 9});
             Simulation simulation = start(setup);
             advance(simulation, 0.06);
@@ -275,7 +276,7 @@ TEST_CASE("A step has the same bits with an obstacle out of reach as with none",
     }
 }
 
-TEST_CASE("In double, forces have the bits of the scalar kernel", "[lanes]") {
+TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
     for (const std::string& preset : materialPresetNames()) {
         Material material = *materialPreset(preset);
         ForceLaw law = clouds::lawOf(material);
@@ -300,7 +301,7 @@ TEST_CASE("In double, forces have the bits of the scalar kernel", "[lanes]") {
     }
 }
 
-TEST_CASE("In float, forces err by its roundings, near the origin and far from it", "[lanes]") {
+TEST_CASE("In float, forces err by its roundings, near the origin and far from it", "[simd]") {
     for (const char* preset : {"liquid", "solid", "powder", "sand"})
         for (const double far : {0.0, 1e3, 1e6}) {
             const Material material = *materialPreset(preset);
@@ -313,7 +314,7 @@ TEST_CASE("In float, forces err by its roundings, near the origin and far from i
         }
 }
 
-TEST_CASE("Coincident particles are parted in float as in double, and near ones are not", "[lanes]") {
+TEST_CASE("Coincident particles are parted in float as in double, and near ones are not", "[simd]") {
     // Float tells 2^-23 of the list's reach apart, 8e-8 m at most.
     const double apart = GENERATE(0.0, 1e-13, 1e-10, 1e-6);
     for (const char* preset : {"powder", "solid", "sand"}) {
@@ -321,7 +322,7 @@ TEST_CASE("Coincident particles are parted in float as in double, and near ones 
         Particles particles = block(material, Vec3::Zero());
         particles.position[17] = particles.position[16] + Vec3(0, apart, 0);
         const std::vector<Vec3> doubles = pairForces(material, particles, Precision::doubles);
-        const std::vector<Vec3> singles = pairForces(material, particles, Precision::singles);
+        const std::vector<Vec3> packedFloats = pairForces(material, particles, Precision::singles);
         INFO(preset << ", " << apart << " m apart");
         CHECK(doubles[17].norm() > 0.0);
         const double slope = pairCoefficient<PairTerms{true, false}>(0.0, 0.0, pairConstants<double>(material, 0.3));
@@ -329,12 +330,12 @@ TEST_CASE("Coincident particles are parted in float as in double, and near ones 
         // kCoincidentShare 0.3 m slope.
         const double rounding = apart > 0.0 ? slope * (8e-8 + 2.0 * material.friction * apart) : 0.0;
         const double tolerance = 1e-5 * doubles[17].norm() + rounding;
-        CHECK((singles[17] - doubles[17]).norm() < tolerance);
-        CHECK((singles[16] - doubles[16]).norm() < tolerance);
+        CHECK((packedFloats[17] - doubles[17]).norm() < tolerance);
+        CHECK((packedFloats[16] - doubles[16]).norm() < tolerance);
     }
 }
 
-TEST_CASE("In float, forces and energies need no records in double", "[lanes]") {
+TEST_CASE("In float, forces and energies need no packed in double", "[simd]") {
     const Material material = *materialPreset("solid");
     Particles particles = block(material, Vec3::Zero());
     particles.position[17] = particles.position[16];
@@ -344,7 +345,7 @@ TEST_CASE("In float, forces and energies need no records in double", "[lanes]") 
     double energy = 0.0;
     pairs.prepare(law, particles, particles.velocity);
     addUpPairs(pairs, {.forces = forces, .energy = &energy});
-    CHECK(!pairs.hasRecords);
+    CHECK(!pairs.arePacked);
     CHECK_THAT(energy,
                Catch::Matchers::WithinRel(pairEnergyReference(law, particles), 1e-5));  // some roundings of float
     std::vector<Vec3> alone(particles.count());

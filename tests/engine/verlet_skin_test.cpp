@@ -11,7 +11,7 @@ using namespace engine;
 
 namespace {
 
-/// A packing of grains whose halves part, each at this speed (m/s), after some steps (s).
+/// A packing of grains whose halves block, each at this speed (m/s), after some steps (s).
 Simulation parting(double speed, double step, ForceMethod method) {
     Setup setup = runs::freeSetup(*materialPreset("powder"), StepperKind::velocityVerlet, step);
     runs::addPacking(setup, {6, 6, 6});
@@ -33,27 +33,27 @@ double skinOf(const Simulation& simulation) {
 
 }  // namespace
 
-TEST_CASE("The skin is narrow where a list serves for long and where no skin would help", "[list-skin]") {
-    CHECK(cheapestSkin(45.0, 0.0) < 0.05);
-    CHECK(cheapestSkin(45.0, 1e-4) < 0.05);
-    CHECK(cheapestSkin(45.0, 5.0) < 0.05);
+TEST_CASE("The skin is entries16 where a list serves for long and where no skin would help", "[verlet-skin]") {
+    CHECK(optimalSkin(45.0, 0.0) < 0.05);
+    CHECK(optimalSkin(45.0, 1e-4) < 0.05);
+    CHECK(optimalSkin(45.0, 5.0) < 0.05);
 }
 
-TEST_CASE("The skin is wider for fast particles, and where few are near", "[list-skin]") {
-    double before = cheapestSkin(45.0, 1e-5);
+TEST_CASE("The skin is wider for fast particles, and where few are near", "[verlet-skin]") {
+    double before = optimalSkin(45.0, 1e-5);
     for (const double way : {1e-3, 5e-3, 0.02, 0.03}) {
-        const double skin = cheapestSkin(45.0, way);
+        const double skin = optimalSkin(45.0, way);
         CHECK(skin >= before);
         before = skin;
     }
     CHECK(before > 0.1);
-    CHECK(cheapestSkin(5.0, 0.03) > cheapestSkin(45.0, 0.03));
+    CHECK(optimalSkin(5.0, 0.03) > optimalSkin(45.0, 0.03));
 }
 
-TEST_CASE("A run's lists fit the way of its steps, and its forces are those of every pair", "[list-skin]") {
-    CHECK(skinOf(parting(0.1, 1e-5, ForceMethod::grid)) < kListSkin);
+TEST_CASE("A run's lists fit the way of its steps, and its forces are those of every pair", "[verlet-skin]") {
+    CHECK(skinOf(parting(0.1, 1e-5, ForceMethod::grid)) < kDefaultSkin);
     const Simulation fast = parting(8.0, 0.002, ForceMethod::grid);
-    CHECK(skinOf(fast) > 2.0 * kListSkin);
+    CHECK(skinOf(fast) > 2.0 * kDefaultSkin);
     const Simulation expected = parting(8.0, 0.002, ForceMethod::reference);
     for (std::size_t p = 0; p < fast.particles.count(); ++p)  // some thousand roundings of meters
         CHECK((fast.particles.position[p] - expected.particles.position[p]).norm() < 1e-12);
