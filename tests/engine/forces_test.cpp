@@ -200,7 +200,7 @@ TEST_CASE("Radii that change once are not one radius, wherever threads share the
             std::fill_n(particles.radius.begin(), smaller, 0.15);
             const ForceTerms terms = termsFor(law, particles);
             CHECK_FALSE(terms.uniform);
-            CHECK(terms.cutoff == reachOf(law.materials) * 0.6);
+            CHECK(terms.cutoff == cutoffRatio(law.materials) * 0.6);
         }
     }
 }
