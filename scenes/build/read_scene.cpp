@@ -39,10 +39,10 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 
-std::optional<engine::Extent> buildWorld(Section& section, BuildContext& context) {
+std::optional<engine::BoundingBox> buildWorld(Section& section, BuildContext& context) {
     if (!section.has("minimum") && !section.has("maximum")) return std::nullopt;
     checkCorners(section, context);
-    engine::Extent world = engine::Extent::unbounded();
+    engine::BoundingBox world = engine::BoundingBox::unbounded();
     if (section.has("minimum")) world.low = section.vector("minimum");
     if (section.has("maximum")) world.high = section.vector("maximum");
     return world;
