@@ -1,10 +1,12 @@
-// posix_spawn with a socket for input: MSG_NOSIGNAL then turns a dead reader into an error code instead of SIGPIPE.
+// The child is started by posix_spawn. Its input is a socket, because send() with MSG_NOSIGNAL turns a reader that has
+// ended into an error code, where write() to a pipe would raise SIGPIPE.
 #include "render/output/child_process.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,8 +16,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,10 +31,15 @@ namespace render {
 
 namespace {
 
-std::string words(int error) {
+std::string messageOf(int error) {
     return std::generic_category().message(error);
 }
 
+std::int64_t nanoseconds(const timespec& time) {
+    return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+/// A temporary file that is removed already: it lasts until it is closed.
 int unnamedFile() {
     std::error_code ignored;
     std::filesystem::path folder = std::filesystem::temp_directory_path(ignored);
@@ -38,12 +47,13 @@ int unnamedFile() {
     std::string name = (folder / "globular-XXXXXX").string();
     const int file = ::mkostemp(name.data(), O_CLOEXEC);
     if (file < 0)
-        throw SystemError(fmt::format("cannot create a temporary file in {}: {}", folder.string(), words(errno)));
+        throw SystemError(fmt::format("cannot create a temporary file in {}: {}", folder.string(), messageOf(errno)));
     ::unlink(name.c_str());
     return file;
 }
 
-// The child gets exactly 0, 1 and 2; everything else of ours is closed on exec.
+/// Starts the child with file descriptors 0, 1 and 2 alone; all others are opened with O_CLOEXEC. Returns an errno
+/// value.
 int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& pid) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -53,12 +63,13 @@ int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& 
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
-    // A group of its own: what a terminal sends to ours, such as SIGINT, is for us to act on.
+    // A process group of its own: a signal that the terminal sends, such as SIGINT, must not reach the child, because
+    // this process decides what to do about it.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
     posix_spawnattr_setpgroup(&attributes, 0);
-    // What we ignore it would, too.
+    // A signal that this process ignores would be ignored by the child as well.
     sigset_t ignored;
     sigemptyset(&ignored);
     sigaddset(&ignored, SIGPIPE);
@@ -71,11 +82,12 @@ int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& 
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chrono::duration<double> patience)
-    : patience_(patience) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chrono::duration<double> progressTimeout,
+                           std::string outputPath)
+    : progressTimeout_(progressTimeout), outputPath_(std::move(outputPath)) {
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        throw SystemError(fmt::format("cannot create a socket pair for {}: {}", arguments.front(), words(errno)));
+        throw SystemError(fmt::format("cannot create a socket pair for {}: {}", arguments.front(), messageOf(errno)));
     }
     input_ = ends[0];
     int error = 0;
@@ -91,7 +103,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chron
     if (error == 0) return;
     ::close(input_);
     ::close(log_);
-    throw SystemError(fmt::format("cannot start {}: {}", arguments.front(), words(error)));
+    throw SystemError(fmt::format("cannot start {}: {}", arguments.front(), messageOf(error)));
 }
 
 ChildProcess::~ChildProcess() {
@@ -108,20 +120,46 @@ void ChildProcess::closeInput() {
     input_ = -1;
 }
 
-void ChildProcess::giveUp() {
-    gaveUp_ = true;
-    ::kill(-pid_, SIGKILL);  // its whole group
+ChildProcess::Progress ChildProcess::progress() const {
+    Progress now;
+    clockid_t clock = 0;
+    timespec used = {};
+    if (::clock_getcpuclockid(pid_, &clock) == 0 && ::clock_gettime(clock, &used) == 0)
+        now.processorTime = nanoseconds(used);
+    struct stat output = {};
+    if (!outputPath_.empty() && ::stat(outputPath_.c_str(), &output) == 0) {
+        now.outputSize = output.st_size;
+        now.outputTime = nanoseconds(output.st_mtim);
+    }
+    return now;
+}
+
+void ChildProcess::startWatch() {
+    lastProgress_ = progress();
+    lastProgressTime_ = std::chrono::steady_clock::now();
+}
+
+void ChildProcess::killIfStalled() {
+    const Progress now = progress();
+    if (now != lastProgress_) {
+        startWatch();
+    } else if (!hasStalled_ && std::chrono::steady_clock::now() - lastProgressTime_ > progressTimeout_) {
+        hasStalled_ = true;
+        ::kill(-pid_, SIGKILL);  // its whole process group
+    }
 }
 
 bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
-    const auto milliseconds =
-        static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(patience_).count());
+    using std::chrono::milliseconds;
+    const auto interval = std::min(std::chrono::duration_cast<milliseconds>(progressTimeout_), milliseconds(1000));
+    startWatch();
     while (!bytes.empty()) {
         pollfd end = {input_, POLLOUT, 0};
-        const int ready = ::poll(&end, 1, milliseconds);
-        if (ready < 0 && errno == EINTR) continue;
-        if (ready == 0) giveUp();
-        if (ready <= 0) return false;
+        const int ready = ::poll(&end, 1, static_cast<int>(interval.count()));
+        if (ready < 0 && errno != EINTR) return false;
+        if (ready == 0) killIfStalled();
+        if (hasStalled_) return false;
+        if (ready <= 0) continue;
         const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (sent < 0) return false;
@@ -132,18 +170,18 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
 
 std::string ChildProcess::wait() {
     closeInput();
-    if (pid_ <= 0) return "no such process any more";  // waitpid(-1) would take someone else's child
+    if (pid_ <= 0) return "no such process any more";  // waitpid(-1) would take any other child
     int status = 0;
-    const auto start = std::chrono::steady_clock::now();
+    startWatch();
     while (true) {
         const pid_t ended = ::waitpid(pid_, &status, WNOHANG);
         if (ended == pid_) break;
-        if (ended < 0 && errno != EINTR) return fmt::format("no exit status: {}", words(errno));
-        if (!gaveUp_ && std::chrono::steady_clock::now() - start > patience_) giveUp();
+        if (ended < 0 && errno != EINTR) return fmt::format("no exit status: {}", messageOf(errno));
+        killIfStalled();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     pid_ = -1;
-    if (gaveUp_) return fmt::format("no sign of life for {:g} s", patience_.count());
+    if (hasStalled_) return fmt::format("no progress for {:g} s", progressTimeout_.count());
     if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
     return WEXITSTATUS(status) == 0 ? std::string() : fmt::format("exit status {}", WEXITSTATUS(status));
 }

@@ -1,4 +1,5 @@
-// A child process with its input on a pipe and its output and errors in a temporary file. Used for ffmpeg by video.cpp.
+// A child process with its input on a pipe and its output and errors in a temporary file. Used for ffmpeg by video.cpp
+// and by the comparison of videos, and for LAMMPS by the scaling study.
 #pragma once
 
 #include <sys/types.h>
@@ -11,41 +12,60 @@
 
 namespace render {
 
-/// Chosen: no frame takes an encoder as long, s, nor does the end of a long film.
+/// A child process that makes no progress for so long is taken to hang, s. Chosen: no frame and no flush of a full disk
+/// cache blocks an encoder for as long.
 inline constexpr std::chrono::duration<double> kProgressTimeout{120.0};
 
-/// Of what takes as long as it takes and tells nothing on the way, s.
+/// For programs that may sleep for as long as they like, s.
 inline constexpr std::chrono::duration<double> kNoTimeout{1e6};
 
-/// A running program. Its output goes to an unnamed file, because a pipe that nobody reads fills up and stops both
+/// A running program. Its output goes to an unnamed file, because a pipe that is not read fills up and stops both
 /// sides.
 class ChildProcess {
  public:
-    /// arguments[0] is the program, looked up on PATH; no shell is involved. A child that takes no input or does not
-    /// end for longer than `patience` is killed. Throws SystemError when it cannot be started.
+    /// Starts a program without a shell. It is killed when it makes no progress for `progressTimeout` while write() or
+    /// wait() wait for it. It makes progress while it uses processor time or its output file changes.
+    /// @param arguments  arguments[0] is the program, looked up on PATH
+    /// @param outputPath  the file that it writes; empty if there is none to watch
+    /// @throws SystemError when it cannot be started
     explicit ChildProcess(const std::vector<std::string>& arguments,
-                          std::chrono::duration<double> patience = kProgressTimeout);
-    /// Kills the child if it still runs.
+                          std::chrono::duration<double> progressTimeout = kProgressTimeout,
+                          std::string outputPath = {});
+    /// Kills the child if it is still running.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Writes everything to the child's input; false when the child no longer reads. Never raises SIGPIPE.
+    /// Writes everything to the child's input. Returns false when the child no longer reads. Never raises SIGPIPE.
     bool write(std::span<const std::uint8_t> bytes);
 
-    /// Closes the input, waits for the end, and says how it ended: empty for exit status 0, else "exit status 1",
-    /// "signal 9 (...)" or "no sign of life for 120 s".
+    /// Closes the input, waits for the end, and says how it ended: empty for exit status 0, otherwise for example
+    /// "exit status 1", "signal 9 (Killed)" or "no progress for 120 s".
     std::string wait();
 
-    /// What the child wrote to its output and errors; the end of it, at most so many bytes.
+    /// The last bytes, at most `most`, of what the child has written to its output and errors.
     std::string output(std::size_t most = 2000) const;
 
  private:
-    void closeInput();
-    void giveUp();
+    /// Changes while the child makes progress.
+    struct Progress {
+        std::int64_t processorTime = 0;  ///< ns
+        std::int64_t outputSize = 0;     ///< bytes
+        std::int64_t outputTime = 0;     ///< of the last change, ns
 
-    std::chrono::duration<double> patience_;
-    bool gaveUp_ = false;
+        bool operator==(const Progress&) const = default;
+    };
+
+    void closeInput();
+    Progress progress() const;
+    void startWatch();
+    void killIfStalled();
+
+    std::chrono::duration<double> progressTimeout_;
+    std::string outputPath_;
+    Progress lastProgress_;
+    std::chrono::steady_clock::time_point lastProgressTime_;
+    bool hasStalled_ = false;
 
     int input_ = -1;
     int log_ = -1;
