@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "render/output/atomic_file.h"
 #include "render/output/child_process.h"
-#include "render/output/partial_film.h"
 #include "render/picture/system_error.h"
 
 namespace render {
@@ -22,7 +22,7 @@ int even(int pixels) {
 
 ChildProcess started(const std::vector<std::string>& arguments, const VideoOptions& options) {
     try {
-        return ChildProcess(arguments, options.patience);
+        return ChildProcess(arguments, options.progressTimeout);
     } catch (const SystemError& error) {
         throw SystemError(fmt::format("{}; install ffmpeg or render frames only", error.what()));
     }
@@ -82,8 +82,10 @@ void requireEncoder(const VideoOptions& options) {
 struct VideoWriter::Parts {
     explicit Parts(VideoOptions options_) : options(checked(std::move(options_))) {
         requireEncoder(options);
-        film.emplace(options.path);
-        process.emplace(commandLine(options, film->path()), options.patience);
+        file.emplace(options.path);
+        file->removeAbandoned();
+        const std::string path = file->temporaryPath().string();
+        process.emplace(commandLine(options, path), options.progressTimeout, path);
     }
 
     [[noreturn]] void fail(const std::string& ended) const {
@@ -94,7 +96,7 @@ struct VideoWriter::Parts {
     }
 
     VideoOptions options;
-    std::optional<PartialFilm> film;
+    std::optional<AtomicFile> file;
     std::optional<ChildProcess> process;  // ends before its file is removed
     std::vector<std::uint8_t> bytes;      // of a padded picture
 };
@@ -117,7 +119,7 @@ void VideoWriter::add(const Image& image) {
 void VideoWriter::finish() {
     const std::string ended = parts_->process->wait();
     if (!ended.empty()) parts_->fail(ended);
-    parts_->film->becomeFilm();
+    parts_->file->commit();
 }
 
 }  // namespace render

@@ -1,5 +1,5 @@
-// Frames to an MP4 by the ffmpeg program: started with an argument vector, fed raw pixels through a pipe. Used by
-// tools/.
+// Frames to an MP4 video by the ffmpeg program, which is started with an argument vector and fed raw pixels through a
+// pipe. Used by the render, video and simulate commands.
 #pragma once
 
 #include <chrono>
@@ -13,32 +13,35 @@
 namespace render {
 
 struct VideoOptions {
-    std::string path;  ///< the finished film; written to path + ".partial" and renamed when whole
+    std::string path;  ///< of the video; it is written to a temporary file until it is whole, see atomic_file.h
     PictureSize size;
     int fps = 30;
-    std::string ffmpeg = "ffmpeg";                              ///< the program, looked up on PATH
-    std::chrono::duration<double> patience = kProgressTimeout;  ///< with a program that does not go on, s
+    std::string ffmpeg = "ffmpeg";                                     ///< the program, looked up on PATH
+    std::chrono::duration<double> progressTimeout = kProgressTimeout;  ///< after which a hanging ffmpeg is killed, s
 };
 
-/// Throws SystemError: ffmpeg cannot be started, or has no libx264. Distributions that leave it out of ffmpeg let a
-/// film fail only after the first frames.
+/// Asks ffmpeg for its libx264 encoder, because a distribution's ffmpeg without it fails only after the first frames.
+/// @throws SystemError when ffmpeg cannot be started or has no libx264
 void requireEncoder(const VideoOptions& options);
 
-/// Writes one film: H.264, yuv420p, BT.709. Odd sizes are padded to even by repeating the last column or row.
-/// Holds:  the same frames give the same bytes on any machine: the encoder always has two threads.
+/// Writes one video: H.264, yuv420p, BT.709. An odd width or height is padded to even by repeating the last column or
+/// row. The same frames give the same bytes on any machine, because the encoder always has two threads.
 class VideoWriter {
  public:
-    /// Throws SystemError: as requireEncoder, or the file cannot be written.
+    /// @throws SystemError as requireEncoder() does, or when the file cannot be created
     explicit VideoWriter(VideoOptions options);
-    /// Without finish() the film is given up: ffmpeg is ended and the partial file removed.
+    /// Without finish(), ffmpeg is killed and the temporary file removed.
     ~VideoWriter();
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    /// The next frame, of the size given. Throws SystemError with ffmpeg's last words when it has died.
+    /// Appends a frame.
+    /// @param image  must have the size given in the options
+    /// @throws SystemError with the end of ffmpeg's output when it has ended
     void add(const Image& image);
 
-    /// Completes the film and renames it. Throws SystemError with ffmpeg's last words when it fails.
+    /// Completes the video and renames it.
+    /// @throws SystemError with the end of ffmpeg's output when it fails
     void finish();
 
  private:

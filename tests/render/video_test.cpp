@@ -1,4 +1,4 @@
-// Films: what ffprobe reads back, identical bytes on one core and on several, and every way in which ffmpeg fails.
+// Videos: what ffprobe reads back, identical bytes on one core and on several, and every way in which ffmpeg fails.
 #include <sched.h>
 
 #include "tests/catch.h"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder that is gone after the test.
+// A temporary folder that is removed with the object.
 struct Folder {
     Folder() : path(fs::temp_directory_path() / ("globular-video-test-" + std::to_string(::getpid()))) {
         fs::create_directories(path);
@@ -25,7 +25,7 @@ struct Folder {
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
     std::string file(const std::string& name) const { return (path / name).string(); }
-    bool empty() const { return fs::is_empty(path); }
+    long entryCount() const { return std::distance(fs::directory_iterator(path), fs::directory_iterator()); }
     fs::path path;
 };
 
@@ -37,7 +37,7 @@ render::Image frame(render::PictureSize size, int index) {
     return image;
 }
 
-void writeFilm(const render::VideoOptions& options, int frames) {
+void writeVideo(const render::VideoOptions& options, int frames) {
     render::VideoWriter writer(options);
     for (int k = 0; k < frames; ++k) writer.add(frame(options.size, k));
     writer.finish();
@@ -57,10 +57,12 @@ std::string probe(const std::string& path) {
     return child.output();
 }
 
-// A stand-in for ffmpeg that answers the probe for libx264 and then does what it is told.
+// A shell script in place of ffmpeg that answers the probe for libx264 and otherwise runs `action`, in which $out is
+// the path of the temporary file.
 std::string fakeFfmpeg(const Folder& folder, const std::string& action) {
     const std::string path = folder.file("fake-ffmpeg");
     std::ofstream(path) << "#!/bin/sh\ncase \"$*\" in *encoder=libx264*) echo 'Encoder libx264'; exit 0;; esac\n"
+                        << "for last; do :; done; out=${last#file:}\n"
                         << action << "\n";
     fs::permissions(path, fs::perms::owner_all);
     return path;
@@ -68,10 +70,10 @@ std::string fakeFfmpeg(const Folder& folder, const std::string& action) {
 
 }  // namespace
 
-TEST_CASE("A film has its frames, rate, size and color tags") {
+TEST_CASE("A video has its frames, rate, size and color tags") {
     const Folder folder;
-    const std::string path = folder.file("film.mp4");
-    writeFilm({path, {64, 48}, 25}, 7);
+    const std::string path = folder.file("a.mp4");
+    writeVideo({path, {64, 48}, 25}, 7);
     const std::string found = probe(path);
     INFO(found);
     for (const char* expected :
@@ -79,12 +81,12 @@ TEST_CASE("A film has its frames, rate, size and color tags") {
           "color_transfer=bt709", "color_primaries=bt709", "r_frame_rate=25/1", "nb_read_frames=7"}) {
         CHECK_THAT(found, Catch::Contains(expected));
     }
-    CHECK_FALSE(fs::exists(path + ".partial"));
+    CHECK(folder.entryCount() == 1);
 }
 
 TEST_CASE("Odd sizes are padded to even") {
     const Folder folder;
-    writeFilm({folder.file("odd.mp4"), {33, 17}, 30}, 3);
+    writeVideo({folder.file("odd.mp4"), {33, 17}, 30}, 3);
     const std::string found = probe(folder.file("odd.mp4"));
     CHECK_THAT(found, Catch::Contains("width=34"));
     CHECK_THAT(found, Catch::Contains("height=18"));
@@ -100,15 +102,15 @@ TEST_CASE("The number of cores does not change a byte") {
     cpu_set_t one;
     CPU_ZERO(&one);
     CPU_SET(first, &one);
-    writeFilm({folder.file("all"), {640, 360}, 30}, 24);
+    writeVideo({folder.file("all"), {640, 360}, 30}, 24);
     REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);  // ffmpeg inherits it
-    writeFilm({folder.file("one"), {640, 360}, 30}, 24);
+    writeVideo({folder.file("one"), {640, 360}, 30}, 24);
     REQUIRE(sched_setaffinity(0, sizeof all, &all) == 0);
     CHECK(bytesOf(folder.file("all")).size() > 1000);
     CHECK(bytesOf(folder.file("one")) == bytesOf(folder.file("all")));
 }
 
-TEST_CASE("Colors survive: a red film is red") {
+TEST_CASE("Colors survive: a red video is red") {
     const Folder folder;
     render::Image red{64, 64, {}};
     for (int k = 0; k < 64 * 64; ++k) red.rgb.insert(red.rgb.end(), {220, 40, 30});
@@ -136,7 +138,7 @@ TEST_CASE("A missing ffmpeg is one clear SystemError") {
     CHECK_THROWS_AS(render::VideoWriter(options), render::SystemError);
     CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("cannot start /nowhere/ffmpeg: No such file") &&
                                                         Catch::Contains("install ffmpeg"));
-    CHECK(folder.empty());
+    CHECK(folder.entryCount() == 0);
 }
 
 TEST_CASE("An ffmpeg without libx264 is named as such") {
@@ -151,56 +153,97 @@ TEST_CASE("An ffmpeg that dies is one clear SystemError with its last words, and
     const render::PictureSize size{640, 360};  // more than a socket holds
     render::VideoOptions options{folder.file("a.mp4"), size};
     options.ffmpeg = fakeFfmpeg(folder, "echo 'the disk is on fire' >&2; exit 3");
-    const auto film = [&] { writeFilm(options, 5); };
-    CHECK_THROWS_AS(film(), render::SystemError);
-    CHECK_THROWS_WITH(
-        film(), Catch::Contains("a.mp4") && Catch::Contains("exit status 3") && Catch::Contains("the disk is on fire"));
+    const auto write = [&] { writeVideo(options, 5); };
+    CHECK_THROWS_AS(write(), render::SystemError);
+    CHECK_THROWS_WITH(write(), Catch::Contains("a.mp4") && Catch::Contains("exit status 3") &&
+                                   Catch::Contains("the disk is on fire"));
     options.ffmpeg = fakeFfmpeg(folder, "kill -9 $$");
-    CHECK_THROWS_WITH(film(), Catch::Contains("signal 9"));
+    CHECK_THROWS_WITH(write(), Catch::Contains("signal 9"));
     CHECK_FALSE(fs::exists(folder.file("a.mp4")));
 }
 
-TEST_CASE("An ffmpeg that hangs is given up") {
+TEST_CASE("An ffmpeg that hangs is killed") {
     const Folder folder;
     render::VideoOptions options{folder.file("a.mp4"), {640, 360}};  // more than a socket holds
-    options.patience = std::chrono::milliseconds(200);
+    options.progressTimeout = std::chrono::milliseconds(200);
     options.ffmpeg = fakeFfmpeg(folder, "sleep 1000");  // takes nothing
-    CHECK_THROWS_WITH(writeFilm(options, 5), Catch::Contains("a.mp4") && Catch::Contains("no sign of life for 0.2 s"));
+    CHECK_THROWS_WITH(writeVideo(options, 5), Catch::Contains("a.mp4") && Catch::Contains("no progress for 0.2 s"));
     options.ffmpeg = fakeFfmpeg(folder, "cat >/dev/null; sleep 1000");  // does not end
-    CHECK_THROWS_WITH(writeFilm(options, 5), Catch::Contains("no sign of life for 0.2 s"));
+    CHECK_THROWS_WITH(writeVideo(options, 5), Catch::Contains("no progress for 0.2 s"));
     CHECK_FALSE(fs::exists(folder.file("a.mp4")));
 }
 
-TEST_CASE("An encoder that outlived its run does not write into the next one's film") {
+TEST_CASE("An ffmpeg that works longer than the timeout is waited for") {
     const Folder folder;
-    writeFilm({folder.file("whole.mp4"), {64, 64}, 30}, 3);
-    // What the old one goes on writing to after the new one has begun.
-    std::ofstream old(folder.file("a.mp4.partial"));
+    render::VideoOptions options{folder.file("a.mp4"), {640, 360}};
+    options.progressTimeout = std::chrono::milliseconds(300);
+    // After its input has ended it works for 1 s: its file changes, as when +faststart moves the index to the front.
+    options.ffmpeg =
+        fakeFfmpeg(folder, "cat >/dev/null; for k in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; echo >>$out; done");
+    writeVideo(options, 3);
+    CHECK(bytesOf(options.path).size() == 10);
+    // One process that only computes for more than three times the timeout.
+    options.ffmpeg = fakeFfmpeg(folder, "exec perl -e 'while (<STDIN>) {} 1 while (times)[0] < 1'");
+    writeVideo(options, 3);
+    // A frame that takes as long: the input is not read meanwhile.
+    options.ffmpeg =
+        fakeFfmpeg(folder, "for k in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; echo >>$out; done; cat >/dev/null");
+    writeVideo(options, 3);
+}
+
+TEST_CASE("An encoder that outlived its run does not write into the next run's video") {
+    const Folder folder;
+    writeVideo({folder.file("whole.mp4"), {64, 64}, 30}, 3);
+    const std::string abandoned = folder.file(".a.mp4.abc123.partial");
+    std::ofstream old(abandoned);
     old << "old" << std::flush;
     render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30});
+    CHECK_FALSE(fs::exists(abandoned));  // no lock: its run has ended
     for (int k = 0; k < 3; ++k) writer.add(frame({64, 64}, k));
     old << std::string(1000, 'x') << std::flush;
     writer.finish();
     CHECK(bytesOf(folder.file("a.mp4")) == bytesOf(folder.file("whole.mp4")));
 }
 
-TEST_CASE("An ffmpeg that talks without end does not stop the film") {
+TEST_CASE("Two writers of one video both succeed, and the last to finish wins") {
+    const Folder folder;
+    writeVideo({folder.file("three.mp4"), {64, 64}, 30}, 3);
+    render::VideoWriter first({folder.file("a.mp4"), {64, 64}, 30});
+    render::VideoWriter second({folder.file("a.mp4"), {64, 64}, 30});
+    for (int k = 0; k < 3; ++k) first.add(frame({64, 64}, k));
+    second.add(frame({64, 64}, 0));
+    second.finish();
+    first.finish();
+    CHECK(bytesOf(folder.file("a.mp4")) == bytesOf(folder.file("three.mp4")));
+    CHECK(folder.entryCount() == 2);
+}
+
+TEST_CASE("A video keeps the permissions of the file that it replaces, and may have a name of 250 bytes") {
+    const Folder folder;
+    const std::string name = std::string(246, 'v') + ".mp4";
+    writeVideo({folder.file(name), {64, 64}, 30}, 1);
+    fs::permissions(folder.file(name), fs::perms::owner_read);
+    writeVideo({folder.file(name), {64, 64}, 30}, 1);
+    CHECK(fs::status(folder.file(name)).permissions() == fs::perms::owner_read);
+}
+
+TEST_CASE("The messages of ffmpeg may have any length") {
     const Folder folder;
     render::VideoOptions options{folder.file("a.mp4"), {64, 64}};
     options.ffmpeg = fakeFfmpeg(folder, "head -c 1000000 /dev/zero | tr '\\0' 'x' >&2; cat > /dev/null; exit 1");
-    CHECK_THROWS_WITH(writeFilm(options, 3), Catch::Contains("exit status 1"));
+    CHECK_THROWS_WITH(writeVideo(options, 3), Catch::Contains("exit status 1"));
 }
 
-TEST_CASE("A folder that does not exist is said by ffmpeg") {
-    CHECK_THROWS_WITH(writeFilm({"/nowhere/a.mp4", {64, 64}}, 2),
+TEST_CASE("A folder that does not exist is named, with the reason") {
+    CHECK_THROWS_WITH(writeVideo({"/nowhere/a.mp4", {64, 64}}, 2),
                       Catch::Contains("/nowhere/a.mp4") && Catch::Contains("No such file"));
 }
 
-TEST_CASE("A film that is given up leaves nothing") {
+TEST_CASE("A video that is not finished leaves no file") {
     const Folder folder;
     {
         render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30});
         for (int k = 0; k < 5; ++k) writer.add(frame({64, 64}, k));
     }
-    CHECK(folder.empty());
+    CHECK(folder.entryCount() == 0);
 }

@@ -1,7 +1,11 @@
 // Files are written whole or not at all; base64 is the standard's.
 #include <sys/stat.h>
 
+#include <atomic>
 #include <filesystem>
+#include <fstream>
+#include <thread>
+#include <vector>
 
 #include "render/picture/system_error.h"
 #include "tests/catch.h"
@@ -49,6 +53,67 @@ TEST_CASE("A file that cannot be written names itself and the reason, and leaves
     CHECK_THROWS_AS(tools::readFile(folder / "nothing"), render::SystemError);
 }
 
+TEST_CASE("A link that was put where a temporary file might be is not followed", "[tools]") {
+    const program::Folder folder;
+    std::ofstream(folder / "victim.txt") << "untouched";
+    for (const char* name : {".a.txt.partial", ".a.txt", "a.txt.partial"})
+        fs::create_symlink("victim.txt", folder / name);
+    tools::writeFile(folder / "a.txt", std::string("new"));
+    CHECK(program::textOf(folder / "victim.txt") == "untouched");
+    CHECK(program::textOf(folder / "a.txt") == "new");
+    CHECK(fs::symlink_status(folder / "a.txt").type() == fs::file_type::regular);
+}
+
+TEST_CASE("Writers of one file all succeed, and the file is that of one of them", "[tools]") {
+    const program::Folder folder;
+    constexpr std::size_t kSize = 200000;  // many writes of a page
+    std::atomic<int> failures = 0;
+    std::vector<std::thread> writers;
+    for (const char letter : {'a', 'b', 'c', 'd'})
+        writers.emplace_back([&, letter] {
+            for (int k = 0; k < 25; ++k) {
+                try {
+                    tools::writeFile(folder / "a.txt", std::string(kSize, letter));
+                } catch (const render::SystemError&) {
+                    ++failures;
+                }
+                const std::string text = program::textOf(folder / "a.txt");
+                if (text != std::string(kSize, text.front())) ++failures;
+            }
+        });
+    for (std::thread& writer : writers) writer.join();
+    CHECK(failures == 0);
+    CHECK(entryCount(folder / "") == 1);
+}
+
+TEST_CASE("A file keeps the permissions of the one it replaces, and a new one those of any new file", "[tools]") {
+    const program::Folder folder;
+    const auto modeOf = [&](const char* name) {
+        return static_cast<unsigned>(fs::status(folder / name).permissions() & fs::perms::mask);
+    };
+    const mode_t umask = ::umask(027);
+    tools::writeFile(folder / "a.txt", std::string("x"));
+    CHECK(modeOf("a.txt") == 0640);
+    for (const unsigned mode : {0600U, 0666U, 0444U}) {
+        fs::permissions(folder / "a.txt", static_cast<fs::perms>(mode));
+        tools::writeFile(folder / "a.txt", std::string("y"));
+        CHECK(modeOf("a.txt") == mode);
+    }
+    ::umask(umask);
+}
+
+TEST_CASE("Names may have up to 255 bytes", "[tools]") {
+    const program::Folder folder;
+    std::string umlauts;
+    while (umlauts.size() < 254) umlauts += "\xC3\xA4";
+    for (const std::string& name : {std::string(250, 'n'), std::string(255, 'n'), umlauts}) {
+        tools::writeFile(folder / name, name);
+        CHECK(program::textOf(folder / name) == name);
+    }
+    CHECK_THROWS_AS(tools::writeFile(folder / std::string(256, 'n'), std::string("x")), render::SystemError);
+    CHECK(entryCount(folder / "") == 3);
+}
+
 TEST_CASE("What a link leads to is replaced, a device or a pipe is not", "[tools]") {
     const program::Folder folder;
     tools::createFolder(folder / "else");
@@ -63,10 +128,10 @@ TEST_CASE("What a link leads to is replaced, a device or a pipe is not", "[tools
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
     CHECK_THROWS_AS(tools::writeFile(folder / "pipe", std::string("x")), render::SystemError);
     CHECK(fs::is_fifo(folder / "pipe"));
-    const auto film = program::run("render fountain --size 64x36 --frames 0 --quiet -o " + (folder / "a").string() +
-                                   " --video " + (folder / "pipe").string());
-    CHECK(film.code == 1);
-    CHECK(film.err.find("a file is wanted") != std::string::npos);
+    const auto video = program::run("render fountain --size 64x36 --frames 0 --quiet -o " + (folder / "a").string() +
+                                    " --video " + (folder / "pipe").string());
+    CHECK(video.code == 1);
+    CHECK(video.err.find("a file is wanted") != std::string::npos);
     CHECK(fs::is_fifo(folder / "pipe"));
 }
 

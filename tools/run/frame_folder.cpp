@@ -13,6 +13,7 @@
 #include <set>
 
 #include "engine/run/checkpoint.h"
+#include "render/output/atomic_file.h"
 #include "render/picture/system_error.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
@@ -110,7 +111,7 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const J
                         folder_.string()));
     }
     manifest_.identity = identity;
-    removePartialFiles();
+    render::removeAbandonedFiles(folder_, isRunFile);
     if (resumes_) keepIntactFrames();
     writeManifest();
 }
@@ -120,17 +121,6 @@ FrameFolder::~FrameFolder() {
         if (!isManifestCurrent_) writeManifest();
     } catch (const render::SystemError&) {
         // The frames that the manifest on disk does not list will be made again.
-    }
-}
-
-/// Removes the temporary files that a killed run has left.
-void FrameFolder::removePartialFiles() const {
-    constexpr std::string_view kPartial = ".partial";
-    for (const fs::path& file : filesIn(folder_)) {
-        const std::string name = file.filename().string();
-        if (name.starts_with(".") && name.ends_with(kPartial) &&
-            isRunFile(name.substr(1, name.size() - 1 - kPartial.size())))
-            removeFile(file);
     }
 }
 

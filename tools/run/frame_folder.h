@@ -84,7 +84,6 @@ class FrameFolder {
     void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report);
 
  private:
-    void removePartialFiles() const;
     bool hasFrames() const;
     void removeAll();
     void keepIntactFrames();

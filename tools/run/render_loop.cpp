@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/output/partial_film.h"
+#include "render/output/atomic_file.h"
 #include "render/output/png.h"
 #include "render/output/video.h"
 #include "render/renderer.h"
@@ -80,7 +80,7 @@ class RenderRun {
 
     static void requireVideo(const render::VideoOptions& options) {
         render::requireEncoder(options);
-        const render::PartialFilm begun(options.path);
+        const render::AtomicFile canBeCreated(options.path);
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
