@@ -1,55 +1,81 @@
-// The input of the renderer as plain data: what is in the picture, where the camera stands, how it is lit. No GL here,
-// so that scenes can fill it in. All lengths in meters, angles in radians, colors linear RGB in [0,1]; right-handed, y
-// up.
+// The input of the renderer as plain data: what is in the picture, where the camera is and how the scene is lit. Filled
+// in by scenes/view/frame_view.cpp and drawn by renderer.cpp; free of OpenGL, so that scenes may include it.
 //
-// Shading, the same for every surface (n unit normal, v unit vector to the eye, l unit vector to the light, h =
-// normalize(l+v), r = 2 (n.v) n - v). What a term's strength leaves out at 0 costs nothing. Terms marked * are 0 on
-// obstacles and ground, which are matt.
-//   sky(d)   = mix(ambient.ground, ambient.sky, 0.5 + 0.5 d.y)
-//   ambient  = sky(n) * (1 - occlusion (1 - open(n)))
-//   cosine   = max(0, n.l) * (1 + *roughness (2.2 / (max(0, n.l) + max(0, n.v) + 0.2) - 1))
-//   diffuse  = light.color * cosine * visibility          visibility: 1 lit, 0 in shadow, between at soft edges
-//   through  = *translucency open(-n) (sky(-n) + light.color (0.25 + max(0, -n.l)))
-//   body     = mix(albedo, albedo^2, *absorption (1 - open(-n)))
-//   f        = mix(specular, albedo, metal);   fresnel(c) = f + (1 - f) (1 - max(0, c))^5
-//   glint    = *light.color * visibility * fresnel(v.h) * (gloss + 8)/8 * max(0, n.h)^gloss * [n.l > 0]
-//              gloss = 2^glossExponent; the whole term is left out when specular and metal are 0
-//   mirror   = *reflection fresnel(n.v) open(r) surroundings(r)
-//   color   = (1 - *metal) body (ambient + diffuse + through) + glint + mirror + *glow albedo^2
-//   shown    = shoulder(exposure color), or color for exposure = 0
-// The picture is clamped to [0,1], sRGB encoded and rounded to 8 bits.
-//   surroundings(d): from horizon to top by d.y (2 - d.y) above, from horizon to bottom by min(1, -4 d.y) below
-//   shoulder(c): p the largest channel; c for p <= 0.7; otherwise p' = 1 - 0.09 / (p - 0.4) and
-//              mix(c p'/p, p', 1 - 1/(1 + 0.06 (p - p'))): smooth, below 1, and white where it is very bright
-// The background is mix(bottom, top, t) with t running from 0 at the bottom edge of the picture to 1 at the top edge.
-// The ground is shaded with specular = 0 and its color then mixed into the background by fade/(1 + fade), fade =
-// (d/fadeDistance)^4, d the distance of the point from the ground's center.
+// Lengths are in meters, angles in radians, colors in linear RGB from 0 to 1. Axes are right-handed, y points up.
 //
-// Openness. open(d) = sum over the axes a of d_a^2 O(a, sign of d_a), of six values O between 0 and 1: space is divided
-// into cubes of side s, the least power of 2^(1/4) m not below twice the particles' mean radius, with corners at
-// multiples of s (s is doubled until a box around all particles, ten cubes wider on each side, has at most a million).
-// Every particle spreads its volume, in units of s^3, over the eight cubes whose middles surround its
-// center, by trilinear weights; blurred with weights 1/4, 1/2, 1/4 along each of the three axes that is F. Along an
-// axis' direction d,
-//   O = 1/(1 + tau)^2,   tau = sum over j = 1...6 of (1 - (j - 1/2)/6) F(j cubes further along d),
-// and at a place p it is interpolated (trilinearly) between the cubes' middles at p + 0.75 s d. A particle has the
-// values at its center, the surface of metaballs the mean of the balls' weighted by their kernels, other surfaces those
-// of the point itself.
+// This file also defines the shading model. render/cpu/ computes it fast, studies/oracle/ slowly in double precision,
+// and both are written from the text below and the comments on the fields.
 //
-// Soft shadows. With S = softness > 0 and the light's plane across l:
-//   - Spheres: visibility = max(0, 1 - sum of covers). A sphere of radius R, its center q off the ray from the point to
-//   the
-//     light and H further along it, with H + sqrt(max(0, R^2 - q^2)) > R/100, covers edge((R - q)/w), w = S min(R,
-//     H/2), edge(x) = t^2 (3 - 2 t), t = clamp(x + 1/2, 0, 1).
-//   - Boxes cover edge(x/w): x the distance on that plane inwards from the nearest of the lines through the sides of
-//   the
-//     box' outline, w = S min(mean radius of the particles, E/2), E where the ray leaves the box, if it does after its
-//     start.
-//   - Metaballs: the mean of what rays to the light meet from p + 1.5 t n + 0.5 t l + the plane's points off it,
-//   weighted
-//     by a quadratic B-spline along both of its axes (3 t wide), t = S/2 mean radii; the axes are those of
-//     light_space.h.
-// Without (S = 0) edges are sharp, up to a pixel's width.
+// 1. Color of a point on a surface
+//
+// n is the unit normal, v the unit vector to the eye, l the one to the light. Products of colors are taken channel by
+// channel. The fields of Surface describe the particles; on obstacles and the ground, which are matt, they count as 0.
+// A term whose strength is 0 is not computed.
+//
+//   h               = normalize(l + v), halfway between the two
+//   r               = 2 (n.v) n - v, the direction in which the eye's ray is mirrored
+//   mix(a, b, t)    = a (1 - t) + b t
+//   skyLight(d)     = mix(ambient.ground, ambient.sky, 0.5 + 0.5 d.y)
+//   ambient         = skyLight(n) (1 - occlusion (1 - skyVisibility(n)))            skyVisibility: section 3
+//   cosine          = max(0, n.l) (1 + roughness (2.2 / (max(0, n.l) + max(0, n.v) + 0.2) - 1))
+//   diffuse         = light.color cosine lightVisibility                            lightVisibility: section 4
+//   transmitted     = translucency skyVisibility(-n) (skyLight(-n) + light.color (0.25 + max(0, -n.l)))
+//   body            = mix(albedo, albedo^2, absorption (1 - skyVisibility(-n)))
+//   fresnel(c)      = f + (1 - f) (1 - max(0, c))^5  with  f = mix(specular, albedo, metal)
+//   highlight       = light.color lightVisibility fresnel(v.h) (g + 8)/8 max(0, n.h)^g  with  g = 2^glossExponent;
+//                     0 where n.l <= 0, and where both specular and metal are 0
+//   mirrored        = reflection fresnel(n.v) skyVisibility(r) surroundings(r)
+//   surroundings(d) = mix(horizon, top, d.y (2 - d.y)) for d.y > 0, else mix(horizon, bottom, min(1, -4 d.y))
+//   color           = (1 - metal) body (ambient + diffuse + transmitted) + highlight + mirrored + glow albedo^2
+//   displayed       = shoulder(exposure color), or color where exposure is 0
+//   shoulder(c)     = c where its largest channel p <= 0.7, else mix(c q/p, q, 1 - 1/(1 + 0.06 (p - q)))
+//                     with q = 1 - 0.09/(p - 0.4)
+//
+// Full roughness is the Lommel-Seeliger law of dust and of the moon, cosine / (n.l + n.v), with 0.2 added against the
+// pole at grazing angles and 2.2 to leave a surface seen and lit head-on as bright as it was. fresnel is Schlick's
+// approximation (1994), highlight the Blinn-Phong lobe normalized to reflect the same energy at any exponent. The
+// shoulder compresses what is too bright to display: q has the value 0.7 and the slope 1 at p = 0.7 and stays below 1,
+// and the mix turns very bright colors white. At last the picture is clamped to [0, 1], sRGB encoded and rounded to 8
+// bits.
+//
+// 2. Background and ground
+//
+// The background is mix(bottom, top, t), where t runs from 0 at the bottom edge of the picture to 1 at the top edge.
+// The ground's color is mixed into the background by fade/(1 + fade), where fade = (d/fadeDistance)^4 and d is the
+// distance of the point from the ground's center.
+//
+// 3. Sky visibility (ambient occlusion)
+//
+// At a point x, in the direction of a unit vector d,
+//   skyVisibility(d) = sum over the axes a = x, y, z of d_a^2 O(x, a, sign of d_a).
+// The values O between 0 (hidden) and 1 (open), two along each axis, come from a grid. Space is divided into cubes of
+// side s, with corners at multiples of s. s is the smallest power of 2^(1/4) m that is not below twice the particles'
+// mean radius; it is doubled until the box around all particles' centers, ten cubes wider on each side, has at most a
+// million cubes. Every particle spreads its volume, in units of s^3, over the eight cubes whose centers surround its
+// own, by trilinear weights. Blurred with the weights 1/4, 1/2, 1/4 along each axis, that is the density F of a cube.
+// In the direction e of one of its six faces a cube has
+//   O   = 1/(1 + tau)^2,
+//   tau = sum over j = 1...6 of (1 - (j - 1/2)/6) F(j cubes further along e),
+// and O(x) is interpolated trilinearly between the centers of the cubes around x + 0.75 s e, a little ahead so that a
+// surface does not hide the sky from itself. A particle has the values of its center all over, the surface of metaballs
+// the mean of the balls' values weighted by their kernels, obstacles and the ground those of the point itself.
+//
+// 4. Light visibility (shadows)
+//
+// lightVisibility is max(0, 1 - C), where C is the sum of what spheres, boxes and metaballs cover of the light. The
+// light's plane is the one across l, and S is the softness of the light. With S > 0,
+//   edge(x) = y^2 (3 - 2 y)  with  y = clamp(x + 1/2, 0, 1).
+// A sphere of radius R, whose center is at the distance q from the ray to the light and H along it, covers
+//   edge((R - q)/w)  with  w = S min(R, max(0, H/2)),
+// if H + sqrt(max(0, R^2 - q^2)) > R/100; with 0 in place of R/100, rounding would let a sphere shade itself. A box
+// covers
+//   edge(x/w)  with  w = S min(mean radius of the particles, E/2),
+// where x is the distance on the light's plane from the nearest of the lines through the sides of its outline, positive
+// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing. Metaballs cover the
+// share of rays to the light that meet them. With t = S/2 mean radii, these rays start around
+//   p + 1.5 t n + 0.5 t l,  p being the point,
+// and are spread over the light's plane with the weights of a quadratic B-spline, 3 t wide, along each of the axes u
+// and v of light_space.h. With S = 0 edges are sharp, up to the width of a pixel.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +88,7 @@
 
 namespace render {
 
-/// A particle: a lit sphere, or one ball of the metaball field.
+/// A particle, drawn as a lit sphere or as one ball of the metaball field.
 struct Sphere {
     glm::vec3 center{0.0F};
     float radius = 0.1F;
@@ -71,9 +97,9 @@ struct Sphere {
 
 enum class Style { spheres, metaballs };
 
-/// draft: one sample a pixel. normal: antialiased silhouettes. final: 3 x 3 supersampling, averaged in linear light.
-/// The surface of metaballs is found at every second pixel of every second row and between them where it is not smooth;
-/// all over in final quality.
+/// draft takes one sample per pixel. normal antialiases silhouettes. final takes 3 x 3 samples per pixel and averages
+/// them in linear light. The surface of metaballs is found at every second pixel of every second row, and between these
+/// only where it is not smooth; in final quality it is found at every pixel.
 enum class Quality { draft, normal, final };
 
 enum class Projection { perspective, orthographic };
@@ -83,51 +109,52 @@ struct Camera {
     glm::vec3 eye{0.0F, 2.0F, 10.0F};
     glm::vec3 target{0.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
-    float verticalFov = 0.7F;  ///< full angle, perspective only
-    float halfHeight = 5.0F;   ///< half the height of the picture, m, orthographic only
+    float verticalFov = 0.7F;  ///< full angle; perspective only
+    float halfHeight = 5.0F;   ///< half the height of what the picture shows, m; orthographic only
 };
 
 /// Parallel light.
 struct Light {
     glm::vec3 toLight{0.4F, 0.8F, 0.4472136F};  ///< unit length
     glm::vec3 color{1.0F};
-    bool shadows = true;    ///< no shadow pass is run without
-    float softness = 0.0F;  ///< of shadows' edges, in radii of particles; at most 1
+    bool shadows = true;    ///< without, lightVisibility is 1
+    float softness = 0.0F;  ///< S of section 4: about the width of shadows' edges in radii of particles; at most 1
 };
 
 struct Ambient {
     glm::vec3 sky{0.35F};
     glm::vec3 ground{0.2F};
-    float occlusion = 0.0F;  ///< 0: as bright in a crack as on a hill, 1: dark where no sky is seen
+    float occlusion = 0.0F;  ///< 0: a crack is as bright as a hill, 1: it is dark where no sky is visible
 };
 
-/// What mirrors show.
+/// What a mirroring surface reflects.
 struct Surroundings {
     glm::vec3 top{0.9F};
     glm::vec3 horizon{0.6F};
     glm::vec3 bottom{0.2F};
 };
 
-/// How the particles' surface answers light; obstacles and ground are matt.
+/// How the particles reflect light. Obstacles and the ground are matt.
 struct Surface {
-    float specular = 0.0F;      ///< reflectance at normal incidence; 0 is matt and costs nothing
-    int glossExponent = 6;      ///< the highlight's exponent is 2 to the power of this
-    float reflection = 0.0F;    ///< of the surroundings, on top of Fresnel's term
-    float metal = 0.0F;         ///< 1: no light leaves the body, and reflections have its color
+    float specular = 0.0F;      ///< reflectance at normal incidence; 0 is matt
+    int glossExponent = 6;      ///< base-2 logarithm of the highlight's exponent
+    float reflection = 0.0F;    ///< strength of the mirrored surroundings, times Fresnel's factor
+    float metal = 0.0F;         ///< 1: no diffuse light, and reflections take the color of the surface
     float roughness = 0.0F;     ///< 1: dust, as bright at its rim as in its middle
-    float translucency = 0.0F;  ///< light from behind that thin parts let through
-    float absorption = 0.0F;    ///< how much deeper the color of thick parts is
-    float glow = 0.0F;          ///< light of its own
+    float translucency = 0.0F;  ///< share of the light from behind that passes through thin regions
+    float absorption = 0.0F;    ///< how much the color deepens in thick regions
+    float glow = 0.0F;          ///< emitted light
 };
 
-/// A horizontal plane.
+/// A horizontal plane that fades into the background with the distance from its center.
 struct Ground {
     float height = 0.0F;
     glm::vec3 color{0.6F};
-    glm::vec3 center{0.0F};  ///< the fade starts here
-    float fadeDistance = 30.0F;
+    glm::vec3 center{0.0F};
+    float fadeDistance = 30.0F;  ///< at which it is half ground, half background
 };
 
+/// A vertical gradient over the whole picture.
 struct Background {
     glm::vec3 top{0.0F};
     glm::vec3 bottom{0.0F};
@@ -147,7 +174,7 @@ struct BoxObstacle {
     glm::vec3 color{0.5F};
 };
 
-/// A straight line of constant width on the picture, hidden by what is in front of it.
+/// A straight line of constant width in pixels, hidden by what is in front of it.
 struct Edge {
     glm::vec3 from{0.0F};
     glm::vec3 to{0.0F};
@@ -155,20 +182,25 @@ struct Edge {
     float width = 1.5F;  ///< pixels, at any quality
 };
 
-/// plain: every ball where its particle is, with weight 1. smooth: the skin of a liquid rather than of a bag of balls.
-enum class Skin { plain, smooth };
+/// Where the balls of the field are and how much each weighs, see MetaballField.
+enum class Skin {
+    plain,  ///< at the particles, with weight 1: the particles stay visible as bumps
+    smooth  ///< moved and weighted by their neighborhood: a closed surface, as of a liquid
+};
 
-/// How far a ball of a smooth skin moves from its particle toward its neighbors' mean.
+/// The share of the way from its particle to the mean of its neighbors that a ball of a smooth skin is moved.
 inline constexpr float kSkinPull = 0.85F;
 
-/// The field of metaballs: sum over balls of weight (1 - d^2/R^2)^2 for d < R, with R = reach * radius. The surface is
-/// where the field is (1 - 1/reach^2)^2, so that a lone ball keeps its radius. The normal is the negative gradient; the
-/// color is the average of the balls' colors weighted by their kernels.
-/// Smooth skin: with k = (1 - d^2/Q^2)^2 for all particles nearer than Q = reach times the mean of both radii (the
-/// particle itself among them, k = 1), a ball's center is kSkinPull of the way from its particle to the mean of the
-/// places weighted by k, and its weight is (sum of k)^(-3/4).
+/// The surface of metaballs is where the field, the sum over all balls of w (1 - d^2/R^2)^2 for d < R, has the value
+/// (1 - 1/reach^2)^2. d is the distance from the ball's center, w its weight and R = reach * radius; a ball alone thus
+/// has its particle's radius. The normal is the negative gradient, the color the mean of the balls' colors weighted by
+/// their terms of the sum.
+///
+/// Smooth skin: let Q be reach times the mean of two particles' radii and k = (1 - d^2/Q^2)^2 for particles at
+/// distances d < Q. A ball is moved from its particle by kSkinPull times the vector to the mean position of all
+/// particles weighted by k, itself included with k = 1, and its weight is (sum of k)^(-3/4).
 struct MetaballField {
-    float reach = 2.5F;  ///< at least 1.2, at most 4
+    float reach = 2.5F;  ///< of a ball's field, in radii; from 1.2 to 4
     Skin skin = Skin::plain;
 };
 
@@ -176,13 +208,13 @@ struct MetaballField {
 struct View {
     std::vector<Sphere> particles;
     Style style = Style::spheres;
-    MetaballField field;  ///< used by metaballs only
+    MetaballField field;  ///< for Style::metaballs only
     Camera camera;
     Light light;
     Ambient ambient;
     Surface surface;
     Surroundings surroundings;
-    float exposure = 0.0F;  ///< multiplies all light before the shoulder; 0: no shoulder
+    float exposure = 0.0F;  ///< a factor on all light before the shoulder; 0: neither factor nor shoulder
     Background background;
     std::optional<Ground> ground;
     std::vector<SphereObstacle> sphereObstacles;
