@@ -1,5 +1,5 @@
 // Frames to an MP4 video by the ffmpeg program, which is started with an argument vector and fed raw pixels through a
-// pipe. Used by the render, video and simulate commands.
+// pipe. Used by tools/run/render_loop.cpp and the video command.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
-// Bytes are mixed as they are, not in linear light: text keeps the same weight dark on light and light on dark, as in
-// any other program. Whole numbers only, so that the result is the same everywhere.
+// Encoded bytes are blended, not linear light: text then looks equally bold dark on light and light on dark, as in most
+// programs. Blending uses integers only, so that it gives the same result on every machine.
 #include "render/overlay/coverage_mask.h"
 
 #include <algorithm>
@@ -14,32 +14,33 @@ std::size_t indexOf(const CoverageMask& mask, int x, int y) {
            static_cast<std::size_t>(x - mask.left);
 }
 
-/// Length of what the interval from low to high has of the pixel that begins at a whole number.
+/// Length of the overlap of the interval [low, high] with the pixel [pixel, pixel + 1].
 double overlap(double low, double high, int pixel) {
     return std::max(0.0, std::min(high, pixel + 1.0) - std::max(low, static_cast<double>(pixel)));
 }
 
-int lerp(int below, int above, int share) {
-    return (below * (255 - share) + above * share + 127) / 255;
+/// From a at t = 0 to b at t = 255, rounded.
+int lerp(int a, int b, int t) {
+    return (a * (255 - t) + b * t + 127) / 255;
 }
 
-/// A pixel beside another, and how much of the other's coverage it takes, 0 to 255.
+/// A pixel at an offset from another, and the share of the other's coverage that it takes over, 0 to 255.
 struct Neighbor {
     int dx = 0;
     int dy = 0;
     int share = 0;
 };
 
-/// Everything within the radius, and less over the last pixel.
-std::vector<Neighbor> discOf(int radius) {
-    std::vector<Neighbor> disc;
+/// All pixels within the radius, their share falling to 0 over one more pixel.
+std::vector<Neighbor> disc(int radius) {
+    std::vector<Neighbor> neighbors;
     for (int dy = -radius - 1; dy <= radius + 1; ++dy) {
         for (int dx = -radius - 1; dx <= radius + 1; ++dx) {
             const double inside = radius + 1.0 - std::sqrt(static_cast<double>(dx * dx + dy * dy));
-            if (inside > 0.0) disc.push_back({dx, dy, static_cast<int>(255.0 * std::min(inside, 1.0))});
+            if (inside > 0.0) neighbors.push_back({dx, dy, static_cast<int>(255.0 * std::min(inside, 1.0))});
         }
     }
-    return disc;
+    return neighbors;
 }
 
 std::uint8_t srgbByte(float linear) {
@@ -79,14 +80,14 @@ CoverageMask widened(const CoverageMask& mask, int radius) {
     CoverageMask wide = emptyMask({static_cast<double>(mask.left - margin), static_cast<double>(mask.top - margin),
                                    static_cast<double>(mask.left + mask.width + margin),
                                    static_cast<double>(mask.top + mask.height + margin)});
-    const std::vector<Neighbor> disc = discOf(radius);
+    const std::vector<Neighbor> neighbors = disc(radius);
     for (int y = mask.top; y < mask.top + mask.height; ++y) {
         for (int x = mask.left; x < mask.left + mask.width; ++x) {
             const int coverage = mask.coverage[indexOf(mask, x, y)];
             if (coverage == 0) continue;
-            for (const Neighbor& next : disc) {
-                std::uint8_t& at = wide.coverage[indexOf(wide, x + next.dx, y + next.dy)];
-                at = std::max(at, static_cast<std::uint8_t>(lerp(0, coverage, next.share)));
+            for (const Neighbor& neighbor : neighbors) {
+                std::uint8_t& at = wide.coverage[indexOf(wide, x + neighbor.dx, y + neighbor.dy)];
+                at = std::max(at, static_cast<std::uint8_t>(lerp(0, coverage, neighbor.share)));
             }
         }
     }

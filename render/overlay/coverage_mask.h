@@ -1,4 +1,5 @@
-// Coverage masks: what text and lines cover of a picture's pixels, and how a color gets through them onto the picture.
+// Coverage masks: how much of each pixel text and lines cover, and painting a color through such a mask. Used by all of
+// render/overlay/.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +11,16 @@
 
 namespace render {
 
-/// A rectangle of pixels, each covered from 0 (not at all) to 255 (wholly). It may reach beyond the picture.
-/// Holds:  coverage.size() == width * height, row by row from the top left.
+/// A rectangle of pixels, which may reach beyond the picture.
 struct CoverageMask {
-    int left = 0;
+    int left = 0;  ///< in pixels of the picture, (0, 0) being its top left pixel
     int top = 0;
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> coverage;
+    std::vector<std::uint8_t> coverage;  ///< width * height, row by row: 0 is not covered at all, 255 completely
 };
 
-/// In pixels of the picture, (0, 0) its upper left corner.
+/// A rectangle in pixels of the picture; (0, 0) is its top left corner.
 struct Box {
     double left = 0.0;
     double top = 0.0;
@@ -28,23 +28,23 @@ struct Box {
     double bottom = 0.0;
 };
 
-/// Nothing covered yet; contains the box.
+/// The smallest mask that contains the box, with nothing covered.
 CoverageMask emptyMask(const Box& box);
 
-/// Adds a rectangle; pixels at its sides are covered by their share.
+/// Adds a rectangle. Pixels at its sides are covered by the share of their area that is inside.
 void coverBox(CoverageMask& mask, const Box& box);
 
-/// Everything within a radius in pixels of what the mask covers, with a soft edge one pixel wide.
+/// All that lies within a radius, in pixels, of what the mask covers, with a soft edge one pixel wide.
 CoverageMask widened(const CoverageMask& mask, int radius);
 
 /// 8-bit sRGB, as in an Image.
 using Bytes = glm::tvec3<std::uint8_t>;
 
-/// The nearest bytes of a linear color.
+/// sRGB encoding of a linear color, clamped to [0, 1].
 Bytes srgbBytes(const glm::vec3& linear);
 
-/// Lays a color over the picture where the mask covers it; opacity from 0 to 255. What is beyond the picture is
-/// left out.
+/// Blends a color into the picture where the mask covers it. What lies outside of the picture is left out.
+/// @param opacity  from 0 to 255, a factor on the coverage
 void paint(Image& image, const CoverageMask& mask, const Bytes& color, int opacity = 255);
 
 }  // namespace render

@@ -1,5 +1,5 @@
-// Text, scale bar and color bar over a finished picture. On the CPU, after the pixels are read back: every backend and
-// quality gives the same bytes, and a view without an overlay costs nothing.
+// Draws text, scale bar and color bar over a finished picture. Called by the Renderer after the pixels have been read
+// back, so that every backend and quality gives the same bytes and a view without an overlay costs nothing.
 #pragma once
 
 #include "render/picture/image.h"
@@ -8,10 +8,11 @@
 
 namespace render {
 
-/// Height of the em square of an overlay's text, pixels.
+/// Height of the em square of an overlay's text in a picture of this many pixels, pixels.
+/// @param size  Overlay::size
 double overlayEm(int width, int height, double size);
 
-/// Draws what an overlay asks for; camera: the one that the picture was taken with.
+/// @param camera  the camera of the picture, for the length of the scale bar
 void drawOverlay(Image& image, const Overlay& overlay, const Camera& camera);
 
 }  // namespace render

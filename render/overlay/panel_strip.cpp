@@ -1,4 +1,4 @@
-// The text is that of the overlays, at the size that it has on a picture like the panels.
+// The text has the font and the size of an overlay's on a picture as large as a panel.
 #include "render/overlay/panel_strip.h"
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace render {
 
 namespace {
 
-constexpr Bytes kInk{26, 26, 26};
+constexpr Bytes kInk{26, 26, 26};  // chosen: nearly black
 
 void requireOneSize(const std::vector<Panel>& panels) {
-    if (panels.empty()) throw std::logic_error("render: a strip without panels");
+    if (panels.empty()) throw std::logic_error("render: a strip needs at least one panel");
     for (const Panel& panel : panels) {
         const Image& first = panels.front().image;
         if (panel.image.width == first.width && panel.image.height == first.height) continue;
@@ -27,17 +27,17 @@ void requireOneSize(const std::vector<Panel>& panels) {
     }
 }
 
-void place(const Image& panel, int left, Image& strip) {
+void copyInto(const Image& panel, int left, Image& strip) {
     const auto rowBytes = static_cast<std::ptrdiff_t>(3) * panel.width;
     for (int y = 0; y < panel.height; ++y)
         std::copy_n(panel.rgb.begin() + y * rowBytes, rowBytes,
                     strip.rgb.begin() + std::ptrdiff_t{3} * (std::ptrdiff_t{y} * strip.width + left));
 }
 
-/// As large as that, or as fits into the panel.
-void label(const std::string& text, double center, int baseline, double largestEm, int width, Image& strip) {
+/// Draws the text with the largest em, or a smaller one if it would be wider than the panel.
+void drawLabel(const std::string& text, double center, int baseline, double largestEm, int width, Image& strip) {
     const double em = largestEm * std::min(1.0, width / textWidth(text, largestEm));
-    const TextPlace at{std::round(center - 0.5 * textWidth(text, em)), baseline, em};
+    const TextPosition at{std::round(center - 0.5 * textWidth(text, em)), baseline, em};
     CoverageMask mask = emptyMask(textBox(text, at));
     coverText(mask, text, at);
     paint(strip, mask, kInk);
@@ -57,8 +57,8 @@ Image joinPanels(const std::vector<Panel>& panels) {
     for (int k = 0; k < count; ++k) {
         const Panel& panel = panels[static_cast<std::size_t>(k)];
         const int left = k * (width + gap);
-        place(panel.image, left, strip);
-        label(panel.text, left + 0.5 * width, height + static_cast<int>(std::lround(1.3 * em)), em, width, strip);
+        copyInto(panel.image, left, strip);
+        drawLabel(panel.text, left + 0.5 * width, height + static_cast<int>(std::lround(1.3 * em)), em, width, strip);
     }
     return strip;
 }

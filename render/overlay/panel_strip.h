@@ -1,4 +1,5 @@
-// Several pictures side by side with a line of text below each, as papers print a motion.
+// Joins several pictures side by side, each with a line of text below, as a figure in a paper shows a motion. Called by
+// the strip and figures commands.
 #pragma once
 
 #include <string>
@@ -10,11 +11,11 @@ namespace render {
 
 struct Panel {
     Image image;
-    std::string text;  ///< UTF-8, centered below
+    std::string text;  ///< UTF-8, one line, centered below the image
 };
 
-/// The panels from left to right on white, with thin separators. Shape: at least one panel, all of one size.
-/// Holds:  the pixels of a panel are those of its image.
+/// The panels from left to right on white, with thin gaps between them. Their pixels are copied unchanged.
+/// @param panels  at least one, all of the same size
 Image joinPanels(const std::vector<Panel>& panels);
 
 }  // namespace render

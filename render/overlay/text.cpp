@@ -1,4 +1,6 @@
-// stb_truetype over the embedded font. The font is part of the build, so nothing here can fail on a file.
+// Text by stb_truetype, in a font that the assembler copies from RENDER_FONT_FILE (given by the build) into the
+// program, so that the program needs no file when it runs. As an array of numbers the font would take the compiler
+// seconds.
 #include "render/overlay/text.h"
 
 #include <algorithm>
@@ -6,8 +8,6 @@
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
-
-#include "render/overlay/font_data.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -20,22 +20,34 @@
 #include <stb_truetype.h>
 #pragma GCC diagnostic pop
 
+asm(".section .rodata\n"
+    ".balign 16\n"
+    ".global globularFont\n"
+    ".hidden globularFont\n"
+    "globularFont:\n"
+    ".incbin \"" RENDER_FONT_FILE
+    "\"\n"
+    ".previous\n");
+
+extern "C" __attribute__((visibility("hidden"))) const unsigned char globularFont[];
+
 namespace render {
 
 namespace {
 
-constexpr int kReplacement = 0xFFFD;
+constexpr int kReplacement = 0xFFFD;  // U+FFFD, drawn for bytes that are not UTF-8
 
 const stbtt_fontinfo& font() {
     static const stbtt_fontinfo kFont = [] {
         stbtt_fontinfo info;
-        if (stbtt_InitFont(&info, fontData(), 0) == 0) throw std::logic_error("render: the built-in font is no font");
+        if (stbtt_InitFont(&info, globularFont, 0) == 0)
+            throw std::logic_error("render: the built-in font is not a TrueType font");
         return info;
     }();
     return kFont;
 }
 
-/// How many bytes follow the first one of a character; -1 if it cannot be the first.
+/// The number of bytes that follow the first byte of a character in UTF-8; -1 if it cannot be a first byte.
 int tailLength(unsigned char first) {
     if (first < 0x80) return 0;
     if (first >= 0xC2 && first < 0xE0) return 1;
@@ -43,7 +55,7 @@ int tailLength(unsigned char first) {
     return first >= 0xF0 && first < 0xF5 ? 3 : -1;
 }
 
-/// Takes the next character off the text.
+/// Removes the first character from the text and returns its code point.
 int takeCharacter(std::string_view& text) {
     const auto first = static_cast<unsigned char>(text.front());
     const int tail = tailLength(first);
@@ -59,29 +71,30 @@ int takeCharacter(std::string_view& text) {
     return character;
 }
 
-/// Calls visit(glyph, its left end in pixels from the beginning) for each character. Returns the width of the line.
+/// Calls visit(glyph, x) for each character, where x is its left end in pixels from the beginning of the line. Returns
+/// the width of the line.
 template <class Visit>
 double layOut(std::string_view text, double em, const Visit& visit) {
     const double scale = stbtt_ScaleForMappingEmToPixels(&font(), static_cast<float>(em));
-    double at = 0.0;
-    int before = 0;
+    double x = 0.0;
+    int previous = 0;
     while (!text.empty()) {
         const int glyph = stbtt_FindGlyphIndex(&font(), takeCharacter(text));
-        if (before != 0) at += scale * stbtt_GetGlyphKernAdvance(&font(), before, glyph);
-        visit(glyph, at);
+        if (previous != 0) x += scale * stbtt_GetGlyphKernAdvance(&font(), previous, glyph);
+        visit(glyph, x);
         int advance = 0;
         int bearing = 0;
         stbtt_GetGlyphHMetrics(&font(), glyph, &advance, &bearing);
-        at += scale * advance;
-        before = glyph;
+        x += scale * advance;
+        previous = glyph;
     }
-    return at;
+    return x;
 }
 
-void coverGlyph(CoverageMask& mask, int glyph, const TextPlace& place) {
-    const float scale = stbtt_ScaleForMappingEmToPixels(&font(), static_cast<float>(place.em));
-    const int column = static_cast<int>(std::floor(place.left));
-    const auto shift = static_cast<float>(place.left - column);
+void coverGlyph(CoverageMask& mask, int glyph, const TextPosition& position) {
+    const float scale = stbtt_ScaleForMappingEmToPixels(&font(), static_cast<float>(position.em));
+    const int column = static_cast<int>(std::floor(position.left));
+    const auto shift = static_cast<float>(position.left - column);
     int x0 = 0;
     int y0 = 0;
     int x1 = 0;
@@ -89,13 +102,13 @@ void coverGlyph(CoverageMask& mask, int glyph, const TextPlace& place) {
     stbtt_GetGlyphBitmapBoxSubpixel(&font(), glyph, scale, scale, shift, 0.0F, &x0, &y0, &x1, &y1);
     const int width = x1 - x0;
     const int height = y1 - y0;
-    if (width <= 0 || height <= 0) return;  // a space
+    if (width <= 0 || height <= 0) return;  // a space, for example
     std::vector<std::uint8_t> bitmap(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     stbtt_MakeGlyphBitmapSubpixel(&font(), bitmap.data(), width, height, width, scale, scale, shift, 0.0F, glyph);
     for (int row = 0; row < height; ++row) {
         for (int k = 0; k < width; ++k) {
             const int x = column + x0 + k - mask.left;
-            const int y = place.baseline + y0 + row - mask.top;
+            const int y = position.baseline + y0 + row - mask.top;
             if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) continue;
             std::uint8_t& at = mask.coverage[static_cast<std::size_t>(y * mask.width + x)];
             const int sum = at + bitmap[static_cast<std::size_t>(row * width + k)];
@@ -110,15 +123,15 @@ double textWidth(std::string_view text, double em) {
     return layOut(text, em, [](int, double) {});
 }
 
-Box textBox(std::string_view text, const TextPlace& place) {
-    // Room for accents, descenders and overhanging strokes of every Latin or Greek letter and every digit.
-    return {place.left - 0.25 * place.em, place.baseline - 1.1 * place.em,
-            place.left + textWidth(text, place.em) + 0.25 * place.em, place.baseline + 0.5 * place.em};
+Box textBox(std::string_view text, const TextPosition& position) {
+    // Room for accents, descenders and overhanging strokes of every Latin or Greek letter and digit in DejaVu Sans.
+    return {position.left - 0.25 * position.em, position.baseline - 1.1 * position.em,
+            position.left + textWidth(text, position.em) + 0.25 * position.em, position.baseline + 0.5 * position.em};
 }
 
-void coverText(CoverageMask& mask, std::string_view text, const TextPlace& place) {
-    layOut(text, place.em, [&](int glyph, double at) {
-        coverGlyph(mask, glyph, {place.left + at, place.baseline, place.em});
+void coverText(CoverageMask& mask, std::string_view text, const TextPosition& position) {
+    layOut(text, position.em, [&](int glyph, double x) {
+        coverGlyph(mask, glyph, {position.left + x, position.baseline, position.em});
     });
 }
 

@@ -1,5 +1,5 @@
-// Lines of text as coverage, in the one font that is built into the program (DejaVu Sans). Sizes are those of the
-// font's em square, in pixels; a capital is about 0.73 of it high.
+// Lines of text as coverage masks, in the font that is built into the program (DejaVu Sans). Sizes are those of the
+// font's em square, in pixels; a capital letter is about 0.73 em high. Called by draw_overlay.cpp and panel_strip.cpp.
 #pragma once
 
 #include <string_view>
@@ -8,20 +8,20 @@
 
 namespace render {
 
-/// Where a line of text stands.
-struct TextPlace {
-    double left = 0.0;  ///< where the first character begins
-    int baseline = 0;   ///< the row that capitals stand on
+/// Position and size of a line of text, in pixels of the picture.
+struct TextPosition {
+    double left = 0.0;  ///< x at which the first character begins
+    int baseline = 0;   ///< y of the lower end of capitals
     double em = 12.0;
 };
 
-/// How far the line reaches from its beginning, pixels. Text that is no UTF-8 shows the mark for it.
+/// Width of a line of UTF-8 text, pixels. Bytes that are not UTF-8 count as replacement characters (U+FFFD).
 double textWidth(std::string_view text, double em);
 
-/// A box that holds every pixel of the line; of scripts with taller marks than accents some may reach beyond it.
-Box textBox(std::string_view text, const TextPlace& place);
+/// A box that contains every pixel of the line. In scripts other than Latin and Greek, tall marks may reach beyond it.
+Box textBox(std::string_view text, const TextPosition& position);
 
-/// Adds a line of text to what the mask covers; what does not fit on the mask is left out.
-void coverText(CoverageMask& mask, std::string_view text, const TextPlace& place);
+/// Adds a line of text to the mask. What lies outside of the mask is left out.
+void coverText(CoverageMask& mask, std::string_view text, const TextPosition& position);
 
 }  // namespace render

@@ -1,24 +1,72 @@
-// Volumes spread over cubes, blurred, and added up along the axes with weights that end after six cubes.
+// The particles' volumes are spread over cubes, blurred, and summed up along the axes. The values at the particles are
+// then interpolated with as many particles at a time as a vector has lanes: this file is compiled once per instruction
+// set.
 #include "render/prepare/ambient_occlusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/prepare/ambient_occlusion.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/prepare/simd_occlusion-inl.h"
+#include "render/prepare/simd_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+/// The values at the particles' centers, a vector of particles at a time.
+void skyVisibilityOfBatch(const SkyVisibilityGrid& grid, std::span<const Sphere> particles,
+                          std::span<SkyVisibility> found) {
+    const D d;
+    using Values = std::array<float, kTileSize>;  // at least one for each lane
+    for (std::size_t first = 0; first < particles.size(); first += hn::Lanes(d)) {
+        const std::size_t count = std::min(hn::Lanes(d), particles.size() - first);
+        alignas(64) std::array<Values, 3> center{};
+        for (std::size_t lane = 0; lane < count; ++lane)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                center[axis][lane] = particles[first + lane].center[static_cast<int>(axis)];
+        const Vec3 at =
+            gridPosition(grid, glm::vec3(0.0F),
+                         {hn::Load(d, center[0].data()), hn::Load(d, center[1].data()), hn::Load(d, center[2].data())});
+        alignas(64) std::array<Values, 6> values;
+        for (std::size_t side = 0; side < 6; ++side)
+            hn::Store(skyVisibilityInGrid(grid, side, at), d, values[side].data());
+        for (std::size_t lane = 0; lane < count; ++lane)
+            for (std::size_t side = 0; side < 6; ++side) found[first + lane][side] = values[side][lane];
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 
 namespace render {
 
+HWY_EXPORT(skyVisibilityOfBatch);
+
 namespace {
 
-constexpr int kReach = 6;  // cubes
-// Cubes around the particles: one for the spread, one for the blur, the reach, and one for the places between.
+constexpr int kReach = 6;  // number of cubes that the sum tau of view.h takes in
+// Cubes between the particles and the sides of the grid: the reach, one that volumes are spread over, one more for the
+// blur, and two for the interpolation at points that are offset along a direction.
 constexpr int kMargin = kReach + 4;
-// 24 MB of values; wider cubes beyond, for the sake of a drop that flies far.
+// Six values each make 24 MB. Where a single particle flies far, the cubes become wider instead.
 constexpr double kMostCells = 1e6;
 
-float sideOf(std::span<const Sphere> particles) {
+/// The side s of the cubes of view.h, before it is doubled.
+float cubeSide(std::span<const Sphere> particles) {
     double sum = 0.0;
     for (const Sphere& particle : particles) sum += double(particle.radius);
     const double wanted = 2.0 * sum / static_cast<double>(particles.size());
@@ -29,25 +77,22 @@ float sideOf(std::span<const Sphere> particles) {
     return static_cast<float>(side);
 }
 
-struct Trilinear {
+/// The first of the eight cubes whose centers surround a point, and the point's position between the centers, 0 to 1.
+struct TrilinearCell {
     int x = 0, y = 0, z = 0;
     glm::vec3 part{0.0F};
 };
 
-// In sides of a cube, from the middle of the first.
-glm::vec3 placeIn(const SkyVisibilityGrid& grid, glm::vec3 place) {
-    return (place - grid.origin) / grid.side;
-}
-
-// at: not below zero, where whole numbers are what conversion leaves.
-Trilinear cubesAround(glm::vec3 at) {
+/// @pre the point lies within the grid, so that conversion to integers rounds down
+TrilinearCell trilinearCell(const SkyVisibilityGrid& grid, glm::vec3 point) {
+    const glm::vec3 at = (point - grid.origin) / grid.side;
     const glm::ivec3 corner(at);
     return {corner.x, corner.y, corner.z, at - glm::vec3(corner)};
 }
 
-// Calls visit(cell, weight) for the eight cubes around a place.
+/// Calls visit(cell index, weight) for the eight cubes around a point.
 template <typename Visit>
-void forCorners(const SkyVisibilityGrid& grid, const Trilinear& at, const Visit& visit) {
+void forCorners(const SkyVisibilityGrid& grid, const TrilinearCell& at, const Visit& visit) {
     const std::size_t first = grid.cellIndex(at.x, at.y, at.z);
     const auto row = static_cast<std::size_t>(grid.cells.x);
     const std::size_t slice = row * static_cast<std::size_t>(grid.cells.y);
@@ -64,15 +109,15 @@ void forCorners(const SkyVisibilityGrid& grid, const Trilinear& at, const Visit&
     }
 }
 
-// Size and place of a grid around the particles, its corners at multiples of the side.
-void fitTo(std::span<const Sphere> particles, SkyVisibilityGrid& grid) {
+/// Sets the origin, side and number of cubes of a grid around the particles.
+void fitToParticles(std::span<const Sphere> particles, SkyVisibilityGrid& grid) {
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(std::numeric_limits<float>::lowest());
     for (const Sphere& particle : particles) {
         low = min(low, particle.center);
         high = max(high, particle.center);
     }
-    grid.side = sideOf(particles);
+    grid.side = cubeSide(particles);
     const auto cellsAlong = [&](int axis) {
         return std::floor(double(high[axis]) / double(grid.side)) - std::floor(double(low[axis]) / double(grid.side)) +
                2.0 * kMargin + 1.0;
@@ -85,31 +130,33 @@ void fitTo(std::span<const Sphere> particles, SkyVisibilityGrid& grid) {
     }
 }
 
-// Values of all cubes between two margins of zeros, so that looks may leave the grid.
-struct Filling {
+/// One value for each cube of a grid, between two margins of zeros, so that sums along an axis may leave the grid.
+struct CubeValues {
     std::size_t margin = 0;
     std::vector<float> values;
 
-    explicit Filling(const SkyVisibilityGrid& grid)
+    explicit CubeValues(const SkyVisibilityGrid& grid)
         : margin(grid.cellIndex(0, 0, kReach)), values(grid.cellIndex(0, 0, grid.cells.z) + 2 * margin, 0.0F) {}
 
     float* at(std::size_t cell) { return &values[margin + cell]; }
     const float* at(std::size_t cell) const { return &values[margin + cell]; }
 };
 
-Filling filling(const SkyVisibilityGrid& grid, std::span<const Sphere> particles) {
-    Filling full(grid);
+/// The particles' volumes, spread over the cubes, in units of s^3.
+CubeValues spreadVolumes(const SkyVisibilityGrid& grid, std::span<const Sphere> particles) {
+    CubeValues density(grid);
     for (const Sphere& particle : particles) {
-        const float share = particle.radius / grid.side;
-        const float volume = 4.1887902F * share * share * share;
-        forCorners(grid, cubesAround(placeIn(grid, particle.center)),
-                   [&](std::size_t cell, float weight) { *full.at(cell) += volume * weight; });
+        const float radius = particle.radius / grid.side;
+        const float volume = 4.1887902F * radius * radius * radius;  // 4/3 pi r^3
+        forCorners(grid, trilinearCell(grid, particle.center),
+                   [&](std::size_t cell, float weight) { *density.at(cell) += volume * weight; });
     }
-    return full;
+    return density;
 }
 
-// Weights 1/4, 1/2, 1/4 along one axis; nothing lies at the border.
-void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const Filling& from, Filling& to) {
+/// Applies the weights 1/4, 1/2, 1/4 along one axis. The outermost cubes are empty and stay so.
+/// @param stride  of the axis: the difference in index between neighboring cubes
+void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const CubeValues& from, CubeValues& to) {
     const std::ptrdiff_t count = grid.cells.x;
     tbb::parallel_for(1, grid.cells.z - 1, [&](int z) {
         for (int y = 1; y < grid.cells.y - 1; ++y) {
@@ -121,15 +168,16 @@ void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const Filling& f
     });
 }
 
-// 1 / (1 + tau)^2 with tau = sum over j = 1 ... 6 of (1 - (j - 1/2)/6) F(j cubes ahead), for one row of cubes along x,
-// whose fillings begin at `full`. What leaves a row comes in on the other side of another, where nothing lies either.
-void lookAlong(const float* full, std::ptrdiff_t stride, std::span<float> open) {
+/// O = 1/(1 + tau)^2 of view.h toward one side, for a row of cubes along x whose densities begin at `density`. A sum
+/// that leaves the row goes on at the end of a neighboring row, where all cubes are empty as well.
+/// @param stride  the difference in index to the next cube toward that side
+void integrateAlong(const float* density, std::ptrdiff_t stride, std::span<float> visibility) {
     constexpr auto weight = [](int j) { return 1.0F - (static_cast<float>(j) - 0.5F) / static_cast<float>(kReach); };
-    const auto count = static_cast<std::ptrdiff_t>(open.size());
-    float* out = open.data();
+    const auto count = static_cast<std::ptrdiff_t>(visibility.size());
+    float* out = visibility.data();
     for (std::ptrdiff_t k = 0; k < count; ++k) {
         float tau = 0.0F;
-        for (int j = 1; j <= kReach; ++j) tau += weight(j) * full[k + j * stride];
+        for (int j = 1; j <= kReach; ++j) tau += weight(j) * density[k + j * stride];
         out[k] = 1.0F / ((1.0F + tau) * (1.0F + tau));
     }
 }
@@ -139,16 +187,16 @@ void lookAlong(const float* full, std::ptrdiff_t stride, std::span<float> open) 
 SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibilityGrid old) {
     if (particles.empty()) return {};
     SkyVisibilityGrid grid = std::move(old);
-    fitTo(particles, grid);
+    fitToParticles(particles, grid);
     const auto row = static_cast<std::size_t>(grid.cells.x);
     const std::size_t slice = row * static_cast<std::size_t>(grid.cells.y);
     const std::array<std::ptrdiff_t, 3> strides = {1, static_cast<std::ptrdiff_t>(row),
                                                    static_cast<std::ptrdiff_t>(slice)};
-    Filling full = filling(grid, particles);
-    Filling other(grid);
+    CubeValues density = spreadVolumes(grid, particles);
+    CubeValues blurred(grid);
     for (const std::ptrdiff_t stride : strides) {
-        blur(grid, stride, full, other);
-        std::swap(full, other);
+        blur(grid, stride, density, blurred);
+        std::swap(density, blurred);
     }
     for (std::vector<float>& values : grid.values) values.resize(grid.cellIndex(0, 0, grid.cells.z));
     tbb::parallel_for(0, grid.cells.z, [&](int z) {
@@ -156,8 +204,8 @@ SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibi
             const std::size_t first = grid.cellIndex(0, y, z);
             for (std::size_t direction = 0; direction < 6; ++direction) {
                 const std::ptrdiff_t stride = strides[direction / 2];
-                lookAlong(full.at(first), direction % 2 == 0 ? stride : -stride,
-                          std::span(grid.values[direction]).subspan(first, row));
+                integrateAlong(density.at(first), direction % 2 == 0 ? stride : -stride,
+                               std::span(grid.values[direction]).subspan(first, row));
             }
         }
     });
@@ -171,18 +219,31 @@ SkyVisibilityMap skyVisibilityAtHeight(const SkyVisibilityGrid& grid, float heig
     map.columns = grid.cells.x;
     map.rows = grid.cells.z;
     map.values.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), 1.0F);
-    constexpr std::size_t kUp = 2;
+    constexpr std::size_t kUp = 2;  // +y in the order of SkyVisibility
     const float at = (height - grid.origin.y) / grid.side + kSkySampleOffset;
     const float floor = std::floor(at);
     const int y = static_cast<int>(std::clamp(floor, -2.0F, 1e6F));
     if (grid.cells.x == 0 || y < 0 || y + 1 >= grid.cells.y) return map;
     const float part = at - floor;
-    std::size_t place = 0;
+    std::size_t cell = 0;
     for (int z = 0; z < map.rows; ++z)
         for (int x = 0; x < map.columns; ++x)
-            map.values[place++] = (1.0F - part) * grid.values[kUp][grid.cellIndex(x, y, z)] +
-                                  part * grid.values[kUp][grid.cellIndex(x, y + 1, z)];
+            map.values[cell++] = (1.0F - part) * grid.values[kUp][grid.cellIndex(x, y, z)] +
+                                 part * grid.values[kUp][grid.cellIndex(x, y + 1, z)];
     return map;
 }
 
+std::vector<SkyVisibility> particleSkyVisibility(std::span<const Sphere> particles, const SkyVisibilityGrid& grid) {
+    std::vector<SkyVisibility> found(particles.size(), kUnoccluded);
+    if (grid.cells.x == 0) return found;
+    constexpr std::size_t kChunk = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, particles.size(), kChunk), [&](const auto& range) {
+        HWY_DYNAMIC_DISPATCH(skyVisibilityOfBatch)
+        (grid, particles.subspan(range.begin(), range.size()), std::span(found).subspan(range.begin(), range.size()));
+    });
+    return found;
+}
+
 }  // namespace render
+
+#endif

@@ -1,5 +1,5 @@
-// How open to the sky the places of a scene are, from a grid of how full of particles space is; view.h defines it.
-// Called by the picture pass when a look asks for it.
+// How much of the sky each point of a scene sees (ambient occlusion), from the density of particles on a grid: section
+// 3 of view.h defines it. Called by the picture pass when a term of the shading model needs it.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace render {
 
-/// Openness along +x, -x, +y, -y, +z, -z; 1 is open.
+/// The values O of view.h along +x, -x, +y, -y, +z, -z: 0 is hidden, 1 is open.
 using SkyVisibility = std::array<float, 6>;
 
 inline constexpr SkyVisibility kUnoccluded = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
 
-/// Values at the middles of cubes, x fastest; empty without particles.
+/// The values O at the centers of the grid's cubes, x fastest. Empty for a view without particles.
 struct SkyVisibilityGrid {
-    glm::vec3 origin{0.0F};  ///< middle of the first cube, world
-    float side = 1.0F;       ///< m
-    glm::ivec3 cells{0};
-    std::array<std::vector<float>, 6> values;
+    glm::vec3 origin{0.0F};                    ///< center of the first cube, world coordinates
+    float side = 1.0F;                         ///< of a cube, m
+    glm::ivec3 cells{0};                       ///< cubes along each axis
+    std::array<std::vector<float>, 6> values;  ///< in the order of SkyVisibility
 
     std::size_t cellIndex(int x, int y, int z) const {
         return (static_cast<std::size_t>(z) * static_cast<std::size_t>(cells.y) + static_cast<std::size_t>(y)) *
@@ -32,26 +32,27 @@ struct SkyVisibilityGrid {
     }
 };
 
-/// A slice of the grid at one height, along +y: what the ground receives.
+/// The values along +y at one height, for the ground: row by row, x fastest.
 struct SkyVisibilityMap {
-    glm::vec2 origin{0.0F};  ///< middle of the first cell, x and z
-    float side = 1.0F;
-    int columns = 0;
-    int rows = 0;
+    glm::vec2 origin{0.0F};  ///< x and z of the first cell's center, world coordinates
+    float side = 1.0F;       ///< of a cell, m
+    int columns = 0;         ///< cells along x
+    int rows = 0;            ///< cells along z
     std::vector<float> values;
 };
 
-/// old: one that is no longer used, whose memory is taken.
-/// Holds:  the result depends on the view's particles alone, bit for bit, not on the number of threads.
+/// The result depends on the particles alone, bit for bit, not on the number of threads.
+/// @param old  a grid that is no longer needed, whose memory is reused
 SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibilityGrid old = {});
 
-/// Sides of a cube that a place is moved along the direction it looks in.
+/// How far from a point, in sides of a cube, the grid is sampled along the direction asked for (0.75 in view.h).
 inline constexpr float kSkySampleOffset = 0.75F;
 
-/// At each particle's center; kOpen outside of the grid.
-/// Holds:  a particle's values depend on its center and the grid alone, bit for bit, not on the number of lanes.
+/// The values at each particle's center; kUnoccluded outside of the grid. They depend on the center and the grid alone,
+/// bit for bit, not on the instruction set.
 std::vector<SkyVisibility> particleSkyVisibility(std::span<const Sphere> particles, const SkyVisibilityGrid& grid);
 
+/// @param height  y of the ground, world coordinates, m
 SkyVisibilityMap skyVisibilityAtHeight(const SkyVisibilityGrid& grid, float height);
 
 }  // namespace render

@@ -1,23 +1,224 @@
-// Balls pulled toward where others are, and lighter the more of them there are.
+// Balls of a smooth skin: each is pulled toward the mean of its neighbors and weighs the less, the more of them there
+// are. Particles are sorted into cells as wide as the longest reach. All that may be in reach of one cell's particles
+// is gathered once into blocks of 16, and each particle's sums run over these blocks with 16 accumulators, however wide
+// the vectors are. The accumulators are added up in a fixed order, so that every instruction set gives the same bits.
+// This file is compiled once per instruction set.
 #include "render/prepare/skin.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <tbb/parallel_for.h>
 
-#include "render/prepare/density_sums.h"
-#include "render/prepare/skin_cells.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/prepare/skin.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/prepare/simd_rays-inl.h"
+
+#ifndef RENDER_SKIN_CELLS
+#define RENDER_SKIN_CELLS
+namespace render {
+
+/// Particles that are added up at a time.
+constexpr std::size_t kBlock = 16;
+
+/// Particles sorted by cells, component by component, so that all that are in reach of a particle lie in nine
+/// contiguous runs. The arrays of floats have kBlock more entries than there are particles, so that a whole block can
+/// be read from any of them.
+struct ParticleCells {
+    glm::vec3 low{0.0F};
+    float side = 1.0F;
+    glm::ivec3 count{1};
+    std::vector<std::uint32_t> begin;    ///< sorted index of each cell's first particle, and the number of particles
+    std::vector<float> x, y, z, radius;  ///< by sorted index
+    std::vector<std::uint32_t> index;    ///< in the view, by sorted index
+
+    /// @pre at is not below `low`; conversion then rounds down (glm::floor may be a call).
+    glm::ivec3 cellOf(glm::vec3 at) const { return min(glm::ivec3((at - low) / side), count - 1); }
+
+    std::size_t cellIndex(int column, int row, int slice) const {
+        return (static_cast<std::size_t>(slice) * static_cast<std::size_t>(count.y) + static_cast<std::size_t>(row)) *
+                   static_cast<std::size_t>(count.x) +
+               static_cast<std::size_t>(column);
+    }
+};
+
+/// Particles in whole blocks: x, y, z and radius. The last block is filled up with particles out of reach.
+struct Neighborhood {
+    std::size_t size = 0;
+    std::array<std::vector<float>, 4> values;  // all of one length, at least `size`
+};
+
+/// Sums over a particle's neighbors, itself included, of the kernel k of view.h's smooth skin.
+struct DensitySum {
+    float density = 0.0F;            ///< sum of k
+    glm::vec3 weightedOffset{0.0F};  ///< sum of k times the vector to the neighbor, m
+};
+
+}  // namespace render
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+constexpr std::size_t kVectorsPerBlock = kBlock / hn::MaxLanes(D());
+using BlockSum = std::array<V, kVectorsPerBlock>;
+
+HWY_INLINE void copyBlock(const float* from, float* to) {
+    for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(D()))
+        hn::StoreU(hn::LoadU(D(), from + lane), D(), to + lane);
+}
+
+/// Copies all particles that may be in reach of those of one cell, themselves included.
+void gather(const ParticleCells& cells, glm::ivec3 cell, Neighborhood& neighborhood) {
+    const glm::ivec3 first = max(cell - 1, glm::ivec3(0));
+    const glm::ivec3 last = min(cell + 1, cells.count - 1);
+    const std::array<const float*, 4> from = {cells.x.data(), cells.y.data(), cells.z.data(), cells.radius.data()};
+    neighborhood.size = 0;
+    for (int z = first.z; z <= last.z; ++z) {
+        for (int y = first.y; y <= last.y; ++y) {
+            const std::size_t begin = cells.begin[cells.cellIndex(first.x, y, z)];
+            const std::size_t count = cells.begin[cells.cellIndex(last.x, y, z) + 1] - begin;
+            if (neighborhood.values[0].size() < neighborhood.size + count + 2 * kBlock)
+                for (std::vector<float>& values : neighborhood.values)
+                    values.resize(2 * (neighborhood.size + count + kBlock));
+            // The rest of a run's last block is overwritten by the next run.
+            for (std::size_t value = 0; value < 4; ++value)
+                for (std::size_t k = 0; k < count; k += kBlock)
+                    copyBlock(from[value] + begin + k, &neighborhood.values[value][neighborhood.size + k]);
+            neighborhood.size += count;
+        }
+    }
+    // Far beyond any reach, and near enough for the squared distance to be finite.
+    constexpr std::array<float, 4> kOutOfReach = {1e18F, 1e18F, 1e18F, 0.0F};
+    for (std::size_t value = 0; value < 4; ++value)
+        std::fill_n(&neighborhood.values[value][neighborhood.size], kBlock, kOutOfReach[value]);
+    neighborhood.size = (neighborhood.size + kBlock - 1) / kBlock * kBlock;
+}
+
+/// The sum of all accumulators: the second half is added to the first until one is left.
+HWY_INLINE float total(const BlockSum& sum) {
+    const hn::CappedTag<float, 4> d;
+    alignas(64) std::array<float, kBlock> sums;
+    for (std::size_t v = 0; v < kVectorsPerBlock; ++v) hn::Store(sum[v], D(), &sums[v * hn::Lanes(D())]);
+    for (const std::size_t half : {std::size_t{8}, std::size_t{4}})
+        for (std::size_t k = 0; k < half; k += hn::Lanes(d))
+            hn::Store(hn::Add(hn::Load(d, &sums[k]), hn::Load(d, &sums[k + half])), d, &sums[k]);
+    return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+}
+
+DensitySum densitySum(const Neighborhood& neighborhood, glm::vec4 particle, float reach) {
+    const D d;
+    const Vec3 here = splat(glm::vec3(particle));
+    const V zero = splat(0.0F);
+    const V one = splat(1.0F);
+    BlockSum density, offsetX, offsetY, offsetZ;
+    for (BlockSum* sum : {&density, &offsetX, &offsetY, &offsetZ}) sum->fill(zero);
+    const auto& [x, y, z, radius] = neighborhood.values;
+    for (std::size_t block = 0; block < neighborhood.size; block += kBlock) {
+        for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
+            const std::size_t k = block + v * hn::Lanes(d);
+            const Vec3 off{hn::Sub(hn::LoadU(d, &x[k]), here.x), hn::Sub(hn::LoadU(d, &y[k]), here.y),
+                           hn::Sub(hn::LoadU(d, &z[k]), here.z)};
+            const V support = hn::Mul(splat(0.5F * reach), hn::Add(splat(particle.w), hn::LoadU(d, &radius[k])));
+            const V root = hn::Max(zero, hn::Sub(one, hn::Div(dot(off, off), hn::Mul(support, support))));
+            const V weight = hn::Mul(root, root);
+            density[v] = hn::Add(density[v], weight);
+            offsetX[v] = hn::Add(offsetX[v], hn::Mul(weight, off.x));
+            offsetY[v] = hn::Add(offsetY[v], hn::Mul(weight, off.y));
+            offsetZ[v] = hn::Add(offsetZ[v], hn::Mul(weight, off.z));
+        }
+    }
+    return {total(density), {total(offsetX), total(offsetY), total(offsetZ)}};
+}
+
+/// The sums of the particles with the sorted indices first, first + 1, ...
+void densitySums(const ParticleCells& cells, float reach, std::size_t first, std::span<DensitySum> sums) {
+    thread_local Neighborhood neighborhood;
+    std::size_t end = 0;  // sorted index at which the cell ends whose neighborhood has been gathered
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const std::size_t sortedIndex = first + k;
+        const glm::vec4 particle(cells.x[sortedIndex], cells.y[sortedIndex], cells.z[sortedIndex],
+                                 cells.radius[sortedIndex]);
+        if (sortedIndex >= end) {
+            const glm::ivec3 cell = cells.cellOf(particle);
+            gather(cells, cell, neighborhood);
+            end = cells.begin[cells.cellIndex(cell.x, cell.y, cell.z) + 1];
+        }
+        sums[k] = densitySum(neighborhood, particle, reach);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 
 namespace render {
 
+HWY_EXPORT(densitySums);
+
 namespace {
 
+/// Cells as wide as the longest reach, wider where there would be too many.
+void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
+    constexpr double kMostCells = 4e6;  // chosen: 16 MB
+    glm::vec3 high(std::numeric_limits<float>::lowest());
+    cells.low = glm::vec3(std::numeric_limits<float>::max());
+    float largestRadius = 1e-6F;
+    for (const Sphere& particle : particles) {
+        cells.low = min(cells.low, particle.center);
+        high = max(high, particle.center);
+        largestRadius = std::max(largestRadius, particle.radius);
+    }
+    cells.side = reach * largestRadius;
+    const auto countAlong = [&](int axis) {
+        return std::floor(double(high[axis] - cells.low[axis]) / cells.side) + 1.0;
+    };
+    while (countAlong(0) * countAlong(1) * countAlong(2) > kMostCells) cells.side *= 2.0F;
+    for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(countAlong(axis));
+}
+
+/// A counting sort. reach: of the field, in radii.
+ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
+    ParticleCells cells;
+    fitToParticles(particles, reach, cells);
+    std::vector<std::uint32_t> cellOf(particles.size());
+    cells.begin.assign(cells.cellIndex(0, 0, cells.count.z) + 1, 0);
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+        const glm::ivec3 cell = cells.cellOf(particles[k].center);
+        cellOf[k] = static_cast<std::uint32_t>(cells.cellIndex(cell.x, cell.y, cell.z));
+        ++cells.begin[cellOf[k] + 1];
+    }
+    for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];
+    std::vector<std::uint32_t> next(cells.begin.begin(), cells.begin.end() - 1);
+    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius})
+        values->resize(particles.size() + kBlock);
+    cells.index.resize(particles.size());
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+        const Sphere& particle = particles[k];
+        const std::uint32_t sortedIndex = next[cellOf[k]]++;
+        cells.x[sortedIndex] = particle.center.x;
+        cells.y[sortedIndex] = particle.center.y;
+        cells.z[sortedIndex] = particle.center.z;
+        cells.radius[sortedIndex] = particle.radius;
+        cells.index[sortedIndex] = static_cast<std::uint32_t>(k);
+    }
+    return cells;
+}
+
 SkinBall smoothed(const DensitySum& sum, glm::vec3 center) {
-    // crowd^(-3/4): between a sum, which swells where many overlap, and a mean, which sinks in at the border.
+    // The exponent -3/4 lies between 0, where the field is a sum, which swells where many balls overlap, and -1, where
+    // it is a mean, which sinks in at the border.
     const float root = std::sqrt(sum.density);
     return {center + kSkinPull * sum.weightedOffset / sum.density, 1.0F / (root * std::sqrt(root))};
 }
@@ -31,13 +232,13 @@ std::vector<SkinBall> skinOf(const View& view) {
         return balls;
     }
     if (balls.empty()) return balls;
-    const SkinCells cells = skinCells(view.particles, view.field.reach);
+    const ParticleCells cells = sortIntoCells(view.particles, view.field.reach);
     constexpr std::size_t kChunk = 128;
     tbb::parallel_for(std::size_t{0}, (balls.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
         const std::size_t first = chunk * kChunk;
-        std::array<DensitySum, kChunk> room;
-        const std::span<DensitySum> sums = std::span(room).first(std::min(kChunk, balls.size() - first));
-        densitySums(cells, view.field.reach, first, sums);
+        std::array<DensitySum, kChunk> buffer;
+        const std::span<DensitySum> sums = std::span(buffer).first(std::min(kChunk, balls.size() - first));
+        HWY_DYNAMIC_DISPATCH(densitySums)(cells, view.field.reach, first, sums);
         for (std::size_t k = 0; k < sums.size(); ++k) {
             const std::uint32_t index = cells.index[first + k];
             const Sphere& particle = view.particles[index];
@@ -48,3 +249,5 @@ std::vector<SkinBall> skinOf(const View& view) {
 }
 
 }  // namespace render
+
+#endif

@@ -54,9 +54,9 @@ Bounds changed(const Image& image, std::uint8_t gray) {
 
 Image textImage(const std::string& text, double em) {
     Image image = plain(static_cast<int>(2.0 * em), static_cast<int>(2.0 * em), 0);
-    const render::TextPlace place{std::round(0.5 * em), static_cast<int>(1.5 * em), em};
+    const render::TextPosition position{std::round(0.5 * em), static_cast<int>(1.5 * em), em};
     render::CoverageMask mask = render::emptyMask({0.0, 0.0, 2.0 * em, 2.0 * em});
-    render::coverText(mask, text, place);
+    render::coverText(mask, text, position);
     render::paint(image, mask, {255, 255, 255});
     return image;
 }
@@ -192,16 +192,16 @@ TEST_CASE("The stamp says the time") {
     std::string read;
     for (std::size_t k = 0; k < text.size(); ++k) {
         // What stands at the place of character k: the one whose picture fits best, over the width of a digit.
-        const render::TextPlace place{margin + render::textWidth(text.substr(0, k), em),
-                                      static_cast<int>(margin + std::round(0.73 * em)), em};
+        const render::TextPosition position{margin + render::textWidth(text.substr(0, k), em),
+                                            static_cast<int>(margin + std::round(0.73 * em)), em};
         char best = '?';
         double least = 1e300;
         for (const char candidate : alphabet) {
             const std::string one(1, candidate);
             const double width = render::textWidth(one, em);
             render::CoverageMask mask =
-                render::emptyMask({place.left, 0.0, place.left + std::max(width, 0.6 * em), 3.0 * em});
-            render::coverText(mask, one, place);
+                render::emptyMask({position.left, 0.0, position.left + std::max(width, 0.6 * em), 3.0 * em});
+            render::coverText(mask, one, position);
             double sum = 0.0;
             for (int y = 0; y < mask.height; ++y)
                 for (int x = 0; x < static_cast<int>(width); ++x)
@@ -285,9 +285,9 @@ TEST_CASE("The color bar runs through its colors, from below upwards") {
         CHECK(bar.count == rows * (bar.right - bar.left + 1));  // a whole rectangle
         CHECK(rows >= std::min(9.5 * em, 0.45 * size.height));
         for (int y = bar.top; y <= bar.bottom; ++y) {
-            const double place = (bar.bottom - y + 0.5) / rows;
-            const double red = std::max(0.0, 1.0 - 2.0 * place);
-            const double blue = place < 0.5 ? place : 0.5 + (place - 0.5);
+            const double position = (bar.bottom - y + 0.5) / rows;
+            const double red = std::max(0.0, 1.0 - 2.0 * position);
+            const double blue = position < 0.5 ? position : 0.5 + (position - 0.5);
             const auto encoded = [](double c) {
                 return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
             };

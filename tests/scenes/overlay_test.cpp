@@ -64,7 +64,7 @@ TEST_CASE("the color bar has the colors, the range and the unit of the look") {
     CHECK(overlay.colorBar->colors == std::vector<glm::vec3>{glm::vec3(0.0F), glm::vec3(1.0F)});
     REQUIRE(overlay.colorBar->ticks.size() == 5);
     CHECK(overlay.colorBar->ticks.at(1).text == "2");
-    CHECK(overlay.colorBar->ticks.at(1).place == 0.25F);
+    CHECK(overlay.colorBar->ticks.at(1).position == 0.25F);
     const std::string age = kBall + "[look]\ncolor_by = \"age\"\n[overlay]\ncolor_bar = true\n";
     CHECK(overlayAt(age, 0.0).colorBar->title == "age (s)");
     CHECK(overlayAt(age, 0.0, {"overlay.color_label=since birth"}).colorBar->title == "since birth (s)");
@@ -85,10 +85,10 @@ TEST_CASE("ticks are round numbers within the range") {
         const auto ticks = scenes::ticksBetween(0.0, high);
         CHECK(ticks.size() >= 3);
         CHECK(ticks.size() <= 6);
-        CHECK(ticks.front().place == 0.0F);
+        CHECK(ticks.front().position == 0.0F);
         for (std::size_t k = 1; k < ticks.size(); ++k) {
-            CHECK(ticks[k].place <= 1.0F + 1e-6F);
-            CHECK(ticks[k].place * high == Approx(std::stod(ticks[k].text)));
+            CHECK(ticks[k].position <= 1.0F + 1e-6F);
+            CHECK(ticks[k].position * high == Approx(std::stod(ticks[k].text)));
         }
     }
 }
