@@ -8,7 +8,6 @@
 #include "render/opengl/context.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"
-#include "render/picture/visible_point.h"
 
 namespace render {
 

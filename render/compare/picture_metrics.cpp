@@ -1,4 +1,4 @@
-// One pass over the pixels for differences, one for the windows' sums.
+// One pass over the pixels for the differences and one for the sums of the similarity's windows.
 #include "render/compare/picture_metrics.h"
 
 #include <fmt/format.h>
@@ -35,16 +35,17 @@ PixelDifference differenceAt(const Image& actual, const Image& expected, std::si
     return difference;
 }
 
-/// Keeps the list sorted and short. Pixels come in reading order, so equals stay behind those before them.
+/// Inserts a pixel into the list, which stays sorted and short. Pixels are added in reading order, and the upper bound
+/// keeps that order among equal ones.
 void keepWorst(std::vector<PixelDifference>& worst, const PixelDifference& difference) {
     if (worst.size() == kWorstPixels && difference.largest <= worst.back().largest) return;
-    const auto place = std::upper_bound(worst.begin(), worst.end(), difference,
-                                        [](const auto& a, const auto& b) { return a.largest > b.largest; });
-    worst.insert(place, difference);
+    const auto position = std::upper_bound(worst.begin(), worst.end(), difference,
+                                           [](const auto& a, const auto& b) { return a.largest > b.largest; });
+    worst.insert(position, difference);
     if (worst.size() > kWorstPixels) worst.pop_back();
 }
 
-/// The moments of one window in one channel, before division. 64-bit: 8x8 squares of bytes are far below.
+/// Sums over the pixels of a window in one channel. 64 squared bytes are far below the limit of 64 bits.
 struct Sums {
     std::int64_t count = 0, a = 0, b = 0, squares = 0, product = 0;
 
@@ -58,9 +59,9 @@ struct Sums {
     }
 };
 
-/// (2 m_a m_b + c1)(2 s_ab + c2) / ((m_a^2 + m_b^2 + c1)(s_a^2 + s_b^2 + c2)), unbiased s. c2 is (0.03 * 255)^2,
-/// rounded as ffmpeg rounds it; c1 is ffmpeg's too, a 64th of Wang's (0.01 * 255)^2, which makes dark flat windows
-/// stricter.
+/// (2 m_a m_b + c1)(2 s_ab + c2) / ((m_a^2 + m_b^2 + c1)(s_a^2 + s_b^2 + c2)), with means m and unbiased (co)variances
+/// s. Both constants are those of ffmpeg: c2 is Wang's (0.03 * 255)^2 with ffmpeg's rounding, c1 a 64th of Wang's (0.01
+/// * 255)^2, which makes the measure stricter in dark flat windows.
 double similarity(const Sums& sums) {
     constexpr double c1 = 416.0 / (64.0 * 64.0);
     constexpr double c2 = 235963.0 / (64.0 * 63.0);
@@ -68,25 +69,26 @@ double similarity(const Sums& sums) {
     const double degrees = std::max(1.0, n - 1.0);
     const double meanA = static_cast<double>(sums.a) / n;
     const double meanB = static_cast<double>(sums.b) / n;
-    // Whole numbers up to the last division: equal pictures give exactly 1.
+    // Integers up to the last division, so that equal pictures give exactly 1.
     const auto spread = static_cast<double>(sums.count * sums.squares - sums.a * sums.a - sums.b * sums.b);
     const auto joint = static_cast<double>(sums.count * sums.product - sums.a * sums.b);
     return (2.0 * meanA * meanB + c1) * (2.0 * joint / (n * degrees) + c2) /
            ((meanA * meanA + meanB * meanB + c1) * (spread / (n * degrees) + c2));
 }
 
-/// How windows lie along one direction: blocks of four pixels, a window of two of them at every block but the last.
-/// Where there are no two blocks the whole extent is one.
+/// The windows along one direction, as two blocks of four pixels each; they begin at every block but the last. A
+/// picture with less than eight pixels in this direction has one window of one block.
 struct Blocks {
     explicit Blocks(int extent)
         : size(extent < 8 ? std::max(1, extent) : 4), perWindow(extent < 8 ? 1 : 2), count(extent / size) {}
     int size, perWindow, count;
-    int windows() const { return count - perWindow + 1; }
+    int windowCount() const { return count - perWindow + 1; }
 };
 
-/// Sums of one block in one channel; count 0 when one of its pixels does not count.
-Sums blockSums(const Image& actual, const Image& expected, const Image& mask, std::array<int, 5> place) {
-    const auto [left, top, width, height, channel] = place;
+/// The sums of a block in one channel; all 0 when one of its pixels does not count.
+/// @param block  left, top, width and height in pixels, and the channel
+Sums blockSums(const Image& actual, const Image& expected, const Image& mask, std::array<int, 5> block) {
+    const auto [left, top, width, height, channel] = block;
     Sums sums;
     for (int y = top; y < top + height; ++y)
         for (int x = left; x < left + width; ++x) {
@@ -151,8 +153,8 @@ double structuralSimilarity(const Image& actual, const Image& expected, const Im
             for (int column = 0; column < columns.count; ++column)
                 blocks[at(column, row)] = blockSums(
                     actual, expected, mask, {column * columns.size, row * rows.size, columns.size, rows.size, channel});
-        for (int row = 0; row < rows.windows(); ++row)
-            for (int column = 0; column < columns.windows(); ++column) {
+        for (int row = 0; row < rows.windowCount(); ++row)
+            for (int column = 0; column < columns.windowCount(); ++column) {
                 Sums window;
                 bool whole = true;
                 for (int y = row; y < row + rows.perWindow; ++y)

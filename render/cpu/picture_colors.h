@@ -11,7 +11,7 @@
 #include "render/cpu/picture_samples.h"
 #include "render/cpu/shading/shade.h"
 #include "render/cpu/shading/tile_class.h"
-#include "render/picture/visible_point.h"
+#include "render/picture/image.h"
 
 namespace render {
 

@@ -1,5 +1,5 @@
 // Joins several pictures side by side, each with a line of text below, as a figure in a paper shows a motion. Called by
-// the strip and figures commands.
+// tools/run/stills.cpp.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Camera basis and bounds of projected boxes.
+// The basis of a camera, and the bounds of projected boxes.
 #include "render/picture/camera_frame.h"
 
 #include <algorithm>
@@ -14,13 +14,15 @@ struct Interval {
     double high;
 };
 
-// Rounded down, as conversion does from zero on; std::floor may be a call.
+/// The pixel at a coordinate, from -1 to count. The sum is not negative, so that conversion rounds it down;
+/// std::floor() may be a function call.
 int clampedPixel(double at, int count) {
     return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)) + 1.0) - 1;
 }
 
-// Intervals on the plane at depth 1 (parallel projection: on any) as pixels of the picture, two pixels wider.
-std::optional<Rect> within(const CameraFrame& frame, Interval x, Interval y) {
+/// The pixels of a rectangle on the plane at view depth 1 (any depth in parallel projection), two pixels wider on each
+/// side.
+std::optional<Rect> pixelsOf(const CameraFrame& frame, Interval x, Interval y) {
     constexpr double kMargin = 2.0;
     const double perX = 0.5 * frame.width / frame.halfWidth;
     const double perY = 0.5 * frame.height / frame.halfHeight;
@@ -46,7 +48,7 @@ CameraFrame cameraFrame(const Camera& camera, PictureSize size) {
     frame.width = size.width;
     frame.height = size.height;
     const glm::vec3 aim = camera.target - camera.eye;
-    // A camera on its own target looks along -z rather than nowhere.
+    // A camera at its own target looks along -z, so that the frame is finite.
     frame.forward = dot(aim, aim) > 0.0F ? normalize(aim) : glm::vec3(0.0F, 0.0F, -1.0F);
     const glm::vec3 side = cross(frame.forward, camera.up);
     const bool upright = dot(side, side) > 1e-12F * dot(camera.up, camera.up);
@@ -72,9 +74,9 @@ std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minim
         y = {std::min(y.low, view.y * scale), std::max(y.high, view.y * scale)};
     }
     if (behind == 8) return std::nullopt;
-    // Corners on both sides of the eye's plane: what is between them may be anywhere.
+    // With corners on both sides of the eye's plane, the box may be seen anywhere.
     if (behind > 0 && frame.perspective) return Rect{0, 0, frame.width - 1, frame.height - 1};
-    return within(frame, x, y);
+    return pixelsOf(frame, x, y);
 }
 
 }  // namespace render

@@ -1,5 +1,5 @@
-// A camera as the passes use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that a box can
-// touch. The light is such a camera too (parallel projection along the light).
+// A camera as the renderer's stages use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that
+// a box can touch. The depth map of the metaballs uses one for the light as well, with parallel projection.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace render {
 
-/// Four samples a pixel on a rotated grid: four different rows and columns, so edges near the horizontal and the
-/// vertical get four steps, not two.
+/// Offsets of four samples from the center of a pixel, pixels: a rotated grid. The samples lie in four different rows
+/// and columns, so that nearly horizontal and vertical edges are drawn in four steps rather than two.
 inline constexpr std::array<glm::vec2, 4> kFourSamples = {
     {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
 
-/// Pixels or cells, both ends included.
+/// A rectangle of pixels or cells, the last row and column included. Empty by default.
 struct Rect {
     int x0 = 0;
     int y0 = 0;
@@ -24,18 +24,18 @@ struct Rect {
     int y1 = -1;
 };
 
-/// Seen from here a point is p = x right + y up + z forward, relative to the eye; z is the view depth.
-/// Holds:  right, up, forward are orthonormal; pixel (px, py) looks along (halfWidth X, halfHeight Y, 1) from the eye
-/// in
-///         perspective, along (0, 0, 1) from (halfWidth X, halfHeight Y, 0) in parallel projection, where X = 2
-///         px/width - 1 and Y = 1 - 2 py/height.
+/// An orthonormal basis. In view coordinates a point is x right + y up + z forward relative to the eye; z is the view
+/// depth. The ray through the point (px, py) of the picture, in pixels from the top left corner, is with
+/// X = (2 px/width - 1) halfWidth and Y = (1 - 2 py/height) halfHeight, in view coordinates:
+///   in perspective, from (0, 0, 0) in the direction (X, Y, 1);
+///   in parallel projection, from (X, Y, 0) in the direction (0, 0, 1).
 struct CameraFrame {
     glm::vec3 eye{0.0F};
     glm::vec3 right{1.0F, 0.0F, 0.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     glm::vec3 forward{0.0F, 0.0F, -1.0F};
-    float halfWidth = 1.0F;
-    float halfHeight = 1.0F;
+    float halfWidth = 1.0F;   ///< m, at view depth 1 in perspective
+    float halfHeight = 1.0F;  ///< m, at view depth 1 in perspective
     bool perspective = true;
     int width = 1;  ///< pixels
     int height = 1;
@@ -44,16 +44,17 @@ struct CameraFrame {
         const glm::vec3 offset = point - eye;
         return {dot(offset, right), dot(offset, up), dot(offset, forward)};
     }
-    /// Width of a pixel in meters: at view depth 1 in perspective, at any depth in parallel projection.
+    /// Width of a pixel, m: at view depth 1 in perspective, at any depth in parallel projection.
     float pixelWidth() const { return 2.0F * halfHeight / static_cast<float>(height); }
 
     bool operator==(const CameraFrame&) const = default;
 };
 
+/// @param size  of the picture, pixels
 CameraFrame cameraFrame(const Camera& camera, PictureSize size);
 
-/// The pixels that a box given by two corners in world axes can touch, within the picture; empty when it is behind the
-/// eye or outside the picture. The rectangle is that of its projected corners, two pixels wider.
+/// The pixels of the picture that an axis-aligned box can touch: the bounds of its projected corners, two pixels wider
+/// on each side. Nothing when the box is behind the eye or outside of the picture.
 std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minimum, glm::vec3 maximum);
 
 }  // namespace render

@@ -1,23 +1,31 @@
-// A finished picture in memory, as the renderer returns it and as PNG and video take it.
+// What the renderer returns: the finished picture, which PNG and video take, and for the studies the point that each
+// pixel shows.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 namespace render {
 
-/// Pixels row by row from the top left, three bytes each: red, green, blue, sRGB encoded.
-/// Holds:  rgb.size() == 3 * width * height.
+/// 8-bit sRGB pixels, row by row from the top left, three bytes each: red, green, blue.
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgb;
+    std::vector<std::uint8_t> rgb;  ///< byteCount() of them
 
-    /// Number of bytes that the pixels take.
     std::size_t byteCount() const {
         return std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     }
+};
+
+/// The first surface that the ray through a pixel's center meets. Of metaballs in draft and normal quality, it is
+/// interpolated where the renderer casts no ray through that pixel.
+struct VisiblePoint {
+    glm::vec3 normal{0.0F};  ///< unit length, world axes
+    float depth = -1.0F;     ///< view depth, m; -1 where the ray meets nothing
 };
 
 }  // namespace render

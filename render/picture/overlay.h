@@ -1,5 +1,5 @@
-// What is written over a picture, as plain data: a time stamp, a scale bar and a color bar. Part of a View, filled in by
-// scenes/view/overlay_view.cpp; render/overlay/draw_overlay.h draws it over the finished picture.
+// What is written over a picture, as plain data: a time stamp, a scale bar and a color bar. Part of a View, filled in
+// by scenes/view/overlay_view.cpp; render/overlay/draw_overlay.h draws it over the finished picture.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace render {
 
-/// Shows a length at the distance of the camera's target, in the bottom left corner. It is left out of pictures that are
-/// too narrow for it.
+/// Shows a length at the distance of the camera's target, in the bottom left corner. It is left out of pictures that
+/// are too narrow for it.
 struct ScaleBar {
     float length = 1.0F;  ///< m
     std::string text;     ///< written above it
@@ -35,7 +35,8 @@ struct Overlay {
     std::optional<ScaleBar> scaleBar;
     std::optional<ColorBar> colorBar;
     glm::vec3 ink{1.0F};  ///< of text and lines, linear RGB; their halo is black or white, whichever contrasts
-    float size = 1.0F;    ///< a factor on the text's em, which is 3 % of the picture's shorter side and at least 11 pixels
+    float size =
+        1.0F;  ///< a factor on the text's em, which is 3 % of the picture's shorter side and at least 11 pixels
 };
 
 }  // namespace render

@@ -1,11 +1,11 @@
-// The one exception of render/ for failures outside the program: GL, ffmpeg, a broken PNG.
+// The exception of render/ and tools/ for failures outside the program: OpenGL, ffmpeg, the disk, a damaged PNG file.
 #pragma once
 
 #include <stdexcept>
 
 namespace render {
 
-/// The outside world failed; the message says what was tried, on what, and gives the other side's own words.
+/// The message says what was tried, on what, and gives the reason in the other side's own words.
 class SystemError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "render/compare/difference_image.h"
 #include "tests/catch.h"
 #include "tests/render/test_pictures.h"
 

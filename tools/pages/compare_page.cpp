@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "render/compare/difference_image.h"
+#include "render/compare/compare.h"
 #include "render/output/png.h"
 #include "tools/pages/html.h"
 #include "tools/system/json.h"
