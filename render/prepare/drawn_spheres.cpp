@@ -1,4 +1,4 @@
-// Places one after another, looks by all threads.
+// Spheres are collected by one thread, their attributes are packed by all.
 #include "render/prepare/drawn_spheres.h"
 
 #include <algorithm>
@@ -10,21 +10,22 @@ namespace render {
 
 namespace {
 
-std::uint32_t bitsOf(float share, float most) {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(share, 0.0F, 1.0F) * most + 0.5F));
+/// A value from 0 to 1 as an integer from 0 to `largest`.
+std::uint32_t quantized(float value, float largest) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(value, 0.0F, 1.0F) * largest + 0.5F));
 }
 
 std::uint32_t packedColor(glm::vec3 color) {
     const glm::vec3 root = sqrt(clamp(color, 0.0F, 1.0F));
-    return bitsOf(root.x, 2047.0F) | bitsOf(root.y, 2047.0F) << 11 | bitsOf(root.z, 1023.0F) << 22;
+    return quantized(root.x, 2047.0F) | quantized(root.y, 2047.0F) << 11 | quantized(root.z, 1023.0F) << 22;
 }
 
-std::uint32_t packedOpen(float x, float y, float z) {
-    return bitsOf(x, 1023.0F) | bitsOf(y, 1023.0F) << 10 | bitsOf(z, 1023.0F) << 20;
+std::uint32_t packedSky(float x, float y, float z) {
+    return quantized(x, 1023.0F) | quantized(y, 1023.0F) << 10 | quantized(z, 1023.0F) << 20;
 }
 
-SphereAttributes particleLook(glm::vec3 color, const SkyVisibility& open) {
-    return {packedColor(color), packedOpen(open[0], open[2], open[4]), packedOpen(open[1], open[3], open[5])};
+SphereAttributes particleAttributes(glm::vec3 color, const SkyVisibility& sky) {
+    return {packedColor(color), packedSky(sky[0], sky[2], sky[4]), packedSky(sky[1], sky[3], sky[5])};
 }
 
 }  // namespace
@@ -47,19 +48,20 @@ DrawnSpheres drawnSpheres(const View& view) {
 }
 
 std::vector<SphereAttributes> sphereAttributes(const View& view, const DrawnSpheres& drawn,
-                                               std::span<const SkyVisibility> open) {
-    std::vector<SphereAttributes> looks(drawn.sources.size());
+                                               std::span<const SkyVisibility> skyVisibility) {
+    std::vector<SphereAttributes> attributes(drawn.sources.size());
     const auto firstObstacle = static_cast<std::size_t>(drawn.firstObstacle);
     constexpr std::size_t kChunk = 2048;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, looks.size(), kChunk), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, attributes.size(), kChunk), [&](const auto& range) {
         for (std::size_t k = range.begin(); k < range.end(); ++k) {
             const std::uint32_t source = drawn.sources[k];
-            looks[k] = k < firstObstacle
-                           ? particleLook(view.particles[source].color, open.empty() ? kUnoccluded : open[source])
-                           : SphereAttributes{packedColor(view.sphereObstacles[source].color)};
+            attributes[k] = k < firstObstacle
+                                ? particleAttributes(view.particles[source].color,
+                                                     skyVisibility.empty() ? kUnoccluded : skyVisibility[source])
+                                : SphereAttributes{packedColor(view.sphereObstacles[source].color)};
         }
     });
-    return looks;
+    return attributes;
 }
 
 }  // namespace render

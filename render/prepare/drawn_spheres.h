@@ -1,4 +1,4 @@
-// Spheres that are drawn as such, and what they look like. Made by the picture pass.
+// The spheres that are drawn as such, and the packed attributes that shading needs of them. Made by the picture pass.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,27 @@
 
 namespace render {
 
-/// What a sphere looks like, packed.
+/// Color and sky visibility of a sphere.
 struct SphereAttributes {
-    std::uint32_t color = 0;    ///< square roots, 11 + 11 + 10 bits
-    std::uint32_t skyPlus = 0;  ///< openness along +x, +y, +z, 10 bits each
-    std::uint32_t skyMinus = 0;
-    std::uint32_t unused = 0;  ///< lanes load four numbers at once
+    std::uint32_t color = 0;     ///< square roots of linear red, green and blue: 11 + 11 + 10 bits, red the lowest
+    std::uint32_t skyPlus = 0;   ///< sky visibility along +x, +y, +z: 10 bits each
+    std::uint32_t skyMinus = 0;  ///< sky visibility along -x, -y, -z: 10 bits each
+    std::uint32_t unused = 0;    ///< makes 16 bytes, which are loaded at once
 };
 
 struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;     ///< center relative to the eye, in world axes; particles first
-    std::vector<std::uint32_t> sources;  ///< which particle each is and, from firstObstacle on, which obstacle
+    std::vector<ViewSphere> spheres;     ///< relative to the eye, in world axes; particles first
+    std::vector<std::uint32_t> sources;  ///< index of the particle or, from firstObstacle on, of the obstacle
     std::int32_t firstObstacle = 0;
 };
 
-/// Obstacles always, particles unless they are metaballs; radii not above zero are left out.
+/// The particles unless they are metaballs, and the sphere obstacles. Spheres whose radius is not positive are left
+/// out.
 DrawnSpheres drawnSpheres(const View& view);
 
-/// Of each drawn sphere; open: of each particle of the view, or empty.
+/// The attributes of each drawn sphere.
+/// @param skyVisibility  of each particle of the view, or empty
 std::vector<SphereAttributes> sphereAttributes(const View& view, const DrawnSpheres& drawn,
-                                               std::span<const SkyVisibility> open);
+                                               std::span<const SkyVisibility> skyVisibility);
 
 }  // namespace render

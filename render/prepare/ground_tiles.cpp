@@ -1,5 +1,5 @@
-// The ground is seen below a straight line of the picture, and a tile's piece of it is the hull of what its corners
-// show.
+// The ground fills one side of a straight line of the picture. What a tile shows of it is the convex hull of the points
+// on the ground that its four corners show.
 #include "render/prepare/ground_tiles.h"
 
 #include <algorithm>
@@ -12,9 +12,10 @@ namespace render {
 
 namespace {
 
+/// The point of the ground that a corner of a tile shows.
 struct Corner {
-    float depth = std::numeric_limits<float>::infinity();  // in view, of the ground
-    glm::vec3 place{0.0F};                                 // there, relative to the eye
+    float depth = std::numeric_limits<float>::infinity();  // view depth; infinite if the corner shows no ground
+    glm::vec3 position{0.0F};                              // relative to the eye
 
     bool isGround() const { return depth < std::numeric_limits<float>::infinity(); }
 };
@@ -39,46 +40,47 @@ struct Bounds {
         high = max(high, point);
     }
     bool overlaps(glm::vec2 otherLow, glm::vec2 otherHigh) const {
-        // A little more than touching: single precision far away.
+        // Wider by the rounding of single precision far from the eye.
         const glm::vec2 slack = 1e-4F * (max(abs(low), abs(high)) + 1.0F);
         return otherLow.x <= otherHigh.x && all(lessThanEqual(low - slack, otherHigh)) &&
                all(greaterThanEqual(high + slack, otherLow));
     }
 };
 
-GroundKind kindOf(const std::array<Corner, 4>& corners, const OccluderBounds& occluderBounds) {
-    int seen = 0;
+GroundKind kindOf(const std::array<Corner, 4>& corners, const OccluderBounds& bounds) {
+    int groundCount = 0;
     Bounds onLight;
     Bounds onGround;
     for (const Corner& corner : corners) {
-        seen += corner.isGround() ? 1 : 0;
-        onLight.add(glm::vec2(occluderBounds.light.toLightSpace(corner.place)));
-        onGround.add({corner.place.x, corner.place.z});
+        groundCount += corner.isGround() ? 1 : 0;
+        onLight.add(glm::vec2(bounds.light.toLightSpace(corner.position)));
+        onGround.add({corner.position.x, corner.position.z});
     }
-    if (seen == 0) return GroundKind::none;
-    // Its piece has no end.
-    if (seen < 4) return GroundKind::horizon;
-    const bool occluded = onLight.overlaps(occluderBounds.shadowLow, occluderBounds.shadowHigh) ||
-                          onGround.overlaps(occluderBounds.skyMapLow, occluderBounds.skyMapHigh);
+    if (groundCount == 0) return GroundKind::none;
+    // The ground in the tile extends to infinity.
+    if (groundCount < 4) return GroundKind::horizon;
+    const bool occluded =
+        onLight.overlaps(bounds.shadowLow, bounds.shadowHigh) || onGround.overlaps(bounds.skyMapLow, bounds.skyMapHigh);
     return occluded ? GroundKind::occluded : GroundKind::plain;
 }
 
-GroundTile groundTile(const std::array<Corner, 4>& corners, const OccluderBounds& occluderBounds, bool perspective) {
-    const GroundKind kind = kindOf(corners, occluderBounds);
-    // In parallel projection the ground comes up to the rays' beginnings.
+GroundTile groundTile(const std::array<Corner, 4>& corners, const OccluderBounds& bounds, bool perspective) {
+    const GroundKind kind = kindOf(corners, bounds);
+    // In parallel projection rays begin on the eye's plane, and the ground may cut it.
     if (kind == GroundKind::horizon && !perspective) return {kind, 0.0F};
-    // The inverse of the depth, or the depth itself, is linear on the picture: the depth is least at a corner.
+    // On the picture the inverse depth is linear in perspective, the depth in parallel projection: the least is at a
+    // corner.
     const auto isNearer = [](const Corner& a, const Corner& b) { return a.depth < b.depth; };
     return {kind, std::ranges::min(corners, isNearer).depth};
 }
 
 }  // namespace
 
-std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const OccluderBounds& occluderBounds) {
+std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const OccluderBounds& bounds) {
     const int columns = (frame.width + kTileSize - 1) / kTileSize;
     const int rows = (frame.height + kTileSize - 1) / kTileSize;
     std::vector<Corner> corners;
-    // Samples of the last pixels reach half a pixel beyond their middle, within the tile's corners.
+    // All samples of a pixel lie within half a pixel of its center, and so within the corners of its tile.
     for (int row = 0; row <= rows; ++row)
         for (int column = 0; column <= columns; ++column)
             corners.push_back(cornerAt(frame, height, column * kTileSize, row * kTileSize));
@@ -87,8 +89,8 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
         for (int column = 0; column < columns; ++column) {
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
-            tiles.push_back(groundTile({corners[first], corners[first + 1], corners[below], corners[below + 1]},
-                                       occluderBounds, frame.perspective));
+            tiles.push_back(groundTile({corners[first], corners[first + 1], corners[below], corners[below + 1]}, bounds,
+                                       frame.perspective));
         }
     }
     return tiles;

@@ -1,4 +1,4 @@
-// Binning of shadow casters. Used by the picture pass and, for its basis and bounds, by the metaballs' depth map.
+// Shadow casters are sorted by height and binned into cells about as wide as a mean sphere.
 #include "render/prepare/light_space.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace render {
 
 namespace {
 
-// Enough for cells of two radii in a pile of a million; more would cost more to clear than it saves.
+// Enough for cells of a diameter in a pile of a million spheres. More cells would cost more to clear than they save.
 constexpr int kMostCellsPerSide = 512;
 
-// Conversion rounds toward zero, below which all is zero.
+/// Conversion to an integer rounds toward 0; what is below 0 is clamped to it anyway.
 int cellOf(float at, float origin, float cellSize, int count) {
     return std::clamp(static_cast<int>((at - origin) / cellSize), 0, count - 1);
 }
@@ -54,16 +54,17 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     grid.cells.resize(1);
     if (spheres.empty()) return grid;
 
-    // A pixel's edge reaches a tenth of a radius outwards at most, a soft one half its width, see light_reach.cpp.
+    // How far the shadow of a sphere reaches, in radii: a sharp edge extends by at most a tenth, a soft one by half its
+    // width, see light_visibility.cpp; and one hundredth for the rounding.
     const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
-    std::vector<glm::vec3> seen(spheres.size());
+    std::vector<glm::vec3> centers(spheres.size());  // in light space
     std::vector<float> keys(spheres.size());
     glm::vec2 low(std::numeric_limits<float>::max());
     glm::vec2 high(std::numeric_limits<float>::lowest());
     for (std::size_t k = 0; k < spheres.size(); ++k) {
         const glm::vec3 at = basis.toLightSpace(spheres[k].center);
         const float radius = spheres[k].radius;
-        seen[k] = at;
+        centers[k] = at;
         keys[k] = -(at.z + radius);
         low = min(low, glm::vec2(at) - margin * radius);
         high = max(high, glm::vec2(at) + margin * radius);
@@ -75,14 +76,14 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
 
     std::vector<CellItem> items(spheres.size());
     const std::vector<std::uint32_t> order = indicesByKey(keys);
-    for (std::size_t place = 0; place < order.size(); ++place) {
-        const glm::vec3 at = seen[order[place]];
-        const float reach = margin * spheres[order[place]].radius;
-        items[place] = {order[place],
-                        {cellOf(at.x - reach, low.x, grid.cellSize, grid.columns),
-                         cellOf(at.y - reach, low.y, grid.cellSize, grid.rows),
-                         cellOf(at.x + reach, low.x, grid.cellSize, grid.columns),
-                         cellOf(at.y + reach, low.y, grid.cellSize, grid.rows)}};
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const glm::vec3 at = centers[order[k]];
+        const float reach = margin * spheres[order[k]].radius;
+        items[k] = {order[k],
+                    {cellOf(at.x - reach, low.x, grid.cellSize, grid.columns),
+                     cellOf(at.y - reach, low.y, grid.cellSize, grid.rows),
+                     cellOf(at.x + reach, low.x, grid.cellSize, grid.columns),
+                     cellOf(at.y + reach, low.y, grid.cellSize, grid.rows)}};
     }
     const CellLists lists = binIntoCells(items, grid.columns, grid.rows);
     grid.cells.resize(lists.begin.size() - 1);
@@ -94,9 +95,9 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
                             static_cast<std::int32_t>(lists.begin[cell + 1])};
         for (std::size_t k = lists.begin[cell]; k < lists.begin[cell + 1]; ++k) {
             const std::uint32_t sphere = lists.items[k];
-            listed.u[k] = seen[sphere].x;
-            listed.v[k] = seen[sphere].y;
-            listed.height[k] = seen[sphere].z;
+            listed.u[k] = centers[sphere].x;
+            listed.v[k] = centers[sphere].y;
+            listed.height[k] = centers[sphere].z;
             listed.radius[k] = spheres[sphere].radius;
         }
     });

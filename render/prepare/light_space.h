@@ -1,6 +1,7 @@
-// The view from the light: a plane spanned by u and v, heights toward the light. Spheres that cast shadows are binned
-// to a grid on that plane, so that a shaded point walks only what may stand between it and the light. Positions
-// relative to the eye.
+// Light space: coordinates u and v on a plane across the direction of the light, and a height toward the light. Spheres
+// that cast shadows are binned into a grid on that plane, so that a shaded point tests only those between it and the
+// light. All positions are relative to the eye. Called by the picture pass; the basis also serves the metaballs' depth
+// map.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace render {
 
-/// Right-handed and orthonormal: u, v, and toward the light.
+/// A right-handed orthonormal basis.
 struct LightBasis {
     glm::vec3 u{1.0F, 0.0F, 0.0F};
     glm::vec3 v{0.0F, 0.0F, 1.0F};
@@ -22,35 +23,38 @@ struct LightBasis {
     glm::vec3 toLightSpace(glm::vec3 point) const { return {dot(point, u), dot(point, v), dot(point, toLight)}; }
 };
 
+/// @param toLight  toward the light, of any length but 0
 LightBasis lightBasis(glm::vec3 toLight);
 
-/// Spheres that cast shadows, side by side for the lanes.
+/// Spheres in light space, component by component as vector loads need them.
 struct LightSpheres {
     std::vector<float> u, v, height, radius;
 };
 
-/// Begin and end of a cell's list.
+/// A range of indices.
 struct ListRange {
     std::int32_t begin = 0;
     std::int32_t end = 0;
 };
 
 struct LightGrid {
-    glm::vec2 origin{0.0F};
-    float cellSize = 1.0F;
+    glm::vec2 origin{0.0F};  ///< u and v of the first cell's corner
+    float cellSize = 1.0F;   ///< m
     int columns = 1;
     int rows = 1;
-    std::vector<ListRange> cells;
-    /// Cell after cell, the nearest to the light first; behind the last as many more as a vector holds.
+    std::vector<ListRange> cells;  ///< into `spheres`, row by row
+    /// One list for each cell, those that reach highest toward the light first. After the last sphere there are as many
+    /// unused entries as a vector has lanes at most.
     LightSpheres spheres;
 
     bool empty() const { return spheres.u.empty(); }
 };
 
-/// Bins spheres (center relative to the eye) for a light whose shadows are this soft.
+/// @param spheres  in world axes, relative to the eye
+/// @param softness  of the light; a sphere is listed in all cells that the soft edge of its shadow reaches
 LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness);
 
-/// Bounds of spheres on the light's plane and along it.
+/// Bounds of spheres in light space.
 struct LightBounds {
     glm::vec3 low{0.0F};
     glm::vec3 high{0.0F};

@@ -1,5 +1,6 @@
-// Counting sort of items into cells, first by rows, then by columns: count, add up, fill. Called for the camera's
-// tiles, the light's grid and the lines.
+// A counting sort of items into the rows of the grid, then one of each row's items into its cells. Items that cover
+// several rows or columns are counted by differences: +1 where they begin, -1 after their end, summed up along the
+// grid.
 #include "render/prepare/tiles.h"
 
 #include <algorithm>
@@ -19,34 +20,36 @@ namespace render {
 
 namespace {
 
-// Bits of a float in an order that compares like the float.
+/// The bits of a float, mapped so that they compare as integers like the floats do.
 std::uint32_t sortable(float key) {
     const auto bits = std::bit_cast<std::uint32_t>(key);
     return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
 }
 
-struct KeyedPlace {
+struct KeyedIndex {
     std::uint32_t key;
-    std::uint32_t place;
+    std::uint32_t index;
 };
 
+// A radix sort in three passes over digits of 11 bits, the lowest digit first. Each pass keeps the order of equal
+// digits.
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 
-void sortByDigit(const std::vector<KeyedPlace>& from, std::vector<KeyedPlace>& to, int shift) {
+void sortByDigit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift) {
     std::array<std::uint32_t, kDigits + 1> start{};
-    for (const KeyedPlace& item : from) ++start[((item.key >> shift) & (kDigits - 1)) + 1];
+    for (const KeyedIndex& item : from) ++start[((item.key >> shift) & (kDigits - 1)) + 1];
     for (std::size_t digit = 0; digit < kDigits; ++digit) start[digit + 1] += start[digit];
-    for (const KeyedPlace& item : from) to[start[(item.key >> shift) & (kDigits - 1)]++] = item;
+    for (const KeyedIndex& item : from) to[start[(item.key >> shift) & (kDigits - 1)]++] = item;
 }
 
-/// What an item covers of one row of cells.
+/// The columns that an item covers in one row of cells.
 struct RowItem {
     std::uint32_t index;
-    std::int32_t first, last;  ///< columns
+    std::int32_t first, last;  ///< column
 };
 
-/// Items of each row, in the order that they came in, one row after another.
+/// The items of each row in their given order, one row after another.
 struct RowLists {
     std::vector<std::size_t> begin;  ///< rows + 1 entries
     std::vector<RowItem> items;
@@ -58,13 +61,12 @@ struct RowLists {
 
 RowLists rowLists(std::span<const CellItem> items, int columns, int rows) {
     RowLists lists;
-    // An item adds one where it begins and takes it away where it ends; sums along the rows do the rest.
     std::vector<std::size_t> next(static_cast<std::size_t>(rows) + 1, 0);
     for (const CellItem& item : items) {
         const Rect& cells = item.cells;
         if (cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= columns || cells.y1 >= rows || cells.x1 < cells.x0 ||
             cells.y1 < cells.y0)
-            throw std::logic_error("render: an item in cells that are not there");
+            throw std::logic_error("render: an item lies outside of the grid of cells");
         ++next[static_cast<std::size_t>(cells.y0)];
         --next[static_cast<std::size_t>(cells.y1) + 1];
     }
@@ -79,9 +81,9 @@ RowLists rowLists(std::span<const CellItem> items, int columns, int rows) {
     return lists;
 }
 
-/// How many of these items each cell of their row has.
+/// The number of items in each cell of a row.
 void countPerCell(std::span<const RowItem> items, std::span<std::uint32_t> cells) {
-    // Sums wrap around on the way, and come right.
+    // Differences below 0 wrap around; the sums are right again.
     for (const RowItem& item : items) {
         ++cells[static_cast<std::size_t>(item.first)];
         const auto end = static_cast<std::size_t>(item.last) + 1;
@@ -93,16 +95,14 @@ void countPerCell(std::span<const RowItem> items, std::span<std::uint32_t> cells
 }  // namespace
 
 std::vector<std::uint32_t> indicesByKey(std::span<const float> keys) {
-    std::vector<KeyedPlace> items(keys.size());
-    for (std::size_t place = 0; place < keys.size(); ++place) {
-        items[place] = {sortable(keys[place]), static_cast<std::uint32_t>(place)};
-    }
-    std::vector<KeyedPlace> other(keys.size());
+    std::vector<KeyedIndex> items(keys.size());
+    for (std::size_t k = 0; k < keys.size(); ++k) items[k] = {sortable(keys[k]), static_cast<std::uint32_t>(k)};
+    std::vector<KeyedIndex> other(keys.size());
     sortByDigit(items, other, 0);
     sortByDigit(other, items, kDigitBits);
     sortByDigit(items, other, 2 * kDigitBits);
     std::vector<std::uint32_t> order(keys.size());
-    for (std::size_t place = 0; place < keys.size(); ++place) order[place] = other[place].place;
+    for (std::size_t k = 0; k < keys.size(); ++k) order[k] = other[k].index;
     return order;
 }
 
@@ -114,7 +114,7 @@ CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows) {
     const auto across = static_cast<std::size_t>(columns);
     std::vector<std::uint32_t> next(across * static_cast<std::size_t>(rows), 0);
     const auto cellsOf = [&](std::size_t row) { return std::span(next).subspan(row * across, across); };
-    // Rows are independent of each other, so threads share neither counters nor lists.
+    // Rows are independent of each other: threads share neither counters nor lists.
     const auto forRows = [&](const auto& visit) {
         tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(rows), visit);
     };
@@ -132,10 +132,10 @@ CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows) {
     lists.begin.push_back(static_cast<std::uint32_t>(total));
     lists.items.resize(total);
     forRows([&](std::size_t row) {
-        std::uint32_t* place = cellsOf(row).data();
+        std::uint32_t* end = cellsOf(row).data();  // of each cell's list so far
         for (const RowItem& item : rowItems.of(row))
             for (std::int32_t column = item.first; column <= item.last; ++column)
-                lists.items[place[column]++] = item.index;
+                lists.items[end[column]++] = item.index;
     });
     return lists;
 }

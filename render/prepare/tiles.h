@@ -1,5 +1,6 @@
-// Binning: which items touch which cell of a grid, in a wanted order. One routine serves the picture's 16-pixel tiles,
-// the light's grid and the lines, so that a pixel only ever walks a short list.
+// Binning of items into the cells of a 2D grid, in a given order, so that a pixel tests only the few items near it. The
+// same function bins spheres, balls and lines into the picture's tiles of 16 x 16 pixels, and shadow casters into the
+// light's grid.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +11,16 @@
 
 namespace render {
 
-inline constexpr int kTileSize = 16;  ///< pixels; measured best among 8, 16 and 32 in the prototypes
+inline constexpr int kTileSize = 16;  ///< pixels; measured to be the fastest of 8, 16 and 32
 
 inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
 
-/// Lists of items per cell, row by row, one after another.
+/// A list of items for each cell, row by row, one list after another.
 struct CellLists {
     int columns = 0;
     int rows = 0;
-    std::vector<std::uint32_t> begin;  ///< cells + 1 entries: cell c holds items[begin[c]] ... items[begin[c + 1] - 1]
+    std::vector<std::uint32_t>
+        begin;  ///< cell c has items[begin[c]] ... items[begin[c + 1] - 1]; one entry more than cells
     std::vector<std::uint32_t> items;
 
     std::size_t cellIndex(int column, int row) const {
@@ -26,37 +28,39 @@ struct CellLists {
     }
 };
 
-/// The top left corner of a tile in pixels of the picture.
+/// The top left corner of a tile, in pixels of the picture.
 inline glm::vec2 tileCorner(const CellLists& tiles, std::size_t tile) {
     const auto columns = static_cast<std::size_t>(tiles.columns);
     return static_cast<float>(kTileSize) * glm::vec2(tile % columns, tile / columns);
 }
 
-/// An item's place in the grid.
+/// An item to be listed in a rectangle of cells.
 struct CellItem {
-    std::uint32_t index = 0;  ///< what is written to the lists
-    Rect cells;               ///< within the grid
+    std::uint32_t index = 0;  ///< is written to the lists
+    Rect cells;               ///< must lie within the grid
 };
 
-/// Lists every cell's items in the order of `items`.
-/// Holds:  the result depends on nothing but the arguments; throws SystemError beyond 2^31 entries.
+/// Lists the items of every cell in the order of `items`.
+/// @throws SystemError beyond 2^31 entries
 CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows);
 
-/// Order of places by rising key, equal keys by place.
+/// The indices of the keys in the order of rising keys; equal keys keep their order.
 std::vector<std::uint32_t> indicesByKey(std::span<const float> keys);
 
-/// A sphere in some camera's view coordinates.
+/// A sphere relative to a camera: in its view coordinates, or in world axes relative to its eye.
 struct ViewSphere {
     glm::vec3 center{0.0F};
     float radius = 0.0F;
 };
 
-/// The pixels that each sphere may touch, one pixel of margin included; none (an empty rectangle) where it is out of
-/// sight. One that reaches the eye's plane, or almost, may touch every pixel.
+/// Bounds of the pixels that each sphere may touch, one pixel of margin included; an empty rectangle for a sphere
+/// outside of the picture. A sphere that reaches the eye's plane, or nearly, may touch every pixel.
+/// @param spheres  in view coordinates
 std::vector<Rect> pixelBounds(const CameraFrame& frame, std::span<const ViewSphere> spheres);
 
-/// The spheres of each 16-pixel tile, front to back: by rising (center's depth - radius). pixels: as touchedPixels has
-/// them.
+/// The spheres of each tile from front to back, that is by the rising depth of their nearest point.
+/// @param spheres  in view coordinates
+/// @param pixels  their pixelBounds()
 CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<const Rect> pixels);
 
 }  // namespace render
