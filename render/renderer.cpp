@@ -13,7 +13,7 @@
 #include <tbb/task_group.h>
 
 #include "render/cpu/picture_pass.h"
-#include "render/opengl/gl_objects.h"
+#include "render/opengl/gl.h"
 #include "render/overlay/draw_overlay.h"
 #include "render/picture/system_error.h"
 

@@ -1,5 +1,5 @@
-// What both backends share: choosing one, loading the functions, refusing what would not give the same pixels
-// everywhere.
+// What both backends share: creating the context, loading the functions, and refusing renderers that may not give the
+// same pixels on every machine.
 #include "render/opengl/context.h"
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@ std::string stringOf(const Gl& gl, GLenum name) {
     return text == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(text));
 }
 
-// A GPU's driver may keep other bits of pixels than it is given, and what the studies draw for comparison is to be
-// drawn on the processor.
+/// The driver of a GPU may change the bits of pixels that it stores. Besides, the studies compare drawing times on the
+/// CPU.
 void requireSoftware(const std::string& rendererName) {
     for (const char* known : {"llvmpipe", "softpipe"}) {
         if (rendererName.find(known) != std::string::npos) return;
@@ -51,7 +51,7 @@ CurrentContext::~CurrentContext() {
     try {
         context_.release();
     } catch (const SystemError&) {
-        // A context that cannot be unbound stays bound; the next makeCurrent() says so.
+        // A destructor must not throw. The context stays bound, and the next makeCurrent() reports the error.
     }
 }
 

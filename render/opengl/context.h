@@ -1,5 +1,5 @@
-// An off-screen OpenGL context of Mesa's software renderer, for machines without a display. Made by tools/ once per run
-// and handed to the Renderer. OSMesa left Mesa in 25.1, hence two backends that give the same pixels.
+// An off-screen OpenGL context of Mesa's software renderer, for machines without a display. Created by tools/ once per
+// run and given to the Renderer. There are two backends, which give the same pixels, because Mesa 25.1 removed OSMesa.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@ namespace render {
 
 enum class Backend { osmesa, egl };
 
-/// "osmesa" or "egl"; empty for any other name.
+/// The backend named "osmesa" or "egl"; nothing for any other name.
 std::optional<Backend> backendNamed(std::string_view name);
 
-/// Every name that backendNamed takes, for messages.
+/// The names that backendNamed() knows, for messages.
 inline constexpr std::string_view kBackendNames = "osmesa, egl";
 
-/// What a backend has to provide; one implementation in context_osmesa.cpp, one in context_egl.cpp.
+/// What a backend provides. The implementations are in context_osmesa.cpp and context_egl.cpp.
 class NativeContext {
  public:
     NativeContext() = default;
@@ -28,18 +28,19 @@ class NativeContext {
     virtual ~NativeContext() = default;
     virtual void makeCurrent() = 0;
     virtual void release() = 0;
-    virtual void* address(const char* name) = 0;
+    virtual GlFunction address(const char* name) = 0;
 };
 
-/// Throws SystemError where this build or this machine has no such backend.
+/// @throws SystemError when the build or the machine lacks the backend
 std::unique_ptr<NativeContext> makeOsmesaContext();
 std::unique_ptr<NativeContext> makeEglContext();
 
-/// An OpenGL 3.3 core (or later) context. Current on no thread after construction; successive frames may be drawn from
-/// different threads as long as one releases it before the next makes it current.
+/// A context of OpenGL 3.3 core or later. After construction it is current on no thread. Frames may be drawn from
+/// different threads as long as each releases it before the next makes it current.
 class Context {
  public:
-    /// Throws SystemError: no such library, no OpenGL 3.3, or a renderer that is not Mesa's software renderer.
+    /// @throws SystemError without the library, without OpenGL 3.3, or for a renderer other than Mesa's software
+    /// renderer
     explicit Context(Backend backend);
 
     /// Binds the context to the calling thread.
@@ -47,7 +48,7 @@ class Context {
     /// Unbinds the context from the calling thread.
     void release() { native_->release(); }
 
-    /// OpenGL's own name of the renderer, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// OpenGL's name of the renderer, for example "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& rendererName() const { return rendererName_; }
     const Gl& gl() const { return gl_; }
 
@@ -57,7 +58,7 @@ class Context {
     std::string rendererName_;
 };
 
-/// Keeps a context current for the life of the object, however its scope is left.
+/// Keeps a context current on the calling thread during the life of the object.
 class CurrentContext {
  public:
     explicit CurrentContext(Context& context) : context_(context) { context_.makeCurrent(); }

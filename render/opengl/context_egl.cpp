@@ -1,4 +1,4 @@
-// EGL without a surface: the backend for systems whose Mesa no longer has OSMesa.
+// EGL without a surface: the backend for systems whose Mesa no longer includes OSMesa.
 #include "render/opengl/context.h"
 #include "render/picture/system_error.h"
 
@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstring>
 
 namespace render {
 
@@ -24,7 +23,8 @@ class EglContext final : public NativeContext {
     EglContext() {
         display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
         if (display_ == EGL_NO_DISPLAY) fail("eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA)");
-        // EGL counts nothing: one display per process, so it is never terminated, as another context may still use it.
+        // The display belongs to the process and is not reference-counted: it is never terminated, because another
+        // context may still use it.
         if (eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) fail("eglInitialize");
         if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) fail("eglBindAPI(EGL_OPENGL_API)");
         const std::array<EGLint, 7> attributes = {
@@ -46,20 +46,14 @@ class EglContext final : public NativeContext {
         if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT) == EGL_FALSE) {
             fail("eglMakeCurrent to no context");
         }
-        // What EGL keeps for a thread is freed at the thread's end and once more at the process's end; so that a worker
-        // thread that ends late does not free it twice, nothing is kept.
+        // EGL frees its data for a thread when the thread ends, and again when the process ends. Freeing the data here
+        // keeps a worker thread that ends late from freeing it twice.
         if (eglReleaseThread() == EGL_FALSE) fail("eglReleaseThread");
     }
-    void* address(const char* name) override {
-        const auto found = eglGetProcAddress(name);
-        void* pointer = nullptr;
-        static_assert(sizeof(found) == sizeof(pointer));
-        std::memcpy(&pointer, &found, sizeof(pointer));
-        return pointer;
-    }
+    GlFunction address(const char* name) override { return eglGetProcAddress(name); }
 
  private:
-    // The bound API is a property of the thread, and frames come from several.
+    // The bound API is a property of the thread, and frames are drawn by several threads.
     static void bindApi() {
         if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) fail("eglBindAPI(EGL_OPENGL_API)");
     }

@@ -1,4 +1,4 @@
-// OSMesa: Mesa's software renderer as a plain library, no display server and no device files.
+// OSMesa: Mesa's software renderer as a plain library, which needs neither a display server nor device files.
 #include "render/opengl/context.h"
 #include "render/picture/system_error.h"
 
@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 
 namespace render {
 
@@ -38,7 +37,7 @@ class OsmesaContext final : public NativeContext {
     OsmesaContext& operator=(const OsmesaContext&) = delete;
 
     void makeCurrent() override {
-        // OSMesa insists on a buffer of its own; everything is drawn to framebuffer objects instead.
+        // OSMesa requires a buffer to draw to, but everything is drawn to framebuffer objects.
         if (OSMesaMakeCurrent(context_, unused_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
             throw SystemError("OSMesa cannot make its context current");
         }
@@ -48,13 +47,7 @@ class OsmesaContext final : public NativeContext {
             throw SystemError("OSMesa cannot release its context");
         }
     }
-    void* address(const char* name) override {
-        const OSMESAproc found = OSMesaGetProcAddress(name);
-        void* pointer = nullptr;
-        static_assert(sizeof(found) == sizeof(pointer));
-        std::memcpy(&pointer, &found, sizeof(pointer));
-        return pointer;
-    }
+    GlFunction address(const char* name) override { return OSMesaGetProcAddress(name); }
 
  private:
     ::OSMesaContext context_ = nullptr;

@@ -1,14 +1,19 @@
-// The few dozen OpenGL functions that render/ and the studies' baseline call, as one table per context. Loaded by hand
-// because the usual loaders look for a GLX or EGL context and abort under OSMesa.
+// The OpenGL functions that render/ and the baseline of the studies call, as one table per context, and handles that
+// own OpenGL objects. The functions are loaded by hand, because the usual loaders look for a GLX or EGL context and
+// abort under OSMesa. Every object needs its context to be current while it is created, used and destroyed.
 #pragma once
 
 #include <GL/glcorearb.h>
 
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <string_view>
+#include <utility>
 
 namespace render {
 
-// name without "gl", type
+// X(name without "gl", type of the pointer to the function)
 #define RENDER_GL_FUNCTIONS(X)                                 \
     X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                   \
     X(AttachShader, PFNGLATTACHSHADERPROC)                     \
@@ -66,7 +71,68 @@ struct Gl {
 #undef RENDER_GL_MEMBER
 };
 
-/// Looks every function up by its full name; throws SystemError with the name of the first that is missing.
-Gl loadGl(const std::function<void*(const char*)>& address);
+/// A pointer to a function of any type.
+using GlFunction = void (*)();
+
+/// Looks up every function by its full name.
+/// @throws SystemError with the name of the first function that is missing
+Gl loadGl(const std::function<GlFunction(const char*)>& address);
+
+/// Owns the name of an OpenGL object; Delete destroys it.
+template <void (*Delete)(const Gl&, GLuint)>
+class GlName {
+ public:
+    GlName() = default;
+    GlName(const Gl& gl, GLuint name) : gl_(&gl), name_(name) {}
+    GlName(GlName&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+    GlName& operator=(GlName&& other) noexcept {
+        std::swap(gl_, other.gl_);
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    ~GlName() {
+        if (name_ != 0) Delete(*gl_, name_);
+    }
+    GLuint get() const { return name_; }
+
+ private:
+    const Gl* gl_ = nullptr;
+    GLuint name_ = 0;
+};
+
+inline void deleteTexture(const Gl& gl, GLuint name) {
+    gl.DeleteTextures(1, &name);
+}
+inline void deleteFramebuffer(const Gl& gl, GLuint name) {
+    gl.DeleteFramebuffers(1, &name);
+}
+
+using TextureName = GlName<deleteTexture>;
+using FramebufferName = GlName<deleteFramebuffer>;
+
+/// A picture of a fixed size in a texture: finished pixels are put in and read back row by row, one 32-bit word each.
+///
+/// OpenGL is told that the lowest byte is blue, although shade.h's PixelColor has red there. It makes no difference to
+/// pixels that are only stored, and llvmpipe copies pixels in this order without converting them.
+class Target {
+ public:
+    /// @throws SystemError when OpenGL cannot create a picture of this size
+    Target(const Gl& gl, int width, int height);
+
+    void put(std::span<const std::uint32_t> pixels) const;
+    /// Reads rows of pixels into a buffer that has room for them.
+    void readRows(int first, int count, std::uint32_t* pixels) const;
+
+ private:
+    const Gl* gl_;
+    int width_;
+    int height_;
+    TextureName pixels_;
+    FramebufferName framebuffer_;
+};
+
+/// @param doing  for the message, for example "drawing a frame"
+/// @throws SystemError with OpenGL's error code if an OpenGL function has failed since the last call
+void checkGl(const Gl& gl, std::string_view doing);
 
 }  // namespace render

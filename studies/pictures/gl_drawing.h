@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/opengl/gl_objects.h"
+#include "render/opengl/gl.h"
 
 namespace studies {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/opengl/gl_objects.h"
+#include "render/opengl/gl.h"
 #include "render/picture/camera_frame.h"
 #include "studies/pictures/gl_drawing.h"
 
