@@ -1,4 +1,4 @@
-// stb's PNG with ISA-L in place of its compressor and its checksum.
+// PNG by stb, with ISA-L in place of stb's compressor and checksum, which are slow.
 #include "render/output/png.h"
 
 #include <isa-l/crc.h>
@@ -18,19 +18,20 @@
 
 namespace {
 
-// stb's own goes byte by byte.
+/// In place of stb's checksum, which works byte by byte.
 unsigned int checksum(const unsigned char* data, int size) {
     return crc32_gzip_refl(0, data, static_cast<std::uint64_t>(size));
 }
 
-// What does not get smaller is stored in blocks of 65535 bytes, five more each; and the stream's head and end.
-std::size_t mostCompressed(std::size_t size) {
+/// The largest size of a zlib stream: incompressible data is stored in blocks of 65535 bytes with five more bytes each,
+/// and the stream has a head and an end.
+std::size_t compressedBound(std::size_t size) {
     return size + 5 * (size / 65535 + 1) + 64;
 }
 
-// Signature given by stb: returns a malloc'd zlib stream, which stb frees.
+/// With the signature that stb asks for. Returns a zlib stream from malloc(), which stb frees.
 unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, int /*quality*/) {
-    const std::size_t bound = mostCompressed(static_cast<std::size_t>(size));
+    const std::size_t bound = compressedBound(static_cast<std::size_t>(size));
     auto* output = static_cast<unsigned char*>(std::malloc(bound));
     if (output == nullptr) return nullptr;
     std::vector<std::uint8_t> levelBuffer(ISAL_DEF_LVL1_DEFAULT);
@@ -59,16 +60,17 @@ bool isPng(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
 }
 
-/// Whether every chunk up to the last ends within the file: the decoder would reserve whatever length one claims.
-bool holdsItsChunks(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+/// Whether all chunks up to the last one end within the file. Without this check, stb would allocate any length that a
+/// damaged chunk claims to have.
+bool isComplete(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kChunkOverhead = 12;  // length, type and checksum
     constexpr std::string_view kLast = "IEND";
-    for (std::size_t at = kSignature.size(); at + kAround <= bytes.size();) {
+    for (std::size_t at = kSignature.size(); at + kChunkOverhead <= bytes.size();) {
         std::size_t length = 0;
         for (std::size_t byte = at; byte < at + 4; ++byte) length = length << 8 | bytes[byte];
-        if (length > bytes.size() - at - kAround) return false;
+        if (length > bytes.size() - at - kChunkOverhead) return false;
         if (std::equal(kLast.begin(), kLast.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4)) return true;
-        at += kAround + length;
+        at += kChunkOverhead + length;
     }
     return false;
 }
@@ -97,8 +99,8 @@ bool holdsItsChunks(std::span<const std::uint8_t> bytes) {
 namespace render {
 
 std::vector<std::uint8_t> encodePng(const Image& image) {
-    // Filter 1 (difference to the left) is nearly as small as trying all five and much faster. A constant of the
-    // library's state, written once although frames are encoded from several threads.
+    // Filter 1 (the difference to the left) gives files nearly as small as trying all five filters, and is much faster.
+    // The setting is a global variable of stb; it is written once, because frames are encoded by several threads.
     static const int filter = stbi_write_force_png_filter = 1;
     static_cast<void>(filter);
     int size = 0;
@@ -109,13 +111,13 @@ std::vector<std::uint8_t> encodePng(const Image& image) {
 }
 
 Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name) {
-    const auto require = [&](bool holds, const char* what) {
-        if (!holds) throw SystemError(fmt::format("cannot read {} as PNG: {}", name, what));
+    const auto require = [&](bool condition, const char* what) {
+        if (!condition) throw SystemError(fmt::format("cannot read {} as PNG: {}", name, what));
     };
-    require(isPng(bytes), "it is no PNG");
-    require(holdsItsChunks(bytes), "it is cut short");
+    require(isPng(bytes), "it is not a PNG file");
+    require(isComplete(bytes), "it is cut short");
     const auto size = static_cast<int>(bytes.size());
-    require(stbi_is_16_bit_from_memory(bytes.data(), size) == 0, "it has 16 bits a channel, 8 are wanted");
+    require(stbi_is_16_bit_from_memory(bytes.data(), size) == 0, "it has 16 bits per channel, 8 are expected");
     Image image;
     int channels = 0;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
@@ -123,7 +125,7 @@ Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name) {
     require(pixels != nullptr, stbi_failure_reason());
     image.rgb.resize(image.byteCount());
     for (std::size_t pixel = 0; pixel < image.byteCount() / 3; ++pixel) {
-        require(pixels.get()[4 * pixel + 3] == 255, "it is transparent, an opaque picture is wanted");
+        require(pixels.get()[4 * pixel + 3] == 255, "it is transparent, an opaque picture is expected");
         std::copy_n(pixels.get() + 4 * pixel, 3, image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
     }
     return image;

@@ -1,4 +1,4 @@
-// PNG in memory. Libraries write no files: the caller does.
+// PNG encoding and decoding in memory. Called by tools/, which reads and writes the files.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace render {
 
-/// Fast rather than small: a picture of 1280x720 pixels takes 3 ms; libdeflate at its fastest takes 10, and the file is
-/// 4 to 7 % smaller (measured). Which bytes stand for the same pixels may depend on the processor.
+/// Encodes fast rather than small: a picture of 1280x720 pixels takes 3 ms. libdeflate at its fastest takes 10 ms for a
+/// file that is 4 to 7 % smaller (measured). The bytes for the same pixels may depend on the processor.
 std::vector<std::uint8_t> encodePng(const Image& image);
 
-/// Throws SystemError, with the name, for what is no PNG, has more than eight bits a channel or is not opaque.
+/// @param name  of the file, for messages
+/// @throws SystemError for what is not a PNG file, has more than eight bits per channel or is not opaque
 Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace render

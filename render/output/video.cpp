@@ -1,4 +1,4 @@
-// The ffmpeg command line, and what can go wrong around it.
+// The ffmpeg command line, and the errors that may occur around it.
 #include "render/output/video.h"
 
 #include <algorithm>
@@ -16,6 +16,7 @@ namespace render {
 
 namespace {
 
+/// The number of pixels, rounded up to an even one.
 int even(int pixels) {
     return pixels + pixels % 2;
 }
@@ -28,12 +29,17 @@ ChildProcess started(const std::vector<std::string>& arguments, const VideoOptio
     }
 }
 
-// Bit-exact scaling and muxing, no encoder settings in the stream: the same bytes on any processor. The encoder's
-// threads are fixed, because its bytes depend on their number. Without the BT.709 conversion and tags ffmpeg assumes
-// BT.601 and colors shift. An even size is what yuv420p takes. Without -xerror an end that could not be written would
-// count as success. `superfast` because the encoder shares the processor with the drawing; no frames in between and no
-// weights, because without them it takes a quarter less time (mp4_ms of `globular study pictures`, 10,000 metaballs at
-// 1280 x 720), for a quarter more bytes (`globular render splash --size 1280x720 --frames 40-69 --video`).
+/// The arguments that start ffmpeg. The reasons for its options:
+///  - The same bytes on any processor: bit-exact scaling and muxing, no encoder settings in the stream (filter_units),
+///  and
+///    a fixed number of encoder threads, on which the bytes depend.
+///  - Colors: without the conversion to BT.709 and its tags, ffmpeg assumes BT.601 and colors shift. yuv420p requires
+///  an
+///    even width and height.
+///  - Errors: without -xerror, a failure to write the end of the file would count as success.
+///  - Speed: superfast, because the encoder shares the processor with the drawing. Without B-frames and weighted
+///    prediction it takes a quarter less time (measured: mp4_ms of `globular study pictures`, 10,000 metaballs at 1280
+///    x 720) for a quarter more bytes (`globular render splash --size 1280x720 --frames 40-69 --video`).
 std::vector<std::string> commandLine(const VideoOptions& options, const std::string& path) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",
@@ -44,7 +50,7 @@ std::vector<std::string> commandLine(const VideoOptions& options, const std::str
             "+accurate_rnd+bitexact", "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709",
             "-color_trc", "bt709", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v",
             "filter_units=remove_types=6", "-movflags", "+faststart", "-f", "mp4",
-            // A path that begins with a dash or looks like a protocol is still a file.
+            // With the prefix, a path that begins with a dash or looks like a protocol is taken as a file.
             "file:" + path};
 }
 
@@ -54,7 +60,7 @@ VideoOptions checked(VideoOptions options) {
                                        options.size.height, options.fps));
 }
 
-// The picture with its last row and column twice where their number is odd; overwrites `bytes`.
+/// Writes the pixels to `bytes`, with the last column or row repeated if their number is odd.
 const std::vector<std::uint8_t>& padded(const Image& image, std::vector<std::uint8_t>& bytes) {
     const auto row = static_cast<std::ptrdiff_t>(3 * image.width);
     bytes.clear();
@@ -97,8 +103,8 @@ struct VideoWriter::Parts {
 
     VideoOptions options;
     std::optional<AtomicFile> file;
-    std::optional<ChildProcess> process;  // ends before its file is removed
-    std::vector<std::uint8_t> bytes;      // of a padded picture
+    std::optional<ChildProcess> process;  // is destroyed, and so killed, before its file is removed
+    std::vector<std::uint8_t> bytes;      // of a padded frame, kept for its memory
 };
 
 VideoWriter::VideoWriter(VideoOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {}

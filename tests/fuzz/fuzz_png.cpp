@@ -1,4 +1,4 @@
-// Any bytes are a picture or are refused.
+// Fuzzes decodePng(): any bytes either give a picture or throw SystemError.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// The same view gives the same bytes: either backend, any thread count, any thread, any run.
+// The same view gives the same bytes with either backend, any number of threads, from any thread and in every run.
 #include "tests/catch.h"
 
 #include <thread>
@@ -68,7 +68,7 @@ TEST_CASE("One and two threads, and run after run, give identical pixels") {
     }
 }
 
-TEST_CASE("Frames may be drawn from one thread after another, and leave nothing behind") {
+TEST_CASE("Frames may be drawn by one thread after another and do not affect each other") {
     const std::vector<render::View> both = views();
     for (const Backend backend : {Backend::osmesa, Backend::egl}) {
         render::Context context(backend);

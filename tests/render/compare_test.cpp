@@ -1,4 +1,4 @@
-// Known-bad pictures against every profile: what each says, and by which rule.
+// Pictures with known defects against every profile: the verdict of each, and the rule that decided.
 #include "render/compare/compare.h"
 
 #include <stdexcept>
@@ -20,7 +20,7 @@ std::string ruleOf(const Image& actual, const Image& expected, const char* profi
     return render::nameOf(comparison.rule);
 }
 
-/// Of strict, vendor and loose.
+/// The deciding rules for the profiles strict, vendor and loose.
 using Verdicts = std::vector<std::string>;
 
 Verdicts verdicts(const Image& actual, const Image& expected) {
@@ -29,7 +29,7 @@ Verdicts verdicts(const Image& actual, const Image& expected) {
 
 }  // namespace
 
-TEST_CASE("Each profile's verdict on known-bad pictures", "[compare]") {
+TEST_CASE("Each profile's verdict on pictures with known defects", "[compare]") {
     const Image good = balls();
     CHECK(verdicts(good, good) == Verdicts{"identical", "identical", "identical"});
     CHECK(verdicts(onePixel(good, 30, 40, 60), good) == Verdicts{"largest", "largest", "within-limits"});
@@ -44,18 +44,18 @@ TEST_CASE("Each profile's verdict on known-bad pictures", "[compare]") {
     CHECK(verdicts(noisy(good, 16), good) == Verdicts{"largest", "share", "mean"});
 }
 
-TEST_CASE("The gray picture is as light as the colored one, and what a shift costs", "[compare]") {
-    // What makes the verdicts above mean something.
+TEST_CASE("The gray picture is as light as the colored one, and a shift breaks several limits", "[compare]") {
+    // Without these properties the verdicts above would prove little.
     const Image good = balls();
     const render::Comparison shift = render::compare(shifted(good), good, render::limitsOf("loose"));
-    CHECK(shift.reasons.size() >= 2);  // not by a single pixel alone
+    CHECK(shift.reasons.size() >= 2);  // not only the largest difference
     double light = 0.0, grayLight = 0.0;
     const Image other = gray(good);
     for (std::size_t k = 0; k < good.rgb.size(); k += 3) {
         light += 0.2126 * good.rgb[k] + 0.7152 * good.rgb[k + 1] + 0.0722 * good.rgb[k + 2];
         grayLight += other.rgb[k];
     }
-    CHECK(grayLight / light == Approx(1.0).epsilon(0.5 / 50.0));  // grays are rounded to whole steps of at least 50
+    CHECK(grayLight / light == Approx(1.0).epsilon(0.5 / 50.0));  // half a step of rounding, on grays of at least 50
 }
 
 TEST_CASE("Every limit decides alone", "[compare]") {
@@ -96,7 +96,7 @@ TEST_CASE("The worst pixels come first, with their values", "[compare]") {
     CHECK(comparison.metrics.worst[1].x == 5);
     CHECK(comparison.metrics.differing == 2);
     CHECK(comparison.reasons.at(0).find("off by 50 at (100, 60), allowed are 16") != std::string::npos);
-    // Equals stay in reading order, and the list short.
+    // Equal differences stay in reading order, and the list keeps its maximum length.
     const auto all = render::compare(flat(9, 9, {0, 0, 0}), flat(9, 9, {7, 7, 7}), {});
     REQUIRE(all.metrics.worst.size() == render::kWorstPixels);
     for (int k = 0; k < static_cast<int>(render::kWorstPixels); ++k)
@@ -113,20 +113,20 @@ TEST_CASE("Black pixels of a mask do not count", "[compare]") {
     const auto masked = render::compare(bad, good, {}, mask);
     CHECK(masked.rule == render::CompareRule::identical);
     CHECK(masked.metrics.pixelCount == good.rgb.size() / 3 - 1);
-    // A window with a masked pixel says nothing about structure; all others are as they are.
+    // Windows with a masked pixel do not count; all others are equal.
     CHECK(render::structuralSimilarity(bad, good, {}) < 1.0);
     CHECK(render::structuralSimilarity(bad, good, mask) == 1.0);
     CHECK_THROWS_AS(render::compare(bad, good, {}, flat(3, 3, {0, 0, 0})), std::invalid_argument);
 }
 
-TEST_CASE("Pictures of different sizes are a reason of their own", "[compare]") {
+TEST_CASE("Pictures of different sizes are reported as such", "[compare]") {
     const auto comparison = render::compare(balls(160, 90), balls(90, 160), render::limitsOf("loose"));
     CHECK(comparison.rule == render::CompareRule::size);
     CHECK(comparison.reasons == std::vector<std::string>{"the picture is 160x90, expected is 90x160"});
     CHECK_THROWS_AS(render::limitsOf("lose"), std::invalid_argument);
 }
 
-TEST_CASE("The difference is shown sixteen times as bright, the heat map lights up where it is", "[compare]") {
+TEST_CASE("The difference image is sixteen times as bright, the heat map shows where it is", "[compare]") {
     const Image good = balls();
     const Image bad = onePixel(good, 30, 40, 5);
     const std::size_t at = 3 * (40 * 160 + 30);
@@ -134,7 +134,7 @@ TEST_CASE("The difference is shown sixteen times as bright, the heat map lights 
     CHECK(difference.rgb[at + 1] == 80);
     CHECK(std::count(difference.rgb.begin(), difference.rgb.end(), 0) == static_cast<long>(difference.rgb.size()) - 1);
     const Image heat = render::heatMap(bad, good);
-    CHECK(heat.rgb[at] > 51);  // no pixel without a difference is lighter than a fifth of 255
+    CHECK(heat.rgb[at] > 51);  // equal pixels are at most a fifth of 255
     for (std::size_t k = 0; k < heat.rgb.size(); ++k)
         if (k / 3 != at / 3 && heat.rgb[k] > 51) FAIL("pixel " << k / 3 << " is lit");
     CHECK(render::heatMap(blank(good), flat(160, 90, {255, 255, 255})).rgb ==

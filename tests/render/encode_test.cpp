@@ -1,4 +1,4 @@
-// sRGB encoding against the standard's formula: through the picture of a background, and of colors as they are packed.
+// sRGB encoding against the formula of the standard: of the background as the renderer draws it, and of packed colors.
 #include "tests/catch.h"
 
 #include <array>
@@ -13,7 +13,7 @@ double exactSteps(double c) {
     return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
 }
 
-// A column of pixels from `bottom` to `top`, and how far its bytes are from the exact values at most.
+/// Draws a background from `bottom` to `top` and returns the largest error of its bytes, in steps of 1/255.
 double largestError(float bottom, float top) {
     constexpr int kHeight = 8192;
     render::View view;
@@ -28,7 +28,7 @@ double largestError(float bottom, float top) {
     return largest;
 }
 
-// The same of colors that are packed on vector units, and whether each channel is where it belongs.
+/// The largest error of packColors(), in steps of 1/255; also checks that each channel is in its byte.
 double largestPackedError(float most) {
     constexpr int kTiles = 32;
     double largest = 0.0;
@@ -51,15 +51,15 @@ double largestPackedError(float most) {
     return largest;
 }
 
-// Half a step is the rounding itself; the polynomial is within 0.0025 of a step, single precision (1e-7 of c, with a
-// slope of up to 3300 steps near 0 and 110 steps at 1) within 0.001.
+// Half a step is the rounding itself. The polynomial is exact to 0.0025 of a step, and single precision to 0.001: 1e-7
+// of c times a slope of up to 3300 steps near 0 and 110 steps at 1.
 constexpr double kMostError = 0.5 + 0.0035;
 
 }  // namespace
 
 TEST_CASE("sRGB encoding rounds the exact value to the nearest byte") {
     CHECK(largestError(0.0F, 1.0F) < kMostError);
-    CHECK(largestError(0.0F, 0.02F) < kMostError);  // the linear part and the joint, looked at closely
+    CHECK(largestError(0.0F, 0.02F) < kMostError);  // fine steps over the linear part and the joint
     CHECK(largestPackedError(1.0F) < kMostError);
     CHECK(largestPackedError(0.02F) < kMostError);
 }

@@ -1,4 +1,4 @@
-// Overlays: where they are drawn and where not, what they say, how long the scale bar is, which colors the bar shows.
+// Overlays: where they are drawn, what the text says, the length of the scale bar and the colors of the color bar.
 #include "tests/catch.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ std::uint8_t byteAt(const Image& image, int x, int y, int channel = 0) {
     return image.rgb.at(static_cast<std::size_t>(3 * (y * image.width + x) + channel));
 }
 
-/// The smallest rectangle of pixels that are as asked; right < left if there are none.
+/// The smallest rectangle that contains all pixels with some property; right < left if there are none.
 struct Bounds {
     int left = 1 << 20;
     int top = 1 << 20;
@@ -34,11 +34,11 @@ struct Bounds {
     int count = 0;
 };
 
-Bounds boundsOf(const Image& image, const std::function<bool(int, int)>& isMeant) {
+Bounds boundsOf(const Image& image, const std::function<bool(int, int)>& hasProperty) {
     Bounds bounds;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-            if (!isMeant(x, y)) continue;
+            if (!hasProperty(x, y)) continue;
             bounds = {std::min(bounds.left, x), std::min(bounds.top, y), std::max(bounds.right, x),
                       std::max(bounds.bottom, y), bounds.count + 1};
         }
@@ -82,7 +82,7 @@ struct Size {
 
 const std::vector<Size> kSizes = {{320, 180}, {544, 543}, {1280, 720}, {1920, 1080}, {1080, 1920}};
 
-/// White ink over its length in the lowest row that has any, in pixels.
+/// The length of the scale bar in pixels: the sum of coverage by white ink over the lowest row that has any.
 double scaleBarPixels(const Image& image) {
     const Bounds ink = boundsOf(image, [&](int x, int y) { return byteAt(image, x, y) > 0; });
     double sum = 0.0;
@@ -141,7 +141,7 @@ TEST_CASE("Every part stays in its corner, off the sides of the picture") {
     }
 }
 
-TEST_CASE("Text is as high as the picture asks") {
+TEST_CASE("Text has the height that the size of the picture asks for") {
     CHECK(render::overlayEm(320, 180, 1.0) == 11.0);
     CHECK(render::overlayEm(1920, 1080, 1.0) == Approx(32.4));
     CHECK(render::overlayEm(1080, 1920, 2.0) == Approx(64.8));
@@ -174,7 +174,7 @@ TEST_CASE("Letters stand upright and face the reader") {
         return std::vector<double>{share(image, box, false, false), share(image, box, true, false),
                                    share(image, box, false, true), share(image, box, true, true)};
     };
-    const auto l = quarters("L");  // a stem on the left, a foot below
+    const auto l = quarters("L");  // a stem on the left, a bar at the bottom
     CHECK(l[1] == 0.0);
     CHECK(l[0] > 0.15);
     CHECK(l[3] > 0.15);
@@ -184,14 +184,14 @@ TEST_CASE("The stamp says the time") {
     const std::string text = "t = 12.50 s";
     const std::string alphabet = "0123456789.=ts ";
     Image image = plain(1280, 720, 0);
-    Overlay overlay;  // white; its halo is black and cannot be seen
+    Overlay overlay;  // white on black: the black halo is invisible
     overlay.stamp = text;
     render::drawOverlay(image, overlay, {});
     const double em = render::overlayEm(1280, 720, 1.0);
     const double margin = std::round(0.8 * em);
     std::string read;
     for (std::size_t k = 0; k < text.size(); ++k) {
-        // What stands at the place of character k: the one whose picture fits best, over the width of a digit.
+        // Recognizes character k as the one whose picture fits best, over the width of a digit.
         const render::TextPosition position{margin + render::textWidth(text.substr(0, k), em),
                                             static_cast<int>(margin + std::round(0.73 * em)), em};
         char best = '?';
@@ -229,7 +229,8 @@ TEST_CASE("The scale bar is as long as the camera makes it") {
             Image image = plain(size.width, size.height, 0);
             render::drawOverlay(image, withScaleBar(static_cast<float>(length)), camera);
             const double perspective = length * size.height / (2.0 * distance * std::tan(0.5 * camera.verticalFov));
-            CHECK(scaleBarPixels(image) == Approx(perspective).margin(0.02));  // bytes: two ends, 1/255 each; floats
+            CHECK(scaleBarPixels(image) ==
+                  Approx(perspective).margin(0.02));  // rounding to 1/255 at both ends, and of floats
 
             camera.projection = render::Projection::orthographic;
             camera.halfHeight = 6.0F;
@@ -240,11 +241,11 @@ TEST_CASE("The scale bar is as long as the camera makes it") {
     }
 }
 
-TEST_CASE("The scale bar is as long as what is drawn at the target") {
+TEST_CASE("The scale bar is as long as a distance drawn at the target") {
     render::View view;
     view.camera.eye = {0.3F, 5.0F, 9.0F};  // above the target, so that the picture's horizontal is the x axis
     view.camera.target = {0.3F, 1.0F, -0.5F};
-    for (const float x : {-0.7F, 1.3F})  // dots of three pixels
+    for (const float x : {-0.7F, 1.3F})  // dots with a diameter of three pixels
         view.edges.push_back({{x, 0.999F, -0.5F}, {x, 1.001F, -0.5F}, glm::vec3(1.0F), 3.0F});
     const Image dots = pictures::drawn(view, {640, 360}, render::Quality::final);
     const auto center = [&](int from, int to) {
@@ -261,7 +262,7 @@ TEST_CASE("The scale bar is as long as what is drawn at the target") {
     };
     Image image = plain(640, 360, 0);
     render::drawOverlay(image, withScaleBar(2.0F), view.camera);
-    // Dots are symmetric; the samples that make them are a third of a pixel apart.
+    // The centers of dots are found to about a third of a pixel, the distance of the samples.
     CHECK(scaleBarPixels(image) == Approx(center(320, 640) - center(0, 320)).margin(1.0 / 3.0));
 }
 
@@ -271,7 +272,7 @@ TEST_CASE("A scale bar that does not fit is left out rather than cut") {
     CHECK(changed(image, 90).count == 0);
 }
 
-TEST_CASE("The color bar runs through its colors, from below upwards") {
+TEST_CASE("The color bar runs through its colors, from bottom to top") {
     for (const Size size : kSizes) {
         INFO(size.width << " x " << size.height);
         Image image = plain(size.width, size.height, 0);
@@ -282,7 +283,7 @@ TEST_CASE("The color bar runs through its colors, from below upwards") {
         const Bounds bar = boundsOf(image, isColor);
         const int rows = bar.bottom - bar.top + 1;
         const double em = render::overlayEm(size.width, size.height, 1.0);
-        CHECK(bar.count == rows * (bar.right - bar.left + 1));  // a whole rectangle
+        CHECK(bar.count == rows * (bar.right - bar.left + 1));  // a filled rectangle
         CHECK(rows >= std::min(9.5 * em, 0.45 * size.height));
         for (int y = bar.top; y <= bar.bottom; ++y) {
             const double position = (bar.bottom - y + 0.5) / rows;
@@ -291,10 +292,11 @@ TEST_CASE("The color bar runs through its colors, from below upwards") {
             const auto encoded = [](double c) {
                 return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
             };
-            CHECK(std::abs(byteAt(image, bar.left, y, 0) - encoded(red)) <= 0.51);  // rounded, from floats
+            CHECK(std::abs(byteAt(image, bar.left, y, 0) - encoded(red)) <=
+                  0.51);  // half a step of rounding, and floats
             CHECK(std::abs(byteAt(image, bar.right, y, 2) - encoded(blue)) <= 0.51);
         }
-        // The middle tick is a white line that begins at the frame, half way up.
+        // The middle tick is a white line that begins at the frame, halfway up.
         const int beside = bar.right + static_cast<int>(0.25 * em);
         const Bounds ticks = boundsOf(image, [&](int x, int y) {
             return x == beside && y > bar.top + rows / 4 && y < bar.bottom - rows / 4 && byteAt(image, x, y, 1) > 200;
@@ -304,7 +306,7 @@ TEST_CASE("The color bar runs through its colors, from below upwards") {
     }
 }
 
-TEST_CASE("Ink of the picture's own color is seen by its halo") {
+TEST_CASE("Ink of the picture's own color is visible by its halo") {
     for (const int gray : {0, 255}) {
         Image image = plain(320, 180, static_cast<std::uint8_t>(gray));
         Overlay overlay;
@@ -325,17 +327,17 @@ TEST_CASE("Overlays larger than the picture are cut off at its sides") {
     for (const Size size : {Size{16, 16}, Size{64, 48}, Size{16, 300}}) {
         Image image = plain(size.width, size.height, 77);
         render::drawOverlay(image, overlay, {});
-        if (size.width > 16) CHECK(changed(image, 77).count > 0);  // less is all margin
+        if (size.width > 16) CHECK(changed(image, 77).count > 0);  // a smaller picture consists of the margin
     }
 }
 
-TEST_CASE("Text that is no UTF-8 shows the mark for it, and nothing is read beyond its end") {
+TEST_CASE("Text that is not UTF-8 shows replacement characters, and nothing is read beyond its end") {
     const double mark = render::textWidth("\xEF\xBF\xBD", 20.0);
     CHECK(mark > 5.0);
     for (const char* broken : {"\xFF", "\x80", "\xC3", "\xE2\x82", "\xF0\x9F\x98"})
         CHECK(render::textWidth(broken, 20.0) == Approx(mark));
     CHECK(render::textWidth("", 20.0) == 0.0);
     CHECK(render::textWidth("\xC2\xB5m", 20.0) > render::textWidth("m", 20.0));
-    // Digits are of one width, so that a running time does not tremble.
+    // All digits have the same width, so that a running time stamp does not jitter.
     for (const char* digit : {"1", "4", "9"}) CHECK(render::textWidth(digit, 20.0) == render::textWidth("0", 20.0));
 }

@@ -1,4 +1,4 @@
-// Strips: panels untouched, in order, apart; the texts below their own panel.
+// Strips of panels: pixels unchanged, in order and with gaps; each text below its own panel.
 #include "tests/catch.h"
 
 #include <stdexcept>
@@ -50,9 +50,9 @@ TEST_CASE("Every text stands below the middle of its panel, and one without text
             if (dark > 0) rightmost = x;
             if (y == strip.height - 1 || y == 60) CHECK(dark == 0);
         }
-    REQUIRE(ink > 255.0 * 30.0);  // some hundred pixels of letters
+    REQUIRE(ink > 255.0 * 30.0);  // 30 fully covered pixels at least
     CHECK(rightmost < 160);
-    CHECK(sum / ink == Approx(80.0).margin(8.0));  // letters are not equally heavy: a tenth of the text's width
+    CHECK(sum / ink == Approx(80.0).margin(8.0));  // letters differ in weight: a tenth of the text's width
 }
 
 TEST_CASE("A strip of nothing or of unequal panels is refused") {
@@ -72,5 +72,5 @@ TEST_CASE("A text wider than its panel shrinks to fit") {
             if (x >= 24 && x < 24 + gap) between += dark;
         }
     CHECK(ink > 255 * 10);
-    CHECK(between < ink / 50);  // soft edges of the outermost letters
+    CHECK(between < ink / 50);  // at most the antialiased edges of the outermost letters
 }

@@ -1,4 +1,4 @@
-// The metrics against closed forms and against ffmpeg's psnr and ssim filters.
+// The metrics against closed forms and against the psnr and ssim filters of ffmpeg.
 #include "render/compare/picture_metrics.h"
 
 #include <unistd.h>
@@ -27,8 +27,8 @@ void writePng(const fs::path& path, const Image& image) {
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The number behind `label` in what the filter of ffmpeg says about two pictures, in planar RGB as they are: no
-/// conversion to luma.
+/// The number after `label` in the output of a filter of ffmpeg for two pictures. They are passed as planar RGB,
+/// without a conversion to luma.
 double ffmpegSays(const std::string& filter, const std::string& label, const Image& actual, const Image& expected) {
     const fs::path folder = fs::temp_directory_path() / ("globular-metrics-" + std::to_string(::getpid()));
     fs::create_directories(folder);
@@ -62,19 +62,20 @@ TEST_CASE("Differences by hand", "[metrics]") {
     CHECK(metrics.largest == 4);
     CHECK(metrics.mean == 6.0 / 24.0);
     CHECK(metrics.meanSquare == 20.0 / 24.0);
-    CHECK(metrics.psnr() == Approx(10.0 * std::log10(65025.0 * 24.0 / 20.0)).epsilon(1e-15));  // one logarithm
+    CHECK(metrics.psnr() ==
+          Approx(10.0 * std::log10(65025.0 * 24.0 / 20.0)).epsilon(1e-15));  // the rounding of one logarithm
     CHECK(std::isinf(render::measure(expected, expected, {}, 3).psnr()));
     CHECK_THROWS_AS(render::measure(flat(2, 4, {0, 0, 0}), expected, {}, 3), std::invalid_argument);
 }
 
 TEST_CASE("Structural similarity of flat pictures is its luminance term", "[metrics]") {
-    // No variance: (2ab + c1) / (a^2 + b^2 + c1) a channel, c1 as documented.
+    // Without variance each channel has (2ab + c1) / (a^2 + b^2 + c1), with the c1 of picture_metrics.cpp.
     const double c1 = 416.0 / 4096.0;
     const auto term = [&](double a, double b) { return (2 * a * b + c1) / (a * a + b * b + c1); };
     for (const int size : {1, 5, 8, 11, 64}) {
         const double ssim =
             render::structuralSimilarity(flat(size, size, {40, 0, 9}), flat(size, size, {50, 255, 9}), {});
-        CHECK(ssim == Approx((term(40, 50) + term(0, 255) + 1.0) / 3.0).epsilon(1e-14));  // means of equal numbers
+        CHECK(ssim == Approx((term(40, 50) + term(0, 255) + 1.0) / 3.0).epsilon(1e-14));  // the rounding of means
     }
     CHECK(render::structuralSimilarity(balls(), balls(), {}) == 1.0);
 }
@@ -86,11 +87,10 @@ TEST_CASE("PSNR and SSIM are ffmpeg's", "[metrics]") {
              {noisy(good, 2), noisy(good, 60), shifted(good), darker(good, 0.98), gray(good), blank(good)}) {
             const auto metrics = render::measure(bad, good, {}, 3);
             INFO(width << "x" << height << ", psnr " << metrics.psnr() << ", ssim " << metrics.ssim);
-            // Printed with six decimals: half of the last one. The mean of squares is a sum of whole numbers on both
-            // sides.
+            // ffmpeg prints six decimals: half of the last one. Both sum up squares as integers.
             CHECK(ffmpegSays("psnr", "average", bad, good) == Approx(metrics.psnr()).margin(0.51e-6));
-            // Likewise; besides, ffmpeg takes a window in float: about eight roundings of 2^-24 on numbers of at
-            // most 1.
+            // Half of the last decimal, and about eight roundings of 2^-24 on numbers of at most 1, because ffmpeg
+            // evaluates a window in float.
             CHECK(ffmpegSays("ssim", "All", bad, good) ==
                   Approx(metrics.ssim).margin(0.5e-6 + 8.0 * std::ldexp(1.0, -24)));
         }

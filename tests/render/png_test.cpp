@@ -1,4 +1,4 @@
-// PNG: what goes in comes out, and what is no PNG is named.
+// PNG: decoding returns the encoded pixels, and anything that is not a PNG file is refused.
 #include "tests/catch.h"
 
 #include <random>
@@ -19,7 +19,7 @@ render::Image noise(int width, int height) {
 }  // namespace
 
 TEST_CASE("PNG keeps every byte") {
-    // Noise does not get smaller; up to more than a block of what is stored.
+    // Noise is incompressible: it is stored in blocks, here up to more than one.
     for (const auto& [width, height] :
          {std::pair{1, 1}, std::pair{2, 1}, std::pair{17, 3}, std::pair{146, 150}, std::pair{640, 360}}) {
         const render::Image image = noise(width, height);
@@ -42,6 +42,6 @@ TEST_CASE("A broken PNG is a SystemError that names it") {
     CHECK_THROWS_WITH(render::decodePng(bytes, "golden/half.png"), Catch::Contains("golden/half.png"));
     CHECK_THROWS_AS(render::decodePng({}, "empty.png"), render::SystemError);
     auto endless = render::encodePng({2, 2, std::vector<std::uint8_t>(12, 7)});
-    endless.at(33) = 0x7F;  // the length of the chunk after the header's: two gigabytes
+    endless.at(33) = 0x7F;  // the length of the second chunk: two gigabytes
     CHECK_THROWS_WITH(render::decodePng(endless, "endless.png"), Catch::Contains("cut short"));
 }

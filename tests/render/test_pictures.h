@@ -1,4 +1,4 @@
-// Pictures to compare, made without the renderer so that they stay what they are when it changes.
+// Pictures for the tests of comparison, made without the renderer, so that they do not change with it.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ inline std::uint8_t byteOf(double value) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
 }
 
-/// Shaded balls on a sky, with edges, flat parts and gradients, dark and light.
+/// Shaded balls in front of a sky: edges, flat regions and gradients, dark and light.
 inline render::Image balls(int width = 160, int height = 90) {
     render::Image image{width, height, {}};
     image.rgb.resize(image.byteCount());
@@ -40,7 +40,7 @@ inline render::Image flat(int width, int height, std::array<std::uint8_t, 3> col
     return image;
 }
 
-/// The picture with every channel off by up to `most`.
+/// The picture with every channel changed by up to `most`.
 inline render::Image noisy(const render::Image& image, int most, unsigned seed = 5) {
     render::Image other = image;
     std::mt19937 random(seed);
@@ -51,7 +51,7 @@ inline render::Image noisy(const render::Image& image, int most, unsigned seed =
     return other;
 }
 
-/// The picture one pixel further to the right; the first column stays.
+/// The picture shifted by one pixel to the right; the first column stays.
 inline render::Image shifted(const render::Image& image) {
     render::Image other = image;
     const auto stride = static_cast<std::size_t>(3 * image.width);
@@ -67,7 +67,7 @@ inline render::Image darker(const render::Image& image, double factor) {
     return other;
 }
 
-/// The grays of the same luma (BT.709).
+/// The picture in grays of the same luma (BT.709).
 inline render::Image gray(const render::Image& image) {
     render::Image other = image;
     for (std::size_t k = 0; k < image.rgb.size(); k += 3) {

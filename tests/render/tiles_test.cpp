@@ -1,4 +1,4 @@
-// Binning: every pixel's list holds what the pixel can see, in order.
+// Binning: every sphere that a pixel's ray meets is on the list of its tile, in the right order.
 #include "tests/catch.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "render/prepare/tiles.h"
 #include "tests/render/pictures.h"
 
-TEST_CASE("indicesByKey sorts by key, equal keys by place") {
+TEST_CASE("indicesByKey sorts by key and keeps the order of equal keys") {
     const std::vector<float> keys = {3.0F, -1.0F, 0.0F, -0.5F, 3.0F, -1e30F, 1e-30F};
     CHECK(render::indicesByKey(keys) == std::vector<std::uint32_t>{5, 1, 3, 2, 6, 0, 4});
     CHECK(render::indicesByKey({}).empty());
@@ -22,7 +22,7 @@ TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to
         render::View view = pictures::cloud(300);
         view.camera.projection = projection;
         view.camera.halfHeight = 1.5F;
-        view.camera.eye = {0.2F, 1.0F, 1.2F};  // among them: some are behind, some around the eye
+        view.camera.eye = {0.2F, 1.0F, 1.2F};  // amid the particles: some are behind the eye, some contain it
         const render::PictureSize size{90, 50};
         const render::CameraFrame frame = render::cameraFrame(view.camera, size);
         std::vector<render::ViewSphere> spheres;
@@ -61,10 +61,10 @@ TEST_CASE("Every sphere that a pixel's ray meets is on its tile's list, front to
 
 namespace {
 
-/// Where the projections of a sphere's points begin and end along one axis, in pixels from the picture's middle.
+/// The extent of a sphere's projection along one axis, in pixels from the center of the picture.
 std::pair<double, double> projected(double center, double depth, double radius, bool perspective, double perUnit) {
     if (!perspective) return {(center - radius) * perUnit, (center + radius) * perUnit};
-    // The eye sees the circle's middle at an angle, and half of it at another.
+    // Angles at the eye: to the center of the sphere, and from there to its outline.
     const double middle = std::atan2(center, depth);
     const double half = std::asin(radius / std::hypot(center, depth));
     return {std::tan(middle - half) * perUnit, std::tan(middle + half) * perUnit};
@@ -101,7 +101,7 @@ TEST_CASE("The pixels that spheres may touch are their projection and a margin o
                 {{between(-1.0, 1.0) * reach * frame.halfWidth, between(-1.0, 1.0) * reach * frame.halfHeight, z},
                  radius});
             if (k % 5 > 1) continue;
-            // Just before the eye's plane, all in front of the eye or with a border there.
+            // Just in front of the eye's plane, entirely or touching it.
             spheres.back().center.z = radius * between(1.0002, 1.1);
             if (k % 5 == 1) spheres.back().center.x = radius * between(0.98, 1.02);
         }
@@ -124,8 +124,8 @@ TEST_CASE("The pixels that spheres may touch are their projection and a margin o
                 continue;
             }
             const auto holds = [](int first, int last, std::pair<double, double> ends, int count) {
-                // What is touched at all is within, and with what is within goes a pixel on each side, and a part of
-                // one.
+                // The bounds contain all touched pixels, and exceed the projection by one pixel and a fraction on each
+                // side at most.
                 const double low = std::max(0.0, ends.first);
                 const double high = std::min(static_cast<double>(count), ends.second);
                 if (low > high) return true;
@@ -185,6 +185,6 @@ TEST_CASE("Each cell lists the items that have it, in their order") {
 TEST_CASE("Lists stay short: a small sphere touches few tiles") {
     const render::CameraFrame frame = render::cameraFrame(render::Camera{}, {1280, 720});
     const std::vector<render::ViewSphere> spheres(1000, {{0.05F, 0.05F, 10.0F}, 0.05F});
-    // 0.1 m at 10 m are 10 pixels here, with a pixel of margin 12: at most 2 x 2 tiles.
+    // 0.1 m at a distance of 10 m are 10 pixels here, 12 with the margin: at most 2 x 2 tiles.
     CHECK(render::binToTiles(frame, spheres, render::pixelBounds(frame, spheres)).items.size() <= 4000);
 }

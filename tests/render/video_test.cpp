@@ -124,8 +124,8 @@ TEST_CASE("Colors survive: a red video is red") {
     CHECK(decoder.wait().empty());
     const std::string bytes = bytesOf(folder.file("red.rgb"));
     REQUIRE(bytes.size() == 3 * 64 * 64);
-    // Limited range rounds to 1.2 steps, and the encoder to one or two: 3 steps. BT.601 taken for BT.709 would be off
-    // by 10 and more.
+    // 3 steps: the limited range rounds to 1.2 steps, and the encoder to one or two. BT.601 in place of BT.709 would
+    // shift the color by 10 steps and more.
     CHECK(std::abs(int(static_cast<unsigned char>(bytes[6000])) - 220) <= 3);
     CHECK(std::abs(int(static_cast<unsigned char>(bytes[6001])) - 40) <= 3);
     CHECK(std::abs(int(static_cast<unsigned char>(bytes[6002])) - 30) <= 3);
@@ -148,9 +148,9 @@ TEST_CASE("An ffmpeg without libx264 is named as such") {
     CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("no libx264"));
 }
 
-TEST_CASE("An ffmpeg that dies is one clear SystemError with its last words, and no SIGPIPE") {
+TEST_CASE("An ffmpeg that dies is one clear SystemError with its messages, and no SIGPIPE") {
     const Folder folder;
-    const render::PictureSize size{640, 360};  // more than a socket holds
+    const render::PictureSize size{640, 360};  // a frame exceeds the buffer of a socket
     render::VideoOptions options{folder.file("a.mp4"), size};
     options.ffmpeg = fakeFfmpeg(folder, "echo 'the disk is on fire' >&2; exit 3");
     const auto write = [&] { writeVideo(options, 5); };
@@ -164,11 +164,11 @@ TEST_CASE("An ffmpeg that dies is one clear SystemError with its last words, and
 
 TEST_CASE("An ffmpeg that hangs is killed") {
     const Folder folder;
-    render::VideoOptions options{folder.file("a.mp4"), {640, 360}};  // more than a socket holds
+    render::VideoOptions options{folder.file("a.mp4"), {640, 360}};  // a frame exceeds the buffer of a socket
     options.progressTimeout = std::chrono::milliseconds(200);
-    options.ffmpeg = fakeFfmpeg(folder, "sleep 1000");  // takes nothing
+    options.ffmpeg = fakeFfmpeg(folder, "sleep 1000");  // reads no input
     CHECK_THROWS_WITH(writeVideo(options, 5), Catch::Contains("a.mp4") && Catch::Contains("no progress for 0.2 s"));
-    options.ffmpeg = fakeFfmpeg(folder, "cat >/dev/null; sleep 1000");  // does not end
+    options.ffmpeg = fakeFfmpeg(folder, "cat >/dev/null; sleep 1000");  // reads all input and does not end
     CHECK_THROWS_WITH(writeVideo(options, 5), Catch::Contains("no progress for 0.2 s"));
     CHECK_FALSE(fs::exists(folder.file("a.mp4")));
 }

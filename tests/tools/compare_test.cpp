@@ -280,7 +280,7 @@ TEST_CASE("compare: pictures that say more than eight opaque bits a channel are 
     CHECK(made("color=red:s=16x16", "rgb48be", "deep.png").out.find("16 bits") != std::string::npos);
     CHECK(made("color=red:s=16x16,format=rgba", "rgba", "opaque.png").code == 0);
     tools::writeFile(two / "text.png", std::string("no picture at all"));
-    CHECK(run("compare " + (two / "text.png").string() + " " + (two / "text.png").string()).out.find("it is no PNG") !=
+    CHECK(run("compare " + (two / "text.png").string() + " " + (two / "text.png").string()).out.find("it is not a PNG file") !=
           std::string::npos);
 }
 
