@@ -1,13 +1,26 @@
 #!/usr/bin/env bash
-# Draws the pictures of README.md and docs/ into docs/: the moving picture of the first scene, a still of each scene of the
-# library's top folder, and a strip of moments of each figure of the paper. Needs the program, which figures.sh builds.
-# With names (first, figures, splash or scenes such as honey): draws these alone.
+# Draws the pictures of README.md and docs/ into docs/: the first scene as a moving picture and with one key changed at a time,
+# a still of each scene of the library's top folder, and a strip of moments of each figure of the paper. Needs the program,
+# which figures.sh builds. With names (first, keys, figures, splash, or scenes such as honey) it draws these alone; with "times"
+# it renders every scene that docs/gallery.md lists and prints particles, frames and processor seconds of each.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 globular=build/release/tools/globular
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+
+if [ "$*" = times ]; then
+    TIMEFORMAT="%U %S"
+    for scene in $("$globular" scenes | awk '$1 !~ /^hard/ { print $1 }'); do
+        { time "$globular" render "$scene" --quiet -o "$work/$scene"; } 2> "$work/seconds"
+        count() { grep -m1 "\"$1\"" "$work/$scene/run.json" | tr -dc 0-9; }
+        awk -v scene="$scene" -v particles="$(count particles)" -v frames="$(count frames)" \
+            '{ printf "%-22s %6d particles %5d frames %6.1f s\n", scene, particles, frames, $1 + $2 }' "$work/seconds"
+        rm -r "${work:?}/$scene"
+    done
+    exit
+fi
 
 wanted() { # name: whether to draw it
     [ -z "${names:-}" ] || [[ " $names " == *" $1 "* ]]
@@ -20,13 +33,38 @@ still() { # scene, frame at its still.time
     cp "$work/$1/"frame-*.png "docs/$1.png"
 }
 
-# The first scene of the README with finer particles: the same substance and the same jet (docs/model.md, "Finer particles").
+# Finer particles for docs/first.toml: the same substance and the same jet (docs/model.md, "Finer particles").
+finer=(--set material.radius=0.05 --set material.mass=0.0122 --set material.b1=0.000179 --set material.bd=5
+    --set "emitter[0].interval=0.034")
+
 if wanted first; then
-    "$globular" render docs/first.toml --set material.radius=0.05 --set material.mass=0.0122 --set material.b1=0.000179 \
-        --set material.bd=5 --set "emitter[0].interval=0.034" --frames 8-176 --size 800x450 --quality final --quiet \
-        -o "$work/first"
+    "$globular" render docs/first.toml "${finer[@]}" --frames 8-176 --size 800x450 --quality final --quiet -o "$work/first"
     ffmpeg -v error -y -framerate 30 -start_number 8 -i "$work/first/frame-%05d.png" -loop 0 -c:v libwebp_anim -quality 75 \
         -compression_level 6 docs/first.webp
+fi
+
+variations=0
+variation() { # label, options of render: one frame of the first scene with its label on it
+    local folder="$work/variation-$variations" font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+    "$globular" render docs/first.toml "${@:2}" --frames 130 --size 320x180 --quality final --quiet -o "$folder"
+    ffmpeg -v error -y -i "$folder/frame-00130.png" \
+        -vf "drawtext=text='$1':x=6:y=6:fontcolor=white:fontsize=13:fontfile=$font" \
+        "$work/variations-$(printf %02d "$variations").png"
+    variations=$((variations + 1))
+}
+
+if wanted keys; then
+    variation "docs/first.toml"
+    variation "bd = 30" --set material.bd=30
+    variation "bd = 1" --set material.bd=1
+    variation "bd = 1, cr = 2" --set material.bd=1 --set material.cr=2
+    variation "mass = 0.2" --set material.mass=0.2
+    variation "finer" "${finer[@]}"
+    variation "spheres" --set look.style=spheres
+    variation "dry" --set look.specular=0 --set look.reflection=0 --set look.translucency=0
+    variation "metal" --set look.metal=1 --set look.reflection=2 --set look.mirror_top=[1.2,1.2,1.2]
+    variation "by speed" --set look.color_by=speed --set look.color_map=ember --set look.color_range=[0,4]
+    ffmpeg -v error -y -i "$work/variations-%02d.png" -vf tile=5x2:padding=4 -frames:v 1 -c:v libwebp -quality 85 docs/keys.webp
 fi
 
 still fountain 168
