@@ -20,13 +20,20 @@ bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t e
     return others == 0;
 }
 
+/// Names the particle and the settings that have an effect. An automatic stepper ignores physics.step.
 [[noreturn]] void report(const Simulation& simulation, std::size_t p, double h) {
     const Vec3& x = simulation.particles.position[p];
     std::ostringstream text;
     text << "the simulation became unstable: particle " << simulation.particles.id[p] << " is at (" << x.x() << ", "
          << x.y() << ", " << x.z() << ") m with speed " << simulation.particles.velocity[p].stableNorm()
-         << " m/s at time " << simulation.time << " s, step " << simulation.steps.count << " of " << h
-         << " s; lower physics.step, or raise material.mass";
+         << " m/s at time " << simulation.time << " s, ";
+    if (h > 0.0)
+        text << "after " << simulation.steps.count << " steps, in a step of " << h << " s; lower "
+             << (simulation.setup.stepper == StepperKind::automatic ? "physics.error" : "physics.step")
+             << ", or raise material.mass";
+    else
+        text << "where no step has moved it; positions reach to " << kWorldLimit << " m, speeds to " << kFastest
+             << " m/s: change the body or the emitter that it comes from";
     throw InstabilityError(text.str());
 }
 

@@ -124,6 +124,25 @@ TEST_CASE("What becomes unstable soon is checked all the same", "[tools]") {
     CHECK(program::lineCount(outcome.err) == 1);
 }
 
+TEST_CASE("The message of an unstable run names the keys that have an effect", "[tools]") {
+    const std::string stiff = "check powder --quiet --set material[0].b1=1e12 --set physics.stepper=";
+    const auto automatic = run(stiff + "auto");
+    INFO(automatic.err);
+    CHECK(automatic.code == 3);
+    CHECK(automatic.err.find("after 0 steps, in a step of ") != std::string::npos);
+    CHECK(automatic.err.find("lower physics.error, or raise material.mass") != std::string::npos);
+    CHECK(run(stiff + "velocity-verlet").err.find("lower physics.step, or raise material.mass") != std::string::npos);
+
+    const program::Folder folder;
+    std::ofstream(folder / "far.toml") << "title = \"far\"\nduration = 1\n[[body]]\nshape = \"grid\"\n"
+                                          "center = [99999999, 0, 0]\ncounts = [20, 1, 1]\nspacing = 1\n";
+    const auto outside = run("check --quiet " + (folder / "far.toml").string());
+    INFO(outside.err);
+    CHECK(outside.code == 3);
+    CHECK(outside.err.find("change the body or the emitter that it comes from") != std::string::npos);
+    CHECK(outside.err.find("physics.") == std::string::npos);
+}
+
 TEST_CASE("Exit codes do not depend on whether anybody listens", "[tools]") {
     const auto codeOf = [](const std::string& line) { return program::shell(line).code; };
     const std::string program = GLOBULAR_PROGRAM;
