@@ -57,6 +57,9 @@ TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant"
         CHECK(program::lineCount(outcome.err) == 1);
         CHECK(outcome.err.rfind("error: ", 0) == 0);
     }
+    for (const char* number : {"1e400", "inf", "nan", "-1", "5s"})
+        CHECK(run("render liquid --frames 0 --checkpoint " + std::string(number)).err ==
+              "error: --checkpoint: " + std::string(number) + " must be a number >= 0\n");
     CHECK(run("check liqid").err.find("liquid") != std::string::npos);
     CHECK(run("render liquid --gl vulkan").err.find("choose one of: osmesa, egl") != std::string::npos);
 }

@@ -65,7 +65,7 @@ TEST_CASE("A study of two scenes of one name is refused", "[tools]") {
 
 TEST_CASE("Windows that never end, or hold no frame, are refused", "[tools]") {
     const program::Folder folder;
-    for (const char* window : {"liquid:inf", "liquid:1e12", "liquid --window 1e300", "liquid --from inf"}) {
+    for (const char* window : {"liquid:inf", "liquid:1e12", "liquid --window 1e300", "liquid --from 1e300"}) {
         const auto outcome = run("study accuracy " + std::string(window) + " -o " + (folder / "study").string());
         INFO(window);
         CHECK(outcome.code == 2);

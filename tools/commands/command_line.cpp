@@ -1,21 +1,26 @@
-// Commands and flags by CLI11.
+// Commands and flags, implemented with CLI11.
 #include "tools/commands/command_line.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <optional>
+
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {
 
-/// CLI11's own names all of the largest double when a value is too small.
+/// Accepts finite numbers with a property. CLI11's own checks accept NaN and infinity, and their messages name the
+/// largest double as the upper bound.
+/// @param words  completes "must be a number ..."
 CLI::Validator numberThat(const std::function<bool(double)>& holds, const std::string& words) {
     return CLI::Validator(
         [=](const std::string& text) {
-            double value = 0.0;
-            return CLI::detail::lexical_cast(text, value) && holds(value) ? "" : text + " must be a number " + words;
+            const auto value = parseNumber<double>(text);
+            return value && std::isfinite(*value) && holds(*value) ? "" : text + " must be a number " + words;
         },
         "");
 }
@@ -38,7 +43,6 @@ Flag& Flag::within(int least, int most) {
 }
 
 Flag& Flag::within(double least, double most) {
-    // CLI11's own lets pass what is no number.
     option_->check(numberThat([=](double value) { return value >= least && value <= most; },
                               fmt::format("from {:g} to {:g}", least, most)));
     return *this;
