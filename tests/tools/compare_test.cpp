@@ -93,7 +93,9 @@ TEST_CASE("compare: missing, extra, unreadable and differently sized pictures ar
     Two two;
     two.both("frame-00000.png", balls());
     two.actual("extra.png", balls());
-    CHECK(two.compare().code == 1);
+    const auto extra = two.compare();
+    CHECK(extra.code == 1);
+    CHECK(extra.out.find("extra.png: extra\n") == 0);
     fs::remove(two / "actual/extra.png");
     two.expected("missing.png", balls());
     CHECK(two.compare().code == 1);

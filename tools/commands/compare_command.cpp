@@ -66,7 +66,8 @@ std::string numbers(const render::PictureMetrics& metrics, int threshold) {
 }
 
 void print(const PictureResult& result, const render::CompareLimits& limits) {
-    fmt::print("{}: {} ({})\n", result.name, nameOf(result.status), result.rule());
+    const std::string rule = result.comparison ? fmt::format(" ({})", result.rule()) : "";
+    fmt::print("{}: {}{}\n", result.name, nameOf(result.status), rule);
     for (const std::string& reason : result.reasons) fmt::print("  {}\n", reason);
     if (result.comparison && result.comparison->metrics.differing > 0)
         fmt::print("  {}\n", numbers(result.comparison->metrics, limits.threshold));
