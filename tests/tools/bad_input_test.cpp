@@ -64,6 +64,19 @@ TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant"
     CHECK(run("render liquid --gl vulkan").err.find("choose one of: osmesa, egl") != std::string::npos);
 }
 
+TEST_CASE("A wrong word of the command line is named, with the nearest one that exists", "[tools]") {
+    CHECK(run("").err == "error: missing command; see globular --help\n");
+    CHECK(run("rendr liquid").err == "error: unknown command \"rendr\", did you mean \"render\"?\n");
+    CHECK(run("paint").err == "error: unknown command \"paint\"; see globular --help\n");
+    CHECK(run("study").err == "error: missing command; see globular study --help\n");
+    CHECK(run("study acuracy").err == "error: unknown command \"acuracy\", did you mean \"accuracy\"?\n");
+    CHECK(run("render liquid --sice 64x36").err == "error: unknown flag \"--sice\", did you mean \"--size\"?\n");
+    CHECK(run("check liquid solid").err == "error: unknown argument \"solid\"; see globular check --help\n");
+    CHECK(run("render").err == "error: SCENE is required\n");
+    for (const char* arguments : {"", "rendr liquid", "study", "render liquid --sice 64x36", "check liquid solid"})
+        CHECK(run(arguments).code == 2);
+}
+
 TEST_CASE("The outside world's failures exit with 1 and one line", "[tools]") {
     const program::Folder folder;
     std::ofstream(folder / "file") << "not a folder";

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "scenes/text/edit_distance.h"
 #include "tools/system/text.h"
 
 namespace tools {
@@ -23,6 +24,45 @@ CLI::Validator numberThat(const std::function<bool(double)>& holds, const std::s
             return value && std::isfinite(*value) && holds(*value) ? "" : text + " must be a number " + words;
         },
         "");
+}
+
+/// The innermost command that was called.
+const CLI::App& calledCommand(const CLI::App& app) {
+    const auto called = app.get_subcommands();
+    return called.empty() ? app : calledCommand(*called.back());
+}
+
+/// The words that call a command, such as "globular study accuracy".
+std::string callOf(const CLI::App& app) {
+    return app.get_parent() == nullptr ? app.get_name() : callOf(*app.get_parent()) + " " + app.get_name();
+}
+
+std::vector<std::string> commandNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> flagNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+/// Describes the first word of the command line that nothing accepts, with the nearest known name.
+std::string unknownWordMessage(const CLI::App& command, const std::string& word) {
+    const bool isFlag = word.starts_with("-");
+    const std::vector<std::string> known = isFlag ? flagNames(command) : commandNames(command);
+    const std::string nearest = scenes::nearestName(word, known);
+    const char* kind = isFlag ? "flag" : known.empty() ? "argument" : "command";
+    if (!nearest.empty()) return fmt::format("unknown {} \"{}\", did you mean \"{}\"?", kind, word, nearest);
+    return fmt::format("unknown {} \"{}\"; see {} --help", kind, word, callOf(command));
+}
+
+[[noreturn]] void failWithoutCommand(const CLI::App& app) {
+    throw UsageError(fmt::format("missing command; see {} --help", callOf(app)));
 }
 
 }  // namespace
@@ -129,11 +169,20 @@ void CommandLine::run(int argc, char** argv) const {
     try {
         app_->parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw UsageError(error.what());
-        app_->exit(error);  // prints the help or the version
-        return;
+        if (error.get_exit_code() == 0) {
+            app_->exit(error);  // prints the help or the version
+            return;
+        }
+        const CLI::App& command = calledCommand(*app_);
+        const std::vector<std::string> unknown = command.remaining();
+        const bool isIncomplete = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+        const bool hasExtras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+        if ((isIncomplete || hasExtras) && !unknown.empty())
+            throw UsageError(unknownWordMessage(command, unknown.front()));
+        if (isIncomplete && !commandNames(command).empty()) failWithoutCommand(command);
+        throw UsageError(error.what());
     }
-    if (app_->get_subcommands().empty()) throw UsageError("missing command; see globular --help");
+    if (app_->get_subcommands().empty()) failWithoutCommand(*app_);
 }
 
 }  // namespace tools
