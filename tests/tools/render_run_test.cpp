@@ -72,6 +72,24 @@ TEST_CASE("Leaving frames out changes none of those that are drawn", "[tools]") 
           nlohmann::json::parse(textOf(folder / "all/run.json"))["state_hash"]);
 }
 
+TEST_CASE("Runs of different scenes and commands do not share a default folder", "[tools]") {
+    const program::Folder folder;
+    const std::string program = "cd " + (folder / "").string() + " && " GLOBULAR_PROGRAM " ";
+    const std::string tiny = " --frames 0 --size 64x36 --quality draft --quiet";
+    for (const char* scene : {"honey", "hard/honey"}) {
+        CHECK(program::shell(program + "render " + scene + tiny).code == 0);
+        CHECK(program::shell(program + "simulate " + scene + " --frames 0 --quiet").code == 0);
+    }
+    fs::create_directory(folder / "mine");
+    std::ofstream(folder / "mine/dust.toml")
+        << "title = \"dust\"\nduration = 1\n[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\n";
+    CHECK(program::shell(program + "render mine/dust.toml" + tiny).code == 0);
+    for (const char* name : {"honey", "hard/honey", "dust"})
+        CHECK(fs::exists(folder / "out" / name / "frame-00000.png"));
+    for (const char* name : {"honey-states", "hard/honey-states"})
+        CHECK(fs::exists(folder / "out" / name / "particles-00000.ply"));
+}
+
 TEST_CASE("globular video makes the same film of the frames, and refuses a gap", "[tools]") {
     const program::Folder folder;
     REQUIRE(run(fountainRun(folder / "a", "")).code == 0);

@@ -24,7 +24,8 @@ void addBenchCommand(const Command& program);
 void addTo(const Command& command, RunOptions& options);
 void addTo(const Command& command, SceneOptions& options);
 void addTo(const Command& command, DrawOptions& options);
-void addTo(const Command& command, FolderOptions& options);
+/// @param fallback  the folder without -o, for the help
+void addTo(const Command& command, FolderOptions& options, const std::string& fallback);
 /// Adds --gl alone, for commands that choose size, style and quality themselves.
 void addBackendFlag(const Command& command, DrawOptions& options);
 

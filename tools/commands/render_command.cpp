@@ -47,7 +47,7 @@ void render(RenderOptions options) {
     job.backend = backendOf(options.draw);
     job.threads = threadCount(options.run);
     job.verbosity = options.run.verbosity();
-    job.title = fs::path(scene.sourceName).stem().string();
+    job.title = runName(options.scene);
     job.videoPath = options.video;
     if (options.folder.path.empty()) options.folder.path = (fs::path("out") / job.title).string();
     job.folder = options.folder;
@@ -63,7 +63,7 @@ void addRenderCommand(const Command& program) {
     const Command command = program.command("render", "simulate and draw a scene: PNG frames, run.json, a video");
     const auto options = std::make_shared<RenderOptions>();
     addTo(command, options->scene);
-    addTo(command, options->folder);
+    addTo(command, options->folder, "out/NAME");
     command.option("--video", options->video, "also write an MP4").of("FILE.mp4");
     command.option("--frames", options->frames, "draw only frames A to B, counted from 0, or one").of("A-B");
     addTo(command, options->draw);

@@ -34,8 +34,8 @@ void addBackendFlag(const Command& command, DrawOptions& options) {
     command.option("--gl", options.backend, "OpenGL backend: osmesa or egl (default: osmesa)").of("NAME");
 }
 
-void addTo(const Command& command, FolderOptions& options) {
-    command.option("-o,--output", options.path, "folder for frames and run.json (default: out/NAME)").of("DIR");
+void addTo(const Command& command, FolderOptions& options, const std::string& fallback) {
+    command.option("-o,--output", options.path, "folder for frames and run.json (default: " + fallback + ")").of("DIR");
     const Flag resume =
         command.flag("--resume", options.resume, "go on with a run that ended early: what is whole stays");
     command.flag("--overwrite", options.overwrite, "remove the frames of another run from the folder first")

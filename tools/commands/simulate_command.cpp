@@ -44,9 +44,9 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames,
 void simulate(SimulateOptions options) {
     const scenes::Scene scene = load(options.scene);
     const FrameRange frames = frameRange(options.frames, scenes::frameCount(scene));
-    const std::string name = fs::path(scene.sourceName).stem().string();
+    const std::string name = runName(options.scene);
     std::string& folder = options.folder.path;
-    if (folder.empty()) folder = (fs::path("out") / name).string();
+    if (folder.empty()) folder = (fs::path("out") / (name + "-states")).string();
 
     Progress progress(name, frames.count(), options.run.verbosity());
     FinishedRun run;
@@ -71,7 +71,7 @@ void addSimulateCommand(const Command& program) {
     const Command command = program.command("simulate", "particle states only: one PLY file a frame, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
     addTo(command, options->scene);
-    addTo(command, options->folder);
+    addTo(command, options->folder, "out/NAME-states");
     command.option("--format", options->format, "ply: binary little-endian PLY").oneOf({"ply"});
     command.option("--frames", options->frames, "write only frames A to B, counted from 0, or one").of("A-B");
     addTo(command, options->run);

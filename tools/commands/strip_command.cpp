@@ -47,7 +47,7 @@ void drawStrip(const StripOptions& options) {
     job.backend = backendOf(options.draw);
     job.threads = threadCount(options.run);
     job.verbosity = options.run.verbosity();
-    job.title = fs::path(scene.sourceName).stem().string();
+    job.title = runName(options.scene);
     const fs::path path =
         options.output.empty() ? fs::path("out") / (job.title + "-strip.png") : fs::path(options.output);
 

@@ -54,6 +54,11 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), overrides, limitsOf(options.limits));
 }
 
+std::string runName(const SceneOptions& options) {
+    const bool isFile = scenes::resolveScene(options.scene, sceneFolders()) == options.scene;
+    return isFile ? fs::path(options.scene).stem().string() : options.scene;
+}
+
 scenes::Overrides overridesOf(const DrawOptions& options) {
     scenes::Overrides overrides;
     if (!options.style.empty()) overrides.emplace_back("look.style=" + options.style, "--style " + options.style);

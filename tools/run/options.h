@@ -61,6 +61,11 @@ int threadCount(const RunOptions& options);
 /// @throws scenes::InputError
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = {});
 
+/// What a run of the scene is called in the names of its files: a built-in scene as it was given, such as "hard/honey",
+/// and a scene file by its name without folder and extension.
+/// @throws scenes::InputError if there is no such scene
+std::string runName(const SceneOptions& options);
+
 /// The size and the style that flags ask for, as changes to the scene.
 /// @throws scenes::InputError
 scenes::Overrides overridesOf(const DrawOptions& options);
