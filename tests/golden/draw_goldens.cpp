@@ -1,4 +1,4 @@
-// One context and one renderer for all: pictures have one size.
+// All pictures have the same size, so that one context and one renderer draw them all.
 #include "tests/golden/draw_goldens.h"
 
 #include <fmt/format.h>
@@ -30,16 +30,16 @@ scenes::Scene sceneIn(const GoldenScene& golden, const std::string& style) {
     return scenes::loadScene(fmt::format("{}/scenes/library/{}.toml", GLOBULAR_SOURCE, golden.name), overrides);
 }
 
-class Drawing {
+class GoldenRenderer {
  public:
-    explicit Drawing(const fs::path& folder)
+    explicit GoldenRenderer(const fs::path& folder)
         : folder_(folder), context_(render::Backend::osmesa), renderer_(context_, kSize, render::Quality::normal) {}
 
-    void draw(const GoldenScene& golden, std::size_t moments) {
+    void draw(const GoldenScene& golden, std::size_t timeCount) {
         const std::array scenes = {sceneIn(golden, kStyles[0]), sceneIn(golden, kStyles[1])};
         engine::Simulation simulation = engine::start(scenes[0].setup);
         const std::array frames = {golden.first, golden.second};
-        for (const int frame : std::span(frames).first(moments)) {
+        for (const int frame : std::span(frames).first(timeCount)) {
             scenes::advanceToFrame(scenes[0], simulation, frame);
             for (std::size_t k = 0; k < kStyles.size(); ++k) {
                 const fs::path folder = folder_ / golden.name / kStyles[k];
@@ -70,9 +70,9 @@ class Drawing {
 
 }  // namespace
 
-void draw(const std::vector<GoldenScene>& scenes, std::size_t moments, const fs::path& folder) {
-    Drawing drawing(folder);
-    for (const GoldenScene& scene : scenes) drawing.draw(scene, moments);
+void draw(const std::vector<GoldenScene>& scenes, std::size_t timeCount, const fs::path& folder) {
+    GoldenRenderer renderer(folder);
+    for (const GoldenScene& scene : scenes) renderer.draw(scene, timeCount);
 }
 
 }  // namespace golden

@@ -1,4 +1,5 @@
-// Draws the frames of the table as the program would, both styles of a frame from one simulation.
+// Draws the frames that the golden suite compares, as the program would draw them. Both styles of a frame come from one
+// simulation.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +8,9 @@
 
 namespace golden {
 
-/// Writes SCENE/STYLE/frame-NNNNN.png below the folder, each with its sidecar, so that `globular approve` knows where
-/// it comes from; of the first moment or of both.
-void draw(const std::vector<GoldenScene>& scenes, std::size_t moments, const std::filesystem::path& folder);
+/// Writes SCENE/STYLE/frame-NNNNN.png below the folder, each with a sidecar, so that `globular approve` knows its
+/// provenance.
+/// @param timeCount  1 for the first frame of each scene only, 2 for both
+void draw(const std::vector<GoldenScene>& scenes, std::size_t timeCount, const std::filesystem::path& folder);
 
 }  // namespace golden

@@ -1,5 +1,5 @@
-// Where overrides stand the automatic stepper would take longer over its first looks than the whole suite may; a fixed
-// step shows the same things.
+// Scenes with overrides are those whose first error estimates by the automatic stepper take longer than the whole suite
+// may. A fixed step or a coarser error shows the same things.
 #include "tests/golden/golden_scenes.h"
 
 namespace golden {

@@ -1,4 +1,4 @@
-// Which frames of the built-in scenes are goldens. One table, so that it shows what the suite costs.
+// Which frames of the built-in scenes are goldens, in one table that shows what the suite costs.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@ namespace golden {
 struct GoldenScene {
     std::string name;  ///< as `globular scenes` lists it
     int first = 0;     ///< frame: the scene has begun to move
-    int second = 0;    ///< frame: it has met what it is about, or as much of that as the budget allows
+    int second = 0;  ///< frame: what the scene is about has happened, or as much of it as the time of the suite allows
     std::vector<std::string> overrides;
 };
 
-/// Every built-in scene but the hard cases, whose pictures nobody looks at. Early frames, and for the dear scenes a
-/// coarser error: the goldens are about how things look and that the same state comes again, not about how good it is.
+/// Every built-in scene except the hard cases, whose pictures do not matter. The frames are early, and expensive scenes
+/// have a coarser error, because goldens check that a scene looks the same and its state is the same, not that the
+/// simulation is accurate.
 const std::vector<GoldenScene>& scenes();
 
 }  // namespace golden
