@@ -58,11 +58,11 @@ class Reader {
     static constexpr bool kReads = true;
 
     explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
-        if (bytes.size() < kChecksumBytes) throw CheckpointError("it is cut short");
+        if (bytes.size() < kChecksumBytes) throw CheckpointError("it is truncated");
         bytes_ = bytes.first(bytes.size() - kChecksumBytes);
         std::uint64_t checksum = 0;
         std::memcpy(&checksum, bytes.data() + bytes_.size(), kChecksumBytes);
-        if (checksum != fnv1aOf(bytes_)) throw CheckpointError("its checksum is wrong: it is damaged or cut short");
+        if (checksum != fnv1aOf(bytes_)) throw CheckpointError("its checksum is wrong: it is damaged or truncated");
     }
 
     template <class Number>
@@ -81,7 +81,7 @@ class Reader {
     void operator()(std::vector<Item>& items) {
         std::uint64_t count = 0;
         (*this)(count);
-        if (count > bytes_.size() / sizeof(Item)) throw CheckpointError("it is cut short");
+        if (count > bytes_.size() / sizeof(Item)) throw CheckpointError("it is truncated");
         items.resize(static_cast<std::size_t>(count));
         take(items.data(), items.size() * sizeof(Item));
     }
@@ -92,7 +92,7 @@ class Reader {
 
  private:
     void take(void* to, std::size_t size) {
-        if (size > bytes_.size()) throw CheckpointError("it is cut short");
+        if (size > bytes_.size()) throw CheckpointError("it is truncated");
         if (size > 0) std::memcpy(to, bytes_.data(), size);
         bytes_ = bytes_.subspan(size);
     }
@@ -230,7 +230,7 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     reader(reach);
     reader.finish();
     require(isInWorld(builtAt) && (builtAt.empty() || (std::isfinite(reach) && reach > kLeastReach)),
-            "its neighbor list is not one");
+            "it has a corrupt neighbor list");
     simulation.cache->evaluator.restoreList(builtAt, reach);
     return simulation;
 }

@@ -82,10 +82,10 @@ const char* flawOf(const Simulation& simulation) {
     if (!haveEqualLengths(simulation)) return "its arrays are of different lengths";
     if (!isInWorld(simulation.particles.position)) return "a particle is not in the world";
     if (!areFinite(simulation.particles.velocity)) return "a velocity is not finite";
-    if (!(simulation.time >= 0.0) || !std::isfinite(simulation.time)) return "its time is not a time";
+    if (!(simulation.time >= 0.0) || !std::isfinite(simulation.time)) return "its time is not finite";
     if (!areOfSetup(simulation)) return "its particles are not the scene's";
     if (!areOnSchedule(simulation)) return "a birth is not on its schedule";
-    if (!areStepsPossible(simulation)) return "its steps are none that the scene's stepper takes";
+    if (!areStepsPossible(simulation)) return "the scene's stepper does not take its steps";
     return nullptr;
 }
 

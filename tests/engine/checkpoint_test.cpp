@@ -188,7 +188,7 @@ TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoin
     CHECK(complaintAfter([](Simulation& s) { s.time += 1.0; }) == schedule);
     CHECK(complaintAfter([](Simulation& s) { ++s.emitters[0].schedules[0].births; }) == schedule);
 
-    const std::string steps = "its steps are none that the scene's stepper takes";
+    const std::string steps = "the scene's stepper does not take its steps";
     CHECK(complaintAfter([](Simulation& s) { s.stepper = StepperKind::symplecticEuler; }) == steps);
     CHECK(complaintAfter([](Simulation& s) { s.restriction.seconds = 1e-300; }) == steps);
     CHECK(complaintAfter([&](Simulation& s) { s.restriction.seconds = nan; }) == steps);
