@@ -27,7 +27,7 @@ wanted() { # name: whether to draw it
 }
 names="$*"
 
-still() { # scene, frame at its still.time
+still() { # scene, frame: mostly that of its still.time
     wanted "$1" || return 0
     "$globular" render "$1" --frames "$2" --size 960x540 --quality final --quiet -o "$work/$1"
     cp "$work/$1/"frame-*.png "docs/$1.png"
@@ -71,7 +71,7 @@ still fountain 168
 still liquid 48
 still solid 72
 still powder 171
-still honey 180
+still honey 144
 still jam 45
 still oil 90
 still lava 195
