@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Draws the pictures of README.md and docs/ into docs/: the first scene as a moving picture and with one key changed at a time,
 # a still of each scene of the library's top folder, and a strip of moments of each figure of the paper. Needs the program,
-# which figures.sh builds. With names (first, keys, figures, splash, or scenes such as honey) it draws these alone; with "times"
-# it renders every scene that docs/gallery.md lists and prints particles, frames and processor seconds of each.
+# which figures.sh builds. With names (first, keys, figures, splash, two-liquids, or scenes such as honey) it draws these
+# alone; with "times" it renders every scene that docs/gallery.md lists and prints particles, frames and processor seconds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -84,6 +84,9 @@ if wanted figures; then
     for figure in 1 2 3 4; do
         "$globular" strip "figure-$figure" --size 360x270 --quiet -o "docs/figure-$figure-strip.png"
     done
+fi
+if wanted two-liquids; then
+    "$globular" strip docs/two-liquids.toml --size 320x240 --quiet -o docs/two-liquids.png
 fi
 if wanted splash; then
     "$globular" strip splash --size 400x225 --quiet -o docs/strip.png
