@@ -1,4 +1,4 @@
-// All runs of a scene, then the reference, then what they amount to.
+// All runs of a scene, then the reference, then the rows; see accuracy.h.
 #include "studies/accuracy/accuracy.h"
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 namespace studies {
 namespace {
 
-/// A run this long is timed well enough once, s.
+/// s, chosen: a run this long is timed well enough by one run.
 constexpr double kLongRun = 5.0;
 
-/// Short runs are timed until they have taken so long together, s, but no more often than that.
+/// Short runs are repeated until they have taken kTimed seconds together, but at most kMostRounds times. Chosen.
 constexpr double kTimed = 0.3;
 constexpr int kMostRounds = 12;
 
@@ -24,21 +24,24 @@ std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettin
         else
             for (const int count : settings.stepsPerFrame) variants.push_back({stepper, 1.0 / (scene.fps * count), {}});
     }
-    // What float costs and saves shows on the stepper whose time goes into forces alone.
+    // Single precision is measured with the stepper that spends nearly all of its time on pair forces.
     for (const int count : settings.stepsPerFrame)
         variants.push_back(
             {engine::StepperKind::velocityVerlet, 1.0 / (scene.fps * count), {}, engine::Precision::singles});
     return variants;
 }
 
-/// Whether a run is timed once more, after seconds spent on it in so many rounds.
+/// Whether a run is timed once more.
+/// @param spent  seconds that its earlier runs have taken together
+/// @param round  number of rounds done, of `rounds` that were asked for
 bool isTimedAgain(const WindowRun& run, double spent, int round, int rounds) {
     if (run.ending != Ending::finished || rounds == 1) return false;
     return round < rounds ? run.seconds < kLongRun : spent < kTimed;
 }
 
-/// Every run once, then the short ones again, the shortest most often. Rounds over all of them, because other programs
-/// of the machine come and go; the least seconds of a run, because they only ever add.
+/// Makes every run once, then repeats the short ones, the shortest most often. Rounds go over all runs, so that a
+/// passing load on the machine does not fall on one run alone, and the least seconds of a run count, because other load
+/// can only add to them.
 std::vector<WindowRun> timedRuns(const Window& window, const AccuracySettings& settings, const RunListener& listener) {
     std::vector<WindowRun> runs;
     for (const Variant& variant : variantsOf(window.scene, settings)) {

@@ -1,12 +1,12 @@
-// Rows to lines.
-#include "studies/accuracy/accuracy_csv.h"
+// The tables of the accuracy study as CSV, see accuracy.h.
+#include "studies/accuracy/accuracy.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "engine/stepping/steppers.h"
-#include "studies/common/csv.h"
+#include "studies/common/report.h"
 
 namespace studies {
 namespace {
@@ -16,10 +16,10 @@ std::string number(double value) {
 }
 
 std::string errorsOf(const SceneAccuracy& scene, const AccuracyRow& row) {
-    if (row.run.ending != Ending::finished) return fmt::format(",,,,{},,no", nameOf(scene.reference.measure));
+    if (row.run.ending != Ending::finished) return fmt::format(",,,,{},,no", nameOf(scene.reference.metric));
     const bool isCompared = row.compared > 0;
     return fmt::format("{},{},{},{},{},{},{}", isCompared ? number(row.rms) : "", isCompared ? number(row.largest) : "",
-                       row.compared, number(row.statistics), nameOf(scene.reference.measure),
+                       row.compared, number(row.statistics), nameOf(scene.reference.metric),
                        std::isfinite(row.errorPerSecond) ? number(row.errorPerSecond) : "",
                        row.resolved ? "yes" : "no");
 }
@@ -40,7 +40,7 @@ std::string lineOf(const SceneAccuracy& scene, const AccuracyRow& row) {
                        number(run.errorEstimateCost), steps.rejected, driftsOf(row));
 }
 
-/// Stepper, its cost, and the automatic stepper's as a multiple of it.
+/// Three fields: the fixed stepper, its cost, and the automatic stepper's cost over it.
 std::string against(const std::optional<HandPicked>& picked, double cost) {
     if (!picked) return ",,";
     return fmt::format("{},{},{}", engine::nameOf(picked->stepper), number(picked->cost), number(cost / picked->cost));
@@ -93,7 +93,7 @@ std::string referencesCsv(const std::vector<SceneAccuracy>& scenes) {
     for (const SceneAccuracy& scene : scenes) {
         const ReferenceFacts& facts = scene.reference;
         csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), scene.particleCount,
-                           number(scene.from), number(scene.window), nameOf(facts.measure),
+                           number(scene.from), number(scene.window), nameOf(facts.metric),
                            engine::nameOf(facts.variant.stepper), number(facts.variant.asked), number(facts.change),
                            number(facts.twinSeparation), facts.birthsDiffer ? "yes" : "no", number(facts.resolution),
                            facts.settled ? "yes" : "no", number(facts.seconds));

@@ -1,90 +1,62 @@
-// Rows, orders and the comparison with hand-picked steppers.
-#include "studies/accuracy/accuracy_summary.h"
+// What the runs of a scene show: errors, orders, the automatic stepper beside the fixed ones. See accuracy.h.
+#include "studies/accuracy/accuracy.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/stepping/steppers.h"
-#include "studies/common/order_fit.h"
-#include "studies/common/pareto_front.h"
-#include "studies/common/position_error.h"
+#include "studies/common/power_law.h"
+#include "studies/common/state_difference.h"
 
 namespace studies {
 namespace {
 
 using engine::StepperKind;
 
+// Chosen, see ordersOf().
 constexpr std::size_t kMostPoints = 4;
 constexpr std::size_t kFewestPoints = 3;
 constexpr double kAsymptoticError = 0.05;  // radii
 
-double length(const engine::Vec3& vector) {
-    return std::sqrt(engine::squaredLength(vector));
-}
-
-/// A share of a sum of sizes; 0 where nothing has any size.
-double over(double sum, double difference) {
-    return sum > 0.0 ? difference / sum : 0.0;
-}
-
-struct MomentumSizes {
-    double linear = 0.0;   ///< kg m/s
-    double angular = 0.0;  ///< kg m^2/s
-};
-
-MomentumSizes sizesOf(const engine::Particles& particles) {
-    MomentumSizes sizes;
-    for (std::size_t p = 0; p < particles.count(); ++p) {
-        const engine::Vec3 momentum = particles.mass[p] * particles.velocity[p];
-        sizes.linear += length(momentum);
-        sizes.angular += length(particles.position[p].cross(momentum));
-    }
-    return sizes;
+/// difference / scale, and 0 if the scale is 0.
+double relative(double difference, double scale) {
+    return scale > 0.0 ? difference / scale : 0.0;
 }
 
 void addDrifts(AccuracyRow& row, const WindowRun& run, const WindowRun& reference) {
     const engine::Energy& energy = reference.energy;
-    row.energyDrift =
-        over(energy.kinetic + std::abs(energy.pairs) + std::abs(energy.contacts), run.energy.total() - energy.total());
-    const MomentumSizes sizes = sizesOf(reference.particles);
-    row.linearDrift =
-        over(sizes.linear, length(engine::linearMomentum(run.particles) - engine::linearMomentum(reference.particles)));
-    row.angularDrift = over(
-        sizes.angular, length(engine::angularMomentum(run.particles) - engine::angularMomentum(reference.particles)));
+    row.energyDrift = relative(run.energy.total() - energy.total(),
+                               energy.kinetic + std::abs(energy.pairs) + std::abs(energy.contacts));
+    const MomentumScale scale = momentumScale(reference.particles);
+    const auto drift = [&](engine::Vec3 (*momentum)(const engine::Particles&)) {
+        return (momentum(run.particles) - momentum(reference.particles)).norm();
+    };
+    row.linearDrift = relative(drift(engine::linearMomentum), scale.linear);
+    row.angularDrift = relative(drift(engine::angularMomentum), scale.angular);
 }
 
-/// The points that show a stepper's order, finest first.
-std::vector<StepError> asymptotic(const std::vector<AccuracyRow>& rows, StepperKind stepper) {
-    std::vector<StepError> points;
+/// Step and error of the runs that a stepper's order is fitted to, the smallest step first.
+std::vector<PowerLawPoint> asymptotic(const std::vector<AccuracyRow>& rows, StepperKind stepper) {
+    std::vector<PowerLawPoint> points;
     for (const AccuracyRow& row : rows)
         if (isOf(row.run.variant, stepper) && row.resolved && row.run.steps.rejected == 0 &&
             row.error <= kAsymptoticError)
             points.push_back({row.run.variant.asked, row.error});
-    std::sort(points.begin(), points.end(), [](const StepError& a, const StepError& b) { return a.step < b.step; });
+    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
     if (points.size() > kMostPoints) points.resize(kMostPoints);
     return points;
 }
 
-using Cost = double (*)(const WindowRun&);
-
-double timeOf(const WindowRun& run) {
-    return run.seconds;
-}
-
-double evaluationCostOf(const WindowRun& run) {
-    return run.evaluationCost;
-}
-
-std::optional<HandPicked> cheapest(const std::vector<AccuracyRow>& rows, Cost cost, double error) {
+/// The fixed stepper that reaches an error (radii) at the least cost.
+std::optional<HandPicked> cheapest(const std::vector<AccuracyRow>& rows, double WindowRun::*cost, double error) {
     std::optional<HandPicked> best;
     for (const StepperKind stepper : engine::kSteppers) {
         if (stepper == StepperKind::automatic) continue;
         std::vector<CostPoint> points;
         for (const AccuracyRow& row : rows)
-            if (isOf(row.run.variant, stepper) && row.resolved) points.push_back({row.error, cost(row.run)});
-        const auto price = costAt(points, error);
-        if (price && (!best || *price < best->cost)) best = HandPicked{stepper, *price};
+            if (isOf(row.run.variant, stepper) && row.resolved) points.push_back({row.error, row.run.*cost});
+        const auto least = costAt(points, error);
+        if (least && (!best || *least < best->cost)) best = HandPicked{stepper, *least};
     }
     return best;
 }
@@ -102,7 +74,7 @@ AccuracyRow rowOf(const Window& window, const WindowRun& run, const Reference& r
     row.largest = positions.largest;
     row.compared = positions.compared;
     row.statistics = statisticsDifference(run.particles, reference.run.particles);
-    row.error = reference.facts.measure == ErrorMetric::positions ? row.rms : row.statistics;
+    row.error = reference.facts.metric == ErrorMetric::positions ? row.rms : row.statistics;
     row.errorPerSecond = row.error / window.seconds();
     row.resolved = std::isfinite(row.error) && row.error > reference.facts.resolution;
     addDrifts(row, run, reference.run);
@@ -113,13 +85,13 @@ std::vector<OrderRow> ordersOf(const std::vector<AccuracyRow>& rows) {
     std::vector<OrderRow> orders;
     for (const StepperKind stepper : engine::kSteppers) {
         if (stepper == StepperKind::automatic) continue;
-        const std::vector<StepError> points = asymptotic(rows, stepper);
+        const std::vector<PowerLawPoint> points = asymptotic(rows, stepper);
         OrderRow order{stepper, std::nullopt, points.size()};
         if (!points.empty()) {
-            order.shortest = points.front().step;
-            order.longest = points.back().step;
+            order.shortest = points.front().x;
+            order.longest = points.back().x;
         }
-        if (points.size() >= kFewestPoints) order.order = fittedOrder(points);
+        if (points.size() >= kFewestPoints) order.order = powerLawExponent(points);
         orders.push_back(order);
     }
     return orders;
@@ -138,10 +110,10 @@ std::vector<AutoRow> autosOf(const std::vector<AccuracyRow>& rows, double window
         automatic.evaluationCost = run.evaluationCost;
         automatic.resolved = row.resolved;
         const double askedError = run.variant.asked * windowSeconds;
-        automatic.secondsAtObtained = cheapest(rows, timeOf, row.error);
-        automatic.secondsAtAsked = cheapest(rows, timeOf, askedError);
-        automatic.evaluationsAtObtained = cheapest(rows, evaluationCostOf, row.error);
-        automatic.evaluationsAtAsked = cheapest(rows, evaluationCostOf, askedError);
+        automatic.secondsAtObtained = cheapest(rows, &WindowRun::seconds, row.error);
+        automatic.secondsAtAsked = cheapest(rows, &WindowRun::seconds, askedError);
+        automatic.evaluationsAtObtained = cheapest(rows, &WindowRun::evaluationCost, row.error);
+        automatic.evaluationsAtAsked = cheapest(rows, &WindowRun::evaluationCost, askedError);
         autos.push_back(automatic);
     }
     return autos;

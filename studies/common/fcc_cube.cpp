@@ -1,4 +1,4 @@
-// A face-centered packing cut to the number of particles.
+// A lattice slightly too large, cut to the number of particles; see fcc_cube.h.
 #include "studies/common/fcc_cube.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ engine::Setup fccCube(const std::string& material, std::size_t count, const FccC
     setup.gravity = Vec3::Zero();
     const double spacing = shape.spacing * 2.0 * setup.materials[0].radius;
     const double side = std::cbrt(static_cast<double>(count) / std::sqrt(2.0)) * spacing;
-    // A little larger, then cut to the number.
+    // The lattice has sqrt(2) particles to a cubed spacing; one spacing more makes sure that there are enough.
     auto positions =
         engine::boxPositions(Vec3::Zero(), Vec3::Constant(side + spacing), {.spacing = spacing, .jitter = 0.05});
     positions.resize(std::min(count, positions.size()));
@@ -39,11 +39,12 @@ double meanNeighbors(const engine::Setup& setup, const engine::Particles& partic
     engine::PairTraversal pairs(law, engine::Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<std::uint32_t> neighbors(particles.count());
-    pairs.forEachParticle([&](std::size_t seat) {
-        pairs.forEachNeighbor(seat, [&](std::uint32_t, const Vec3&, double) { ++neighbors[seat]; });
+    // The traversal calls this from several threads, so each particle counts for itself.
+    pairs.forEachParticle([&](std::size_t index) {
+        pairs.forEachNeighbor(index, [&](std::uint32_t, const Vec3&, double) { ++neighbors[index]; });
     });
     double sum = 0.0;
-    for (const std::uint32_t number : neighbors) sum += number;
+    for (const std::uint32_t count : neighbors) sum += count;
     return particles.count() == 0 ? 0.0 : sum / static_cast<double>(particles.count());
 }
 

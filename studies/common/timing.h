@@ -1,6 +1,8 @@
-// Wall-clock times of work that is repeated. Used by the benchmarks and by the study of scaling.
+// Wall-clock times and their median, for the benchmark and the studies that measure time.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -9,10 +11,20 @@ namespace studies {
 
 using Work = std::function<void()>;
 
-/// Mean wall-clock seconds of a call, over so many.
-double secondsOf(const Work& work, std::uint64_t repeats);
+/// Mean wall-clock seconds of a call over the given number of calls, at least 1.
+inline double secondsOf(const Work& work, std::uint64_t callCount = 1) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    for (std::uint64_t call = 0; call < callCount; ++call) work();
+    return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(callCount);
+}
 
-/// The middle value, the upper one of two. Shape: not empty.
-double median(std::vector<double> values);
+/// The middle value; of an even number of values, the upper one of the middle two.
+/// @pre values is not empty.
+inline double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
 
 }  // namespace studies

@@ -1,42 +1,46 @@
-// The observables of the hard cases: one number for a run, which the case's limit is held against.
+// The observables of the hard cases: one number for a run, which is compared with the limit of the case. Called by
+// stability.cpp.
 #pragma once
 
 #include "scenes/model/scene.h"
-#include "studies/common/run.h"
+#include "studies/stability/recorded_run.h"
 
 namespace studies {
 
-/// What an observable may look at.
+/// What an observable is computed from.
 struct ObservableInput {
-    const scenes::Scene& scene;      ///< as it was run: with its stepper and step
-    const Run& run;                  ///< to the end
-    const Run* reference = nullptr;  ///< to the end; for the observables that need one
+    const scenes::Scene& scene;      ///< as it was run, with its stepper and step
+    const Run& run;                  ///< a run that reached the end of the scene
+    const Run* reference = nullptr;  ///< the run at the reference step, for the observables that compare with it
 };
 
-/// The value of an observable, in the unit of scenes::infoOf. Infinite where the two runs do not compare.
-/// Throws: engine::InstabilityError, where the observable takes runs of its own.
-double measure(scenes::Observable observable, const ObservableInput& trial);
+/// The value of an observable, in the unit of scenes::infoOf(); infinite if the run and the reference cannot be
+/// compared.
+/// @throws scenes::InputError if the observable makes no sense for the scene or needs particles and none are left
+/// @throws engine::InstabilityError if runs that the observable makes itself become unstable
+double measure(scenes::Observable observable, const ObservableInput& input);
 
-// The observables one by one. What each means is said in scenes/schema/study.cpp, its derivation above its function.
+// One function for each observable. scenes/schema/study.cpp says what each one means, and the comment above the
+// function how it is computed.
 
-double pairLaw(const ObservableInput& trial);
-double momentumDrift(const ObservableInput& trial);
-double energyRise(const ObservableInput& trial);
-double positionError(const ObservableInput& trial);
-double heightError(const ObservableInput& trial);
-double frontError(const ObservableInput& trial);
-double radiusError(const ObservableInput& trial);
-double statisticsError(const ObservableInput& trial);
-double reboundError(const ObservableInput& trial);
-double restitutionError(const ObservableInput& trial);
-double largestSpeed(const ObservableInput& trial);
-double medianSpeed(const ObservableInput& trial);
-double fragments(const ObservableInput& trial);
-double spacing(const ObservableInput& trial);
-double tunnelingCount(const ObservableInput& trial);
-double refusals(const ObservableInput& trial);
-double stepBound(const ObservableInput& trial);
-double order(const ObservableInput& trial);
-double cost(const ObservableInput& trial);
+double pairLaw(const ObservableInput& input);
+double momentumDrift(const ObservableInput& input);
+double energyRise(const ObservableInput& input);
+double positionError(const ObservableInput& input);
+double heightError(const ObservableInput& input);
+double frontError(const ObservableInput& input);
+double radiusError(const ObservableInput& input);
+double statisticsError(const ObservableInput& input);
+double reboundError(const ObservableInput& input);
+double restitutionError(const ObservableInput& input);
+double largestSpeed(const ObservableInput& input);
+double medianSpeed(const ObservableInput& input);
+double fragments(const ObservableInput& input);
+double spacing(const ObservableInput& input);
+double tunnelingCount(const ObservableInput& input);
+double refusals(const ObservableInput& input);
+double stepBound(const ObservableInput& input);
+double order(const ObservableInput& input);
+double cost(const ObservableInput& input);
 
 }  // namespace studies

@@ -1,15 +1,16 @@
-// Observables of the stepping itself: the bound of the step, the order of convergence, the cost beside explicit steps.
+// Observables of time stepping: the bound of the step, the order of convergence, the cost beside explicit steps.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-#include "engine/core/random.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/steppers.h"
 #include "scenes/text/input_error.h"
-#include "studies/common/infinity.h"
+#include "studies/common/state_difference.h"
+#include "studies/common/timing.h"
 #include "studies/stability/observables.h"
 
 namespace studies {
@@ -22,18 +23,24 @@ engine::ForceLaw lawOf(const engine::Setup& setup) {
     return {setup.materials, setup.gravity, setup.obstacles};
 }
 
-/// The explicit stepper whose limit is asked for: the scene's own if it is one.
+/// The explicit stepper whose step bound is measured: the scene's own if it is explicit, else velocity Verlet.
 StepperKind explicitStepper(const scenes::Scene& scene) {
     const StepperKind own = scene.setup.stepper;
     return own == StepperKind::symplecticEuler || engine::isVerlet(own) ? own : StepperKind::velocityVerlet;
 }
 
-double boundOf(const ObservableInput& trial, StepperKind stepper) {
-    const auto bound = engine::stepBound(lawOf(trial.scene.setup), trial.run.end.particles, stepper);
-    return bound ? bound->seconds : kInfinity;
+/// The engine's step bound for the state at the end of the run, s; infinite if there is none.
+double boundOf(const ObservableInput& input, StepperKind stepper) {
+    const auto bound = engine::stepBound(lawOf(input.scene.setup), input.run.end.particles, stepper);
+    return bound ? bound->seconds : std::numeric_limits<double>::infinity();
 }
 
-/// The state at the end of a run, ready for steps of another stepper.
+/// Root mean square distance of corresponding particles, radii.
+double rmsDistance(const engine::Particles& a, const engine::Particles& b) {
+    return positionError(a, b, a.count()).rms;
+}
+
+/// The state at the end of a run, ready for steps of another stepper, without further births.
 Simulation continued(const Run& run, StepperKind stepper) {
     Simulation simulation = run.end;
     simulation.setup.stepper = simulation.stepper = stepper;
@@ -43,35 +50,28 @@ Simulation continued(const Run& run, StepperKind stepper) {
     return simulation;
 }
 
-double rmsDistance(const engine::Particles& a, const engine::Particles& b) {
-    double sum = 0.0;
-    for (std::size_t p = 0; p < a.count(); ++p) sum += (a.position[p] - b.position[p]).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(a.count()));
-}
-
-/// Twins a thousand-millionth of a meter apart part company at an unstable step: whether they do within kSteps.
+/// Whether two runs from nearly the same state stay together for kSteps steps of length h (s): at an unstable step
+/// their distance grows exponentially.
 bool isStable(const Simulation& state, double h) {
-    constexpr int kSteps = 200;      // chosen: a mode that grows by 3.5 % a step is found out
-    constexpr double kApart = 1e-9;  // m, chosen: far above rounding, far below a radius
+    constexpr int kSteps = 200;      // chosen: finds a mode that grows by 3.5 % a step
+    constexpr double kApart = 1e-9;  // radii, chosen: far above rounding, far below a radius
     constexpr double kGrowth = 1000.0;
     Simulation one = state;
     Simulation other = state;
-    for (std::size_t p = 0; p < other.particles.count(); ++p)
-        for (int axis = 0; axis < 3; ++axis)
-            other.particles.position[p][axis] +=
-                kApart * engine::symmetricUnit(engine::randomBits(1, static_cast<std::uint64_t>(axis), p));
+    other.particles = displaced(std::move(other.particles), kApart);
     other.cache->evaluator.invalidateDisplacementBound();
     const double before = rmsDistance(one.particles, other.particles);
     for (int step = 0; step < kSteps; ++step) {
         engine::takeStep(one, h);
         engine::takeStep(other, h);
-        // Written so that a NaN fails.
+        // Negated, so that NaN counts as unstable.
         if (!(rmsDistance(one.particles, other.particles) < kGrowth * before)) return false;
     }
     return true;
 }
 
-/// The largest stable step at a state, by bisection between a quarter of a guess and four times it.
+/// The largest stable step at a state (s), by bisection between a quarter of a guess and four times the guess. Ends
+/// within 1 %.
 double measuredLimit(const Simulation& state, double guess) {
     double stable = 0.25 * guess;
     double unstable = 4.0 * guess;
@@ -84,8 +84,8 @@ double measuredLimit(const Simulation& state, double guess) {
     return stable;
 }
 
-/// The particles after a number of equal steps through the scene, none of them judged or taken back.
-/// Throws: engine::InstabilityError.
+/// The particles after a number of equal steps through the scene, none of which is checked for accuracy or rejected.
+/// @throws engine::InstabilityError
 engine::Particles endAfter(const scenes::Scene& scene, int steps) {
     Simulation simulation = engine::start(scene.setup);
     const double h = scene.duration / steps;
@@ -98,37 +98,36 @@ engine::Particles endAfter(const scenes::Scene& scene, int steps) {
 
 }  // namespace
 
-/// The step bound at the end of the run over the largest stable step there, of the scene's stepper if it is explicit
-/// and of velocity Verlet otherwise.
-double stepBound(const ObservableInput& trial) {
-    const StepperKind stepper = explicitStepper(trial.scene);
-    const double bound = boundOf(trial, stepper);
-    if (!std::isfinite(bound)) return kInfinity;
-    return bound / measuredLimit(continued(trial.run, stepper), bound);
+/// The engine's step bound for the state at the end of the run, over the largest step that is measured to be stable
+/// there.
+double stepBound(const ObservableInput& input) {
+    const StepperKind stepper = explicitStepper(input.scene);
+    const double bound = boundOf(input, stepper);
+    if (!std::isfinite(bound)) return bound;
+    return bound / measuredLimit(continued(input.run, stepper), bound);
 }
 
-/// The order p from the ends of runs at h, h/2 and h/4: their distances are C h^p (1 - 2^-p) and 2^-p of that.
-double order(const ObservableInput& trial) {
-    if (!trial.scene.setup.emitters.empty() || trial.scene.setup.stepper == StepperKind::automatic)
-        throw scenes::InputError({{trial.scene.sourceName, 0, 0,
+/// The order p of convergence from the ends of runs at h, h/2 and h/4. With errors of C h^p the first two runs end
+/// C h^p (1 - 2^-p) apart and the last two 2^-p times as far, so p is the binary logarithm of the ratio.
+double order(const ObservableInput& input) {
+    if (!input.scene.setup.emitters.empty() || input.scene.setup.stepper == StepperKind::automatic)
+        throw scenes::InputError({{input.scene.sourceName, 0, 0,
                                    "an order is that of one stepper, and of particles that are there from the start"}});
-    const int steps = static_cast<int>(std::lround(trial.scene.duration / trial.scene.setup.step));
-    const engine::Particles whole = endAfter(trial.scene, steps);
-    const engine::Particles half = endAfter(trial.scene, 2 * steps);
-    const engine::Particles quarter = endAfter(trial.scene, 4 * steps);
+    const int steps = static_cast<int>(std::lround(input.scene.duration / input.scene.setup.step));
+    const engine::Particles whole = endAfter(input.scene, steps);
+    const engine::Particles half = endAfter(input.scene, 2 * steps);
+    const engine::Particles quarter = endAfter(input.scene, 4 * steps);
     return std::log2(rmsDistance(whole, half) / rmsDistance(half, quarter));
 }
 
-/// Seconds of the run for a second of the scene, over those of velocity Verlet from the state at the end, at nine
-/// tenths of its step bound.
-double cost(const ObservableInput& trial) {
-    constexpr int kSteps = 20;  // chosen: enough for a time, few beside the run
-    const double h = 0.9 * boundOf(trial, StepperKind::velocityVerlet);
-    Simulation simulation = continued(trial.run, StepperKind::velocityVerlet);
-    const auto begin = std::chrono::steady_clock::now();
-    for (int step = 0; step < kSteps; ++step) engine::takeStep(simulation, h);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return trial.run.seconds / trial.run.end.time / (seconds / (kSteps * h));
+/// Wall-clock time of the run for a second of the scene, over the same of velocity Verlet from the state at the end,
+/// with steps of nine tenths of its step bound.
+double cost(const ObservableInput& input) {
+    constexpr int kSteps = 20;  // chosen: enough to be timed, few beside the run
+    const double h = 0.9 * boundOf(input, StepperKind::velocityVerlet);
+    Simulation simulation = continued(input.run, StepperKind::velocityVerlet);
+    const double secondsPerStep = secondsOf([&] { engine::takeStep(simulation, h); }, kSteps);
+    return input.run.seconds / input.run.end.time / (secondsPerStep / h);
 }
 
 }  // namespace studies

@@ -1,21 +1,23 @@
-// A variant is a scene of its own; everything else is a loop over them.
+// Every variant is loaded as a scene of its own and run; see stability.h.
 #include "studies/stability/stability.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "engine/stepping/steppers.h"
 #include "scenes/text/input_error.h"
-#include "studies/common/infinity.h"
+#include "studies/common/timing.h"
 #include "studies/stability/observables.h"
 
 namespace studies {
 namespace {
 
-/// The clamp that the published program puts on D: the radius of equal particles.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The published program clamps the distance D of two equal particles at one radius, half of their rest length.
 constexpr double kPaperCore = 0.5;
 
 scenes::Scene withPaperStepper(scenes::Scene scene) {
@@ -31,12 +33,12 @@ scenes::Scene atReferenceStep(scenes::Scene scene) {
     return scene;
 }
 
-/// The value, or the failure of a measurement that takes runs of its own.
-void measureInto(Outcome& outcome, const ObservableInput& trial) {
+/// Sets the value of the outcome, or its failure if a run that the observable makes itself becomes unstable.
+void measureInto(Outcome& outcome, const ObservableInput& input) {
     try {
-        outcome.value = measure(trial.scene.study->observable, trial);
+        outcome.value = measure(input.scene.study->observable, input);
     } catch (const engine::InstabilityError& error) {
-        outcome.failure = Failure{trial.run.end.time, error.what()};
+        outcome.failure = Failure{input.run.end.time, error.what()};
     }
 }
 
@@ -54,7 +56,7 @@ Outcome outcomeOf(const scenes::Scene& scene, const Run* reference) {
     return outcome;
 }
 
-/// The reference has to stand; a case whose reference does not is wrong.
+/// Runs the scene at its reference step. A reference that becomes unstable is a fault of the scene file.
 Run referenceRun(const scenes::Scene& scene) {
     Run run = runScene(atReferenceStep(scene));
     if (run.failure)
@@ -79,6 +81,7 @@ VariantResult runVariant(const std::string& path, const std::string& changes) {
     return result;
 }
 
+/// The variant with the largest limit ratio for one of the two steppers.
 const VariantResult& worst(const CaseResult& result, const Outcome VariantResult::*stepper) {
     return *std::max_element(result.variants.begin(), result.variants.end(), [&](const auto& a, const auto& b) {
         return limitRatio(a.study, (a.*stepper).value) < limitRatio(b.study, (b.*stepper).value);
@@ -89,7 +92,7 @@ const VariantResult& worst(const CaseResult& result, const Outcome VariantResult
 
 double limitRatio(const scenes::Study& study, double value) {
     if (!std::isfinite(value)) return kInfinity;
-    // A limit of nothing is passed by nothing only.
+    // A limit of 0 is passed by values of at most 0.
     const double above = study.limit > 0.0 ? value / study.limit : value <= 0.0 ? 0.0 : 1.0 + value;
     const double below = !study.atLeast ? 0.0 : value > 0.0 ? *study.atLeast / value : kInfinity;
     return std::max(above, below);
@@ -114,7 +117,6 @@ bool paperIsAsExpected(const CaseResult& result) {
 }
 
 CaseResult runCase(const CaseOptions& options) {
-    const auto begin = std::chrono::steady_clock::now();
     const scenes::Scene scene = scenes::loadScene(options.path, {});
     if (!scene.study)
         throw scenes::InputError({{options.path, 0, 0, "the scene has no [study], so it is no hard case"}});
@@ -122,9 +124,10 @@ CaseResult runCase(const CaseOptions& options) {
     result.name = options.name;
     result.title = scene.title;
     result.study = *scene.study;
-    for (const std::string& variant : scenes::variantsOf(*scene.study, options.quick))
-        result.variants.push_back(runVariant(options.path, variant));
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = secondsOf([&] {
+        for (const std::string& variant : scenes::variantsOf(*scene.study, options.quick))
+            result.variants.push_back(runVariant(options.path, variant));
+    });
     return result;
 }
 

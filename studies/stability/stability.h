@@ -1,68 +1,93 @@
-// The hard cases judged: each variant of a case run with the paper's stepper and with ours, the observable measured,
-// the limit held against it.
+// The hard cases: scenes with an observable and a limit. Each variant of a case is run with the paper's stepper and
+// with the scene's own, and the observable is compared with the limit. Called by `globular study stability`.
 #pragma once
 
-#include <functional>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/run/advance.h"
 #include "scenes/model/scene.h"
-#include "studies/common/run.h"
+#include "studies/stability/recorded_run.h"
 
 namespace studies {
 
-/// One stepper on one variant.
+/// The run of one variant with one stepper.
 struct Outcome {
     std::string stepper;
-    std::optional<Failure> failure;  ///< the run, or the measuring, became unstable
+    std::optional<Failure> failure;  ///< if the run, or a run that the observable needs, became unstable
     double value = 0.0;              ///< of the observable; infinite after a failure
-    bool passes = false;
+    bool passes = false;             ///< whether the value is within the limit
     engine::StepStatistics steps;
-    std::size_t particles = 0;  ///< at the end
-    double seconds = 0.0;       ///< of simulating
+    std::size_t particles = 0;  ///< number of particles at the end
+    double seconds = 0.0;       ///< wall clock of the simulation
 };
 
 /// A variant of a case.
 struct VariantResult {
-    std::string changes;  ///< as in the scene file; empty: none
-    scenes::Study study;  ///< with the changes
-    Outcome paper;
-    Outcome ours;
-    double referenceSeconds = 0.0;  ///< 0 without a reference
+    std::string changes;            ///< the changed keys, as in the scene file; empty if there are none
+    scenes::Study study;            ///< with the changes applied
+    Outcome paper;                  ///< the paper's stepper at the paper's step
+    Outcome ours;                   ///< the stepper and step of the scene
+    double referenceSeconds = 0.0;  ///< wall clock of the reference run; 0 if there is none
 };
 
-/// A case with all its variants.
+/// A case with all of its variants.
 struct CaseResult {
     std::string name;
     std::string title;
     scenes::Study study;
     std::vector<VariantResult> variants;
-    double seconds = 0.0;  ///< of everything
+    double seconds = 0.0;  ///< wall clock of the whole case
 };
 
-/// How far a value is from passing: at most 1 where it passes, infinite where it is not a number.
+/// The value over the limit of the study, or the lower limit over the value, whichever is larger: at most 1 if the
+/// value passes, infinite for NaN.
 double limitRatio(const scenes::Study& study, double value);
 
-/// The variant in which ours, or the paper's stepper, comes off worst.
+/// The variant with the largest limit ratio for the scene's own stepper, or for the paper's.
 const VariantResult& worstOfOurs(const CaseResult& result);
 const VariantResult& worstOfPaper(const CaseResult& result);
 
-/// Ours passes in every variant.
+/// Whether the scene's own stepper passes in every variant.
 bool oursPasses(const CaseResult& result);
 
-/// The paper's stepper fails in every variant where it has to.
+/// Whether the paper's stepper fails in every variant where the study says that it must.
 bool paperIsAsExpected(const CaseResult& result);
 
-/// Which case, and how.
 struct CaseOptions {
     std::string name;
-    std::string path;
-    bool quick = false;
+    std::string path;    ///< of the scene file
+    bool quick = false;  ///< run the quick variants only
 };
 
-/// Runs a case. Throws: scenes::InputError, also for a scene without [study].
+/// Runs a case.
+/// @throws scenes::InputError for a faulty scene, and for one without [study]
 CaseResult runCase(const CaseOptions& options);
+
+// The results as text: the table on the terminal, its rows for the page, and CSV.
+
+inline constexpr std::array kStabilityColumns = {"#",     "case",  "paper's stepper", "ours",  "observable",
+                                                 "value", "limit", "result",          "steps", "seconds"};
+
+using StabilityRow = std::array<std::string, kStabilityColumns.size()>;
+
+/// A case as a row of the table, by its worst variant for each of the two steppers.
+StabilityRow rowOf(const CaseResult& result);
+
+/// For example "exploded at 0.12 s", "3.1: fails" or "0.002: passes".
+std::string outcomeText(const Outcome& outcome);
+
+/// For example "0.03", or "1.9 to 2.1".
+std::string limitText(const scenes::Study& study);
+
+/// The table with aligned columns, a line for each case.
+std::string stabilityTable(const std::vector<CaseResult>& results);
+
+/// A line for each variant that did not come out as it must; empty if all did.
+std::string stabilityProblems(const std::vector<CaseResult>& results);
+
+/// Every variant of every case, with a header line.
+std::string stabilityCsv(const std::vector<CaseResult>& results);
 
 }  // namespace studies

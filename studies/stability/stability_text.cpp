@@ -1,11 +1,11 @@
-// Numbers to text. Nothing is computed here.
-#include "studies/stability/stability_text.h"
+// The results of the study of stability as text, see stability.h.
+#include "studies/stability/stability.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "studies/common/csv.h"
+#include "studies/common/report.h"
 
 namespace studies {
 namespace {
@@ -36,6 +36,13 @@ constexpr const char* kCsvHeader =
     "stepper,outcome,value,particles,steps,shortest_s,longest_s,force_evaluations,products,rejected,seconds,"
     "reference_seconds\n";
 
+/// The outcome of the paper's stepper in its worst variant. The observable is named if it is not that of the row, which
+/// shows another variant.
+std::string paperText(const VariantResult& worst, scenes::Observable rowObservable) {
+    const bool isNamed = !worst.paper.failure && worst.study.observable != rowObservable;
+    return (isNamed ? std::string(scenes::infoOf(worst.study.observable).name) + " " : "") + outcomeText(worst.paper);
+}
+
 }  // namespace
 
 std::string limitText(const scenes::Study& study) {
@@ -47,19 +54,9 @@ std::string outcomeText(const Outcome& outcome) {
     return fmt::format("{}: {}", valueText(outcome), outcome.passes ? "passes" : "fails");
 }
 
-namespace {
-
-/// Of the paper's stepper at its worst; what was observed is said where it is not what the row is about.
-std::string paperText(const VariantResult& paper, scenes::Observable ofRow) {
-    const bool isNamed = !paper.paper.failure && paper.study.observable != ofRow;
-    return (isNamed ? std::string(scenes::infoOf(paper.study.observable).name) + " " : "") + outcomeText(paper.paper);
-}
-
-}  // namespace
-
 StabilityRow rowOf(const CaseResult& result) {
     const VariantResult& ours = worstOfOurs(result);
-    const char* judged = !oursPasses(result) ? "FAIL" : !paperIsAsExpected(result) ? "paper passes" : "pass";
+    const char* verdict = !oursPasses(result) ? "FAIL" : !paperIsAsExpected(result) ? "paper passes" : "pass";
     return {fmt::format("{}", result.study.number),
             result.name,
             paperText(worstOfPaper(result), ours.study.observable),
@@ -67,7 +64,7 @@ StabilityRow rowOf(const CaseResult& result) {
             observableText(ours.study),
             valueText(ours.ours),
             limitText(ours.study),
-            judged,
+            verdict,
             fmt::format("{}", ours.ours.steps.count),
             fmt::format("{:.2f}", ours.ours.seconds)};
 }
@@ -94,11 +91,11 @@ std::string stabilityProblems(const std::vector<CaseResult>& results) {
     std::string text;
     for (const CaseResult& result : results)
         for (const VariantResult& variant : result.variants) {
-            const std::string who = fmt::format("{} [{}]", result.name, variant.changes);
+            const std::string variantName = fmt::format("{} [{}]", result.name, variant.changes);
             if (variant.study.paperMustFail && variant.paper.passes)
-                text += fmt::format("{}: the paper's stepper passes, must fail\n", who);
+                text += fmt::format("{}: the paper's stepper passes, must fail\n", variantName);
             if (!variant.ours.passes)
-                text += fmt::format("{}: {} is {}, must be {}{}\n", who, observableText(variant.study),
+                text += fmt::format("{}: {} is {}, must be {}{}\n", variantName, observableText(variant.study),
                                     valueText(variant.ours), limitText(variant.study),
                                     variant.ours.failure ? ": " + variant.ours.failure->message : "");
         }

@@ -7,8 +7,6 @@
 
 #include "engine/stepping/steppers.h"
 #include "studies/accuracy/accuracy.h"
-#include "studies/accuracy/accuracy_csv.h"
-#include "studies/accuracy/accuracy_plot.h"
 
 using engine::StepperKind;
 using studies::AccuracyRow;
@@ -96,7 +94,7 @@ TEST_CASE("The study's reference is fine enough, and the orders are those of the
     for (const AccuracyRow& row : accuracy.rows) smallest = std::min(smallest, row.rms);
     CHECK(accuracy.reference.settled);
     CHECK(accuracy.reference.change <= 0.05 * smallest);
-    CHECK(accuracy.reference.measure == studies::ErrorMetric::positions);
+    CHECK(accuracy.reference.metric == studies::ErrorMetric::positions);
     CHECK(accuracy.particleCount == 12);
     REQUIRE(accuracy.orders.size() == engine::kSteppers.size() - 1);
     for (const studies::OrderRow& row : accuracy.orders) {
@@ -230,10 +228,10 @@ maximum = [0.7, 0.7, 0.7]
     settings.referenceBudget = 1.0;
     const SceneAccuracy accuracy = studied(gas, settings);
     INFO("twins end " << accuracy.reference.twinSeparation << " radii apart");
-    CHECK(accuracy.reference.measure == studies::ErrorMetric::statistics);
+    CHECK(accuracy.reference.metric == studies::ErrorMetric::statistics);
     for (const AccuracyRow& row : accuracy.rows)
         CHECK((row.run.ending != studies::Ending::finished || row.error == row.statistics));
-    CHECK(dozenStudied().reference.measure == studies::ErrorMetric::positions);
+    CHECK(dozenStudied().reference.metric == studies::ErrorMetric::positions);
 }
 
 TEST_CASE("The tables have a line for each row and a cell for each column", "[studies]") {
@@ -304,7 +302,7 @@ TEST_CASE("A run with other births is compared over those whom both began with, 
     runs.back().particles.birthTime.back() = 0.01;
     const studies::Reference coarse = studies::findReference(window, runs, budget);
     CHECK_FALSE(coarse.facts.birthsDiffer);
-    CHECK(coarse.facts.measure == studies::ErrorMetric::positions);
+    CHECK(coarse.facts.metric == studies::ErrorMetric::positions);
     const AccuracyRow row = studies::rowOf(window, runs.back(), coarse);
     CHECK(row.compared == window.start.particles.count());
     CHECK(row.error == row.rms);
@@ -320,7 +318,7 @@ TEST_CASE("A run with other births is compared over those whom both began with, 
     runs[1].particles.birthTime.back() = 0.01;
     const studies::Reference fine = studies::findReference(window, runs, budget);
     CHECK(fine.facts.birthsDiffer);
-    CHECK(fine.facts.measure == studies::ErrorMetric::statistics);
+    CHECK(fine.facts.metric == studies::ErrorMetric::statistics);
     CHECK(studies::rowOf(window, runs.back(), fine).error > 0.0);
 }
 

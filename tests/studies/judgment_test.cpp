@@ -6,7 +6,6 @@
 
 #include "scenes/text/input_error.h"
 #include "studies/stability/stability.h"
-#include "studies/stability/stability_text.h"
 #include "tests/catch.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/common/run.h"
+#include "studies/stability/recorded_run.h"
 #include "tests/catch.h"
 #include "tests/studies/handmade_runs.h"
 

@@ -13,8 +13,6 @@
 #include "scenes/model/limits.h"
 #include "scenes/text/input_error.h"
 #include "studies/accuracy/accuracy.h"
-#include "studies/accuracy/accuracy_csv.h"
-#include "studies/accuracy/accuracy_plot.h"
 #include "tools/commands/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"

@@ -9,7 +9,6 @@
 
 #include "scenes/build/library.h"
 #include "studies/stability/stability.h"
-#include "studies/stability/stability_text.h"
 #include "tools/commands/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"

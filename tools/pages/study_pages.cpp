@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/stepping/steppers.h"
-#include "studies/accuracy/accuracy_csv.h"
-#include "studies/stability/stability_text.h"
+#include "studies/stability/stability.h"
 #include "tools/pages/html.h"
 
 namespace tools {
@@ -48,7 +47,7 @@ std::string referenceText(const studies::SceneAccuracy& accuracy) {
         1e6 * facts.variant.asked, facts.seconds, facts.change,
         facts.settled ? "" : ", more than a twentieth of the smallest error (budget spent)", facts.resolution,
         facts.twinSeparation, facts.birthsDiffer ? ", and even the finest runs have other births" : "",
-        studies::nameOf(facts.measure));
+        studies::nameOf(facts.metric));
 }
 
 std::string accuracySection(const AccuracySection& section) {

@@ -1,36 +1,37 @@
-// Choose the stepper from what was measured, halve its step until that no longer matters.
-#include "studies/common/reference.h"
+// The stepper is chosen by the measured runs, then its step is halved until that no longer matters; see reference.h.
+#include "studies/accuracy/reference.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "engine/stepping/steppers.h"
-#include "studies/common/cloud_statistics.h"
-#include "studies/common/infinity.h"
-#include "studies/common/position_error.h"
+#include "studies/common/state_difference.h"
 
 namespace studies {
 namespace {
 
-/// Small beside any error, large beside the rounding of a position (1e-16 m at radii of 0.1 m), radii.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Radii. Chosen: small beside any error, large beside the rounding of a position (1e-16 m at radii of 0.1 m).
 constexpr double kTwinDistance = 1e-9;
 
-/// Solver errors must stay below what halving the step changes.
+/// Chosen: errors of the linear solver must stay below the change by halving the step.
 constexpr double kReferenceSolverTolerance = 1e-10;
 
-/// Twins that part by more than this share of the smallest error tell that positions show how roundings are amplified,
-/// and not the steppers. Chosen.
+/// Chosen: if twins end further apart than this share of the smallest error, the motion is chaotic: positions show how
+/// rounding errors are amplified, not how good the steppers are.
 constexpr double kChaoticShare = 0.1;
 
-/// What the last halving may change, as a share of the smallest error.
+/// Chosen: the last halving may change the result by this share of the smallest error.
 constexpr double kSettledShare = 0.05;
 
-/// Chosen: an error of this many times what the reference still changes is known to a third.
+/// Chosen: an error of this many times the reference's last change is known to within a third.
 constexpr double kResolvedFactor = 3.0;
 
-/// The two finest finished runs of a stepper, the finest last; empty where there are not two.
+/// The two finest finished runs of a stepper, the finest last; empty if fewer than two finished.
 std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engine::StepperKind stepper) {
     std::vector<const WindowRun*> finished;
     for (const WindowRun& run : runs)
@@ -39,17 +40,18 @@ std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engi
     return {finished.end()[-2], finished.end()[-1]};
 }
 
-/// What tells fine runs apart: positions, unless even their births differ.
-ErrorMetric measureOf(const engine::Particles& a, const engine::Particles& b) {
+/// The metric for two fine runs: positions, unless even their births differ.
+ErrorMetric metricFor(const engine::Particles& a, const engine::Particles& b) {
     return sameBirths(a, b) ? ErrorMetric::positions : ErrorMetric::statistics;
 }
 
-/// Of two steppers of order 2, the change at equal cost is proportional to the change times the square of the cost.
-double changeAtEqualCost(const Window& window, const std::vector<const WindowRun*>& two) {
+/// A number by which two steppers of order 2 compare: the change C between the two finest runs times the square of the
+/// finer one's cost. For order 2, C ~ h^2 ~ cost^-2, so the product is the change at unit cost.
+double changeAtUnitCost(const Window& window, const std::vector<const WindowRun*>& two) {
     const double cost = two[1]->evaluationCost;
     const engine::Particles& coarse = two[0]->particles;
     const engine::Particles& fine = two[1]->particles;
-    return difference(window, measureOf(coarse, fine), coarse, fine) * cost * cost;
+    return difference(window, metricFor(coarse, fine), coarse, fine) * cost * cost;
 }
 
 const WindowRun& finestOfBetterStepper(const Window& window, const std::vector<WindowRun>& runs) {
@@ -57,30 +59,30 @@ const WindowRun& finestOfBetterStepper(const Window& window, const std::vector<W
     double least = kInfinity;
     for (const auto stepper : {engine::StepperKind::velocityVerlet, engine::StepperKind::implicitDamping}) {
         const auto two = finestTwo(runs, stepper);
-        const double change = two.empty() ? kInfinity : changeAtEqualCost(window, two);
+        const double change = two.empty() ? kInfinity : changeAtUnitCost(window, two);
         if (change < least) best = two[1];
         least = std::min(least, change);
     }
     if (best != nullptr) return *best;
-    std::string words;
+    std::string message;
     for (const WindowRun& run : runs)
-        if (words.empty()) words = run.failureMessage;
+        if (message.empty()) message = run.failureMessage;
     throw engine::InstabilityError(fmt::format(
         "neither velocity-verlet nor implicit-damping finished the window twice, so there is no reference; {}",
-        words.empty() ? "all runs were too slow" : words));
+        message.empty() ? "all runs were too slow" : message));
 }
 
-double smallestError(const Window& window, ErrorMetric measure, const std::vector<WindowRun>& runs,
+double smallestError(const Window& window, ErrorMetric metric, const std::vector<WindowRun>& runs,
                      const engine::Particles& reference) {
     double smallest = kInfinity;
     for (const WindowRun& run : runs) {
         if (run.ending != Ending::finished) continue;
-        smallest = std::min(smallest, difference(window, measure, run.particles, reference));
+        smallest = std::min(smallest, difference(window, metric, run.particles, reference));
     }
     return smallest;
 }
 
-/// To its end, however long it takes.
+/// Runs the window to its end, however long it takes. Throws engine::InstabilityError.
 WindowRun runWhole(const Window& window, const Variant& variant, const ReferenceBudget& budget,
                    std::string_view purpose) {
     WindowRun run = runWindow(window, variant, kInfinity);
@@ -97,8 +99,8 @@ WindowRun runTwin(const Window& window, const Variant& variant, const ReferenceB
 
 }  // namespace
 
-std::string_view nameOf(ErrorMetric measure) {
-    return measure == ErrorMetric::positions ? "positions" : "statistics";
+std::string_view nameOf(ErrorMetric metric) {
+    return metric == ErrorMetric::positions ? "positions" : "statistics";
 }
 
 double statisticsDifference(const engine::Particles& particles, const engine::Particles& reference) {
@@ -108,8 +110,8 @@ double statisticsDifference(const engine::Particles& particles, const engine::Pa
     return largestDifference(bulkStatistics(particles), bulkStatistics(reference)) / radius;
 }
 
-double difference(const Window& window, ErrorMetric measure, const engine::Particles& a, const engine::Particles& b) {
-    if (measure == ErrorMetric::statistics) return statisticsDifference(a, b);
+double difference(const Window& window, ErrorMetric metric, const engine::Particles& a, const engine::Particles& b) {
+    if (metric == ErrorMetric::statistics) return statisticsDifference(a, b);
     return positionError(a, b, window.start.particles.count()).rms;
 }
 
@@ -123,25 +125,25 @@ Reference findReference(const Window& window, const std::vector<WindowRun>& runs
     reference.run = runWhole(window, facts.variant, budget, "reference");
     double spent = reference.run.seconds;
     facts.twinSeparation =
-        difference(window, measureOf(twin.particles, finest.particles), twin.particles, finest.particles);
+        difference(window, metricFor(twin.particles, finest.particles), twin.particles, finest.particles);
     const double smallest = smallestError(window, ErrorMetric::positions, runs, reference.run.particles);
     facts.birthsDiffer =
         !sameBirths(finest.particles, reference.run.particles) || !sameBirths(twin.particles, reference.run.particles);
-    if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.measure = ErrorMetric::statistics;
+    if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.metric = ErrorMetric::statistics;
     do {
         facts.variant.asked /= 2.0;
         WindowRun halved = runWhole(window, facts.variant, budget, "reference");
         spent += halved.seconds;
         facts.birthsDiffer = facts.birthsDiffer || !sameBirths(reference.run.particles, halved.particles);
-        if (facts.birthsDiffer) facts.measure = ErrorMetric::statistics;
-        facts.change = difference(window, facts.measure, reference.run.particles, halved.particles);
+        if (facts.birthsDiffer) facts.metric = ErrorMetric::statistics;
+        facts.change = difference(window, facts.metric, reference.run.particles, halved.particles);
         reference.run = std::move(halved);
         facts.settled =
-            facts.change <= kSettledShare * smallestError(window, facts.measure, runs, reference.run.particles);
+            facts.change <= kSettledShare * smallestError(window, facts.metric, runs, reference.run.particles);
     } while (!facts.settled && spent + 2.0 * reference.run.seconds <= budget.seconds);
     facts.seconds = reference.run.seconds;
     facts.resolution =
-        kResolvedFactor * std::max(facts.change, difference(window, facts.measure, twin.particles, finest.particles));
+        kResolvedFactor * std::max(facts.change, difference(window, facts.metric, twin.particles, finest.particles));
     return reference;
 }
 

@@ -1,5 +1,5 @@
-// Copy the state, change the set-up, advance frame by frame against the clock.
-#include "studies/common/window_run.h"
+// Copies the state, changes the setup and advances frame by frame against the clock; see window_run.h.
+#include "studies/accuracy/window_run.h"
 
 #include <chrono>
 
@@ -11,11 +11,11 @@
 namespace studies {
 namespace {
 
-/// A fresh simulation that takes over the state alone, not what another stepper remembered of its way there.
+/// A new simulation with the window's state at its start, but with nothing that the scene's own stepper cached.
 engine::Simulation begin(const Window& window, const Variant& variant) {
     engine::Setup setup = window.start.setup;
     setup.initial = {};
-    setup.world.reset();  // what is compared particle by particle has all of them at its end
+    setup.world.reset();  // no particle leaves: all are compared at the end
     setup.stepper = variant.stepper;
     setup.precision = variant.precision;
     if (variant.stepper == engine::StepperKind::automatic)
@@ -30,12 +30,13 @@ engine::Simulation begin(const Window& window, const Variant& variant) {
     return simulation;
 }
 
-/// The automatic stepper as in the middle of a run: it has made its choice, and looks again half a pause later.
-void settle(const Window& window, engine::Simulation& simulation) {
+/// Puts the automatic stepper into the middle of a run: it has chosen a stepper and a step for this state, and its next
+/// error estimate is half of the longest pause away. The cost of the choice is not counted.
+void chooseStepper(const Window& window, engine::Simulation& simulation) {
     engine::Simulation scout = simulation;
     scenes::advanceToFrame(window.scene, scout, window.firstFrame + 1);
     const engine::AutoChoice& chosen = scout.automatic.choices[static_cast<std::size_t>(scout.stepper)];
-    if (chosen.step <= 0.0) return;  // nobody was there to choose for
+    if (chosen.step <= 0.0) return;  // without particles there was nothing to choose
     simulation.automatic = scout.automatic;
     simulation.automatic.nextLook = simulation.automatic.intervals + engine::kLongestPause / 2;
     simulation.automatic.looks = engine::kLongestPause;
@@ -84,7 +85,7 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
     Clock::time_point start = Clock::now();
     const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     try {
-        if (variant.stepper == engine::StepperKind::automatic) settle(window, simulation);
+        if (variant.stepper == engine::StepperKind::automatic) chooseStepper(window, simulation);
         start = Clock::now();
         for (int frame = window.firstFrame + 1; frame <= window.lastFrame; ++frame) {
             scenes::advanceToFrame(window.scene, simulation, frame);

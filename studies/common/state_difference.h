@@ -1,0 +1,53 @@
+// How far apart two states of one scene are: particle by particle as long as the motion is predictable, and by bulk
+// statistics once it is chaotic and single positions no longer mean anything. Used by the studies of accuracy and
+// stability.
+#pragma once
+
+#include <cstddef>
+
+#include "engine/state/particles.h"
+
+namespace studies {
+
+/// Where a set of particles is, how wide and how high.
+struct BulkStatistics {
+    engine::Vec3 center = engine::Vec3::Zero();  ///< center of mass, m
+    double gyration = 0.0;                       ///< mass-weighted radius of gyration about the center, m
+    double r90 = 0.0;                            ///< radius about the center that holds 90 % of the particles, m
+    double z90 = 0.0;                            ///< height that 90 % of the particles do not exceed, m
+};
+
+/// All statistics are zero without particles.
+BulkStatistics bulkStatistics(const engine::Particles& particles);
+
+/// The largest of the four differences, m; the difference of the centers is their distance.
+double largestDifference(const BulkStatistics& a, const BulkStatistics& b);
+
+/// Distances between corresponding particles, each divided by the particle's radius.
+struct PositionError {
+    double rms = 0.0;
+    double largest = 0.0;
+    std::size_t compared = 0;  ///< number of particles
+};
+
+/// Whether two runs have the same particles, born at the same times.
+bool sameBirths(const engine::Particles& a, const engine::Particles& b);
+
+/// Compares particles of the same id.
+/// @param common  number of particles that existed when the two runs parted. Later births are compared only if both
+///                runs have the same ones at the same times: a single birth that differs shifts all later ids.
+/// @return  infinite errors if the particles differ and common is 0
+PositionError positionError(const engine::Particles& particles, const engine::Particles& reference, std::size_t common);
+
+/// The particles, each moved along every axis by up to `radii` of its own radii: pseudorandom, the same in every call.
+engine::Particles displaced(engine::Particles particles, double radii);
+
+/// Sums of the magnitudes of all momenta, which drifts of the total momenta are compared with.
+struct MomentumScale {
+    double linear = 0.0;   ///< sum of |p|, kg m/s
+    double angular = 0.0;  ///< sum of |x x p|, kg m^2/s
+};
+
+MomentumScale momentumScale(const engine::Particles& particles);
+
+}  // namespace studies

@@ -1,0 +1,208 @@
+// The table of all observables, and those that are read off the frames of a run, alone or beside the reference:
+// momentum, energy and speeds, and errors of positions, extents and velocities.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/run/diagnostics.h"
+#include "scenes/text/input_error.h"
+#include "studies/common/state_difference.h"
+#include "studies/common/timing.h"
+#include "studies/stability/observables.h"
+
+namespace studies {
+namespace {
+
+using engine::Particles;
+using engine::Vec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Whether the observable is defined without particles at the end.
+bool isDefinedWithoutParticles(scenes::Observable observable) {
+    return observable == scenes::Observable::pairLaw || observable == scenes::Observable::refusals;
+}
+
+/// Kinetic energy of all particles at a tenth of a radius per second, J: the allowance for slow motion that
+/// engine/stepping/step_audit.cpp makes, too.
+double slowKinetic(const Particles& particles) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        const double speed = 0.1 * particles.radius[p];
+        sum += 0.5 * particles.mass[p] * speed * speed;
+    }
+    return sum;
+}
+
+/// Share of the potential energies that sums over a state may round away: about 1e-16 for each of a thousand particles,
+/// and a margin.
+constexpr double kSumRounding = 1e-12;
+
+/// Whether the run has as many frames as the reference, and as many particles at the end.
+bool isComparable(const ObservableInput& input) {
+    return input.reference != nullptr && input.reference->frames.size() == input.run.frames.size() &&
+           input.reference->frames.back().count() == input.run.frames.back().count();
+}
+
+/// The largest difference between the run and the reference of a quantity of a frame (m), over all frames that have
+/// particles, in radii of the first particle.
+template <class Quantity>
+double largestDifference(const ObservableInput& input, const Quantity& quantity) {
+    if (!isComparable(input)) return kInfinity;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < input.run.frames.size(); ++k) {
+        const Particles& ours = input.run.frames[k];
+        const Particles& reference = input.reference->frames[k];
+        if (ours.count() != reference.count()) return kInfinity;
+        if (ours.count() > 0) largest = std::max(largest, std::abs(quantity(ours) - quantity(reference)));
+    }
+    return largest / input.run.frames.back().radius.front();
+}
+
+/// Largest vertical velocity of the center of mass over the frames, m/s.
+double fastestRise(const Run& run) {
+    double fastest = -kInfinity;
+    for (const Particles& frame : run.frames) {
+        double momentum = 0.0;
+        double mass = 0.0;
+        for (std::size_t p = 0; p < frame.count(); ++p) {
+            momentum += frame.mass[p] * frame.velocity[p].y();
+            mass += frame.mass[p];
+        }
+        fastest = std::max(fastest, momentum / mass);
+    }
+    return fastest;
+}
+
+}  // namespace
+
+double measure(scenes::Observable observable, const ObservableInput& input) {
+    if (input.run.frames.back().count() == 0 && !isDefinedWithoutParticles(observable))
+        throw scenes::InputError({{input.scene.sourceName, 0, 0,
+                                   fmt::format("no particle is there at the end of the run, so there is no {}",
+                                               scenes::infoOf(observable).name)}});
+    using Function = double (*)(const ObservableInput&);
+    // In the order of scenes::Observable.
+    static constexpr Function kFunctions[] = {
+        pairLaw,         momentumDrift, energyRise,       positionError, heightError, frontError, radiusError,
+        statisticsError, reboundError,  restitutionError, largestSpeed,  medianSpeed, fragments,  spacing,
+        tunnelingCount,  refusals,      stepBound,        order,         cost};
+    return kFunctions[static_cast<std::size_t>(observable)](input);
+}
+
+/// The largest |P(t) - P(0)| / sum |p(0)| over the frames, and the same for the angular momentum, if that is larger.
+double momentumDrift(const ObservableInput& input) {
+    const Particles& first = input.run.frames.front();
+    const MomentumScale scale = momentumScale(first);
+    const Vec3 linear = engine::linearMomentum(first);
+    const Vec3 angular = engine::angularMomentum(first);
+    double worst = 0.0;
+    for (const Particles& frame : input.run.frames) {
+        worst = std::max(worst, (engine::linearMomentum(frame) - linear).norm() / scale.linear);
+        worst = std::max(worst, (engine::angularMomentum(frame) - angular).norm() / scale.angular);
+    }
+    return worst;
+}
+
+/// The largest rise of the total energy from one frame to the next, divided by the number of steps between them and by
+/// a kinetic energy: the larger one of the two frames plus slowKinetic(), as the engine's audit of the steps counts it.
+/// The scene must be closed, without births.
+double energyRise(const ObservableInput& input) {
+    const engine::Setup& setup = input.scene.setup;
+    engine::ForceEvaluator evaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces);
+    double worst = 0.0;
+    engine::Energy earlier = engine::energy(evaluator, input.run.frames.front());
+    for (std::size_t k = 1; k < input.run.frames.size(); ++k) {
+        const Particles& frame = input.run.frames[k];
+        const engine::Energy later = engine::energy(evaluator, frame);
+        const double potential = std::abs(later.pairs) + std::abs(later.contacts) + std::abs(later.gravity);
+        const double scale = std::max(earlier.kinetic, later.kinetic) + slowKinetic(frame) + kSumRounding * potential;
+        const auto steps = static_cast<double>(input.run.stepsUntil[k] - input.run.stepsUntil[k - 1]);
+        worst = std::max(worst, (later.total() - earlier.total()) / steps / scale);
+        earlier = later;
+    }
+    return worst;
+}
+
+/// Largest speed of any particle in any frame.
+double largestSpeed(const ObservableInput& input) {
+    double largest = 0.0;
+    for (const Particles& frame : input.run.frames) largest = std::max(largest, engine::largestSpeed(frame));
+    return largest;
+}
+
+/// Median speed at the end. It is near zero for a heap at rest, even while a few particles still fall onto it.
+double medianSpeed(const ObservableInput& input) {
+    std::vector<double> speeds;
+    for (const Vec3& velocity : input.run.frames.back().velocity) speeds.push_back(velocity.norm());
+    return median(std::move(speeds));
+}
+
+/// Number of births that were refused because the position was occupied.
+double refusals(const ObservableInput& input) {
+    return static_cast<double>(engine::refusalCount(input.run.end));
+}
+
+/// Root mean square position error over the particles at the end, each in its own radii.
+double positionError(const ObservableInput& input) {
+    if (!isComparable(input)) return kInfinity;
+    const Particles& ours = input.run.frames.back();
+    return positionError(ours, input.reference->frames.back(), ours.count()).rms;
+}
+
+/// Largest error over the frames of the height of the heaviest particle.
+double heightError(const ObservableInput& input) {
+    return largestDifference(input, [](const Particles& frame) {
+        const auto heaviest = std::ranges::max_element(frame.mass) - frame.mass.begin();
+        return frame.position[static_cast<std::size_t>(heaviest)].y();
+    });
+}
+
+/// Largest error over the frames of the largest x of all particles.
+double frontError(const ObservableInput& input) {
+    return largestDifference(input, [](const Particles& frame) {
+        double furthest = -kInfinity;
+        for (const Vec3& position : frame.position) furthest = std::max(furthest, position.x());
+        return furthest;
+    });
+}
+
+/// Largest error over the frames of the radius that holds 90 % of the particles.
+double radiusError(const ObservableInput& input) {
+    return largestDifference(input, [](const Particles& frame) { return bulkStatistics(frame).r90; });
+}
+
+/// Largest relative error of the bulk statistics at the end: center of mass, radius of gyration and R90 in units of the
+/// reference's R90, z90 in units of the reference's z90.
+double statisticsError(const ObservableInput& input) {
+    if (!isComparable(input)) return kInfinity;
+    const BulkStatistics ours = bulkStatistics(input.run.frames.back());
+    const BulkStatistics reference = bulkStatistics(input.reference->frames.back());
+    return std::max({(ours.center - reference.center).norm() / reference.r90,
+                     std::abs(ours.gyration - reference.gyration) / reference.r90,
+                     std::abs(ours.r90 - reference.r90) / reference.r90,
+                     std::abs(ours.z90 - reference.z90) / std::abs(reference.z90)});
+}
+
+/// Relative error of the fastest rise of the center of mass.
+double reboundError(const ObservableInput& input) {
+    if (!isComparable(input)) return kInfinity;
+    return std::abs(fastestRise(input.run) / fastestRise(*input.reference) - 1.0);
+}
+
+/// Largest relative error over the particles of the speed at the end.
+double restitutionError(const ObservableInput& input) {
+    if (!isComparable(input)) return kInfinity;
+    double worst = 0.0;
+    for (std::size_t p = 0; p < input.run.frames.back().count(); ++p) {
+        const double ours = input.run.frames.back().velocity[p].norm();
+        const double reference = input.reference->frames.back().velocity[p].norm();
+        worst = std::max(worst, std::abs(ours / reference - 1.0));
+    }
+    return worst;
+}
+
+}  // namespace studies
