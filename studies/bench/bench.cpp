@@ -1,7 +1,9 @@
-// Packings, a little shaken; every time is the median of rounds, each long enough for the clock.
+// Measures on jittered lattices. Every time is the median of rounds, each of which is long enough for the clock.
+// See bench.h.
 #include "studies/bench/bench.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -10,7 +12,6 @@
 #include "engine/neighbors/verlet_skin.h"
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/steppers.h"
-#include "studies/bench/machine_loops.h"
 #include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
 
@@ -21,21 +22,22 @@ using engine::Precision;
 using engine::StepperKind;
 using engine::Vec3;
 
-/// What is packed, and how densely.
-struct Packed {
+/// A lattice that is measured on.
+struct Packing {
     const char* name;
     const char* material;
     double spacing;  ///< of nearest neighbors, in rest lengths
 };
 
-/// At the rest length, and as a solid packs when it has settled under its own attraction (scenes/solid.toml).
-constexpr std::array kPackings = {Packed{"solid", "solid", 1.0}, Packed{"settled solid", "solid", 0.76},
-                                  Packed{"liquid", "liquid", 1.0}, Packed{"powder", "powder", 1.0}};
+/// Lattices at the rest length, and one at the spacing of a solid that has settled under its own attraction, which was
+/// measured in scenes/library/solid.toml.
+constexpr std::array kPackings = {Packing{"solid", "solid", 1.0}, Packing{"settled solid", "solid", 0.76},
+                                  Packing{"liquid", "liquid", 1.0}, Packing{"powder", "powder", 1.0}};
 
-/// Beyond it a million particles' steps would take the patience of whoever waits.
+/// Steps are measured up to this number of particles. Chosen: with a million, one row would take minutes.
 constexpr std::size_t kMostStepped = 100000;
 
-/// Median seconds of a call of the work, which has been called once before.
+/// Median seconds of a call of the work, which the caller has called once to warm up.
 double measured(const Work& work, const BenchSettings& settings) {
     const double once = secondsOf(work, 1);
     const auto repeats = static_cast<std::uint64_t>(std::max(1.0, std::ceil(settings.secondsPerRound / once)));
@@ -55,19 +57,19 @@ std::string hashOf(const std::vector<Vec3>& vectors) {
     return engine::hexadecimal(hash);
 }
 
-/// What rows of one packing have in common.
+/// What the rows of one lattice have in common.
 struct Subject {
     engine::Setup setup;
     BenchRow row;
-    double rowBytes = 0.0;  ///< a particle
+    double rowBytes = 0.0;  ///< size of the list's rows over the number of particles
 };
 
-Subject subjectOf(const Packed& packed, std::size_t count) {
-    Subject subject{fccCube(packed.material, count, {.spacing = packed.spacing}), {}};
+Subject subjectOf(const Packing& packing, std::size_t count) {
+    Subject subject{fccCube(packing.material, count, {.spacing = packing.spacing}), {}};
     const engine::Particles& particles = subject.setup.initial;
     engine::PairTraversal pairs(lawOf(subject.setup), Precision::doubles);
     pairs.prepare(lawOf(subject.setup), particles, particles.velocity);
-    subject.row.material = packed.name;
+    subject.row.material = packing.name;
     subject.row.particles = particles.count();
     subject.row.neighbors = meanNeighbors(subject.setup, particles);
     subject.rowBytes = static_cast<double>(bytesOf(pairs.list.rows)) / static_cast<double>(particles.count());
@@ -75,6 +77,19 @@ Subject subjectOf(const Packed& packed, std::size_t count) {
     return subject;
 }
 
+std::string stepName(StepperKind stepper) {
+    return "step " + std::string(engine::nameOf(stepper));
+}
+
+/// The names of the rows that each lattice has.
+std::vector<std::string> rowNames() {
+    std::vector<std::string> names = {"forces", "list"};
+    for (const StepperKind stepper : engine::kSteppers)
+        if (stepper != StepperKind::automatic) names.push_back(stepName(stepper));
+    return names;
+}
+
+/// Measures row after row and keeps them.
 class Bench {
  public:
     Bench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener)
@@ -85,8 +100,8 @@ class Bench {
         if (settings_.wants("copy", "")) addCopy();
     }
 
-    void measure(const Packed& packed, std::size_t count) {
-        const std::string material = packed.name;
+    void measure(const Packing& packing, std::size_t count) {
+        const std::string material = packing.name;
         const bool steps = count <= kMostStepped;
         if (!wantsAny(material)) return;
         const Subject subject = subjectOf(packed, count);
@@ -103,12 +118,9 @@ class Bench {
     std::vector<BenchRow> rows;
 
  private:
-    static std::string stepName(StepperKind stepper) { return "step " + std::string(engine::nameOf(stepper)); }
-
     bool wantsAny(const std::string& material) const {
-        bool any = settings_.wants("forces", material) || settings_.wants("list", material);
-        for (const StepperKind stepper : engine::kSteppers) any = any || settings_.wants(stepName(stepper), material);
-        return any;
+        return std::ranges::any_of(rowNames(),
+                                   [&](const std::string& name) { return settings_.wants(name, material); });
     }
 
     void add(BenchRow row) {
@@ -149,10 +161,10 @@ class Bench {
         add(row);
     }
 
-    /// A fixed number of steps from the packing, so that the hash at their end can be compared; timed as they go.
+    /// A fixed number of steps from the lattice, so that the hashes of their ends can be compared.
     void addSteps(const Subject& subject, StepperKind stepper, Precision precision) {
         constexpr int kSteps = 20;
-        constexpr double kStep = 0.001;  // s, stable for all of them
+        constexpr double kStep = 0.001;  // s, chosen: stable with all steppers
         engine::Setup setup = subject.setup;
         setup.stepper = stepper;
         setup.precision = precision;
@@ -222,11 +234,18 @@ double BenchRow::nanosecondsPerPair() const {
     return particles == 0 || neighbors == 0.0 ? 0.0 : 1e9 / pairsPerSecond();
 }
 
+std::vector<std::string> benchRowNames() {
+    std::vector<std::string> names = {"multiply-add", "copy"};
+    for (const Packing& packing : kPackings)
+        for (const std::string& name : rowNames()) names.push_back(name + " " + packing.name);
+    return names;
+}
+
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {
     Bench bench(settings, listener);
     bench.measureMachine();
     for (const std::size_t count : settings.counts)
-        for (const Packed& packed : kPackings) bench.measure(packed, count);
+        for (const Packing& packing : kPackings) bench.measure(packing, count);
     return std::move(bench.rows);
 }
 

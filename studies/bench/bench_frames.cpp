@@ -1,5 +1,5 @@
-// One run of a scene past its still, each frame timed in its two halves.
-#include "studies/bench/bench_frames.h"
+// Whole frames: a scene is run past its still, and simulating and drawing each frame are timed. See bench.h.
+#include "studies/bench/bench.h"
 
 #include <optional>
 
@@ -20,7 +20,7 @@ std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* co
     std::optional<render::Renderer> renderer;
     if (context != nullptr) {
         renderer.emplace(*context, scene.size, render::Quality::normal);
-        renderer->draw(scenes::frameView(scene, simulation));  // touches the memory
+        renderer->draw(scenes::frameView(scene, simulation));  // the first frame allocates memory
     }
     const std::uint64_t stepsBefore = simulation.steps.count;
     std::vector<double> simulated;

@@ -1,5 +1,5 @@
-// Compiled once per instruction set.
-#include "studies/bench/machine_loops.h"
+// The benchmark's loop of multiply-adds, see multiplyAdd() in bench.h. Compiled once for each instruction set.
+#include "studies/bench/bench.h"
 
 #include <numeric>
 #include <vector>
@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Ten chains, because a fused operation takes four or five cycles and two can start in each.
+/// Ten independent chains, because a fused multiply-add takes four or five cycles and two can start in each cycle.
 double multiplyAddHere(std::size_t rounds, float& sink) {
     const hn::ScalableTag<float> tag;
     const auto factor = hn::Set(tag, 0.999F);

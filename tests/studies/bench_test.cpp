@@ -1,7 +1,6 @@
 // The benchmark measures what it says: rows for what was asked, numbers that fit together, hashes that do not depend on
 // threads.
 #include "studies/bench/bench.h"
-#include "studies/bench/bench_frames.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>

@@ -11,7 +11,6 @@
 #include "engine/forces/simd_forces.h"
 #include "scenes/build/library.h"
 #include "studies/bench/bench.h"
-#include "studies/bench/bench_frames.h"
 #include "tools/commands/commands.h"
 #include "tools/run/threads.h"
 #include "tools/system/json.h"
