@@ -104,7 +104,7 @@ class Bench {
         const std::string material = packing.name;
         const bool steps = count <= kMostStepped;
         if (!wantsAny(material)) return;
-        const Subject subject = subjectOf(packed, count);
+        const Subject subject = subjectOf(packing, count);
         for (const Precision precision : {Precision::doubles, Precision::singles})
             if (settings_.wants("forces", material)) addForces(subject, precision);
         if (settings_.wants("list", material)) addList(subject);

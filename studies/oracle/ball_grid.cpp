@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
-
-#include "studies/common/infinity.h"
 
 namespace oracle {
 namespace {
 
 using glm::dvec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A millionth more than a ball's own, so that no rounding of the walk loses it.
 double widthOf(const Extent& ball) {

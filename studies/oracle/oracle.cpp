@@ -7,13 +7,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "studies/common/infinity.h"
 #include "studies/oracle/oracle_shadow.h"
 #include "studies/oracle/oracle_solids.h"
 #include "studies/oracle/polynomial.h"
 
 namespace oracle {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// 1 - d^2/R^2, the square root of the kernel, or 0 outside of the ball's reach.
 double kernelRoot(const Ball& ball, const dvec3& point) {

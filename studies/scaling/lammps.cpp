@@ -1,6 +1,4 @@
-// Scripts in the program's own language, and one line of its output.
-#include "studies/scaling/lammps.h"
-
+// What LAMMPS is asked to run, and how its output is read; see scaling.h. The caller starts the program.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -8,19 +6,21 @@
 #include <numbers>
 #include <string_view>
 
+#include "studies/scaling/scaling.h"
+
 namespace studies {
 namespace {
 
-/// Cells of four particles along each side: 4 x 20^3 = kPeerParticles.
+/// Unit cells along each side, of four particles each.
 constexpr int kSide = 20;
 static_assert(4 * kSide * kSide * kSide == kPeerParticles);
 
-/// Usual densities of the two, in particles per cubed unit of length.
+/// The usual number density of a liquid with this force, in LAMMPS' reduced units.
 double densityOf(PeerForce force) {
     return force == PeerForce::lennardJones ? 0.8442 : 3.0;
 }
 
-/// The radius of a sphere that holds the wanted neighbors.
+/// The radius of a sphere that holds kPeerNeighbors, in reduced units.
 double cutoffOf(PeerForce force) {
     return std::cbrt(kPeerNeighbors / (4.0 / 3.0 * std::numbers::pi * densityOf(force)));
 }

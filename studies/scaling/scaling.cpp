@@ -1,5 +1,7 @@
-// From one state every method takes some steps, several times in turn.
+// Every method takes the same steps from the same state, in rounds by turns; then tables and the plot. See scaling.h.
 #include "studies/scaling/scaling.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,8 @@
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/step_cache.h"
 #include "studies/common/fcc_cube.h"
-#include "studies/common/order_fit.h"
+#include "studies/common/power_law.h"
+#include "studies/common/report.h"
 #include "studies/common/timing.h"
 
 namespace studies {
@@ -25,15 +28,15 @@ using engine::Simulation;
 /// The paper's step, s.
 constexpr double kStep = 0.01;
 
-/// Of the packed blocks, s: the solid pulls itself together, which at the paper's step would throw it about.
+/// The step of the cubes, s. Chosen: the solid contracts under its attraction, which would be unstable at the paper's
+/// step.
 constexpr double kBlockStep = 0.002;
 
-/// Steps of a run from the same state. Chosen: a block's list is built twice on the way, whatever its size; after 20
-/// some have had one only.
+/// Steps of a run. Chosen: with 22 steps a cube of any size rebuilds its list twice; with 20 some rebuild it only once.
 constexpr std::uint64_t kSteps = 22;
 constexpr std::uint64_t kStepsOfEveryPair = 2;
 
-/// The same state with nobody to be born, its forces summed another way.
+/// The same state without births, with forces by another method.
 Simulation frozen(const Simulation& from, ForceMethod method, Precision precision) {
     Simulation simulation = from;
     simulation.setup.emitters.clear();
@@ -50,35 +53,37 @@ void takeSteps(Simulation& simulation, std::uint64_t count) {
         engine::advance(simulation, start + static_cast<double>(k) * simulation.setup.step);
 }
 
-/// Seconds of one step by one method: the mean over a run of some steps, run again until a round is long enough.
-class Stopwatch {
+/// Measures one method: a round repeats a run of some steps from the same state until it has taken long enough.
+class MethodTimer {
  public:
-    Stopwatch(const Simulation& from, ForceMethod method, Precision precision, const ScalingSettings& settings)
+    MethodTimer(const Simulation& from, ForceMethod method, Precision precision, const ScalingSettings& settings)
         : start_(frozen(from, method, precision)), steps_(method == ForceMethod::grid ? kSteps : kStepsOfEveryPair) {
-        takeSteps(start_, 1);  // the list is built, the memory is there
+        takeSteps(start_, 1);  // builds the list and allocates memory
         const double once = run();
-        runs_ = std::max(1, static_cast<int>(std::ceil(settings.secondsPerRound / once)));
+        runCount_ = std::max(1, static_cast<int>(std::ceil(settings.secondsPerRound / once)));
     }
 
+    /// Measures one round.
     void measure() {
         double sum = 0.0;
-        for (int k = 0; k < runs_; ++k) sum += run();
-        rounds_.push_back(sum / runs_ / static_cast<double>(steps_));
+        for (int k = 0; k < runCount_; ++k) sum += run();
+        rounds_.push_back(sum / runCount_ / static_cast<double>(steps_));
     }
 
+    /// Median over the rounds of the seconds per step.
     double seconds() const { return median(rounds_); }
     const Simulation& end() const { return end_; }
 
  private:
     double run() {
         end_ = start_;
-        return secondsOf([&] { takeSteps(end_, steps_); }, 1);
+        return secondsOf([&] { takeSteps(end_, steps_); });
     }
 
     Simulation start_;
     Simulation end_;
     std::uint64_t steps_;
-    int runs_ = 1;
+    int runCount_ = 1;
     std::vector<double> rounds_;
 };
 
@@ -87,31 +92,49 @@ ScalingRow measureFrom(const std::string& subject, const Simulation& from, const
     row.subject = subject;
     row.particles = from.particles.count();
     row.neighbors = meanNeighbors(from.setup, from.particles);
-    std::vector<Stopwatch> watches;
-    watches.emplace_back(from, ForceMethod::grid, Precision::doubles, settings);
-    watches.emplace_back(from, ForceMethod::grid, Precision::singles, settings);
+    std::vector<MethodTimer> timers;
+    timers.emplace_back(from, ForceMethod::grid, Precision::doubles, settings);
+    timers.emplace_back(from, ForceMethod::grid, Precision::singles, settings);
     if (row.particles <= settings.mostByEveryPair)
-        watches.emplace_back(from, ForceMethod::reference, Precision::doubles, settings);
+        timers.emplace_back(from, ForceMethod::reference, Precision::doubles, settings);
     for (int round = 0; round < settings.rounds; ++round)
-        for (Stopwatch& watch : watches) watch.measure();
-    row.list = watches[0].seconds();
-    row.listInFloat = watches[1].seconds();
-    if (watches.size() > 2) row.everyPair = watches[2].seconds();
-    row.stateHash = engine::stateHash(watches[0].end().particles);
+        for (MethodTimer& timer : timers) timer.measure();
+    row.list = timers[0].seconds();
+    row.listInFloat = timers[1].seconds();
+    if (timers.size() > 2) row.everyPair = timers[2].seconds();
+    row.stateHash = engine::stateHash(timers[0].end().particles);
     return row;
 }
 
 void addFit(std::vector<ScalingFit>& fits, const std::string& subject, const std::string& method,
-            const std::vector<StepError>& points) {
-    const std::optional<double> exponent = fittedOrder(points);  // a slope of logarithms, whatever they are of
+            const std::vector<PowerLawPoint>& points) {
+    const std::optional<double> exponent = powerLawExponent(points);
     if (!exponent) return;
     const auto size = [](double particles) { return static_cast<std::size_t>(particles); };
-    fits.push_back({subject, method, size(points.front().step), size(points.back().step), *exponent});
+    fits.push_back({subject, method, size(points.front().x), size(points.back().x), *exponent});
 }
 
-/// Where a method's time has become a power of the number: every pair soon, lists once caches no longer hold them.
+/// Fits begin at these numbers of particles, from which on the times are powers of the number. Chosen: the work per
+/// step outweighs constant costs for every pair early, and for lists once they no longer fit the caches.
 constexpr std::size_t kPairsFrom = 1000;
 constexpr std::size_t kListsFrom = 10000;
+
+std::string milliseconds(const std::optional<double>& seconds) {
+    return seconds ? fmt::format("{:.5g}", 1e3 * *seconds) : "";
+}
+
+constexpr const char* kAxes = R"(set format x "10^{%L}"
+set format y "10^{%L}"
+set xlabel "particles"
+set ylabel "milliseconds a step"
+set title "Time per step against the number of particles"
+set key top left reverse Left samplen 2 font ",13"
+)";
+
+/// Appends particles and milliseconds if there is a time.
+void addPoint(Curve& curve, const ScalingRow& row, const std::optional<double>& seconds) {
+    if (seconds) curve.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * *seconds);
+}
 
 }  // namespace
 
@@ -152,9 +175,9 @@ std::vector<ScalingRow> measureCubes(const std::string& material, const ScalingS
 
 std::vector<ScalingFit> fitsOf(const std::vector<ScalingRow>& rows) {
     std::vector<ScalingFit> fits;
-    std::vector<StepError> everyPair;
-    std::vector<StepError> list;
-    std::vector<StepError> inFloat;
+    std::vector<PowerLawPoint> everyPair;
+    std::vector<PowerLawPoint> list;
+    std::vector<PowerLawPoint> inFloat;
     for (const ScalingRow& row : rows) {
         const auto particles = static_cast<double>(row.particles);
         if (row.everyPair && row.particles >= kPairsFrom) everyPair.push_back({particles, *row.everyPair});
@@ -167,6 +190,41 @@ std::vector<ScalingFit> fitsOf(const std::vector<ScalingRow>& rows) {
     addFit(fits, subject, "list", list);
     addFit(fits, subject, "list in float", inFloat);
     return fits;
+}
+
+std::string scalingCsv(const std::vector<ScalingRow>& rows) {
+    std::string csv = "subject,particles,neighbors,published_ms,every_pair_ms,list_ms,list_in_float_ms,state_hash\n";
+    for (const ScalingRow& row : rows)
+        csv += fmt::format("{},{},{:.4g},{},{},{},{},{}\n", row.subject, row.particles, row.neighbors,
+                           milliseconds(row.published), milliseconds(row.everyPair), milliseconds(row.list),
+                           milliseconds(row.listInFloat), row.stateHash);
+    return csv;
+}
+
+std::string fitsCsv(const std::vector<ScalingFit>& fits) {
+    std::string csv = "subject,method,from,to,exponent\n";
+    for (const ScalingFit& fit : fits)
+        csv += fmt::format("{},{},{},{},{:.3f}\n", fit.subject, fit.method, fit.from, fit.to, fit.exponent);
+    return csv;
+}
+
+std::string scalingPlot(const std::vector<ScalingRow>& rows) {
+    Curve published{"Table 2 (the paper's machine)", "lines linewidth 2 linecolor rgb '#7f7f7f' dashtype 2", "", ""};
+    Curve everyPair{"every pair, here", "linespoints pointtype 5 pointsize 0.7 linecolor rgb '#d62728'", "", ""};
+    Curve list{"neighbor lists", "linespoints pointtype 7 pointsize 0.8 linecolor rgb '#0072b2'", "", ""};
+    Curve inFloat{"neighbor lists in float", "linespoints pointtype 6 pointsize 1 linecolor rgb '#56b4e9'", "", ""};
+    std::string subject;
+    for (const ScalingRow& row : rows) {
+        // An empty line interrupts the curve between two scenes or materials.
+        if (!subject.empty() && row.subject != subject)
+            for (Curve* curve : {&everyPair, &list, &inFloat}) curve->points += "\n";
+        subject = row.subject;
+        if (row.published && row.subject == rows.front().subject) addPoint(published, row, row.published);
+        addPoint(everyPair, row, row.everyPair);
+        addPoint(list, row, row.list);
+        addPoint(inFloat, row, row.listInFloat);
+    }
+    return std::string(kPlotHeader) + kAxes + plotCommand({published, everyPair, list, inFloat});
 }
 
 }  // namespace studies

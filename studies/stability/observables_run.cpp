@@ -112,7 +112,7 @@ double momentumDrift(const ObservableInput& input) {
 /// The scene must be closed, without births.
 double energyRise(const ObservableInput& input) {
     const engine::Setup& setup = input.scene.setup;
-    engine::ForceEvaluator evaluator({setup.materials, setup.gravity, setup.scenery}, setup.forces);
+    engine::ForceEvaluator evaluator({setup.materials, setup.gravity, setup.obstacles}, setup.forces);
     double worst = 0.0;
     engine::Energy earlier = engine::energy(evaluator, input.run.frames.front());
     for (std::size_t k = 1; k < input.run.frames.size(); ++k) {

@@ -79,14 +79,14 @@ bool isOnWrongSide(const engine::Sphere& sphere, const Path& path, double) {
 double tunnelingCount(const ObservableInput& input) {
     const engine::Particles& first = input.run.frames.front();
     const engine::Particles& last = input.run.frames.back();
-    const double depth = input.scene.setup.scenery.law.radius;
+    const double depth = input.scene.setup.obstacles.law.radius;
     int count = 0;
     for (std::size_t p = 0; p < first.count(); ++p) {
         const Path path{first.position[p], last.position[p]};
         bool isWrong = false;
-        for (const engine::Collider& collider : input.scene.setup.scenery.colliders)
+        for (const engine::Obstacle& obstacle : input.scene.setup.obstacles.shapes)
             isWrong =
-                isWrong || std::visit([&](const auto& shape) { return isOnWrongSide(shape, path, depth); }, collider);
+                isWrong || std::visit([&](const auto& shape) { return isOnWrongSide(shape, path, depth); }, obstacle);
         if (isWrong) ++count;
     }
     return count;

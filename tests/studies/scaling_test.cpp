@@ -7,7 +7,6 @@
 
 #include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
-#include "studies/scaling/lammps.h"
 
 using namespace studies;
 

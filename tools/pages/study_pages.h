@@ -8,7 +8,6 @@
 #include "studies/pictures/flicker.h"
 #include "studies/pictures/pictures.h"
 #include "studies/pictures/surface_smoothing.h"
-#include "studies/scaling/lammps.h"
 #include "studies/scaling/scaling.h"
 #include "studies/stability/stability.h"
 #include "tools/system/text.h"

@@ -1,10 +1,9 @@
-// Statistics and position errors of clouds small enough to work out by hand.
-#include "tests/catch.h"
+// Bulk statistics and position errors of a few particles, whose values are worked out by hand.
+#include "studies/common/state_difference.h"
 
 #include <cmath>
 
-#include "studies/common/cloud_statistics.h"
-#include "studies/common/position_error.h"
+#include "tests/catch.h"
 
 using engine::Vec3;
 
@@ -17,11 +16,11 @@ engine::Particles row(int count) {
     return particles;
 }
 
-constexpr double kRounding = 1e-14;  // a few sums of at most ten numbers below ten
+constexpr double kRounding = 1e-14;  // of a few sums of at most ten numbers below ten
 
 }  // namespace
 
-TEST_CASE("Center and radius of gyration weigh by mass", "[studies]") {
+TEST_CASE("The center and the radius of gyration are weighted by mass", "[studies]") {
     engine::Particles pair;
     engine::append(pair, {.position = Vec3(0, 0, 0), .mass = 3.0});
     engine::append(pair, {.position = Vec3(4, 0, 0), .mass = 1.0});
@@ -35,16 +34,17 @@ TEST_CASE("R90 and z90 hold nine of ten particles, and all of fewer than ten", "
     engine::Particles ten = row(10);
     for (int k = 0; k < 10; ++k) ten.position[static_cast<std::size_t>(k)].y() = 9.0 - k;
     const auto statistics = studies::bulkStatistics(ten);
-    // Center (4.5, 4.5, 0); distances sqrt(2) times 4.5 twice, 3.5 twice, ...: the ninth of them is one of the largest.
+    // The center is (4.5, 4.5, 0) and the distances are sqrt(2) times 0.5, 0.5, 1.5, 1.5, ..., 4.5, 4.5. The ninth of
+    // them is one of the two largest.
     CHECK(std::abs(statistics.r90 - 4.5 * std::sqrt(2.0)) <= kRounding);
     CHECK(statistics.z90 == 8.0);
-    // The second of two.
+    // Of two distances, both 0.5, the second one counts.
     CHECK(std::abs(studies::bulkStatistics(row(2)).r90 - 0.5) <= kRounding);
-    // The 18th of twenty on a line: center 9.5, distances .5 .5 1.5 1.5 ... 9.5 9.5.
+    // Twenty on a line: the center is 9.5, the distances are 0.5, 0.5, 1.5, 1.5, ..., 9.5, 9.5, and the 18th counts.
     CHECK(std::abs(studies::bulkStatistics(row(20)).r90 - 8.5) <= kRounding);
 }
 
-TEST_CASE("The statistics of nothing are zero", "[studies]") {
+TEST_CASE("The statistics of no particles are zero", "[studies]") {
     const auto statistics = studies::bulkStatistics({});
     CHECK(statistics.gyration == 0.0);
     CHECK(statistics.r90 == 0.0);
@@ -66,7 +66,7 @@ TEST_CASE("The largest difference is that of the quantity that differs most", "[
     CHECK(studies::largestDifference(b, a) == 8.0);
 }
 
-TEST_CASE("Position errors are in each particle's own radius", "[studies]") {
+TEST_CASE("Position errors are measured in each particle's own radius", "[studies]") {
     const engine::Particles reference = row(2);
     engine::Particles moved = reference;
     moved.position[0].y() += 0.15;
@@ -80,7 +80,7 @@ TEST_CASE("Position errors are in each particle's own radius", "[studies]") {
     CHECK(studies::positionError(moved, larger, 2).rms == Approx(1.0).epsilon(kRounding));
 }
 
-TEST_CASE("Births that differ are not compared", "[studies]") {
+TEST_CASE("Particles born at different times are not compared", "[studies]") {
     engine::Particles a = row(3);
     engine::Particles b = row(3);
     a.position[2].y() += 1.5;
@@ -95,11 +95,12 @@ TEST_CASE("Births that differ are not compared", "[studies]") {
     CHECK(studies::positionError({}, {}, 0).compared == 0);
 }
 
-TEST_CASE("A displaced twin is within the distance, and the same every time", "[studies]") {
-    const engine::Particles cloud = row(100);
-    const engine::Particles twin = studies::displaced(cloud, 1e-6);
-    const auto error = studies::positionError(twin, cloud, 100);
-    CHECK(error.largest <= std::sqrt(3.0) * 1e-6 * (1 + 1e-6));  // a unit along each axis; positions to 1e-14 m
-    CHECK(error.rms == Approx(1e-6).epsilon(0.2));               // three axes of 1/3 each; 100 samples
-    CHECK(studies::positionError(twin, studies::displaced(cloud, 1e-6), 100).largest == 0.0);
+TEST_CASE("Displaced particles stay within the distance, and are the same in every call", "[studies]") {
+    const engine::Particles particles = row(100);
+    const engine::Particles twin = studies::displaced(particles, 1e-6);
+    const auto error = studies::positionError(twin, particles, 100);
+    CHECK(error.largest <=
+          std::sqrt(3.0) * 1e-6 * (1 + 1e-6));      // up to 1e-6 along each axis; positions are rounded by 1e-14 m
+    CHECK(error.rms == Approx(1e-6).epsilon(0.2));  // variance 1/3 on each of three axes; 100 samples
+    CHECK(studies::positionError(twin, studies::displaced(particles, 1e-6), 100).largest == 0.0);
 }
