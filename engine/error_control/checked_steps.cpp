@@ -16,7 +16,7 @@ namespace engine {
 namespace {
 
 /// Chosen: good steps in a row before a longer one is tried again.
-constexpr std::uint32_t kPatience = 8;
+constexpr std::uint32_t kAcceptedBeforeLonger = 8;
 
 /// Chosen: how many steps a run can go back. A step may leave a state that no further step from it can pass.
 constexpr std::size_t kHistory = 4;
@@ -29,12 +29,12 @@ void establishEnergy(Simulation& simulation) {
         simulation.cache->evaluator.evaluateFree(particles, particles.velocity, simulation.cache->forces);
     ++simulation.steps.forceEvaluations;
     simulation.cache->forcesCurrent = true;
-    noteEnergy(simulation, pairEnergy);
+    recordEnergy(simulation, pairEnergy);
 }
 
 /// The implicit steppers know the energy in the middle of a step only. What ends an interval can be seen and is never
 /// taken back, so its last step is judged by its end too.
-void lookAtEnd(Simulation& simulation) {
+void checkIntervalEnd(Simulation& simulation) {
     if (isVerlet(simulation.stepper) || std::isnan(*simulation.cache->energy)) return;
     if (!isValid(simulation.particles)) return markInvalid(simulation);
     establishEnergy(simulation);
@@ -55,32 +55,32 @@ class History {
     void add(const Simulation& simulation) {
         if (states_.size() == kHistory) std::rotate(states_.begin(), states_.begin() + 1, states_.end());
         if (states_.size() < kHistory) states_.emplace_back();
-        keep(simulation, states_.back());
+        save(simulation, states_.back());
     }
 
-    const BeforeStep& latest() const { return states_.back(); }
+    const SavedState& latest() const { return states_.back(); }
 
     /// Back to the latest state, or, where that has just been tried, to the one before.
     void goBack(Simulation& simulation, bool further) {
         if (further && states_.size() > 1) states_.pop_back();
-        takeBack(simulation, states_.back());
+        restore(simulation, states_.back());
         states_.pop_back();
     }
 
  private:
-    std::vector<BeforeStep> states_;
+    std::vector<SavedState> states_;
 };
 
 }  // namespace
 
-bool advanceAudited(Simulation& simulation, double time, double longest, StepLimit why, double mostPasses) {
+bool advanceChecked(Simulation& simulation, double time, double longest, StepLimit why, double mostEvaluations) {
     History history;
     int refused = 0;
     emitDue(simulation);
     if (!simulation.cache->energy) establishEnergy(simulation);
-    const double passesBefore = passesOf(simulation);
+    const double passesBefore = forceEvaluationsOf(simulation);
     while (simulation.time < time) {
-        if (passesOf(simulation) - passesBefore > mostPasses) return false;
+        if (forceEvaluationsOf(simulation) - passesBefore > mostEvaluations) return false;
         StepRestriction& restriction = simulation.restriction;
         const double stop = nextStop(simulation, time);
         const double remaining = stop - simulation.time;
@@ -90,8 +90,8 @@ bool advanceAudited(Simulation& simulation, double time, double longest, StepLim
         const double h = remaining / count;
         history.add(simulation);
         takeStep(simulation, h);
-        if (count == 1.0 && stop == time) lookAtEnd(simulation);
-        if (const auto reason = objection(simulation, history.latest())) {
+        if (count == 1.0 && stop == time) checkIntervalEnd(simulation);
+        if (const auto reason = rejectionReason(simulation, history.latest())) {
             if (h < kShortestStep) reportInstability(simulation, h);
             // Two refusals in a row speak against the step that led here.
             history.goBack(simulation, ++refused % 2 == 0);
@@ -104,7 +104,7 @@ bool advanceAudited(Simulation& simulation, double time, double longest, StepLim
         record(simulation.steps, h, restriction.seconds < longest ? restriction.reason : why, simulation.stepper);
         simulation.time = count == 1.0 ? stop : simulation.time + h;
         emitDue(simulation);
-        if (++restriction.passed % kPatience == 0) restriction.seconds *= 2.0;
+        if (++restriction.passed % kAcceptedBeforeLonger == 0) restriction.seconds *= 2.0;
     }
     return true;
 }

@@ -1,4 +1,4 @@
-// Two runs from one state.
+// Runs the same interval twice from one state and compares the ends.
 #include "engine/error_control/error_estimate.h"
 
 #include <algorithm>
@@ -13,30 +13,31 @@
 namespace engine {
 namespace {
 
-/// Two runs whose mean steps differ by less tell nothing about the order; the audit shortened both.
+/// Chosen: the least share of the first run's error by which the two runs are taken to differ. Their steps can differ
+/// by less than they were asked to where the audit has shortened both.
 constexpr double kLeastContrast = 0.3;
 
-/// One measurement says at most that a step should change by this factor; further away the error no longer goes like
-/// its power.
+/// Chosen: the largest factor by which one measurement changes a step. Further away the error no longer goes like a
+/// power of the step.
 constexpr double kMostChange = 3.0;
 
-/// Returns whether it got to the look's end.
-bool run(Simulation& simulation, const Look& look, double step, double mostPasses) {
-    if (simulation.stepper != look.stepper) {
-        simulation.stepper = look.stepper;
+/// Runs the simulation to the end of the trial in steps no longer than `step` (s); returns whether it got there.
+bool run(Simulation& simulation, const TrialRun& trialRun, double step, double mostEvaluations) {
+    if (simulation.stepper != trialRun.stepper) {
+        simulation.stepper = trialRun.stepper;
         simulation.cache->energy.reset();  // steppers know it at different moments of a step
         simulation.restriction = {};
     }
     simulation.steps = {};
-    if (look.stepper != StepperKind::symplecticEuler)
-        return advanceAudited(simulation, look.time, step, StepLimit::error, mostPasses);
+    if (trialRun.stepper != StepperKind::symplecticEuler)
+        return advanceChecked(simulation, trialRun.time, step, StepLimit::error, mostEvaluations);
     simulation.setup.step = step;
     // Unlike advance(), this removes no particles: the two runs are compared particle by particle.
-    advanceInEqualSteps(simulation, look.time);
+    advanceInEqualSteps(simulation, trialRun.time);
     return true;
 }
 
-/// rms of dx + T dv over the particles that were there at the start, in radii.
+/// RMS of dx + T dv over the particles that were there at the start, in radii; T is the horizon, s.
 double difference(const Particles& a, const Particles& b, std::size_t count, double horizon) {
     double sumSq = 0.0;
     for (std::size_t p = 0; p < count; ++p) {
@@ -48,48 +49,48 @@ double difference(const Particles& a, const Particles& b, std::size_t count, dou
 
 }  // namespace
 
-Trial measure(const Simulation& simulation, const Look& look, Simulation* finer) {
-    const double interval = look.time - simulation.time;
+Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation* finer) {
+    const double interval = trialRun.time - simulation.time;
     Trial trial;
-    trial.stepper = look.stepper;
-    // One run after the other in the same memory: a look holds one simulation more, not two.
+    trial.stepper = trialRun.stepper;
+    // One run after the other in the same memory, so that an estimate holds one simulation more and not two.
     Simulation there = simulation;
-    trial.finished = run(there, look, look.step, look.mostPasses);
-    trial.spent = passesOf(there);
+    trial.finished = run(there, trialRun, trialRun.step, trialRun.mostEvaluations);
+    trial.spent = forceEvaluationsOf(there);
     if (!trial.finished) return trial;
     const auto meanStep = [&] { return interval / static_cast<double>(there.steps.count); };
-    trial.asked = interval / std::ceil(interval / look.step * (1.0 - 1e-9));
+    trial.asked = interval / std::ceil(interval / trialRun.step * (1.0 - 1e-9));
     trial.step = meanStep();
-    trial.cost = passesOf(there) / interval;
-    trial.restricted = there.steps.rejected > 0 || there.restriction.seconds < look.step;
+    trial.cost = forceEvaluationsOf(there) / interval;
+    trial.restricted = there.steps.rejected > 0 || there.restriction.seconds < trialRun.step;
     if (trial.restricted) trial.reason = there.restriction.reason;
     const Particles coarse = std::move(there.particles);
     there = simulation;
-    // Where the audit or births shortened the steps of the first run, those of the second are half as long again.
-    run(there, look, 0.5 * trial.step, std::numeric_limits<double>::infinity());
-    const double contrast = std::max(kLeastContrast, 1.0 - errorShare(look.stepper, meanStep() / trial.step));
+    // Half the steps that the first run took, which the audit and emissions may have shortened.
+    run(there, trialRun, 0.5 * trial.step, std::numeric_limits<double>::infinity());
+    const double contrast = std::max(kLeastContrast, 1.0 - errorRatio(trialRun.stepper, meanStep() / trial.step));
     const std::size_t count = simulation.particles.count();
-    trial.error = difference(coarse, there.particles, count, look.horizon) / contrast / interval;
-    trial.spent += passesOf(there);
+    trial.error = difference(coarse, there.particles, count, trialRun.horizon) / contrast / interval;
+    trial.spent += forceEvaluationsOf(there);
     if (finer == nullptr) return trial;
     *finer = std::move(there);
-    finer->cache->implicit = {};  // several may be kept
+    finer->cache->implicit = {};  // its memory is large, and several may be kept
     return trial;
 }
 
 double wantedStep(const Trial& trial, double wanted) {
-    const double change = trial.error > 0.0 ? stepShare(trial.stepper, wanted / trial.error) : kMostChange;
-    // Steps that the audit did not let grow will not grow for a better error either; those that births ended may.
+    const double change = trial.error > 0.0 ? stepRatio(trial.stepper, wanted / trial.error) : kMostChange;
+    // Steps that the audit kept from growing will not grow for a larger error either; those that emissions ended may.
     if (trial.restricted || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
     return trial.asked * std::min(change, kMostChange);
 }
 
-double shareOf(const Trial& trial, double step) {
+double stepRatioTo(const Trial& trial, double step) {
     return step / (step > trial.step ? trial.asked : trial.step);
 }
 
 double costAt(const Trial& trial, double step) {
-    if (trial.restricted) return trial.cost / shareOf(trial, step);
+    if (trial.restricted) return trial.cost / stepRatioTo(trial, step);
     const double endedEarly = std::max(0.0, 1.0 / trial.step - 1.0 / trial.asked);  // 1/s
     return trial.cost * trial.step * (1.0 / step + endedEarly);
 }

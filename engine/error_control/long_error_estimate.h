@@ -1,24 +1,25 @@
-// What becomes of an error after a while, by damping or by collisions: the step that meets the wanted error where a
-// look at one interval would not see it. Called by the automatic stepper when it has compared its candidates.
+// How errors develop beyond one interval, by damping or by collisions: finds the step that meets the wanted error where
+// an estimate over one interval would miss it. Called by the automatic stepper when it has compared its candidates.
 #pragma once
 
 #include "engine/error_control/error_estimate.h"
 
 namespace engine {
 
-/// Chosen: as long as an impact takes, short enough that collisions after it do not multiply its errors, s.
-inline constexpr double kFarSeconds = 0.2;
+/// Length of the trials, s. Chosen: as long as an impact takes, and short enough that collisions after it do not
+/// multiply its errors.
+inline constexpr double kLongEstimateSeconds = 0.2;
 
-struct FarLook {
-    double step = 0.0;   ///< at which the error is the wanted one, as far as could be seen, s
-    double spent = 0.0;  ///< passes over all pairs
-    Trial trial;         ///< the last measurement: over many intervals, what steps cost is seldom one event's
+struct LongEstimate {
+    double step = 0.0;   ///< at which the error is the wanted one, as far as the trials show, s
+    double spent = 0.0;  ///< force evaluations
+    Trial trial;         ///< the last one; over many intervals its cost is seldom that of a single event
 };
 
-/// Looks for the step at which a stepper's error over kFarSeconds, in whole intervals (s) and no more than twelve, is
-/// the set-up's. It begins at the step (s) that meets the error over one interval, at most one interval; a much
-/// different one is looked at too.
-/// Throws: InstabilityError.
-FarLook lookFar(const Simulation& simulation, StepperKind stepper, double step, double interval);
+/// Finds the step at which a stepper's error over kLongEstimateSeconds, in whole intervals (s) and at most twelve, is
+/// the set-up's. Begins at the step (s), at most one interval, that meets the error over one interval; a much different
+/// step gets a trial, too.
+/// @throws InstabilityError
+LongEstimate estimateLongError(const Simulation& simulation, StepperKind stepper, double step, double interval);
 
 }  // namespace engine

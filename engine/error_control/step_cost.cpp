@@ -21,7 +21,7 @@ ImplicitCosts implicitCosts(const Setup& setup) {
     return hasFriction ? kWithFriction : kWithoutFriction;
 }
 
-double passesOf(const Simulation& simulation) {
+double forceEvaluationsOf(const Simulation& simulation) {
     const StepStatistics& steps = simulation.steps;
     const ImplicitCosts costs = implicitCosts(simulation.setup);
     const auto takenBy = [&](StepperKind stepper) {

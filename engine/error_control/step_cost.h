@@ -15,6 +15,6 @@ struct ImplicitCosts {
 ImplicitCosts implicitCosts(const Setup& setup);
 
 /// What the simulation's steps have cost, in passes over all pairs.
-double passesOf(const Simulation& simulation);
+double forceEvaluationsOf(const Simulation& simulation);
 
 }  // namespace engine

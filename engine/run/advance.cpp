@@ -29,7 +29,7 @@ void advance(Simulation& simulation, double time) {
     else if (simulation.setup.stepper == StepperKind::automatic)
         advanceAutomatically(simulation, time);
     else
-        advanceAudited(simulation, time, simulation.setup.step, StepLimit::given);
+        advanceChecked(simulation, time, simulation.setup.step, StepLimit::fixed);
 }
 
 }  // namespace engine

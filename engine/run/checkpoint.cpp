@@ -1,4 +1,4 @@
-// One function lists what is kept, for both directions. What is read back is checked before anything is indexed by it.
+// One function lists what is stored, for both directions. What is read is checked before anything is indexed by it.
 #include "engine/run/checkpoint.h"
 
 #include <bit>
@@ -16,12 +16,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-/// Changed whenever what is kept changes.
+/// Changed whenever what is stored changes.
 constexpr std::uint64_t kFormat = 0x35504B434C424C47;  // "GLBLCKP5"
 
 constexpr std::size_t kChecksumBytes = 8;
 
-/// Of a neighbor list, m: the world counted in less would not fit the cell grid's numbers.
+/// Smallest reach of a neighbor list that is accepted, m: in cells any smaller the world would not fit the cell grid's
+/// numbers.
 constexpr double kLeastReach = 1e-9;
 
 class Writer {
@@ -125,7 +126,7 @@ void exchangeParticles(Archive& archive, Of& particles) {
     archive(particles.nextId);
 }
 
-/// As many emitters and schedules as the set-up has: their numbers are not kept.
+/// The set-up determines the numbers of emitters and schedules, so these are not stored.
 template <class Archive, class Of>
 void exchangeEmitters(Archive& archive, Of& emitters) {
     for (auto& emitter : emitters) {
@@ -149,13 +150,13 @@ void exchangeAutomatic(Archive& archive, Of& state) {
         archive(choice.growth);
         archive(choice.followed);
     }
-    archive(state.intervals);
-    archive(state.nextLook);
-    archive(state.looks);
+    archive(state.intervalCount);
+    archive(state.nextEstimate);
+    archive(state.estimateCount);
     archive(state.errorSum);
     archive(state.largestError);
-    archive(state.agitation);
-    archive(state.trials);
+    archive(state.rmsAcceleration);
+    archive(state.estimateCost);
 }
 
 template <class Archive, class Of>
@@ -170,7 +171,7 @@ void exchangeStatistics(Archive& archive, Of& steps) {
     exchangeEach(archive, steps.takenBy);
 }
 
-/// Everything but the neighbor list. Of: Simulation, const where the archive writes.
+/// Everything but the neighbor list. Of is Simulation, const where the archive writes.
 template <class Archive, class Of>
 void exchange(Archive& archive, Of& simulation) {
     exchangeParticles(archive, simulation.particles);
@@ -190,7 +191,7 @@ void exchange(Archive& archive, Of& simulation) {
     exchangeStatistics(archive, simulation.steps);
 }
 
-/// What says that two set-ups have states of the same shape.
+/// A hash that is equal for set-ups whose states have the same layout.
 std::uint64_t shapeOf(const Simulation& simulation) {
     std::uint64_t hash = fnv1a(simulation.setup.materials.size(), kFormat);
     for (const EmitterState& state : simulation.emitters) hash = fnv1a(state.schedules.size(), hash);
@@ -223,7 +224,7 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     reader(shape);
     require(shape == shapeOf(simulation), "it is of another scene");
     exchange(reader, simulation);
-    if (const char* const flaw = flawOf(simulation)) throw CheckpointError(flaw);
+    if (const char* const flaw = stateError(simulation)) throw CheckpointError(flaw);
     std::vector<Vec3> builtAt;
     double reach = 0.0;
     reader(builtAt);

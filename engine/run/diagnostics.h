@@ -1,5 +1,5 @@
-// What can be measured of a state: energy, linear and angular momentum, and a hash that two runs share exactly when
-// every bit of their particles agrees. Sums run in a fixed order, so they do not depend on threads.
+// Measurements of a state: energy, linear and angular momentum, and a hash that two runs share exactly when every bit
+// of their particles agrees. Sums run in a fixed order, so that they do not depend on threads.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace engine {
 
 struct Energy {
     double kinetic = 0.0;   ///< J
-    double pairs = 0.0;     ///< J, the sum of U(D)
-    double contacts = 0.0;  ///< J, of obstacles
-    double gravity = 0.0;   ///< J, the sum of -m g.x
+    double pairs = 0.0;     ///< sum of U(D), J
+    double contacts = 0.0;  ///< at obstacles, J
+    double gravity = 0.0;   ///< sum of -m g.x, J
 
     double total() const { return kinetic + pairs + contacts + gravity; }
 };

@@ -1,4 +1,4 @@
-// Counted member by member, as simulation.h and pair_matrix.h have them.
+// Counts member by member, as state/simulation.h, stepping/step_cache.h and forces/pair_matrix.h declare them.
 #include "engine/run/run_memory.h"
 
 #include "engine/error_control/auto_stepper.h"
@@ -7,7 +7,7 @@
 namespace engine {
 namespace {
 
-/// The states of a run and what every stepper keeps of them.
+/// Bytes of the particles, and of what every stepper keeps for each of them.
 std::size_t bytesOfState(const Simulation& simulation) {
     constexpr std::size_t kState = 2 * sizeof(Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
     constexpr std::size_t kForces = 3 * sizeof(Vec3);  // with predicted velocities and positions at the start
@@ -16,13 +16,13 @@ std::size_t bytesOfState(const Simulation& simulation) {
     return initial + simulation.particles.count() * (kState + kForces + kDrift + sizeof(PackedParticle));
 }
 
-/// The states that the audit can go back to, and one that the automatic stepper keeps.
+/// Bytes of the states that the audit can restore, and of the one that the automatic stepper saves.
 std::size_t bytesBefore(const Simulation& simulation) {
     constexpr std::size_t kStates = 5;
     return kStates * 3 * sizeof(Vec3) * simulation.particles.count();
 }
 
-/// The implicit steppers' matrix and the vectors of its solver.
+/// Bytes of the implicit steppers' matrix and of the vectors of its solver.
 std::size_t bytesOfMatrix(const Simulation& simulation) {
     const bool hasFriction = termsFor(simulation.cache->evaluator.law(), simulation.particles).pair.friction;
     const bool hasObstacles = !simulation.setup.obstacles.shapes.empty();
@@ -36,7 +36,7 @@ std::size_t bytesOfMatrix(const Simulation& simulation) {
 
 }  // namespace
 
-std::size_t mostBytes(const Simulation& simulation) {
+std::size_t peakBytes(const Simulation& simulation) {
     const std::size_t run = bytesOfState(simulation) + bytesOf(simulation.cache->evaluator.list());
     const std::size_t before = bytesBefore(simulation);
     switch (simulation.setup.stepper) {
@@ -51,7 +51,7 @@ std::size_t mostBytes(const Simulation& simulation) {
         case StepperKind::automatic:
             break;
     }
-    return (1 + kRunsOfLook) * run + 2 * (before + bytesOfMatrix(simulation));
+    return (1 + kRunsOfEstimate) * run + 2 * (before + bytesOfMatrix(simulation));
 }
 
 }  // namespace engine

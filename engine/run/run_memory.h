@@ -1,4 +1,5 @@
-// What a run needs in memory, told from its neighbor list, which is the greatest part. Asked by `globular check`.
+// An estimate of the memory that a run needs, from its neighbor list, which is the largest part. Used by `globular
+// check`.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +8,8 @@
 
 namespace engine {
 
-/// Bytes that a run which has got here holds at most, if its particles stay as many and as near to each other: a step
-/// by the stepper that needs most, or the looks of the automatic one.
-/// Costs:  O(1) beside bytesOf(list).
-std::size_t mostBytes(const Simulation& simulation);
+/// Bytes that a run in this state holds at most if its particles stay as many and as close to each other: those of a
+/// step by the stepper that needs most, or of an error estimate by the automatic one.
+std::size_t peakBytes(const Simulation& simulation);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// One group of members after the other.
+// Checks one group of members after the other.
 #include "engine/run/state_validation.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ bool haveEqualLengths(const Simulation& simulation) {
            (!simulation.cache->forcesCurrent || simulation.cache->forces.size() == count);
 }
 
-/// Whether a particle still is what the set-up made it: one of those at the start, or one of an emitter.
+/// Whether a particle has the radius, mass and material that the set-up gives it, at the start or by an emitter.
 bool isOfSetup(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
     const Particles& initial = simulation.setup.initial;
@@ -66,7 +66,7 @@ bool areStepsPossible(const Simulation& simulation) {
     const bool isKnown = simulation.setup.stepper == StepperKind::automatic
                              ? isReachable(simulation.automatic, simulation.stepper)
                              : simulation.stepper == simulation.setup.stepper;
-    // Written so that a NaN fails.
+    // A NaN fails.
     return isKnown && restriction.seconds >= 0.5 * kShortestStep && isLimit(restriction.reason);
 }
 
@@ -78,7 +78,7 @@ bool isInWorld(const std::vector<Vec3>& positions) {
            });
 }
 
-const char* flawOf(const Simulation& simulation) {
+const char* stateError(const Simulation& simulation) {
     if (!haveEqualLengths(simulation)) return "its arrays are of different lengths";
     if (!isInWorld(simulation.particles.position)) return "a particle is not in the world";
     if (!areFinite(simulation.particles.velocity)) return "a velocity is not finite";

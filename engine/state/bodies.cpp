@@ -1,4 +1,4 @@
-// Packings. Jitter is keyed by the place in the lattice, so the same body is the same on every machine.
+// Lattices cut to shape. Jitter is keyed by the index in the lattice, so that a body is the same on every machine.
 #include "engine/state/bodies.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Bodies: shapes filled with particles at time zero. Called by the scene reader; the simulation only sees particles.
+// Bodies: shapes filled with particles at time zero. Called by scenes/; the simulation only sees the particles.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace engine {
 
-/// Where the particles of a packed body sit.
+/// How a body is packed with particles.
 struct Packing {
     double spacing = 0.3;    ///< distance of nearest neighbors, m
     double jitter = 0.0;     ///< random displacement of each coordinate, up to this share of the spacing

@@ -36,27 +36,27 @@ struct NewParticle {
 /// Appends a particle with the next id.
 void append(Particles& particles, const NewParticle& particle);
 
-/// Keeps the first `count` particles; the ids of the others are free again.
+/// Keeps the first `count` particles; the ids of the others may be given again.
 void truncate(Particles& particles, std::size_t count);
 
-/// Keeps the particles for whose index `stays` is true, when it is asked once for each in order.
+/// Keeps the particles for whose index stays(index) is true; it is called once for each index in ascending order.
 template <class Stays>
 void keepWhere(Particles& particles, const Stays& stays) {
-    std::size_t kept = 0;
+    std::size_t saved = 0;
     for (std::size_t p = 0; p < particles.count(); ++p) {
         if (!stays(p)) continue;
-        particles.position[kept] = particles.position[p];
-        particles.velocity[kept] = particles.velocity[p];
-        particles.radius[kept] = particles.radius[p];
-        particles.mass[kept] = particles.mass[p];
-        particles.birthTime[kept] = particles.birthTime[p];
-        particles.material[kept] = particles.material[p];
-        particles.id[kept] = particles.id[p];
-        ++kept;
+        particles.position[saved] = particles.position[p];
+        particles.velocity[saved] = particles.velocity[p];
+        particles.radius[saved] = particles.radius[p];
+        particles.mass[saved] = particles.mass[p];
+        particles.birthTime[saved] = particles.birthTime[p];
+        particles.material[saved] = particles.material[p];
+        particles.id[saved] = particles.id[p];
+        ++saved;
     }
     const std::uint32_t nextId = particles.nextId;
-    truncate(particles, kept);
-    particles.nextId = nextId;  // of the dead nobody takes the place
+    truncate(particles, saved);
+    particles.nextId = nextId;  // ids are not used again
 }
 
 }  // namespace engine

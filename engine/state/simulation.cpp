@@ -13,6 +13,18 @@ void record(StepStatistics& steps, double h, StepLimit limit, StepperKind steppe
     ++steps.takenBy[static_cast<std::size_t>(stepper)];
 }
 
+StepStatistics& StepStatistics::operator+=(const StepStatistics& other) {
+    shortest = count == 0 ? other.shortest : std::min(shortest, other.shortest);
+    longest = std::max(longest, other.longest);
+    count += other.count;
+    forceEvaluations += other.forceEvaluations;
+    products += other.products;
+    rejected += other.rejected;
+    for (std::size_t limit = 0; limit < kStepLimits; ++limit) limitedBy[limit] += other.limitedBy[limit];
+    for (std::size_t stepper = 0; stepper < kStepperKinds; ++stepper) takenBy[stepper] += other.takenBy[stepper];
+    return *this;
+}
+
 std::uint64_t largestCount(const Simulation& simulation) {
     return std::max<std::uint64_t>(simulation.largestCountBeforeRemoval, simulation.particles.count());
 }

@@ -15,7 +15,7 @@ namespace engine {
 
 /// What kept a step from being longer.
 enum class StepLimit {
-    given,         ///< the scene's fixed step
+    fixed,         ///< the scene's fixed step
     error,         ///< the wanted error
     displacement,  ///< a particle may not move further than its radius in one step
     audit,         ///< a longer step gained energy
@@ -38,6 +38,8 @@ struct StepStatistics {
     std::uint64_t rejected = 0;                          ///< steps taken back and retried at half the length
     std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< number of steps, by StepLimit
     std::array<std::uint64_t, kStepperKinds> takenBy{};  ///< number of steps, by StepperKind
+
+    StepStatistics& operator+=(const StepStatistics& other);
 };
 
 /// Counts one step of h seconds.
@@ -61,13 +63,13 @@ struct AutoChoice {
 
 struct AutoState {
     std::array<AutoChoice, kStepperKinds> choices;  ///< by StepperKind
-    std::uint64_t intervals = 0;                    ///< intervals run so far
-    std::uint64_t nextLook = 0;                     ///< index of the interval in which the error is estimated next
-    std::uint64_t looks = 0;                        ///< number of error estimates so far
+    std::uint64_t intervalCount = 0;                ///< intervals run so far
+    std::uint64_t nextEstimate = 0;                 ///< index of the interval in which the error is estimated next
+    std::uint64_t estimateCount = 0;                ///< number of error estimates so far
     double errorSum = 0.0;                          ///< sum of the estimates, radii per second
     double largestError = 0.0;                      ///< largest estimate, radii per second
-    double agitation = 0.0;  ///< RMS of the acceleration other than gravity at the last estimate, m/s^2
-    double trials = 0.0;     ///< force evaluations that estimates have cost and the run did not go on with
+    double rmsAcceleration = 0.0;  ///< RMS of the acceleration other than gravity at the last estimate, m/s^2
+    double estimateCost = 0.0;     ///< force evaluations that estimates have cost and the run did not go on with
 };
 
 struct StepCache;

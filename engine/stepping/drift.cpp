@@ -1,4 +1,4 @@
-// Every particle on its own.
+// Each particle's contacts: found at the step's start, then acting as a force or along its path.
 #include "engine/stepping/drift.h"
 
 #include <cmath>
@@ -12,93 +12,86 @@
 namespace engine {
 namespace {
 
-const Material& materialOf(const Simulation& simulation, std::size_t p) {
-    return simulation.setup.materials[simulation.particles.material[p]];
-}
-
 Probe probeOf(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
-    const Material& material = materialOf(simulation, p);
+    const Material& material = simulation.setup.materials[simulation.particles.material[p]];
     return {simulation.particles.position[p], velocity, simulation.particles.radius[p], material.dampingReach,
             material.friction};
 }
 
-Flight flightOf(const Simulation& simulation, std::size_t p) {
-    const Particles& particles = simulation.particles;
-    return {particles.position[p],
-            particles.velocity[p],
-            particles.mass[p],
-            particles.radius[p],
-            materialOf(simulation, p).dampingReach,
-            materialOf(simulation, p).friction};
+BallisticState ballisticStateOf(const Simulation& simulation, std::size_t p) {
+    return {probeOf(simulation, p, simulation.particles.velocity[p]), simulation.particles.mass[p]};
 }
 
-constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoNeighbor = std::numeric_limits<std::uint32_t>::max();
 
+/// Clearance of a particle about which nothing is known.
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
-/// Share of a radius by which a clearance is taken too small: far above what roundings add up to.
+/// Share of a radius by which a clearance is taken too small. Chosen: far above what roundings add up to.
 constexpr double kMargin = 1e-3;
 
 }  // namespace
 
-bool isClear(const Simulation& simulation, std::size_t p) {
+bool isClearOfObstacles(const Simulation& simulation, std::size_t p) {
     return p < simulation.cache->clearance.size() && simulation.cache->clearance[p] >= 0.0;
 }
 
 void prepareDrift(Simulation& simulation) {
-    simulation.cache->evaluator
-        .invalidateDisplacementBound();  // each particle goes its own way now, maybe before any evaluation
+    StepCache& cache = *simulation.cache;
+    cache.evaluator.invalidateDisplacementBound();
     if (simulation.setup.obstacles.shapes.empty()) return;
-    simulation.cache->swept.resize(simulation.particles.count());
-    simulation.cache->clearance.resize(simulation.particles.count(), kUnknown);
-    simulation.cache->cachedNeighbors.resize(simulation.particles.count(), kNobody);
-    copy(simulation.particles.position, simulation.cache->startPositions);
-    // Of these very particles: the evaluator knows that of the last evaluation, which a run gone on with has not made.
-    simulation.cache->startCutoff = termsFor(simulation.cache->evaluator.law(), simulation.particles).cutoff;
-    // Verlet has the forces of the start, and with them its list, where forces need one.
-    simulation.cache->startIsListed =
-        (isVerlet(simulation.stepper) && simulation.cache->evaluator.needsList()) ||
-        covers(simulation.cache->evaluator.list(), simulation.cache->startPositions, simulation.cache->startCutoff);
+    const Particles& particles = simulation.particles;
+    cache.swept.resize(particles.count());
+    cache.clearance.resize(particles.count(), kUnknown);
+    cache.cachedNeighbors.resize(particles.count(), kNoNeighbor);
+    copy(particles.position, cache.startPositions);
+    // Computed from the particles as they are: the evaluator knows the cutoff at its last evaluation, and a resumed run
+    // has not made that one.
+    cache.startCutoff = termsFor(cache.evaluator.law(), particles).cutoff;
+    // Verlet has evaluated the forces at the start, and has brought the list up to date for that where it needs one.
+    cache.startIsListed = (isVerlet(simulation.stepper) && cache.evaluator.needsList()) ||
+                          covers(cache.evaluator.list(), cache.startPositions, cache.startCutoff);
 }
 
-Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h) {
+Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     const Obstacles& obstacles = simulation.setup.obstacles;
     if (obstacles.shapes.empty()) return Vec3::Zero();
-    simulation.cache->swept[p] = 0;
-    const double way = h * std::sqrt(squaredLength(simulation.particles.velocity[p]));
-    if (way <= simulation.cache->clearance[p]) return Vec3::Zero();
-    const Flight flight = flightOf(simulation, p);
-    const Contacts contacts = contactsAhead(obstacles, flight, h, isVerlet(simulation.stepper));
-    simulation.cache->clearance[p] = contacts.gap - kMargin * flight.radius;
-    // Alone, a particle feels only the obstacle, and the sweep is as good as exact. In company its contact is part of
-    // what the whole heap does.
-    const auto hasNoNeighborWithin = [&] {
-        return simulation.cache->startIsListed && simulation.cache->evaluator.hasNoNeighborWithin(
-                                                      simulation.cache->startPositions, simulation.cache->startCutoff,
-                                                      p, simulation.cache->cachedNeighbors[p]);
+    StepCache& cache = *simulation.cache;
+    cache.swept[p] = 0;
+    const double pathLength = h * std::sqrt(squaredLength(simulation.particles.velocity[p]));
+    if (pathLength <= cache.clearance[p]) return Vec3::Zero();
+    const BallisticState state = ballisticStateOf(simulation, p);
+    const Contacts contacts = contactsInStep(obstacles, state, h, isVerlet(simulation.stepper));
+    cache.clearance[p] = contacts.gap - kMargin * state.probe.radius;
+    // A particle without neighbors feels the obstacle alone, and the sweep is as good as exact. Among others its
+    // contact is part of what the whole heap does.
+    const auto hasNoNeighbor = [&] {
+        return cache.startIsListed && cache.evaluator.hasNoNeighborWithin(cache.startPositions, cache.startCutoff, p,
+                                                                          cache.cachedNeighbors[p]);
     };
-    if (!contacts.needsSweep && !(way > contacts.gap && hasNoNeighborWithin())) return contacts.force;
-    simulation.cache->swept[p] = 1;
+    if (!contacts.needsSweep && !(pathLength > contacts.gap && hasNoNeighbor())) return contacts.force;
+    cache.swept[p] = 1;
     return Vec3::Zero();
 }
 
 void driftSwept(Simulation& simulation, std::size_t p, double h) {
-    Flight flight = flightOf(simulation, p);
-    fly(simulation.setup.obstacles, flight, h);
-    simulation.particles.position[p] = flight.position;
-    simulation.particles.velocity[p] = flight.velocity;
+    BallisticState state = ballisticStateOf(simulation, p);
+    advanceThroughContacts(simulation.setup.obstacles, state, h);
+    simulation.particles.position[p] = state.probe.position;
+    simulation.particles.velocity[p] = state.probe.velocity;
     simulation.cache->clearance[p] = kUnknown;
 }
 
-Vec3 slowContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
+Vec3 resolvedContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
     const Obstacles& obstacles = simulation.setup.obstacles;
-    if (obstacles.shapes.empty() || simulation.cache->swept[p] || isClear(simulation, p)) return Vec3::Zero();
+    if (obstacles.shapes.empty() || simulation.cache->swept[p] || isClearOfObstacles(simulation, p))
+        return Vec3::Zero();
     return contactForce(obstacles, probeOf(simulation, p, velocity));
 }
 
-ContactAnswer slowContact(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
+ContactAnswer resolvedContact(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
     const Obstacles& obstacles = simulation.setup.obstacles;
-    if (obstacles.shapes.empty() || isClear(simulation, p)) return {};
+    if (obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return {};
     ContactAnswer answer = contactForceAndEnergy(obstacles, probeOf(simulation, p, velocity));
     if (simulation.cache->swept[p]) answer.force = Vec3::Zero();
     return answer;
@@ -113,7 +106,7 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     inParallel(matrix.own.size(), contactGrain(obstacles), [&](std::size_t place) {
         matrix.own[place] = Matrix3::Zero();
         const std::size_t p = order[place];
-        if (simulation.cache->swept[p] || isClear(simulation, p)) return;
+        if (simulation.cache->swept[p] || isClearOfObstacles(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);
         forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
             const Contact contact = contactWith(surface, obstacles.law, probe);

@@ -1,4 +1,5 @@
-// Drift and contacts: what the steppers other than the paper's do to each particle besides the pairs.
+// Drift and contacts: what the steppers other than the paper's do to each particle besides the pair forces. A step
+// calls prepareDrift once, then chooseSweptContact for each particle, and only then moves particles.
 #pragma once
 
 #include <cmath>
@@ -7,37 +8,38 @@
 
 namespace engine {
 
-/// Makes room for what a step finds out about each particle's way, and has noted moves forgotten; before any of what
-/// follows.
+/// Sizes the step cache's arrays by particle, notes the positions at the step's start, and invalidates the displacement
+/// bound, because each particle takes a path of its own from here.
 void prepareDrift(Simulation& simulation);
 
-/// Decides whether obstacles are to meet a particle along its way in a step of h seconds; at the step's start, before
-/// it moves. Returns their force (N) on it where they are not.
-Vec3 chooseSwept(Simulation& simulation, std::size_t p, double h);
+/// Decides whether the obstacles act on a particle along its path in a step of h seconds (a swept contact) or as a
+/// force. Called at the step's start, before the particle moves. Returns the force, N; zero where the contact is swept.
+Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h);
 
 /// Whether a particle certainly touches no obstacle.
-bool isClear(const Simulation& simulation, std::size_t p);
+bool isClearOfObstacles(const Simulation& simulation, std::size_t p);
 
-/// Moves a swept particle for h seconds; its velocity changes where it meets an obstacle.
+/// Moves a particle with a swept contact for h seconds; its velocity changes where it meets an obstacle.
 void driftSwept(Simulation& simulation, std::size_t p, double h);
 
 /// Moves a particle for h seconds.
 inline void drift(Simulation& simulation, std::size_t p, double h) {
-    const bool hasContacts = !simulation.setup.obstacles.shapes.empty();
-    if (hasContacts && simulation.cache->swept[p]) return driftSwept(simulation, p, h);
-    const Vec3 way = h * simulation.particles.velocity[p];
-    simulation.particles.position[p] += way;
-    if (hasContacts) simulation.cache->clearance[p] -= std::sqrt(squaredLength(way));
+    const bool hasObstacles = !simulation.setup.obstacles.shapes.empty();
+    if (hasObstacles && simulation.cache->swept[p]) return driftSwept(simulation, p, h);
+    const Vec3 displacement = h * simulation.particles.velocity[p];
+    simulation.particles.position[p] += displacement;
+    if (hasObstacles) simulation.cache->clearance[p] -= std::sqrt(squaredLength(displacement));
 }
 
-/// The obstacles' force (N) on a particle of that velocity (m/s); zero where it is swept.
-Vec3 slowContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity);
+/// The obstacles' force (N) on a particle that has this velocity (m/s); zero where its contact is swept.
+Vec3 resolvedContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity);
 
-/// The same and the energy (J), which a swept one has too.
-ContactAnswer slowContact(const Simulation& simulation, std::size_t p, const Vec3& velocity);
+/// The obstacles' force (N) as above, and the contacts' energy (J), which a swept contact has too.
+ContactAnswer resolvedContact(const Simulation& simulation, std::size_t p, const Vec3& velocity);
 
-/// Adds the obstacles' damping and stiffness on particles that are not swept to the matrix of a step of h seconds.
-/// Both, whatever the matrix holds of the pairs: a heap's weight makes contacts stiffer than anything else.
+/// Adds the obstacles' damping and stiffness on particles whose contacts are not swept to the matrix of a step of h
+/// seconds. Both are added whatever the matrix holds of the pairs: the weight of a heap makes contacts stiffer than
+/// anything else.
 void addContacts(const Simulation& simulation, double h, PairMatrix& matrix);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Assemble, solve, kick.
+// Assembles the matrix in the middle of the step, solves for the change of velocity, and kicks.
 #include "engine/stepping/implicit_step.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace engine {
 namespace {
 
-/// Solves for d, in the matrix's order.
+/// Solves for d, half the change of velocity, in the matrix's order.
 void solveForChange(Simulation& simulation, double h) {
     ImplicitScratch& scratch = simulation.cache->implicit;
     const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
@@ -38,7 +38,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
                                                                    simulation.cache->implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
     inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
-        simulation.cache->forces[p] += slowContactForce(simulation, p, particles.velocity[p]);
+        simulation.cache->forces[p] += resolvedContactForce(simulation, p, particles.velocity[p]);
     });
     addContacts(simulation, h, simulation.cache->implicit.matrix);
     solveForChange(simulation, h);
@@ -49,7 +49,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
                    [&](std::size_t place) { particles.velocity[order[place]] += change[place]; });
     };
     addChange();
-    noteEnergy(simulation, pairEnergy);  // of the middle: these are the mean velocities
+    recordEnergy(simulation, pairEnergy);  // in the middle of the step, where the velocities are the mean ones
     addChange();
 }
 
@@ -61,7 +61,7 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
     const std::size_t grain = contactGrain(simulation.setup.obstacles);
     prepareDrift(simulation);
     inParallel(particles.count(), grain, [&](std::size_t p) {
-        chooseSwept(simulation, p, h);  // its force is of the start; the middle's is asked for there
+        chooseSweptContact(simulation, p, h);  // the force at the start is not used
         drift(simulation, p, 0.5 * h);
         particles.velocity[p] *= decay;
     });

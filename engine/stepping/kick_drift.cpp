@@ -1,5 +1,5 @@
-// Compiled once per instruction set. Coordinates of particles lie side by side, three numbers each: three vectors hold
-// those of as many particles as one has lanes.
+// Compiled once per instruction set. The coordinates of particles lie side by side, three numbers each, so three SIMD
+// vectors hold those of as many particles as one vector has lanes.
 #include "engine/stepping/kick_drift.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The numbers of some particles one after the other.
+/// Arrays of the particles; force, position and velocity hold three numbers a particle.
 struct Numbers {
     const double* mass;
     const double* force;
@@ -27,7 +27,7 @@ struct Numbers {
     double* velocity;
 };
 
-/// As many particles at a time as D has lanes.
+/// Kicks and drifts as many particles at a time as D has lanes.
 template <class D, bool addsWeight>
 class Kicker {
     using V = hn::Vec<D>;
@@ -70,7 +70,7 @@ class Kicker {
         }
     };
 
-    /// Returns whether the particles from one on are sound.
+    /// Moves the particles from index `first` on, as many as there are lanes; returns whether they are valid.
     bool move(const Numbers& all, std::size_t first, Range& range) const {
         const V mass = hn::LoadU(kTag, all.mass + first);
         const V perMass = hn::Div(h_, mass);
@@ -94,10 +94,10 @@ class Kicker {
     }
 
  private:
-    /// False for what is no number.
+    /// A NaN is not below any limit.
     static hn::Mask<D> isBelow(V number, double limit) { return hn::Lt(hn::Abs(number), hn::Set(kTag, limit)); }
 
-    /// Whose number stands in each lane of the first, second or third vector.
+    /// For each lane of the first, second or third vector, which particle its number belongs to.
     static Indices particlesOf(std::size_t vector) {
         std::array<std::int64_t, kMost> of;
         for (std::size_t lane = 0; lane < lanes(); ++lane)
@@ -117,9 +117,9 @@ class Kicker {
     std::array<V, kAxes> gravity_;
 };
 
-/// Moves as many as fill vectors of D from one on; that one is then the first of those that are left.
+/// Moves full vectors of particles from `first` on; on return `first` is the start of the remainder.
 template <class D, bool addsWeight>
-Moved moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, std::size_t end) {
+KickDriftResult moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, std::size_t end) {
     const Kicker<D, addsWeight> kicker(step);
     typename Kicker<D, addsWeight>::Range range;
     bool areValid = true;
@@ -128,14 +128,14 @@ Moved moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, st
 }
 
 template <bool addsWeight>
-Moved moveAll(const KickDrift& step, const Numbers& all, std::size_t begin, std::size_t end) {
+KickDriftResult moveAll(const KickDrift& step, const Numbers& all, std::size_t begin, std::size_t end) {
     std::size_t first = begin;
-    Moved moved = moveMany<hn::ScalableTag<double>, addsWeight>(step, all, first, end);
+    KickDriftResult moved = moveMany<hn::ScalableTag<double>, addsWeight>(step, all, first, end);
     moved.include(moveMany<hn::CappedTag<double, 1>, addsWeight>(step, all, first, end));
     return moved;
 }
 
-Moved kickAndDriftHere(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+KickDriftResult kickAndDriftHere(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     const Numbers all{particles.mass.data(), step.forces.data()->data(), particles.position.data()->data(),
                       particles.velocity.data()->data()};
@@ -152,7 +152,7 @@ namespace engine {
 
 HWY_EXPORT(kickAndDriftHere);
 
-Moved kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+KickDriftResult kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
     if (begin == end) return {};
     return HWY_DYNAMIC_DISPATCH(kickAndDriftHere)(step, begin, end, particles);
 }

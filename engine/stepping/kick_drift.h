@@ -1,4 +1,4 @@
-// What a step of the paper's method does to each particle once forces are known.
+// The vectorized loop of the paper's stepper: what happens to each particle once the forces are known.
 #pragma once
 
 #include <cstddef>
@@ -9,29 +9,28 @@
 
 namespace engine {
 
-/// One step, for every particle alike.
+/// Parameters of one step, the same for every particle.
 struct KickDrift {
     double h = 0.0;                   ///< s
-    double decay = 1.0;               ///< of velocities over a step
+    double decay = 1.0;               ///< factor by which drag reduces velocities over the step
     Vec3 gravity = Vec3::Zero();      ///< m/s^2
     const std::vector<Vec3>& forces;  ///< N, by particle index
-    bool hasWeight = false;           ///< is among the forces already
+    bool hasWeight = false;           ///< whether the forces include gravity already
 };
 
-/// What is known of particles that have been moved.
-struct Moved {
-    bool areValid = true;                           ///< all of them (soundness.h)
-    BoundingBox velocities = BoundingBox::empty();  ///< the box around theirs, m/s, if they are sound
+/// What is known of a range of particles after the step.
+struct KickDriftResult {
+    bool areValid = true;                           ///< whether all of them are (state_checks.h)
+    BoundingBox velocities = BoundingBox::empty();  ///< box around the velocities, m/s, if they are valid
 
-    void include(const Moved& others) {
+    void include(const KickDriftResult& others) {
         areValid &= others.areValid;
         velocities.include(others.velocities);
     }
 };
 
-/// Kicks particles begin to end - 1 and lets them drift: v becomes decay (v + h/m F), where F is their force and
-/// weight, x becomes x + h v.
-/// Holds:  the same bits on any instruction set, and however particles are split up into ranges.
-Moved kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles);
+/// Kicks particles begin to end - 1 and lets them drift: v becomes decay (v + h/m F), where F is force and weight, and
+/// x becomes x + h v. The bits are the same on any instruction set and for any split of the particles into ranges.
+KickDriftResult kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles);
 
 }  // namespace engine

@@ -1,5 +1,5 @@
-// How particles enter and leave a run: emission once a step, removal between intervals, so that no step and no verdict
-// on one sees a particle disappear.
+// How particles enter and leave a run: emission once a step, removal between intervals, so that no step and no
+// verdict on one sees a particle disappear.
 #pragma once
 
 #include <cstddef>

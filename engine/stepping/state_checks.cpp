@@ -1,4 +1,4 @@
-// Positions within the world, speeds that are numbers.
+// Vectorized checks of all particles, and the message where one fails.
 #include "engine/stepping/state_checks.h"
 
 #include <cmath>
@@ -10,13 +10,13 @@
 namespace engine {
 namespace {
 
-/// Number by number, without a branch: several at once.
+/// Checks number by number, without a branch, so that the compiler vectorizes the loop.
 bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t end, double limit) {
     if (begin == end) return true;
     const double* const numbers = vectors.front().data();
     std::uint64_t others = 0;
     for (std::size_t k = 3 * begin; k < 3 * end; ++k)
-        others |= std::abs(numbers[k]) < limit ? 0U : 1U;  // so a NaN is one
+        others |= std::abs(numbers[k]) < limit ? 0U : 1U;  // a NaN counts as too large
     return others == 0;
 }
 

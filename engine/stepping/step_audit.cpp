@@ -1,4 +1,4 @@
-// Energies as sums over the particles in chunks of fixed size, so that a verdict does not depend on threads.
+// Energies are summed over the particles in chunks of fixed size, so that a verdict does not depend on the threads.
 #include "engine/stepping/step_audit.h"
 
 #include <cmath>
@@ -11,19 +11,19 @@
 namespace engine {
 namespace {
 
-/// Chosen: far below any motion that one sees, in radii per second.
+/// Chosen: a speed far below any visible motion, in radii per second.
 constexpr double kSlow = 0.1;
 
-/// A thousand roundings of the sums that the energy is the difference of.
+/// Derived: a thousand roundings of the energies whose difference is judged.
 constexpr double kRounding = 1e-13;
 
 double contactEnergyOf(const Simulation& simulation, std::size_t p) {
-    if (simulation.setup.obstacles.shapes.empty() || isClear(simulation, p)) return 0.0;
+    if (simulation.setup.obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return 0.0;
     const Particles& particles = simulation.particles;
     return contactEnergy(simulation.setup.obstacles, {particles.position[p], Vec3::Zero(), particles.radius[p], 1.0});
 }
 
-/// Of a newborn with all that are older, J.
+/// Pair energy of a new particle with all particles that were there before it, J.
 double energyWithEarlier(const Simulation& simulation, std::size_t p, const LinkedCells& cells) {
     double energy = 0.0;
     cells.forEachNear(simulation.particles.position[p], [&](std::size_t i) {
@@ -32,19 +32,19 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p, const Link
     return energy;
 }
 
-/// Alone, a particle may go as far as it likes, but where it may have passed an obstacle unseen.
+/// A single particle may move any distance, unless it may have passed through an obstacle without a swept contact.
 bool mayGoFar(const Simulation& simulation) {
     if (simulation.particles.count() > 1) return false;
     return simulation.particles.count() == 0 || simulation.setup.obstacles.shapes.empty() ||
-           simulation.cache->swept[0] != 0 || isClear(simulation, 0);
+           simulation.cache->swept[0] != 0 || isClearOfObstacles(simulation, 0);
 }
 
-bool movedTooFar(const Simulation& simulation, const BeforeStep& kept) {
+bool movedTooFar(const Simulation& simulation, const SavedState& saved) {
     const Particles& particles = simulation.particles;
     if (mayGoFar(simulation)) return false;
     const double far = largestOver(particles.count(), [&](std::size_t p) {
-        const double waySq = squaredLength(particles.position[p] - kept.position[p]);
-        return waySq <= particles.radius[p] * particles.radius[p] ? 0.0 : 1.0;  // what is no number is too far
+        const double distanceSq = squaredLength(particles.position[p] - saved.position[p]);
+        return distanceSq <= particles.radius[p] * particles.radius[p] ? 0.0 : 1.0;  // a NaN is too far
     });
     return far > 0.0;
 }
@@ -61,16 +61,16 @@ double energyAllowance(const Simulation& simulation) {
            kRounding * std::abs(simulation.cache->energy.value_or(0.0));
 }
 
-void noteEnergy(Simulation& simulation, const OwnEnergy& own, double pairEnergy) {
+void recordEnergy(Simulation& simulation, const ParticleEnergy& own, double pairEnergy) {
     simulation.cache->kinetic = own.kinetic;
     simulation.cache->energy = own.kinetic + own.potential + pairEnergy;
 }
 
-void noteEnergy(Simulation& simulation, double pairEnergy) {
-    const OwnEnergy own = sumOver<OwnEnergy>(simulation.particles.count(), [&](std::size_t p) {
-        return ownEnergy(simulation, p, contactEnergyOf(simulation, p));
+void recordEnergy(Simulation& simulation, double pairEnergy) {
+    const ParticleEnergy own = sumOver<ParticleEnergy>(simulation.particles.count(), [&](std::size_t p) {
+        return particleEnergy(simulation, p, contactEnergyOf(simulation, p));
     });
-    noteEnergy(simulation, own, pairEnergy);
+    recordEnergy(simulation, own, pairEnergy);
 }
 
 void markInvalid(Simulation& simulation) {
@@ -80,52 +80,52 @@ void markInvalid(Simulation& simulation) {
 void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedCells& cells) {
     if (!simulation.cache->energy) return;
     for (std::size_t p = first; p < simulation.particles.count(); ++p) {
-        const OwnEnergy own = ownEnergy(simulation, p, contactEnergyOf(simulation, p));
+        const ParticleEnergy own = particleEnergy(simulation, p, contactEnergyOf(simulation, p));
         simulation.cache->kinetic += own.kinetic;
         *simulation.cache->energy += own.kinetic + own.potential + energyWithEarlier(simulation, p, cells);
     }
 }
 
-void keep(const Simulation& simulation, BeforeStep& kept) {
-    kept.time = simulation.time;
-    kept.emitters = simulation.emitters;
-    copy(simulation.particles.position, kept.position);
-    copy(simulation.particles.velocity, kept.velocity);
-    kept.forcesCurrent = simulation.cache->forcesCurrent;
-    if (kept.forcesCurrent) copy(simulation.cache->forces, kept.forces);
-    kept.energy = simulation.cache->energy;
-    kept.kinetic = simulation.cache->kinetic;
-    kept.allowance = energyAllowance(simulation);
-    kept.steps = simulation.steps;
+void save(const Simulation& simulation, SavedState& saved) {
+    saved.time = simulation.time;
+    saved.emitters = simulation.emitters;
+    copy(simulation.particles.position, saved.position);
+    copy(simulation.particles.velocity, saved.velocity);
+    saved.forcesCurrent = simulation.cache->forcesCurrent;
+    if (saved.forcesCurrent) copy(simulation.cache->forces, saved.forces);
+    saved.energy = simulation.cache->energy;
+    saved.kinetic = simulation.cache->kinetic;
+    saved.allowance = energyAllowance(simulation);
+    saved.steps = simulation.steps;
 }
 
-void takeBack(Simulation& simulation, const BeforeStep& kept) {
-    truncate(simulation.particles, kept.position.size());
-    simulation.time = kept.time;
-    simulation.emitters = kept.emitters;
-    simulation.particles.position = kept.position;
-    simulation.particles.velocity = kept.velocity;
+void restore(Simulation& simulation, const SavedState& saved) {
+    truncate(simulation.particles, saved.position.size());
+    simulation.time = saved.time;
+    simulation.emitters = saved.emitters;
+    simulation.particles.position = saved.position;
+    simulation.particles.velocity = saved.velocity;
     simulation.cache->clearance.clear();
     simulation.cache->evaluator.invalidateDisplacementBound();
     simulation.cache->cachedNeighbors
         .clear();  // they are from before, and a run that is gone on with does not know them
-    simulation.cache->forcesCurrent = kept.forcesCurrent;
-    if (kept.forcesCurrent) {
-        simulation.cache->forces = kept.forces;
+    simulation.cache->forcesCurrent = saved.forcesCurrent;
+    if (saved.forcesCurrent) {
+        simulation.cache->forces = saved.forces;
         simulation.cache->evaluator.renewList(simulation.particles);  // who has forces has their list; see prepareDrift
     }
-    simulation.cache->energy = kept.energy;
-    simulation.cache->kinetic = kept.kinetic;
+    simulation.cache->energy = saved.energy;
+    simulation.cache->kinetic = saved.kinetic;
     const StepStatistics spent = simulation.steps;
-    simulation.steps = kept.steps;
+    simulation.steps = saved.steps;
     simulation.steps.forceEvaluations = spent.forceEvaluations;
     simulation.steps.products = spent.products;
     simulation.steps.rejected = spent.rejected;
 }
 
-std::optional<StepLimit> objection(const Simulation& simulation, const BeforeStep& kept) {
-    if (movedTooFar(simulation, kept)) return StepLimit::displacement;
-    if (kept.energy && !(*simulation.cache->energy <= *kept.energy + kept.allowance)) return StepLimit::audit;
+std::optional<StepLimit> rejectionReason(const Simulation& simulation, const SavedState& saved) {
+    if (movedTooFar(simulation, saved)) return StepLimit::displacement;
+    if (saved.energy && !(*simulation.cache->energy <= *saved.energy + saved.allowance)) return StepLimit::audit;
     return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
 // The audit: no step may gain energy, and no step may carry a particle past what it is about to meet. A step that does
-// is taken back. Called after every step but the paper's.
+// is rejected: the state before it is restored. Called after every step but the paper's.
 #pragma once
 
 #include <optional>
@@ -9,48 +9,49 @@
 
 namespace engine {
 
-/// A step may gain this share of the kinetic energy: rounding and truncation of a good step stay below it.
+/// Share of the kinetic energy that a step may gain. Chosen: rounding and truncation of a good step stay below it.
 inline constexpr double kEnergyAllowance = 1e-3;
 
-/// Energy that a step from this state may gain, J: the share above of the kinetic energy, and of that of a slow motion
-/// of a tenth of a radius per second, so that a scene can come to rest.
+/// Energy that a step from this state may gain, J: the share above of the kinetic energy, increased by that of a slow
+/// motion of a tenth of a radius per second, so that a scene can come to rest.
 double energyAllowance(const Simulation& simulation);
 
-/// What the audit sums up over the particles, J.
-struct OwnEnergy {
+/// Energy of one particle without the pairs', or the sum of it over particles, J.
+struct ParticleEnergy {
     double kinetic = 0.0;
-    double potential = 0.0;  ///< of obstacles and gravity
+    double potential = 0.0;  ///< in gravity and at the obstacles
 
-    OwnEnergy& operator+=(const OwnEnergy& other) {
+    ParticleEnergy& operator+=(const ParticleEnergy& other) {
         kinetic += other.kinetic;
         potential += other.potential;
         return *this;
     }
 };
 
-/// Of one particle as it stands; contacts: its energy at the obstacles, J.
-inline OwnEnergy ownEnergy(const Simulation& simulation, std::size_t p, double contacts) {
+/// Energy of one particle in its present state.
+/// @param contacts  its energy at the obstacles, J
+inline ParticleEnergy particleEnergy(const Simulation& simulation, std::size_t p, double contacts) {
     const Particles& particles = simulation.particles;
     const double mass = particles.mass[p];
     return {0.5 * mass * squaredLength(particles.velocity[p]),
             contacts - mass * dot(simulation.setup.gravity, particles.position[p])};
 }
 
-/// Records energy and kinetic energy of the particles as they stand, J. Steppers call it where they know all of it.
-void noteEnergy(Simulation& simulation, const OwnEnergy& own, double pairEnergy);
+/// Records the energy and the kinetic energy of the present state, J, where the stepper knows both sums.
+void recordEnergy(Simulation& simulation, const ParticleEnergy& own, double pairEnergy);
 
-/// The same, where nothing but the pairs' energy (J) is known.
-void noteEnergy(Simulation& simulation, double pairEnergy);
+/// Records the energy of the present state where only the pairs' energy (J) is known; the particles' is summed here.
+void recordEnergy(Simulation& simulation, double pairEnergy);
 
-/// Records that the state is not one to compute forces from; the step will be taken back.
+/// Records that no forces can be computed from the present state; the step will be rejected.
 void markInvalid(Simulation& simulation);
 
-/// Adds to the recorded energy what the particles from `first` on bring with them, J. The cells hold all particles and
-/// are at least as wide as the pairs' cutoff.
+/// Adds the energy of the particles from index `first` on, which have just been emitted, to the recorded energy. The
+/// cells hold all particles and are at least as wide as the pairs' cutoff.
 void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedCells& cells);
 
-/// A state that a run can be taken back to, and what the step from it is judged by.
-struct BeforeStep {
+/// A state that can be restored, and what the step from it is judged by.
+struct SavedState {
     double time = 0.0;  ///< s
     std::vector<Vec3> position;
     std::vector<Vec3> velocity;
@@ -63,13 +64,14 @@ struct BeforeStep {
     StepStatistics steps;
 };
 
-/// Keeps the state; `kept` is reused for its memory.
-void keep(const Simulation& simulation, BeforeStep& kept);
+/// Saves the state; the memory of `saved` is used again.
+void save(const Simulation& simulation, SavedState& saved);
 
-/// Goes back to a state; particles born since then are gone, and so are the steps since then, but not their cost.
-void takeBack(Simulation& simulation, const BeforeStep& kept);
+/// Restores a saved state. Particles emitted since then are removed, and the steps since then are no longer counted,
+/// but their cost is.
+void restore(Simulation& simulation, const SavedState& saved);
 
-/// Why the step since `kept` must be taken back; nothing if it may stay.
-std::optional<StepLimit> objection(const Simulation& simulation, const BeforeStep& kept);
+/// Why the step since `saved` must be rejected; nothing if it is accepted.
+std::optional<StepLimit> rejectionReason(const Simulation& simulation, const SavedState& saved);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Each particle's own sums, and the eigenvalues that bound the step.
+// Sums over each particle's pairs, and the eigenvalues that bound the step.
 //
 // The pair's conservative block has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step,
 // so negative blocks count as zero. Its damping has b_d s_d along n and nothing across.
@@ -39,8 +39,8 @@ double largestEigenvalue(const Matrix3& matrix) {
     return Eigen::SelfAdjointEigenSolver<Matrix3>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
-/// The step at which a mode with this squared frequency (1/s^2) and decay (1/s) stops being damped; infinite without
-/// either.
+/// The longest stable step of a mode with this squared frequency (1/s^2) and decay rate (1/s), s; infinite where both
+/// are zero. See step_bound.h for the derivation.
 double longestStep(StepperKind stepper, double frequencySq, double decay) {
     if (stepper == StepperKind::implicitDamping) return 2.0 / std::sqrt(frequencySq);
     if (stepper == StepperKind::symplecticEuler || stepper == StepperKind::leapfrog)
@@ -48,11 +48,11 @@ double longestStep(StepperKind stepper, double frequencySq, double decay) {
     return 2.0 / (decay + std::sqrt(decay * decay + frequencySq));
 }
 
-/// C and K of all pairs, each as a matrix without mass.
+/// Damping C and stiffness K of all pairs, each as a matrix without mass.
 struct PairSystem {
     PairMatrix damping;
     PairMatrix stiffness;
-    std::vector<double> mass;  ///< kg, by sortedIndex
+    std::vector<double> mass;  ///< kg, in the matrices' order
 };
 
 PairSystem systemOf(const PairTraversal& pairs, const Particles& particles) {
@@ -70,9 +70,9 @@ double dotOf(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return sumOver(a.size(), [&](std::size_t p) { return dot(a[p], b[p]); });
 }
 
-/// The own sums overestimate: neighbors would all have to move against the particle. Power iteration on
-/// M^-1 (h^2 K + 2 h C), at the step h that the own sums allow, finds the mode that really limits the step; its
-/// Rayleigh quotients are the squared frequency and the decay.
+/// Improves a bound h. The sums over one particle's pairs overestimate, since all its neighbors would have to move
+/// against it. Power iteration on M^-1 (h^2 K + 2 h C) finds the mode that really limits the step; the Rayleigh
+/// quotients of that mode are its squared frequency and its decay rate.
 double refined(const PairTraversal& pairs, const Particles& particles, StepperKind stepper, double h) {
     constexpr int kIterations = 40;  // chosen: quotients settle to a few per cent
     PairSystem system = systemOf(pairs, particles);

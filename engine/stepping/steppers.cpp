@@ -47,7 +47,7 @@ std::string_view nameOf(StepperKind stepper) {
 
 std::string_view nameOf(StepLimit limit) {
     switch (limit) {
-        case StepLimit::given:
+        case StepLimit::fixed:
             return "given step";
         case StepLimit::error:
             return "wanted error";
@@ -65,12 +65,12 @@ int orderOf(StepperKind stepper) {
     return stepper == StepperKind::symplecticEuler || stepper == StepperKind::leapfrog ? 1 : 2;
 }
 
-double errorShare(StepperKind stepper, double ofLength) {
-    return orderOf(stepper) == 1 ? ofLength : ofLength * ofLength;
+double errorRatio(StepperKind stepper, double stepRatio) {
+    return orderOf(stepper) == 1 ? stepRatio : stepRatio * stepRatio;
 }
 
-double stepShare(StepperKind stepper, double ofError) {
-    return orderOf(stepper) == 1 ? ofError : std::sqrt(ofError);
+double stepRatio(StepperKind stepper, double errorRatio) {
+    return orderOf(stepper) == 1 ? errorRatio : std::sqrt(errorRatio);
 }
 
 }  // namespace engine

@@ -1,5 +1,5 @@
-// The steppers: each takes a simulation one step further. Called by advance() and by the error estimate; births and
-// checks are the caller's.
+// The steppers by name and by order, and the one call that takes a step with any of them. Emission and checks are the
+// caller's.
 #pragma once
 
 #include <array>
@@ -9,26 +9,28 @@
 
 namespace engine {
 
-/// Moves particles by one step of the simulation's stepper, h in seconds; its time is the caller's.
+/// Moves the particles by one step of h seconds with the simulation's stepper in use. The caller advances the time.
 void takeStep(Simulation& simulation, double h);
 
-/// All of them, the automatic one last.
+/// All steppers, the automatic one last.
 inline constexpr std::array kSteppers = {StepperKind::symplecticEuler,  StepperKind::velocityVerlet,
                                          StepperKind::leapfrog,         StepperKind::implicitDamping,
                                          StepperKind::linearlyImplicit, StepperKind::automatic};
 
-/// "symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping", "linearly-implicit", "auto": the name in
-/// scene files and reports.
+/// Name in scene files and reports: "symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping",
+/// "linearly-implicit" or "auto".
 std::string_view nameOf(StepperKind stepper);
 
-/// "given step", "wanted error", "energy audit" and so on: what limited a step, in reports.
+/// Name in reports of what limited a step: "given step", "wanted error", "energy audit" and so on.
 std::string_view nameOf(StepLimit limit);
 
 /// Order of convergence of the positions, where there is damping.
 int orderOf(StepperKind stepper);
 
-/// What steps of this share of their length make of the error, and what share of the length makes so much of the error.
-double errorShare(StepperKind stepper, double ofLength);
-double stepShare(StepperKind stepper, double ofError);
+/// Factor by which the error changes where the step changes by a factor: the factor to the power of the order.
+double errorRatio(StepperKind stepper, double stepRatio);
+
+/// Factor by which the step has to change for the error to change by a factor; the inverse of errorRatio().
+double stepRatio(StepperKind stepper, double errorRatio);
 
 }  // namespace engine

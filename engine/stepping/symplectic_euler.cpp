@@ -28,13 +28,13 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .gravity = evaluator.law().gravity,
                          .forces = simulation.cache->forces,
                          .hasWeight = hasObstacles};
-    Moved moved;
+    KickDriftResult moved;
     std::mutex merging;
     inRanges(particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
         // Pairs, weight, obstacles: the order is part of the bits.
         if (hasObstacles)
             addExternalForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
-        const Moved range = kickAndDrift(step, begin, end, particles);
+        const KickDriftResult range = kickAndDrift(step, begin, end, particles);
         const std::scoped_lock lock(merging);
         moved.include(range);
     });
@@ -57,7 +57,7 @@ void advanceInEqualSteps(Simulation& simulation, double time) {
         simulation.time = from + step * h;
         emitDue(simulation);
         const bool areAllValid = symplecticEulerStep(simulation, h);
-        record(simulation.steps, h, StepLimit::given, simulation.stepper);
+        record(simulation.steps, h, StepLimit::fixed, simulation.stepper);
         if (!areAllValid) requireValid(simulation, h);
     }
     simulation.time = time;

@@ -1,4 +1,4 @@
-// One evaluation a step: the forces at its end are those that the next one starts with.
+// One force evaluation a step: the forces at its end are those that the next step starts with.
 #include "engine/stepping/velocity_verlet.h"
 
 #include "engine/core/exp_negative.h"
@@ -11,13 +11,13 @@
 namespace engine {
 namespace {
 
-/// Returns the pair energy, J.
+/// Evaluates the forces of pairs and gravity into the step cache; returns the pair energy, J.
 double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities, double h) {
     ++simulation.steps.forceEvaluations;
     return simulation.cache->evaluator.evaluateFree(simulation.particles, velocities, simulation.cache->forces, h);
 }
 
-/// What half a kick with this force (N) changes a particle's velocity by, m/s.
+/// Change of a particle's velocity by half a kick with this force (N), m/s.
 Vec3 halfKick(const Particles& particles, std::size_t p, double h, const Vec3& force) {
     return 0.5 * h / particles.mass[p] * force;
 }
@@ -28,14 +28,15 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     Particles& particles = simulation.particles;
     const bool hasDrag = simulation.setup.drag > 0.0;
     const double decay = expNegative(simulation.setup.drag * h);
-    // Before anything is swept: who is alone is read from the list, which a newborn is in now.
+    // Before contacts are chosen: whether a particle has neighbors is read from the list, which must hold new
+    // particles.
     if (!simulation.cache->forcesCurrent) evaluateForces(simulation, particles.velocity, h);
     prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.cache->predictedVelocities;
     predicted.resize(particles.count());
     inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
         Vec3& velocity = particles.velocity[p];
-        const Vec3 contacts = chooseSwept(simulation, p, h);
+        const Vec3 contacts = chooseSweptContact(simulation, p, h);
         const Vec3 change = halfKick(particles, p, h, simulation.cache->forces[p] + contacts);
         velocity += change;
         drift(simulation, p, hasDrag ? 0.5 * h : h);
@@ -47,14 +48,14 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     });
     if (!isValid(particles)) return markInvalid(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);
-    // The second half of the kick, and what each particle's energy is after it: one loop for both.
-    const OwnEnergy own = sumOver<OwnEnergy>(particles.count(), [&](std::size_t p) {
-        const ContactAnswer contact = slowContact(simulation, p, predicted[p]);
+    // The second half of the kick, and each particle's energy after it, in one loop.
+    const ParticleEnergy own = sumOver<ParticleEnergy>(particles.count(), [&](std::size_t p) {
+        const ContactAnswer contact = resolvedContact(simulation, p, predicted[p]);
         particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contact.force);
-        return ownEnergy(simulation, p, contact.energy);
+        return particleEnergy(simulation, p, contact.energy);
     });
     simulation.cache->forcesCurrent = true;
-    noteEnergy(simulation, own, pairEnergy);
+    recordEnergy(simulation, own, pairEnergy);
 }
 
 }  // namespace engine

@@ -38,9 +38,9 @@ void chooseStepper(const Window& window, engine::Simulation& simulation) {
     const engine::AutoChoice& chosen = scout.automatic.choices[static_cast<std::size_t>(scout.stepper)];
     if (chosen.step <= 0.0) return;  // without particles there was nothing to choose
     simulation.automatic = scout.automatic;
-    simulation.automatic.nextLook = simulation.automatic.intervals + engine::kLongestPause / 2;
-    simulation.automatic.looks = engine::kLongestPause;
-    simulation.automatic.trials = 0.0;
+    simulation.automatic.nextEstimate = simulation.automatic.intervalCount + engine::kLongestPause / 2;
+    simulation.automatic.estimateCount = engine::kLongestPause;
+    simulation.automatic.estimateCost = 0.0;
     simulation.stepper = scout.stepper;
 }
 
@@ -99,8 +99,8 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
     }
     run.seconds = elapsed();
     run.steps = simulation.steps;
-    run.errorEstimateCost = simulation.automatic.trials;
-    run.evaluationCost = engine::passesOf(simulation) + run.errorEstimateCost;
+    run.errorEstimateCost = simulation.automatic.estimateCost;
+    run.evaluationCost = engine::forceEvaluationsOf(simulation) + run.errorEstimateCost;
     if (run.ending == Ending::finished) run.energy = engine::energy(simulation);
     run.particles = std::move(simulation.particles);
     return run;

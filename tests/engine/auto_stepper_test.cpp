@@ -1,5 +1,5 @@
-// The automatic stepper: what it measures is true, what it chooses fits the substance and the wanted error, and depends
-// on nothing but the states.
+// The automatic stepper: its error estimates are right, its choices fit the substance and the wanted error, and they
+// depend on nothing but the states.
 #include "engine/error_control/auto_stepper.h"
 
 #include "tests/catch.h"
@@ -29,7 +29,7 @@ Simulation afterFrames(const Setup& setup, int frames) {
     return simulation;
 }
 
-/// rms over the particles of dx + T dv in radii, for a second of motion: what measure() estimates.
+/// RMS over the particles of dx + T dv in radii per second of motion, which is what measure() estimates.
 double realError(const Simulation& run, const Simulation& reference, double interval, double horizon = kErrorHorizon) {
     double sumSq = 0.0;
     for (std::size_t p = 0; p < run.particles.count(); ++p) {
@@ -40,7 +40,7 @@ double realError(const Simulation& run, const Simulation& reference, double inte
     return std::sqrt(sumSq / static_cast<double>(run.particles.count())) / interval;
 }
 
-/// From the particles of a simulation, at time zero, to a time.
+/// Runs from the particles of a simulation, taken as the state at time zero, to a time.
 Simulation fixedRun(const Simulation& from, StepperKind stepper, double step, double time) {
     Setup setup = from.setup;
     setup.initial = from.particles;
@@ -53,12 +53,12 @@ Simulation fixedRun(const Simulation& from, StepperKind stepper, double step, do
 
 }  // namespace
 
-TEST_CASE("The measured error is what the stepper really errs by", "[auto-stepper]") {
+TEST_CASE("The estimated error is that against a reference", "[auto-stepper]") {
     const double interval = 1.0 / 30;
     for (const Material& material : {*materialPreset("liquid"), *materialPreset("solid"), runs::honey()})
         for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::leapfrog,
                                           StepperKind::implicitDamping, StepperKind::linearlyImplicit}) {
-            if (material.damping > 10.0 && isVerlet(stepper)) continue;  // the audit sets its steps
+            if (material.damping > 10.0 && isVerlet(stepper)) continue;  // the audit shortens its steps
             Setup setup = fallingBlock(material, {3, 3, 3});
             setup.stepper = stepper;
             setup.solverTolerance = 1e-8;
@@ -72,72 +72,75 @@ TEST_CASE("The measured error is what the stepper really errs by", "[auto-steppe
             CHECK(stateHash(simulation.particles) == before);
             CHECK(trial.step == Approx(interval / 32).epsilon(1e-12));  // rounding of the division
             CHECK_FALSE(trial.restricted);
-            CHECK(trial.error < 1.5 * real);  // issued factor: Richardson's next order is a tenth or so here
+            CHECK(trial.error <
+                  1.5 * real);  // chosen factor: the next order of Richardson's estimate contributes about a tenth here
             CHECK(trial.error > real / 1.5);  // same
         }
 }
 
-TEST_CASE("Births end steps early however long they may be, and the cost of longer ones knows it", "[auto-stepper]") {
+TEST_CASE("The cost of longer steps includes those that emissions end early", "[auto-stepper]") {
     Trial trial;
     trial.asked = 0.01;
-    trial.step = 0.004;  // 100 steps a second and 150 that births ended
+    trial.step = 0.004;  // 100 steps a second, and 150 that emissions ended
     trial.cost = 500.0;
     CHECK(costAt(trial, 0.01) == Approx(500.0));
     CHECK(costAt(trial, 0.02) == Approx(2.0 * 200));
     CHECK(costAt(trial, 0.005) == Approx(2.0 * 350));
-    trial.restricted = true;  // the audit halves steps: a shorter one is what was measured
+    trial.restricted = true;  // the audit halves steps, so a shorter step was measured
     CHECK(costAt(trial, 0.004) == Approx(500.0));
     CHECK(costAt(trial, 0.002) == Approx(1000.0));
 }
 
-TEST_CASE("A look that would take too many passes is given up, and says so", "[auto-stepper]") {
+TEST_CASE("A trial that would take too many force evaluations is given up, and says so", "[auto-stepper]") {
     Simulation simulation = start(fallingBlock(runs::honey(), {3, 3, 3}));
-    const Look whole{1.0 / 30, StepperKind::velocityVerlet, 1.0 / 60};  // the audit makes hundreds of steps of two
+    const TrialRun whole{1.0 / 30, StepperKind::velocityVerlet, 1.0 / 60};  // the audit makes hundreds of steps of two
     const Trial free = measure(simulation, whole);
     REQUIRE(free.finished);
-    Look limited = whole;
-    limited.mostPasses = 20;
+    TrialRun limited = whole;
+    limited.mostEvaluations = 20;
     const Trial trial = measure(simulation, limited);
     CHECK_FALSE(trial.finished);
     CHECK(trial.spent > 20);
-    CHECK(trial.spent < 23);  // the last step's own
-    limited.mostPasses = free.cost / 30 + 1;
+    CHECK(trial.spent < 23);  // the limit, and the evaluations of the last step
+    limited.mostEvaluations = free.cost / 30 + 1;
     CHECK(measure(simulation, limited).error == free.error);
 }
 
-TEST_CASE("A far look finds the step that meets the error over its time", "[auto-stepper]") {
-    // Powder that has landed: errors of one interval multiply by collisions, and the near look does not see it.
+TEST_CASE("A long estimate finds the step that meets the error over its time", "[auto-stepper]") {
+    // Powder that has landed: collisions multiply the errors of one interval, which an estimate over one interval
+    // misses.
     for (const char* preset : {"liquid", "powder"}) {
         Setup setup = fallingBlock(*materialPreset(preset), {5, 5, 5});
         setup.error = 0.02;
         const Simulation landed = afterFrames(setup, 9);
         const double interval = 1.0 / 30;
         const Trial near = measure(landed, {landed.time + interval, StepperKind::velocityVerlet, 1.0 / 480});
-        const FarLook far =
-            lookFar(landed, StepperKind::velocityVerlet, std::min(wantedStep(near, setup.error), interval), interval);
-        const Simulation run = fixedRun(landed, StepperKind::velocityVerlet, far.step, kFarSeconds);
-        const Simulation reference = fixedRun(landed, StepperKind::velocityVerlet, far.step / 64, kFarSeconds);
-        const double real = realError(run, reference, kFarSeconds, 0.0);
+        const LongEstimate far = estimateLongError(landed, StepperKind::velocityVerlet,
+                                                   std::min(wantedStep(near, setup.error), interval), interval);
+        const Simulation run = fixedRun(landed, StepperKind::velocityVerlet, far.step, kLongEstimateSeconds);
+        const Simulation reference = fixedRun(landed, StepperKind::velocityVerlet, far.step / 64, kLongEstimateSeconds);
+        const double real = realError(run, reference, kLongEstimateSeconds, 0.0);
         INFO(preset << ": step " << far.step << " s, real error " << real);
         CHECK(far.spent > 0.0);
         CHECK(real < 2.0 * setup.error);  // the factor that the automatic stepper is held to
-        CHECK(real > setup.error / 4.0);  // of the steps that were looked at
+        CHECK(real > setup.error / 4.0);  // the steps that were tried differ by less than this
     }
 }
 
-TEST_CASE("A far look among frames that are close together does not cost more of them", "[auto-stepper]") {
+TEST_CASE("A long estimate covers at most twelve intervals, however short they are", "[auto-stepper]") {
     const Simulation landed = afterFrames(fallingBlock(*materialPreset("liquid"), {3, 3, 3}), 9);
     const double interval = 1.0 / 2000;
-    // Twelve intervals at a step each and at two, twice at most; and the first step's own forces.
-    CHECK(lookFar(landed, StepperKind::velocityVerlet, interval, interval).spent <= 2 * (12 + 24 + 2));
+    // At most two trials of twelve intervals, with one and with two steps each, and the forces at the start of both
+    // runs.
+    CHECK(estimateLongError(landed, StepperKind::velocityVerlet, interval, interval).spent <= 2 * (12 + 24 + 2));
 }
 
-TEST_CASE("Candidates that are far too dear are given up", "[auto-stepper]") {
+TEST_CASE("Candidates that are far too costly are given up", "[auto-stepper]") {
     const auto check = [](const Material& material, StepperKind tooDear) {
         Setup setup = fallingBlock(material);
         setup.error = 0.05;
         const AutoState state = afterFrames(setup, 1).automatic;
-        REQUIRE(state.looks == 1);
+        REQUIRE(state.estimateCount == 1);
         const AutoChoice& givenUp = state.choices[static_cast<std::size_t>(tooDear)];
         CHECK(givenUp.step == 0.0);
         CHECK(std::isinf(givenUp.cost));
@@ -153,7 +156,7 @@ TEST_CASE("Honey is stepped implicitly, plain liquid is not", "[auto-stepper]") 
     CHECK(honey.cache->toleratedAcceleration > 0.0);
 }
 
-TEST_CASE("What becomes of errors after a while is known of each candidate by itself", "[auto-stepper]") {
+TEST_CASE("The growth of errors is known for each candidate by itself", "[auto-stepper]") {
     // A block of weak honey lands: velocity Verlet's errors grow in it, those of the implicit steppers are damped.
     Material material = runs::honey();
     material.damping = 2.0;
@@ -166,7 +169,7 @@ TEST_CASE("What becomes of errors after a while is known of each candidate by it
     CHECK(growthOf(StepperKind::velocityVerlet) > 2.0 * growthOf(StepperKind::linearlyImplicit));
 }
 
-TEST_CASE("What the solver leaves out costs a small share of the wanted error, and saves products", "[auto-stepper]") {
+TEST_CASE("The solver's tolerance costs a small share of the wanted error, and saves products", "[auto-stepper]") {
     for (const double error : {0.2, 0.02}) {
         Setup setup = fallingBlock(runs::honey());
         setup.stepper = StepperKind::implicitDamping;
@@ -185,12 +188,13 @@ TEST_CASE("What the solver leaves out costs a small share of the wanted error, a
         INFO("wanted " << error << ", off by " << off << ", products " << cut.steps.products << " of "
                        << whole.steps.products);
         CHECK(off > 0.0);
-        CHECK(off < 0.2 * error);  // the share that acceptableResidual() grants, and honey damps what is left out
-        CHECK(2 * cut.steps.products < whole.steps.products);  // of a solution to 1e-9; measured: a sixth and a quarter
+        CHECK(off < 0.2 * error);  // the share that acceptableResidual() allows; honey damps what is left out
+        CHECK(2 * cut.steps.products <
+              whole.steps.products);  // against a solution to 1e-9; measured: a sixth and a quarter
     }
 }
 
-TEST_CASE("The solver never leaves out a force that drives alone", "[auto-stepper]") {
+TEST_CASE("The solver never leaves out the only force of a motion", "[auto-stepper]") {
     // A pressed pair without gravity, at a wanted error that would leave out all its force.
     Setup setup = runs::freeSetup(runs::honey(), StepperKind::implicitDamping, 1.0 / 60);
     setup.error = 1e4;
@@ -215,8 +219,9 @@ TEST_CASE("A smaller error takes more and smaller steps", "[auto-stepper]") {
             setup.error = error;
             const StepStatistics steps = afterFrames(setup, 6).steps;
             INFO(preset << ", error " << error << ", " << steps.count << " steps of up to " << steps.longest << " s");
-            CHECK(steps.count > before.count);  // how many more is blurred by the finer runs that looks go on from
-            // Order 2: ten times less error is a third of the step; less where a frame is the longest.
+            CHECK(steps.count >
+                  before.count);  // not a fixed ratio, because the run goes on from the finer runs of trials
+            // Order 2: ten times less error takes a third of the step; less change where a frame limits the step.
             CHECK(steps.longest < 0.7 * before.longest);
             before = steps;
         }
@@ -225,7 +230,7 @@ TEST_CASE("A smaller error takes more and smaller steps", "[auto-stepper]") {
 
 TEST_CASE("The choice does not depend on threads", "[auto-stepper]") {
     Setup setup = fallingBlock(*materialPreset("liquid"), {11, 10, 10});  // more than one chunk of a sum
-    setup.error = 30.0;  // what it is does not matter here, and few steps are enough
+    setup.error = 30.0;  // any value does; with this one few steps are enough
     setup.solverTolerance = 1e-2;
     const auto firstLook = [&] {
         Simulation simulation = start(setup);
@@ -233,7 +238,7 @@ TEST_CASE("The choice does not depend on threads", "[auto-stepper]") {
         return simulation;
     };
     const Simulation expected = firstLook();
-    CHECK(expected.automatic.looks == 1);
+    CHECK(expected.automatic.estimateCount == 1);
     for (const std::size_t threads : {1U, 2U, 8U}) {
         Simulation simulation;
         clouds::onThreads(threads, [&] { simulation = firstLook(); });
@@ -255,9 +260,9 @@ TEST_CASE("An empty scene and one that fills later run automatically", "[auto-st
     emitter.velocity = Vec3(0, 6, 0);
     emitter.start = 0.11;
     setup.emitters = {emitter};
-    const Simulation simulation = afterFrames(setup, 9);  // 0.3 s: births at 0.11 and 0.21 s
+    const Simulation simulation = afterFrames(setup, 9);  // 0.3 s, with emissions at 0.11 and 0.21 s
     REQUIRE(simulation.particles.count() == 2);
     // Nothing acts on them until they are 0.6 m apart, which they are.
     CHECK(simulation.particles.position[0].y() == Approx(6 * 0.19).epsilon(1e-12));  // roundings of some dozen steps
-    CHECK(simulation.automatic.looks > 0);
+    CHECK(simulation.automatic.estimateCount > 0);
 }

@@ -1,4 +1,4 @@
-// Packings: counts, spacing, containment, jitter.
+// Packings of bodies: counts, spacing, containment, jitter.
 #include "engine/state/bodies.h"
 
 #include <cmath>
@@ -29,7 +29,7 @@ TEST_CASE("A ball is filled with a face-centered cubic packing", "[bodies]") {
 }
 
 TEST_CASE("A box is filled up to its faces", "[bodies]") {
-    const double edge = 0.3 * std::sqrt(2.0);  // of the lattice's cube
+    const double edge = 0.3 * std::sqrt(2.0);  // edge of the lattice's cubic cell
     const auto positions = boxPositions(Vec3::Zero(), Vec3(2 * edge, 2 * edge, 2 * edge), {.spacing = 0.3});
     CHECK(positions.size() == 63);  // corners, edges and faces of 2 x 2 x 2 cubes around their center
     CHECK(nearestDistance(positions) == Approx(0.3).epsilon(1e-12));  // rounding
@@ -44,7 +44,7 @@ TEST_CASE("A grid has the counts asked for and is centered", "[bodies]") {
     CHECK(nearestDistance(positions) == Approx(0.5).epsilon(1e-14));  // rounding
 }
 
-TEST_CASE("Jitter is bounded, repeatable, seeded, and keeps a plane a plane", "[bodies]") {
+TEST_CASE("Jitter is bounded, repeatable, seeded, and keeps a planar body planar", "[bodies]") {
     const Packing packing{.spacing = 0.5, .jitter = 0.2, .seed = 5};
     const auto still = gridPositions(Vec3::Zero(), {6, 6, 1}, {.spacing = 0.5});
     const auto moved = gridPositions(Vec3::Zero(), {6, 6, 1}, packing);

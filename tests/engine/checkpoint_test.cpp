@@ -1,4 +1,4 @@
-// A run that is gone on with from a checkpoint is the run it was taken from, bit for bit; damaged bytes are refused.
+// A run that is resumed from a checkpoint has the same bits as the run it was taken from; damaged bytes are refused.
 #include "engine/run/checkpoint.h"
 #include "engine/stepping/step_cache.h"
 
@@ -19,7 +19,7 @@ using engine::Simulation;
 using engine::StepperKind;
 using engine::Vec3;
 
-/// A block that falls on a floor and a sphere, and a nozzle above it that needs to wait for room now and then.
+/// A block that falls on a floor and a sphere, under a nozzle whose emissions have to wait for room now and then.
 Setup busySetup(StepperKind stepper) {
     engine::Material solid = *engine::materialPreset("solid");
     solid.mass = 0.1;
@@ -39,7 +39,7 @@ Setup busySetup(StepperKind stepper) {
     return setup;
 }
 
-/// Goes on from checkpoints at several frames and compares everything that a checkpoint holds at the end.
+/// Resumes from checkpoints at several frames, and compares everything that a checkpoint at the end holds.
 void checkGoingOn(const Setup& setup, int frames) {
     Simulation whole = engine::start(setup);
     std::vector<std::vector<std::uint8_t>> checkpoints = {encodeCheckpoint(whole)};
@@ -63,14 +63,14 @@ std::vector<std::uint8_t> checkpointOf(const Setup& setup, int frames) {
     return encodeCheckpoint(simulation);
 }
 
-/// Puts the checksum right after the bytes were changed.
+/// Corrects the checksum after the bytes were changed.
 void sign(std::vector<std::uint8_t>& bytes) {
     const std::size_t size = bytes.size() - 8;
     const std::uint64_t checksum = engine::fnv1aOf(std::span(bytes).first(size));
     std::memcpy(bytes.data() + size, &checksum, 8);
 }
 
-/// Sets the eight bytes at a place.
+/// Sets eight bytes from an offset on.
 void fill(std::vector<std::uint8_t>& bytes, std::size_t at) {
     for (std::size_t byte = at; byte < at + 8; ++byte) bytes.at(byte) = 0xFF;
 }
@@ -100,7 +100,7 @@ TEST_CASE("A run in single precision goes on with the same bits", "[checkpoint]"
     checkGoingOn(setup, 12);
 }
 
-TEST_CASE("A run of two materials, with random births and friction, goes on with the same bits", "[checkpoint]") {
+TEST_CASE("A run of two materials, with random emissions and friction, goes on with the same bits", "[checkpoint]") {
     Setup setup = busySetup(StepperKind::automatic);
     setup.materials.push_back(*engine::materialPreset("powder"));
     setup.materials.back().friction = 0.3;
@@ -133,7 +133,7 @@ TEST_CASE("Bytes that are not a checkpoint's are refused", "[checkpoint]") {
     }
 }
 
-TEST_CASE("A checkpoint with a right checksum and wrong contents is refused", "[checkpoint]") {
+TEST_CASE("A checkpoint with a correct checksum and impossible contents is refused", "[checkpoint]") {
     const Setup setup = busySetup(StepperKind::velocityVerlet);
     const auto bytes = checkpointOf(setup, 3);
     auto other = bytes;
@@ -153,7 +153,7 @@ TEST_CASE("A checkpoint with a right checksum and wrong contents is refused", "[
     sign(endless);
     CHECK(complaint(setup, endless).find("cut short") != std::string::npos);
     auto nowhere = bytes;
-    fill(nowhere, 24);  // the first coordinate: not a number
+    fill(nowhere, 24);  // the first coordinate becomes NaN
     sign(nowhere);
     CHECK(complaint(setup, nowhere).find("world") != std::string::npos);
 }
@@ -197,7 +197,7 @@ TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoin
     CHECK(complaintAfter([&](Simulation& s) { s.automatic.choices[1].growth = nan; }) == steps);
     CHECK(complaintAfter([](Simulation& s) {
               s.automatic.choices = {};
-              s.automatic.nextLook = s.automatic.intervals + 1;
+              s.automatic.nextEstimate = s.automatic.intervalCount + 1;
           }) == steps);
 
     CHECK(complaintAfter([&](Simulation& s) { s.particles.velocity[0].y() = nan; }) == "a velocity is not finite");

@@ -1,4 +1,4 @@
-// What the drift knows of the way to the obstacles must never be more than there is, or contacts would be left out.
+// The clearance that the drift assumes must never exceed the distance to the obstacles, or contacts would be left out.
 #include "tests/catch.h"
 
 #include "engine/error_control/checked_steps.h"
@@ -24,21 +24,20 @@ Simulation falling(StepperKind stepper, double step) {
 
 double gapOf(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
-    return contactsAhead(simulation.setup.obstacles,
-                         {.position = particles.position[p], .velocity = Vec3::Zero(), .radius = particles.radius[p]},
-                         0.0, false)
+    return contactsInStep(simulation.setup.obstacles,
+                          {{.position = particles.position[p], .radius = particles.radius[p]}}, 0.0, false)
         .gap;
 }
 
 struct Count {
-    std::size_t clear = 0;     ///< known to touch nothing
-    std::size_t touching = 0;  ///< known to touch nothing, and wrongly so
+    std::size_t clear = 0;     ///< particles known to touch no obstacle
+    std::size_t touching = 0;  ///< those of them that do touch one
 };
 
 Count countIn(const Simulation& simulation) {
     Count count;
     for (std::size_t p = 0; p < simulation.particles.count(); ++p) {
-        if (!isClear(simulation, p)) continue;
+        if (!isClearOfObstacles(simulation, p)) continue;
         ++count.clear;
         count.touching += gapOf(simulation, p) < 0.0 ? 1U : 0U;
     }
@@ -47,7 +46,7 @@ Count countIn(const Simulation& simulation) {
 
 }  // namespace
 
-TEST_CASE("What is known to be clear of all obstacles touches none", "[clearance]") {
+TEST_CASE("A particle known to be clear of all obstacles touches none", "[clearance]") {
     for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::implicitDamping,
                                       StepperKind::linearlyImplicit}) {
         Simulation simulation = falling(stepper, 0.002);
@@ -58,17 +57,17 @@ TEST_CASE("What is known to be clear of all obstacles touches none", "[clearance
             REQUIRE(count.touching == 0);
             clear += count.clear;
         }
-        CHECK(clear > 400 * simulation.particles.count() / 4);  // it is worth something
+        CHECK(clear > 400 * simulation.particles.count() / 4);  // the clearance saves most of the searches
     }
 }
 
-TEST_CASE("Steps that are taken back, and the paper's, leave no clearance behind", "[clearance]") {
+TEST_CASE("Rejected steps, and those of the paper's stepper, leave no clearance behind", "[clearance]") {
     Simulation simulation = falling(StepperKind::velocityVerlet, 0.002);
     for (int k = 0; k < 50; ++k) takeStep(simulation, 0.002);
-    BeforeStep kept;
-    keep(simulation, kept);
+    SavedState saved;
+    save(simulation, saved);
     takeStep(simulation, 0.5);
-    takeBack(simulation, kept);
+    restore(simulation, saved);
     CHECK(countIn(simulation).clear == 0);
     takeStep(simulation, 0.002);
     REQUIRE(countIn(simulation).clear > 0);
@@ -77,9 +76,9 @@ TEST_CASE("Steps that are taken back, and the paper's, leave no clearance behind
     CHECK(countIn(simulation).clear == 0);
 }
 
-TEST_CASE("Alone and from rest, too, nothing falls through a box in one long step", "[clearance]") {
+TEST_CASE("A single particle at rest does not fall through a box in one long step", "[clearance]") {
     for (const StepperKind stepper : kSteppers) {
-        if (stepper == StepperKind::symplecticEuler) continue;  // the paper's judges no step
+        if (stepper == StepperKind::symplecticEuler) continue;  // the paper's stepper rejects no step
         Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 1.0);
         setup.gravity = Vec3(0.0, -9.8, 0.0);
         setup.obstacles.shapes = {Box{Vec3(-5.0, -0.5, -5.0), Vec3(5.0, 0.0, 5.0)}};

@@ -1,4 +1,4 @@
-// Births: on time, where they should be, never on top of another unless the scene wants it.
+// Emission: at the right times and places, and never on top of another particle unless the scene allows it.
 #include "engine/stepping/population.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("A point nozzle gives birth at its interval, evenly spaced whatever the step", "[emitters]") {
+TEST_CASE("A point nozzle emits at its interval, evenly spaced whatever the step", "[emitters]") {
     for (const double step : {0.01, 0.004, 0.0137}) {
         Run run{pointEmitter(0.1, Vec3(0, 10, 0))};
         run.until(0.95, step);
@@ -47,7 +47,7 @@ TEST_CASE("A point nozzle gives birth at its interval, evenly spaced whatever th
     }
 }
 
-TEST_CASE("A late newborn has fallen with gravity", "[emitters]") {
+TEST_CASE("A particle that is emitted late has fallen with gravity", "[emitters]") {
     const Emitter emitter = pointEmitter(1.0, Vec3(2, 0, 0));
     EmitterState state = initialState(emitter);
     Particles particles = {};
@@ -59,7 +59,7 @@ TEST_CASE("A late newborn has fallen with gravity", "[emitters]") {
     CHECK(particles.birthTime[0] == 0.0);
 }
 
-TEST_CASE("A birth without room waits and is counted once", "[emitters]") {
+TEST_CASE("An emission without room waits and is counted once", "[emitters]") {
     Run run{pointEmitter(0.1, Vec3(0, 1, 0))};  // 0.1 m per interval, 0.3 m needed
     run.until(2.0, 0.01);
     for (std::size_t p = 1; p < run.particles.count(); ++p)
@@ -69,7 +69,7 @@ TEST_CASE("A birth without room waits and is counted once", "[emitters]") {
     CHECK(run.state.births == 7);
 }
 
-TEST_CASE("Clearance zero lets births overlap, as published", "[emitters]") {
+TEST_CASE("Clearance zero allows overlaps, as published", "[emitters]") {
     Emitter emitter = pointEmitter(0.1, Vec3::Zero());
     emitter.clearance = 0.0;
     Run run{emitter};
@@ -78,7 +78,7 @@ TEST_CASE("Clearance zero lets births overlap, as published", "[emitters]") {
     CHECK(run.state.refusals == 0);
 }
 
-TEST_CASE("Start, until and limit bound the births", "[emitters]") {
+TEST_CASE("Start, until and limit bound the emissions", "[emitters]") {
     Emitter emitter = pointEmitter(0.1, Vec3(0, 10, 0));
     emitter.start = 0.25;
     emitter.until = 0.65;
@@ -121,7 +121,7 @@ TEST_CASE("A disc nozzle is hexagonal and lies across its direction", "[emitters
     }
 }
 
-TEST_CASE("All sites of a disc give birth on their own schedules", "[emitters]") {
+TEST_CASE("All sites of a disc emit on their own schedules", "[emitters]") {
     Emitter emitter = pointEmitter(0.1, Vec3(0, 10, 0));
     emitter.sites = discSites(Vec3::Zero(), emitter.velocity, 0.3, 0.3);
     Run run{emitter};
@@ -131,7 +131,7 @@ TEST_CASE("All sites of a disc give birth on their own schedules", "[emitters]")
     CHECK(run.state.refusals == 1);
 }
 
-TEST_CASE("Jitter moves births across the velocity only", "[emitters]") {
+TEST_CASE("Jitter displaces particles across the velocity only", "[emitters]") {
     Emitter emitter = pointEmitter(0.1, Vec3(0, 10, 0));
     emitter.jitter = 0.2;
     Run run{emitter};

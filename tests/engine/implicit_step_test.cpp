@@ -1,4 +1,5 @@
-// The implicit steppers: their order, what they keep, and that they stand steps at which explicit ones explode.
+// The implicit steppers: their order, what they conserve, and that they are stable at steps at which explicit ones are
+// not.
 #include "engine/stepping/implicit_step.h"
 
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::array kImplicit = {StepperKind::implicitDamping, StepperKind::linearlyImplicit};
 
-/// A moving block with drag; solved so well that the solver has no share in the error.
+/// A moving block with drag, solved so exactly that the solver has no share in the error.
 Setup block(const Material& material, StepperKind stepper) {
     Setup setup = runs::freeSetup(material, stepper, 0.01);
     setup.drag = 1.005;
@@ -24,7 +25,7 @@ Setup block(const Material& material, StepperKind stepper) {
     return setup;
 }
 
-/// From what halving the step changes, once and once more.
+/// Order of convergence from what halving the step changes, once and once more.
 double measuredOrder(const Setup& setup, int steps) {
     const Particles coarse = runs::afterSteps(setup, 0.1, steps).particles;
     const Particles middle = runs::afterSteps(setup, 0.1, 2 * steps).particles;
@@ -32,7 +33,7 @@ double measuredOrder(const Setup& setup, int steps) {
     return std::log2(runs::rmsDistance(coarse, middle) / runs::rmsDistance(middle, fine));
 }
 
-/// Sum of the sizes of what adds up to a momentum: lengths of p, or of x cross p.
+/// Sum of the lengths of the terms of a momentum: of p, or of x cross p.
 double sizeOfMomenta(const Particles& particles, bool angular) {
     double sum = 0.0;
     for (std::size_t p = 0; p < particles.count(); ++p) {
@@ -63,7 +64,7 @@ TEST_CASE("Both implicit steppers are of order 2 on liquid, solid, powder and ho
         }
 }
 
-TEST_CASE("The implicit steppers go where velocity Verlet goes", "[implicit-step]") {
+TEST_CASE("The implicit steppers agree with velocity Verlet", "[implicit-step]") {
     for (const Material& material : {*materialPreset("solid"), runs::honey()}) {
         const auto after = [&](StepperKind stepper, int steps) {
             return runs::afterSteps(block(material, stepper), 0.1, steps).particles;
@@ -76,12 +77,12 @@ TEST_CASE("The implicit steppers go where velocity Verlet goes", "[implicit-step
             INFO(material.name << ", b_d = " << material.damping << ", " << nameOf(stepper) << ", m: " << tolerance);
             // Order 2: each errs by a third of what halving its step has changed, so both together by a third of this.
             CHECK(runs::rmsDistance(fine, explicitly) <= 0.5 * tolerance);
-            CHECK(tolerance < 1e-4 * 0.15);  // small beside a radius, or the test says nothing
+            CHECK(tolerance < 1e-4 * 0.15);  // small beside a radius, so that the test means something
         }
     }
 }
 
-TEST_CASE("Both momenta are kept at any tolerance of the solver", "[implicit-step]") {
+TEST_CASE("Both momenta are conserved at any tolerance of the solver", "[implicit-step]") {
     for (const StepperKind stepper : kImplicit)
         for (const double tolerance : {0.5, 1e-2, 1e-6, 1e-12}) {
             Material material = *materialPreset("solid");
@@ -101,7 +102,7 @@ TEST_CASE("Both momenta are kept at any tolerance of the solver", "[implicit-ste
                 spinSize = std::max(spinSize, sizeOfMomenta(particles, true));
             }
             INFO(nameOf(stepper) << ", tolerance " << tolerance);
-            // Issued limit of 1e-13, 450 eps: a hundred steps and more, each a rounding or two at random signs.
+            // Chosen limit of 1e-13, 450 eps: a hundred steps and more, each a rounding or two at random signs.
             CHECK((linearMomentum(particles) - momentum).norm() <= 1e-13 * size);
             CHECK((angularMomentum(particles) - spin).norm() <= 1e-13 * spinSize);  // same
         }
@@ -171,9 +172,10 @@ TEST_CASE("Steps a thousand times beyond the explicit bound of damping are stabl
     }
 }
 
-TEST_CASE("The linearly implicit stepper bears a stiff pair at ten times the explicit limit", "[implicit-step]") {
-    // Half drift, kick with w_e^2 = w^2/(1 + h^2 w^2/4), half drift: v^2 (1 - h^2 w_e^2/4) + w_e^2 x^2 is kept, so a
-    // pair that starts at rest never gets further from its rest length than it was.
+TEST_CASE("The linearly implicit stepper is stable for a stiff pair at ten times the explicit limit",
+          "[implicit-step]") {
+    // Half drift, kick with w_e^2 = w^2/(1 + h^2 w^2/4), half drift: v^2 (1 - h^2 w_e^2/4) + w_e^2 x^2 is conserved, so
+    // a pair that starts at rest never gets further from its rest length than it was.
     Material material = *materialPreset("solid");
     material.damping = 0.0;
     const double stiffness = 2.0 * 0.75 * 0.8 / std::pow(0.3, 5);

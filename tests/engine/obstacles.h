@@ -1,4 +1,4 @@
-// Sceneries of a single obstacle.
+// Sets of obstacles with a single one.
 #pragma once
 
 #include "engine/law/obstacles.h"

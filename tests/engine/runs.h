@@ -12,7 +12,7 @@ namespace runs {
 
 inline constexpr double kFrame = 1.0 / 30.0;  // s
 
-/// Frame by frame.
+/// Advances the simulation frame by frame.
 inline void advanceFrames(engine::Simulation& simulation, int from, int to) {
     for (int frame = from + 1; frame <= to; ++frame) engine::advance(simulation, frame * kFrame);
 }
@@ -35,8 +35,8 @@ inline engine::Material honey() {
     return material;
 }
 
-/// Adds a jittered cubic block that moves at up to 1 m/s an axis. No pair is as close as the core, whose kink would
-/// hide the order of a stepper.
+/// Adds a jittered cubic block whose particles move at up to 1 m/s along each axis. No pair is as close as the core,
+/// whose kink would hide the order of a stepper.
 inline void addPacking(engine::Setup& setup, const std::array<std::uint32_t, 3>& counts) {
     for (const engine::Vec3& position : engine::gridPositions(
              engine::Vec3::Zero(), counts, {.spacing = 1.8 * setup.materials[0].radius, .jitter = 0.1}))
@@ -55,7 +55,7 @@ inline void addPair(engine::Setup& setup, double distance, double closingSpeed) 
                                .mass = setup.materials[0].mass});
 }
 
-/// The state after `count` bare steps of the stepper in use: nothing is audited, taken back or born.
+/// The state after `count` steps of the stepper in use, without audit, rejection or emission.
 inline engine::Simulation afterSteps(const engine::Setup& setup, double duration, int count) {
     engine::Simulation simulation = engine::start(setup);
     for (int k = 0; k < count; ++k) takeStep(simulation, duration / count);

@@ -166,7 +166,7 @@ TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vecto
             const OnInstructionSet only(name);
             for (const std::size_t split : {0U, 1U, 50U, 102U}) {
                 Particles actual = before;
-                Moved moved = kickAndDrift(step, 0, split, actual);
+                KickDriftResult moved = kickAndDrift(step, 0, split, actual);
                 moved.include(kickAndDrift(step, split, before.count(), actual));
                 INFO(name << ", split at " << split);
                 CHECK(moved.areValid);

@@ -1,4 +1,4 @@
-// Whole runs: time, births, bits, and the end of an unstable one.
+// Whole runs: time, emissions, bits, and the end of an unstable run.
 #include "engine/run/advance.h"
 
 #include "tests/catch.h"
@@ -33,7 +33,7 @@ Setup busyScene(StepperKind stepper) {
     return setup;
 }
 
-/// More particles than one thread takes, among obstacles of all kinds.
+/// More particles than one thread works on, among obstacles of all kinds.
 Setup crowdAmongObstacles() {
     Setup setup;
     setup.materials = {*materialPreset("sand")};
@@ -46,8 +46,8 @@ Setup crowdAmongObstacles() {
     return setup;
 }
 
-/// Beside a run one whose evaluator is told that particles may be anywhere, and looks at them every time, and one whose
-/// evaluator is told nothing, and looks at their radii and materials, too.
+/// Compares a run with two others: in one the evaluator is told that particles may have moved anywhere, so that it
+/// checks all positions every time; in the other it is told nothing, so that it checks radii and materials, too.
 void checkLists(const Setup& setup) {
     Simulation noted = start(setup);
     Simulation looked = noted;
@@ -106,19 +106,19 @@ TEST_CASE("Obstacles that threads share out give the same bits for any number of
     }
 }
 
-TEST_CASE("The paper's stepper notes moves", "[simulation]") {
+TEST_CASE("The paper's stepper reports displacements", "[simulation]") {
     Setup setup = runs::freeSetup(*materialPreset("powder"), StepperKind::symplecticEuler, 1e-4);
     setup.initial = clouds::strewn(1500, 3.0);
     Simulation simulation = start(setup);
     advance(simulation, 1e-4);
     const std::vector<Vec3> builtAt = simulation.cache->evaluator.list().builtAt;
     REQUIRE(builtAt.size() == 1500);
-    for (Vec3& position : simulation.particles.position) position *= 2.0;  // behind its back
+    for (Vec3& position : simulation.particles.position) position *= 2.0;  // not reported
     advance(simulation, 2e-4);
     CHECK(simulation.cache->evaluator.list().builtAt == builtAt);
 }
 
-TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]") {
+TEST_CASE("Another stepper checks the particles that the paper's has moved", "[simulation]") {
     Setup setup = runs::freeSetup(*materialPreset("solid"), StepperKind::symplecticEuler, 1e-4);
     runs::addPacking(setup, {6, 6, 6});
     for (const StepperKind stepper : {StepperKind::linearlyImplicit, StepperKind::velocityVerlet}) {
@@ -134,7 +134,7 @@ TEST_CASE("Another stepper looks at whom the paper's has moved", "[simulation]")
     }
 }
 
-TEST_CASE("Lists are built when they have to be, whether moves are noted or looked at", "[simulation]") {
+TEST_CASE("Lists are built when they have to be, whether displacements are reported or checked", "[simulation]") {
     Setup bounded = busyScene(StepperKind::symplecticEuler);
     bounded.emitters[0].interval = 0.01;
     bounded.world = BoundingBox{.low = Vec3(-2.0, 0.55, -2.0), .high = Vec3(2.2, 3.0, 2.0)};
@@ -143,7 +143,8 @@ TEST_CASE("Lists are built when they have to be, whether moves are noted or look
 }
 
 TEST_CASE("The bits of a run are the same in every build and on every machine", "[simulation]") {
-    // Not a truth but a promise: a change that means to alter them says so and pins the new ones.
+    // These values are not correct in themselves, but promised: a change that means to alter the bits says so and
+    // records new ones.
     CHECK(hashAfter(busyScene(StepperKind::symplecticEuler), 0.2) == "b9c371ef20cefee4");
     CHECK(hashAfter(busyScene(StepperKind::velocityVerlet), 0.2) == "eac0c8b76c7caf2d");
     CHECK(hashAfter(busyScene(StepperKind::implicitDamping), 0.2) == "f76db69f16b1090c");
@@ -182,7 +183,7 @@ TEST_CASE("A scene without particles runs", "[simulation]") {
     CHECK(simulation.time == 1.0);
 }
 
-TEST_CASE("The grid and the paper's O(n^2) method tell the same story", "[simulation]") {
+TEST_CASE("The grid and the paper's O(n^2) method agree", "[simulation]") {
     Setup setup = busyScene(StepperKind::velocityVerlet);
     Simulation onGrid = start(setup);
     setup.forces = ForceMethod::reference;
@@ -195,7 +196,7 @@ TEST_CASE("The grid and the paper's O(n^2) method tell the same story", "[simula
         CHECK((onGrid.particles.position[p] - byPairs.particles.position[p]).norm() < 1e-12);
 }
 
-TEST_CASE("Births are counted and their particles have ids in order", "[simulation]") {
+TEST_CASE("Emissions are counted and their particles have ids in order", "[simulation]") {
     Simulation simulation = start(busyScene(StepperKind::velocityVerlet));
     const std::size_t bodies = simulation.setup.initial.count();
     advance(simulation, 0.5);
@@ -220,14 +221,14 @@ TEST_CASE("An unstable run names particle, time and what to change", "[simulatio
     }
 }
 
-TEST_CASE("A particle that is not a number is found", "[simulation]") {
+TEST_CASE("A NaN position is found", "[simulation]") {
     Setup setup;
     append(setup.initial, {.velocity = Vec3(0, std::nan(""), 0)});
     Simulation simulation = start(setup);
     CHECK_THROWS_AS(advance(simulation, 0.1), InstabilityError);
 }
 
-TEST_CASE("Velocities and positions that leave the numbers are found before anything is computed from them",
+TEST_CASE("Velocities and positions that are not finite are found before anything is computed from them",
           "[simulation]") {
     for (const StepperKind stepper : kSteppers) {
         Setup setup;

@@ -1,5 +1,5 @@
-// The audit: steps that gain energy are taken back, whole and with the births they saw, and a run that nothing can
-// save says so.
+// The audit: steps that gain energy are rejected completely, with the emissions since, and a run that no shorter step
+// can save says so.
 #include "engine/stepping/step_audit.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Setup pressedLattice(StepperKind stepper, const char* preset, double step) {
     return setup;
 }
 
-/// A nozzle over a floor with a stiff block in its way: births between steps of which many are taken back.
+/// A nozzle over a floor with a stiff block in its way: emissions between steps of which many are rejected.
 Setup busyNozzle(StepperKind stepper) {
     Setup setup = pressedLattice(stepper, "solid", 0.02);
     setup.gravity = Vec3(0, -9.8, 0);
@@ -40,7 +40,7 @@ Setup busyNozzle(StepperKind stepper) {
     return setup;
 }
 
-/// Energy of the state, counted afresh by every pair, and the size of what adds up to it.
+/// Energy of the state, computed from every pair, and the sum of the magnitudes of its terms.
 struct Fresh {
     double total = 0.0;  ///< J
     double size = 0.0;   ///< J
@@ -54,21 +54,21 @@ Fresh freshEnergy(const Simulation& simulation) {
 
 }  // namespace
 
-TEST_CASE("A step that gains energy is objected to, and taking it back leaves nothing of it", "[step-audit]") {
+TEST_CASE("A step that gains energy is rejected, and restoring leaves nothing of it", "[step-audit]") {
     for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::implicitDamping}) {
         Simulation simulation = start(pressedLattice(stepper, "solid", 1e-5));
         advance(simulation, 2e-3);
         const std::string before = stateHash(simulation.particles);
         const double energyBefore = *simulation.cache->energy;
-        BeforeStep kept;
-        keep(simulation, kept);
+        SavedState saved;
+        save(simulation, saved);
         takeStep(simulation, 1e-5);
-        CHECK_FALSE(objection(simulation, kept));
+        CHECK_FALSE(rejectionReason(simulation, saved));
         const std::string good = stateHash(simulation.particles);
-        takeBack(simulation, kept);
+        restore(simulation, saved);
         takeStep(simulation, 0.02);
-        CHECK(objection(simulation, kept));
-        takeBack(simulation, kept);
+        CHECK(rejectionReason(simulation, saved));
+        restore(simulation, saved);
         CHECK(stateHash(simulation.particles) == before);
         CHECK(*simulation.cache->energy == energyBefore);
         takeStep(simulation, 1e-5);
@@ -76,16 +76,16 @@ TEST_CASE("A step that gains energy is objected to, and taking it back leaves no
     }
 }
 
-TEST_CASE("A step further than a radius is objected to, where there is anything to miss", "[step-audit]") {
+TEST_CASE("A step further than a radius is rejected where there is anything to miss", "[step-audit]") {
     for (const double distance : {0.149, 0.151}) {
         Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 1.0);
         append(setup.initial, {.velocity = Vec3(distance, 0, 0)});
         append(setup.initial, {.position = Vec3(0, 5, 0)});
         Simulation simulation = start(setup);
-        BeforeStep kept;
-        keep(simulation, kept);
+        SavedState saved;
+        save(simulation, saved);
         takeStep(simulation, 1.0);
-        CHECK((objection(simulation, kept) == StepLimit::displacement) == (distance > 0.15));
+        CHECK((rejectionReason(simulation, saved) == StepLimit::displacement) == (distance > 0.15));
     }
     Setup alone = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 1.0);
     append(alone.initial, {.velocity = Vec3(100, 0, 0)});
@@ -118,7 +118,7 @@ TEST_CASE("A stiff lattice that is not relaxed stays finite, and its energy with
         }
 }
 
-TEST_CASE("A step that was too long for honey can be taken back and shortened", "[step-audit]") {
+TEST_CASE("A step that was too long for honey can be rejected and shortened", "[step-audit]") {
     // At 1/240 s the damping turns velocities round, and the mean velocities in the middle of a step hide how fast its
     // end is.
     for (const StepperKind stepper : {StepperKind::implicitDamping, StepperKind::linearlyImplicit})
@@ -135,7 +135,7 @@ TEST_CASE("A step that was too long for honey can be taken back and shortened", 
         }
 }
 
-TEST_CASE("Steps grow again when what shortened them is over", "[step-audit]") {
+TEST_CASE("Steps grow again when the cause of short ones is over", "[step-audit]") {
     for (const StepperKind stepper : kAudited) {
         Material material = *materialPreset("powder");
         material.repulsion = 80.0;
@@ -152,7 +152,7 @@ TEST_CASE("Steps grow again when what shortened them is over", "[step-audit]") {
     }
 }
 
-TEST_CASE("The recorded energy is that of the state, births included", "[step-audit]") {
+TEST_CASE("The recorded energy is that of the state, emissions included", "[step-audit]") {
     for (const StepperKind stepper : kAudited) {
         Simulation simulation = start(busyNozzle(stepper));
         const std::size_t bodies = simulation.setup.initial.count();
@@ -167,7 +167,7 @@ TEST_CASE("The recorded energy is that of the state, births included", "[step-au
     }
 }
 
-TEST_CASE("Births survive steps that are taken back", "[step-audit]") {
+TEST_CASE("No emission is lost with rejected steps", "[step-audit]") {
     for (const StepperKind stepper : kAudited) {
         Simulation simulation = start(busyNozzle(stepper));
         const std::size_t bodies = simulation.setup.initial.count();
@@ -178,20 +178,20 @@ TEST_CASE("Births survive steps that are taken back", "[step-audit]") {
         for (std::size_t p = 0; p < simulation.particles.count(); ++p) CHECK(simulation.particles.id[p] == p);
         for (const Schedule& schedule : simulation.emitters[0].schedules) {
             CHECK(schedule.births > 0);
-            CHECK((schedule.delayed || schedule.due > simulation.time));  // no birth is forgotten
+            CHECK((schedule.delayed || schedule.due > simulation.time));  // no emission is forgotten
         }
     }
 }
 
-TEST_CASE("Going back before a birth undoes it, and it happens again alike", "[step-audit]") {
+TEST_CASE("Restoring a state before an emission undoes it, and it happens again with the same bits", "[step-audit]") {
     Simulation simulation = start(busyNozzle(StepperKind::velocityVerlet));
     advance(simulation, 0.05);
-    BeforeStep kept;
-    keep(simulation, kept);
+    SavedState saved;
+    save(simulation, saved);
     const Simulation before = simulation;
     advance(simulation, 0.07);
     CHECK(birthCount(simulation) > birthCount(before));
-    takeBack(simulation, kept);
+    restore(simulation, saved);
     CHECK(simulation.time == before.time);
     CHECK(stateHash(simulation.particles) == stateHash(before.particles));
     CHECK(birthCount(simulation) == birthCount(before));
@@ -202,12 +202,12 @@ TEST_CASE("Going back before a birth undoes it, and it happens again alike", "[s
     advance(again, 0.07);
     simulation.restriction = before.restriction;
     simulation.cache->evaluator =
-        before.cache->evaluator;  // its list, which orders sums and says who is alone, is no part of the state
+        before.cache->evaluator;  // the list, which orders sums and finds neighbors, is not part of the saved state
     advance(simulation, 0.07);
     CHECK(stateHash(simulation.particles) == stateHash(again.particles));
 }
 
-TEST_CASE("A run that no step can save says which particle, when and what to change", "[step-audit]") {
+TEST_CASE("A run that no step can save names the particle, the time and what to change", "[step-audit]") {
     for (const StepperKind stepper : kAudited) {
         Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 0.01);
         append(setup.initial, {.position = Vec3(0, 5, 0)});
@@ -224,25 +224,26 @@ TEST_CASE("A run that no step can save says which particle, when and what to cha
     }
 }
 
-TEST_CASE("After a step is taken back nobody is remembered whom a run that is gone on with would not know", "[audit]") {
+TEST_CASE("A rejected step leaves no cached neighbors, which a resumed run would not have", "[audit]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 0.001);
     runs::addPacking(setup, {4, 4, 4});
     setup.obstacles.shapes = {Container{Vec3::Constant(-0.5), Vec3::Constant(0.5)}};
     Simulation simulation = start(setup);
     takeStep(simulation, 0.001);
-    BeforeStep kept;
-    keep(simulation, kept);
+    SavedState saved;
+    save(simulation, saved);
     takeStep(simulation, 0.002);
     REQUIRE(std::ranges::any_of(simulation.cache->cachedNeighbors,
                                 [&](std::uint32_t p) { return p < simulation.particles.count(); }));
-    takeBack(simulation, kept);
+    restore(simulation, saved);
     CHECK(simulation.cache->cachedNeighbors.empty());
     Simulation resumed = simulation;
     for (Simulation* either : {&simulation, &resumed}) takeStep(*either, 0.001);
     CHECK(simulation.particles.position == resumed.particles.position);
 }
 
-TEST_CASE("Who has company is not swept for a step that was taken back and led away from it", "[step-audit]") {
+TEST_CASE("A particle with neighbors gets no swept contact because a rejected step led away from them",
+          "[step-audit]") {
     for (const StepperKind stepper : kAudited) {
         Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 0.01);
         setup.obstacles.shapes = {Plane{Vec3::Zero(), Vec3::UnitY()}};
@@ -250,15 +251,15 @@ TEST_CASE("Who has company is not swept for a step that was taken back and led a
         append(setup.initial, {.position = Vec3(0.3, 0.2, 0), .velocity = Vec3(10, 0, 0)});
         Simulation simulation = start(setup);
         takeStep(simulation, 1e-6);
-        BeforeStep kept;
-        keep(simulation, kept);
+        SavedState saved;
+        save(simulation, saved);
         takeStep(simulation, 0.01);
         const std::string good = stateHash(simulation.particles);
         REQUIRE(simulation.cache->swept[0] == 0);
-        takeBack(simulation, kept);
-        takeStep(simulation, 0.1);  // they part, and a list is made of that
+        restore(simulation, saved);
+        takeStep(simulation, 0.1);  // they part, and a list of that state is built
         simulation.cache->evaluator.pairEnergyGrid(simulation.particles);
-        takeBack(simulation, kept);
+        restore(simulation, saved);
         takeStep(simulation, 0.01);
         INFO(nameOf(stepper));
         CHECK(simulation.cache->swept[0] == 0);
@@ -266,7 +267,7 @@ TEST_CASE("Who has company is not swept for a step that was taken back and led a
     }
 }
 
-TEST_CASE("Where forces need no list Verlet trusts none that another stepper has left behind", "[step-audit]") {
+TEST_CASE("Without a list for forces Verlet does not use one that another stepper has left", "[step-audit]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::implicitDamping, 0.1);
     setup.forces = ForceMethod::reference;
     setup.obstacles.shapes = {Plane{}};

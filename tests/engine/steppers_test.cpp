@@ -1,4 +1,4 @@
-// Order of convergence, closed forms, and what must be kept or may only fall.
+// Order of convergence, closed forms, and quantities that must be conserved or may only fall.
 #include "engine/stepping/steppers.h"
 #include "engine/stepping/step_cache.h"
 
@@ -55,7 +55,7 @@ double measuredOrder(const char* preset, StepperKind stepper) {
 TEST_CASE("Symplectic Euler is of order 1, velocity Verlet of order 2, with damping and drag", "[steppers]") {
     for (const char* preset : {"liquid", "solid", "powder"}) {
         INFO(preset);
-        // The next order contributes its share of the step, under a tenth at 128 steps.
+        // The next order contributes less than a tenth at 128 steps.
         CHECK(measuredOrder(preset, StepperKind::symplecticEuler) == Approx(1.0).margin(0.1));
         CHECK(measuredOrder(preset, StepperKind::velocityVerlet) == Approx(2.0).margin(0.1));
     }
@@ -77,7 +77,7 @@ TEST_CASE("Leapfrog is velocity Verlet without damping, and of order 1 with it",
     }
 }
 
-TEST_CASE("Leapfrog goes the way of the paper's stepper, which has its velocities half a step earlier", "[steppers]") {
+TEST_CASE("Leapfrog agrees with the paper's stepper, whose velocities are those of half a step earlier", "[steppers]") {
     const double h = 2e-3;
     Setup setup = freeSetup(*materialPreset("solid"), StepperKind::leapfrog, h);
     setup.initial = clouds::strewnUnequal(100, 0.8);
@@ -92,8 +92,8 @@ TEST_CASE("Leapfrog goes the way of the paper's stepper, which has its velocitie
         takeStep(leapfrog, h);
         takeStep(paper, h);
     }
-    // Roundings of the velocity that is read off positions, which twenty steps of a crowd may grow by some powers of
-    // ten.
+    // Roundings of the velocity that is computed from positions, which twenty steps of a dense packing may amplify by
+    // some powers of ten.
     CHECK(runs::rmsDistance(leapfrog.particles, paper.particles) < 1e-9);
     CHECK(runs::rmsDistance(leapfrog.particles, setup.initial) > 1e-2);
 }

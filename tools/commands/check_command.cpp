@@ -54,7 +54,7 @@ engine::Particles everyKind(const scenes::Scene& scene) {
 /// that has any.
 std::size_t bytesPerParticle(const engine::Simulation& simulation) {
     constexpr std::size_t kFramesInFlight = 4;
-    return engine::mostBytes(simulation) / simulation.particles.count() + kFramesInFlight * sizeof(render::Sphere);
+    return engine::peakBytes(simulation) / simulation.particles.count() + kFramesInFlight * sizeof(render::Sphere);
 }
 
 /// How the beginning of the run went.
@@ -113,8 +113,9 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
     json["limited_by"] =
         engine::nameOf(static_cast<engine::StepLimit>(std::max_element(limits.begin(), limits.end()) - limits.begin()));
     const engine::AutoState& automatic = simulation.automatic;
-    json["error"] =
-        automatic.looks > 0 ? Json(automatic.errorSum / static_cast<double>(automatic.looks)) : Json(nullptr);
+    json["error"] = automatic.estimateCount > 0
+                        ? Json(automatic.errorSum / static_cast<double>(automatic.estimateCount))
+                        : Json(nullptr);
     json["seconds_simulating"] =
         preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
     json["bytes_per_particle"] = preview.bytesPerParticle;

@@ -57,7 +57,7 @@ Json stepsJson(const engine::StepStatistics& steps) {
 ErrorSamples errorsOf(const engine::Simulation& simulation, const ErrorSamples& samples) {
     if (simulation.setup.stepper != engine::StepperKind::automatic) return samples;
     const engine::AutoState& state = simulation.automatic;
-    return {static_cast<int>(state.looks), state.errorSum, state.largestError};
+    return {static_cast<int>(state.estimateCount), state.errorSum, state.largestError};
 }
 
 Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples) {
@@ -73,9 +73,9 @@ Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples
             "frames run again at half the step, times what up to {} s of motion make of an error: mean and largest "
             "over "
             "the samples",
-            engine::kFarSeconds);
+            engine::kLongEstimateSeconds);
         json["wanted"] = simulation.setup.error;
-        json["force_evaluations_spent"] = simulation.automatic.trials;
+        json["force_evaluations_spent"] = simulation.automatic.estimateCost;
     }
     return json;
 }

@@ -1,4 +1,4 @@
-// Particles that leave a bounded world: who, when, and that nobody else notices.
+// Removal of particles that leave a bounded world: which ones, when, and that the others go on unchanged.
 #include "tests/catch.h"
 
 #include "engine/error_control/error_estimate.h"
@@ -10,7 +10,7 @@ using namespace engine;
 
 namespace {
 
-/// A jet that falls on a floor, the end of which is the end of the world.
+/// A jet that falls on a floor; the world ends where the floor ends.
 Setup overflowing(StepperKind stepper) {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), stepper, 0.004);
     setup.gravity = Vec3(0.0, -9.8, 0.0);
@@ -27,24 +27,24 @@ Setup overflowing(StepperKind stepper) {
 
 }  // namespace
 
-TEST_CASE("Who is beyond the bounds leaves with the next interval; the others keep order and ids", "[deaths]") {
+TEST_CASE("Particles beyond the bounds are removed at the next interval; the others keep order and ids", "[removal]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 0.01);
     for (const double x : {-3.0, 2.0, 3.0, 4.0, 2.0 + 1e-12}) append(setup.initial, {.position = Vec3(x, x, 0.0)});
     setup.world = BoundingBox::unbounded();
-    setup.world->high = Vec3(3.5, 2.0, 1.0);  // a face belongs to it
+    setup.world->high = Vec3(3.5, 2.0, 1.0);  // faces belong to the world
     Simulation simulation = start(setup);
     CHECK(simulation.particles.count() == 5);
     advance(simulation, runs::kFrame);
     CHECK(simulation.particles.id == std::vector<std::uint32_t>{0, 1});
     CHECK(simulation.removedCount == 3);
     append(simulation.particles, {.position = Vec3(-9.0, 0.0, 0.0)});
-    CHECK(simulation.particles.id.back() == 5);  // of the dead nobody takes the place
+    CHECK(simulation.particles.id.back() == 5);  // ids are not used again
     truncate(simulation.particles, 2);
     append(simulation.particles, {.position = Vec3(-9.0, 0.0, 0.0)});
     CHECK(simulation.particles.id.back() == 5);
 }
 
-TEST_CASE("The others go on as if nobody had been there", "[deaths]") {
+TEST_CASE("The other particles go on as if the removed ones had never been there", "[removal]") {
     for (const StepperKind stepper : kSteppers) {
         Setup alone = runs::freeSetup(*materialPreset("liquid"), stepper, 0.004);
         runs::addPacking(alone, {4, 4, 4});
@@ -60,7 +60,7 @@ TEST_CASE("The others go on as if nobody had been there", "[deaths]") {
     }
 }
 
-TEST_CASE("A world of nobody stays one", "[deaths]") {
+TEST_CASE("A world without particles stays without particles", "[removal]") {
     Setup setup = overflowing(StepperKind::automatic);
     setup.emitters[0].limit = 3;
     setup.world->high.y() = -1.0;
@@ -71,7 +71,8 @@ TEST_CASE("A world of nobody stays one", "[deaths]") {
     CHECK(largestCount(simulation) >= 1);
 }
 
-TEST_CASE("Births and deaths leave as many as there are, and none outside for longer than a frame", "[deaths]") {
+TEST_CASE("Emitted and removed particles account for all, and none stays outside for longer than a frame",
+          "[removal]") {
     for (const StepperKind stepper : kSteppers) {
         Simulation simulation = start(overflowing(stepper));
         std::size_t most = 0;
@@ -88,7 +89,7 @@ TEST_CASE("Births and deaths leave as many as there are, and none outside for lo
     }
 }
 
-TEST_CASE("Deaths keep a run's bits: any number of threads, and resumed", "[deaths]") {
+TEST_CASE("Removal keeps a run's bits for any number of threads and after a resume", "[removal]") {
     for (const StepperKind stepper : kSteppers) {
         const Setup setup = overflowing(stepper);
         Simulation whole = start(setup);
@@ -108,7 +109,7 @@ TEST_CASE("Deaths keep a run's bits: any number of threads, and resumed", "[deat
     }
 }
 
-TEST_CASE("A look's two runs have all particles, whoever is beyond the bounds", "[deaths]") {
+TEST_CASE("Both runs of an error estimate keep all particles, also those beyond the bounds", "[removal]") {
     for (const StepperKind stepper : kSteppers) {
         if (stepper == StepperKind::automatic) continue;
         Simulation bounded = start(overflowing(stepper));
@@ -116,13 +117,13 @@ TEST_CASE("A look's two runs have all particles, whoever is beyond the bounds", 
         bounded.setup.world->high.x() = bounded.particles.position[0].x() - 0.1;
         Simulation boundless = bounded;
         boundless.setup.world.reset();
-        const Look look{.time = bounded.time + runs::kFrame, .stepper = stepper, .step = 0.004};
+        const TrialRun look{.time = bounded.time + runs::kFrame, .stepper = stepper, .step = 0.004};
         INFO(nameOf(stepper));
         CHECK(measure(bounded, look).error == measure(boundless, look).error);
     }
 }
 
-TEST_CASE("A checkpoint with deaths that cannot have been is refused", "[deaths]") {
+TEST_CASE("A checkpoint with impossible numbers of removed particles is refused", "[removal]") {
     const Setup setup = overflowing(StepperKind::velocityVerlet);
     Simulation simulation = start(setup);
     runs::advanceFrames(simulation, 0, 36);
@@ -148,8 +149,8 @@ TEST_CASE("A checkpoint with deaths that cannot have been is refused", "[deaths]
     CHECK_FALSE(isTaken(boundless, [](Simulation&) {}));
 }
 
-TEST_CASE("A world that has emptied takes steps, births and checkpoints like one that was empty from the start",
-          "[deaths]") {
+TEST_CASE("A world that has emptied takes steps, emissions and checkpoints like one that was empty from the start",
+          "[removal]") {
     for (const StepperKind stepper :
          {StepperKind::velocityVerlet, StepperKind::implicitDamping, StepperKind::automatic}) {
         Setup setup = runs::freeSetup(*materialPreset("honey"), stepper, 0.004);
