@@ -1,6 +1,4 @@
-// A counting sort of items into the rows of the grid, then one of each row's items into its cells. Items that cover
-// several rows or columns are counted by differences: +1 where they begin, -1 after their end, summed up along the
-// grid.
+// A counting sort of items into cells: count, sum up, fill. Items are ordered before by a radix sort of their keys.
 #include "render/prepare/tiles.h"
 
 #include <algorithm>
@@ -9,10 +7,8 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "render/picture/system_error.h"
 
@@ -43,53 +39,13 @@ void sortByDigit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& t
     for (const KeyedIndex& item : from) to[start[(item.key >> shift) & (kDigits - 1)]++] = item;
 }
 
-/// The columns that an item covers in one row of cells.
-struct RowItem {
-    std::uint32_t index;
-    std::int32_t first, last;  ///< column
-};
-
-/// The items of each row in their given order, one row after another.
-struct RowLists {
-    std::vector<std::size_t> begin;  ///< rows + 1 entries
-    std::vector<RowItem> items;
-
-    std::span<const RowItem> of(std::size_t row) const {
-        return std::span(items).subspan(begin[row], begin[row + 1] - begin[row]);
+/// Calls visit(cell index) for every cell of an item, row by row.
+template <typename Visit>
+void forCells(const CellLists& lists, const Rect& cells, const Visit& visit) {
+    for (int row = cells.y0; row <= cells.y1; ++row) {
+        const std::size_t last = lists.cellIndex(cells.x1, row);
+        for (std::size_t cell = lists.cellIndex(cells.x0, row); cell <= last; ++cell) visit(cell);
     }
-};
-
-RowLists rowLists(std::span<const CellItem> items, int columns, int rows) {
-    RowLists lists;
-    std::vector<std::size_t> next(static_cast<std::size_t>(rows) + 1, 0);
-    for (const CellItem& item : items) {
-        const Rect& cells = item.cells;
-        if (cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= columns || cells.y1 >= rows || cells.x1 < cells.x0 ||
-            cells.y1 < cells.y0)
-            throw std::logic_error("render: an item lies outside of the grid of cells");
-        ++next[static_cast<std::size_t>(cells.y0)];
-        --next[static_cast<std::size_t>(cells.y1) + 1];
-    }
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    lists.begin.resize(next.size());
-    std::exclusive_scan(next.begin(), next.end(), lists.begin.begin(), std::size_t{0});
-    lists.items.resize(lists.begin.back());
-    next = lists.begin;
-    for (const CellItem& item : items)
-        for (int row = item.cells.y0; row <= item.cells.y1; ++row)
-            lists.items[next[static_cast<std::size_t>(row)]++] = {item.index, item.cells.x0, item.cells.x1};
-    return lists;
-}
-
-/// The number of items in each cell of a row.
-void countPerCell(std::span<const RowItem> items, std::span<std::uint32_t> cells) {
-    // Differences below 0 wrap around; the sums are right again.
-    for (const RowItem& item : items) {
-        ++cells[static_cast<std::size_t>(item.first)];
-        const auto end = static_cast<std::size_t>(item.last) + 1;
-        if (end < cells.size()) --cells[end];
-    }
-    std::partial_sum(cells.begin(), cells.end(), cells.begin());
 }
 
 }  // namespace
@@ -110,33 +66,23 @@ CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows) {
     CellLists lists;
     lists.columns = columns;
     lists.rows = rows;
-    const RowLists rowItems = rowLists(items, columns, rows);
-    const auto across = static_cast<std::size_t>(columns);
-    std::vector<std::uint32_t> next(across * static_cast<std::size_t>(rows), 0);
-    const auto cellsOf = [&](std::size_t row) { return std::span(next).subspan(row * across, across); };
-    // Rows are independent of each other: threads share neither counters nor lists.
-    const auto forRows = [&](const auto& visit) {
-        tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(rows), visit);
-    };
-    forRows([&](std::size_t row) { countPerCell(rowItems.of(row), cellsOf(row)); });
-
-    lists.begin.reserve(next.size() + 1);
+    lists.begin.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 1, 0);
     std::uint64_t total = 0;
-    for (std::uint32_t& cell : next) {
-        lists.begin.push_back(static_cast<std::uint32_t>(total));
-        total += std::exchange(cell, lists.begin.back());
-        if (total > std::numeric_limits<std::int32_t>::max()) {
+    for (const auto& [index, cells] : items) {
+        if (cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= columns || cells.y1 >= rows || cells.x1 < cells.x0 ||
+            cells.y1 < cells.y0)
+            throw std::logic_error("render: an item lies outside of the grid of cells");
+        total +=
+            static_cast<std::uint64_t>(cells.x1 - cells.x0 + 1) * static_cast<std::uint64_t>(cells.y1 - cells.y0 + 1);
+        if (total > std::numeric_limits<std::int32_t>::max())
             throw SystemError(fmt::format("drawing {} items takes more than 2^31 list entries", items.size()));
-        }
+        forCells(lists, cells, [&](std::size_t cell) { ++lists.begin[cell + 1]; });
     }
-    lists.begin.push_back(static_cast<std::uint32_t>(total));
+    std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
     lists.items.resize(total);
-    forRows([&](std::size_t row) {
-        std::uint32_t* end = cellsOf(row).data();  // of each cell's list so far
-        for (const RowItem& item : rowItems.of(row))
-            for (std::int32_t column = item.first; column <= item.last; ++column)
-                lists.items[end[column]++] = item.index;
-    });
+    std::vector<std::uint32_t> end = lists.begin;  // of each cell's list so far
+    for (const auto& [index, cells] : items)
+        forCells(lists, cells, [&, index = index](std::size_t cell) { lists.items[end[cell]++] = index; });
     return lists;
 }
 
