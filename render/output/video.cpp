@@ -2,14 +2,11 @@
 #include "render/output/video.h"
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "render/output/atomic_file.h"
-#include "render/output/child_process.h"
 #include "render/picture/system_error.h"
 
 namespace render {
@@ -30,16 +27,14 @@ ChildProcess started(const std::vector<std::string>& arguments, const VideoOptio
 }
 
 /// The arguments that start ffmpeg. The reasons for its options:
-///  - The same bytes on any processor: bit-exact scaling and muxing, no encoder settings in the stream (filter_units),
-///  and
-///    a fixed number of encoder threads, on which the bytes depend.
-///  - Colors: without the conversion to BT.709 and its tags, ffmpeg assumes BT.601 and colors shift. yuv420p requires
-///  an
-///    even width and height.
+///  - The same bytes on any processor: bit-exact scaling and muxing, no encoder settings in the stream
+///    (filter_units), and a fixed number of encoder threads, on which the bytes depend.
+///  - Colors: without the conversion to BT.709 and its tags, ffmpeg assumes BT.601 and colors shift. The pixel
+///    format yuv420p requires an even width and height.
 ///  - Errors: without -xerror, a failure to write the end of the file would count as success.
 ///  - Speed: superfast, because the encoder shares the processor with the drawing. Without B-frames and weighted
-///    prediction it takes a quarter less time (measured: mp4_ms of `globular study pictures`, 10,000 metaballs at 1280
-///    x 720) for a quarter more bytes (`globular render splash --size 1280x720 --frames 40-69 --video`).
+///    prediction it takes a quarter less time (measured: mp4_ms of `globular study pictures`, 10,000 metaballs
+///    at 1280 x 720) for a quarter more bytes (`globular render splash --size 1280x720 --frames 40-69 --video`).
 std::vector<std::string> commandLine(const VideoOptions& options, const std::string& path) {
     const std::string filter = "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+bitexact";
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",
@@ -54,10 +49,13 @@ std::vector<std::string> commandLine(const VideoOptions& options, const std::str
             "file:" + path};
 }
 
+/// The options, if a video can be made with them.
 VideoOptions checked(VideoOptions options) {
-    if (options.size.width > 0 && options.size.height > 0 && options.fps > 0) return options;
-    throw std::logic_error(fmt::format("video: {} x {} pixels at {} frames a second", options.size.width,
-                                       options.size.height, options.fps));
+    if (options.size.width <= 0 || options.size.height <= 0 || options.fps <= 0)
+        throw std::logic_error(fmt::format("video: {} x {} pixels at {} frames a second", options.size.width,
+                                           options.size.height, options.fps));
+    requireEncoder(options);
+    return options;
 }
 
 /// Writes the pixels to `bytes`, with the last column or row repeated if their number is odd.
@@ -78,54 +76,42 @@ void requireEncoder(const VideoOptions& options) {
     ChildProcess probe =
         started({options.ffmpeg, "-hide_banner", "-loglevel", "error", "-h", "encoder=libx264"}, options);
     const std::string ended = probe.wait();
-    const std::string words = probe.output(100000);
-    if (!ended.empty()) throw SystemError(fmt::format("{} ended with {}: {}", options.ffmpeg, ended, words));
-    if (words.find("Encoder libx264") == std::string::npos) {
+    const std::string messages = probe.output(100000);
+    if (!ended.empty()) throw SystemError(fmt::format("{} ended with {}: {}", options.ffmpeg, ended, messages));
+    if (messages.find("Encoder libx264") == std::string::npos) {
         throw SystemError(fmt::format("{} has no libx264 encoder; install an ffmpeg that has one", options.ffmpeg));
     }
 }
 
-struct VideoWriter::Parts {
-    explicit Parts(VideoOptions options_) : options(checked(std::move(options_))) {
-        requireEncoder(options);
-        file.emplace(options.path);
-        file->removeAbandoned();
-        const std::string path = file->temporaryPath().string();
-        process.emplace(commandLine(options, path), options.progressTimeout, path);
-    }
+VideoWriter::VideoWriter(VideoOptions options)
+    : options_(checked(std::move(options))),
+      file_(options_.path),
+      process_(commandLine(options_, file_.temporaryPath().string()), options_.progressTimeout,
+               file_.temporaryPath().string()) {
+    file_.removeAbandoned();
+}
 
-    [[noreturn]] void fail(const std::string& ended) const {
-        const std::string words = process->output();
-        throw SystemError(fmt::format("cannot write {}: {} ended with {}{}{}", options.path, options.ffmpeg,
-                                      ended.empty() ? "exit status 0 too early" : ended, words.empty() ? "" : ": ",
-                                      words));
-    }
-
-    VideoOptions options;
-    std::optional<AtomicFile> file;
-    std::optional<ChildProcess> process;  // is destroyed, and so killed, before its file is removed
-    std::vector<std::uint8_t> bytes;      // of a padded frame, kept for its memory
-};
-
-VideoWriter::VideoWriter(VideoOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {}
-
-VideoWriter::~VideoWriter() = default;
+void VideoWriter::fail(const std::string& ended) const {
+    const std::string messages = process_.output();
+    throw SystemError(fmt::format("cannot write {}: {} ended with {}{}{}", options_.path, options_.ffmpeg,
+                                  ended.empty() ? "exit status 0 too early" : ended, messages.empty() ? "" : ": ",
+                                  messages));
+}
 
 void VideoWriter::add(const Image& image) {
-    const PictureSize size = parts_->options.size;
+    const PictureSize size = options_.size;
     if (image.width != size.width || image.height != size.height || image.rgb.size() != image.byteCount()) {
         throw std::logic_error(fmt::format("video: a frame of {} x {} pixels for {} x {}", image.width, image.height,
                                            size.width, size.height));
     }
     const bool isEven = size.width % 2 == 0 && size.height % 2 == 0;
-    if (!parts_->process->write(isEven ? image.rgb : padded(image, parts_->bytes)))
-        parts_->fail(parts_->process->wait());
+    if (!process_.write(isEven ? image.rgb : padded(image, padded_))) fail(process_.wait());
 }
 
 void VideoWriter::finish() {
-    const std::string ended = parts_->process->wait();
-    if (!ended.empty()) parts_->fail(ended);
-    parts_->file->commit();
+    const std::string ended = process_.wait();
+    if (!ended.empty()) fail(ended);
+    file_.commit();
 }
 
 }  // namespace render

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <chrono>
-#include <memory>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "render/output/atomic_file.h"
 #include "render/output/child_process.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"
@@ -25,15 +27,12 @@ struct VideoOptions {
 void requireEncoder(const VideoOptions& options);
 
 /// Writes one video: H.264, yuv420p, BT.709. An odd width or height is padded to even by repeating the last column or
-/// row. The same frames give the same bytes on any machine, because the encoder always has two threads.
+/// row. The same frames give the same bytes on any machine, because the encoder always has two threads. Without
+/// finish(), the destructor kills ffmpeg and removes the temporary file.
 class VideoWriter {
  public:
     /// @throws SystemError as requireEncoder() does, or when the file cannot be created
     explicit VideoWriter(VideoOptions options);
-    /// Without finish(), ffmpeg is killed and the temporary file removed.
-    ~VideoWriter();
-    VideoWriter(const VideoWriter&) = delete;
-    VideoWriter& operator=(const VideoWriter&) = delete;
 
     /// Appends a frame.
     /// @param image  must have the size given in the options
@@ -45,8 +44,12 @@ class VideoWriter {
     void finish();
 
  private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    [[noreturn]] void fail(const std::string& ended) const;
+
+    VideoOptions options_;
+    AtomicFile file_;
+    ChildProcess process_;              // is destroyed, and so killed, before its file is removed
+    std::vector<std::uint8_t> padded_;  // a frame of even size, kept for its memory
 };
 
 }  // namespace render
