@@ -1,5 +1,5 @@
-// The box around many vectors: where particles are, how far they have moved, how fast they are, all but for what they
-// have in common.
+// Axis-aligned bounding box of a set of vectors: positions, displacements or velocities. Half its diagonal bounds how
+// far any of them is from the motion that all have in common.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct BoundingBox {
     Vec3 low;   ///< smallest coordinates
     Vec3 high;  ///< largest coordinates
 
-    /// Of nobody.
+    /// The box of no vector: including any vector gives the box of that one.
     static BoundingBox empty() {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return {Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
@@ -36,7 +36,7 @@ struct BoundingBox {
 
     Vec3 middle() const { return 0.5 * (low + high); }
 
-    /// From the middle to a corner.
+    /// Distance from the middle to a corner.
     double halfDiagonal() const { return 0.5 * std::sqrt(squaredLength(high - low)); }
 
     void include(const BoundingBox& other) {
@@ -47,7 +47,7 @@ struct BoundingBox {
     }
 };
 
-/// The box of vectorOf(index) over 0 ... count - 1, at least one.
+/// The box of vectorOf(index) over 0 ... count - 1; count is at least 1.
 template <class VectorOf>
 BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
     const auto extentOf = [&](std::size_t begin, std::size_t end) {
@@ -65,7 +65,7 @@ BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
     return extent;
 }
 
-/// The largest distance of vectorOf(index) from a vector, over 0 ... count - 1; what is no number is infinitely far.
+/// The largest distance of vectorOf(index) from a vector, over 0 ... count - 1; a NaN counts as infinitely far.
 template <class VectorOf>
 double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
     return std::sqrt(largestOver(count, [&](std::size_t index) {
@@ -74,11 +74,11 @@ double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorO
     }));
 }
 
-/// Whether none of vectorOf(index) over 0 ... count - 1 is further than a distance from a vector, or no number.
+/// Whether no vectorOf(index) over 0 ... count - 1 is further than a distance from a vector, or NaN.
 template <class VectorOf>
 bool areWithin(double distance, const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
     return holdsInRanges(count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
-        bool areNear = true;  // no branch, and nothing that waits for the vector before
+        bool areNear = true;  // no branch and no dependence on the vector before, so that the loop vectorizes
         for (std::size_t index = begin; index < end; ++index)
             areNear &= squaredLength(vectorOf(index) - from) <= distance * distance;
         return areNear;

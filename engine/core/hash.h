@@ -1,4 +1,4 @@
-// The 64-bit FNV-1a hash, by which states and scenes are recognized.
+// The 64-bit FNV-1a hash (Fowler, Noll and Vo), by which states and scenes are recognized.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ constexpr std::uint64_t fnv1a(std::uint64_t word, std::uint64_t hash) {
     return hash;
 }
 
-/// As 16 hexadecimal digits.
+/// The hash as 16 hexadecimal digits.
 inline std::string hexadecimal(std::uint64_t hash) {
     std::string text(16, '0');
     for (int digit = 15; digit >= 0; --digit, hash >>= 4)

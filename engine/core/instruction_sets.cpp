@@ -1,4 +1,5 @@
-// Highway's targets are bits, the widest the lowest; it chooses among those that are said to be supported.
+// Highway represents its targets as bits, the widest target as the lowest bit, and chooses among those that are marked
+// as supported.
 #include "engine/core/instruction_sets.h"
 
 #include <hwy/highway.h>
@@ -10,7 +11,7 @@
 namespace engine {
 namespace {
 
-/// Those that this machine has, whatever has been chosen. Read once, before anything is.
+/// The targets that this machine has, whatever has been chosen. Read once, before anything is chosen.
 std::int64_t available() {
     static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
     return targets;

@@ -17,13 +17,14 @@
 
 namespace engine {
 
-/// How many threads loops are shared out over, at most.
+/// The number of threads that loops are divided among, at most.
 inline std::size_t threadCount() {
     return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
 #ifdef GLOBULAR_SANITIZES_THREADS
-/// ThreadSanitizer does not see how oneTBB, which is not compiled with it, hands work from thread to thread.
+/// Plain threads for ThreadSanitizer, which does not see how oneTBB, which is not compiled with it, passes work between
+/// threads.
 template <class Ranges>
 void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
     const std::size_t parts = std::min(threadCount(), (count + grain - 1) / grain);
@@ -34,11 +35,12 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
     for (std::thread& thread : threads) thread.join();
 }
 #else
-/// Few pieces are dealt out, every time alike: what a thread has written is still in its cache. Of many, whoever is
-/// done takes more. Isolated, so that a waiting thread does not take up a whole frame's drawing meanwhile.
+/// A few ranges are assigned to threads in the same way every time, so that what a thread has written is still in its
+/// cache. Many ranges are stolen by threads that are done with their own. Isolated, so that a waiting thread does not
+/// begin to draw a whole frame meanwhile.
 template <class Ranges>
 void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
-    constexpr std::size_t kFew = 256;  // chosen: pairs of up to 16,384 particles, their own work of up to 262,144
+    constexpr std::size_t kFew = 256;  // chosen: pair forces of up to 16,384 particles, loops over up to 262,144
     const tbb::blocked_range<std::size_t> all(0, count, grain);
     const auto each = [&](const auto& range) { body(range.begin(), range.end()); };
     tbb::this_task_arena::isolate([&] {
@@ -50,7 +52,8 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
 }
 #endif
 
-/// Calls body(begin, end) for ranges that make up 0 ... count - 1; more than `grain` of these are worth another thread.
+/// Calls body(begin, end) for ranges that together are 0 ... count - 1. More than `grain` indices are worth another
+/// thread.
 template <class Body>
 void inRanges(std::size_t count, std::size_t grain, const Body& body) {
     if (count <= grain)
@@ -59,7 +62,7 @@ void inRanges(std::size_t count, std::size_t grain, const Body& body) {
         splitUp(count, grain, body);
 }
 
-/// Whether holds(begin, end) of all ranges that inRanges makes.
+/// Whether holds(begin, end) is true for all ranges that inRanges() makes.
 template <class Holds>
 bool holdsInRanges(std::size_t count, std::size_t grain, const Holds& holds) {
     std::atomic<bool> all = true;
@@ -69,7 +72,7 @@ bool holdsInRanges(std::size_t count, std::size_t grain, const Holds& holds) {
     return all;
 }
 
-/// Calls body(index) for 0 ... count - 1, shared out likewise.
+/// Calls body(index) for 0 ... count - 1, divided as inRanges() does.
 template <class Body>
 void inParallel(std::size_t count, std::size_t grain, const Body& body) {
     inRanges(count, grain, [&](std::size_t begin, std::size_t end) {
@@ -77,12 +80,12 @@ void inParallel(std::size_t count, std::size_t grain, const Body& body) {
     });
 }
 
-/// Of whatever is done to each particle. A thread that does it for all of some thousands takes no longer, but what it
-/// writes leaves its cache line by line when others read it. Measured with `globular bench` on two Zen 5 cores: with
-/// 8192, steps and scenes of 2000 to 6000 particles take a tenth longer; with 512, steps of 1000.
+/// Grain of a loop that does a little to each particle. One thread would do some thousand particles as fast, but what
+/// it writes leaves its cache line by line when other threads read it. Measured with `globular bench` on two Zen 5
+/// cores: with 8192, steps and scenes of 2000 to 6000 particles take a tenth longer; with 512, steps of 1000.
 inline constexpr std::size_t kParticleGrain = 1024;
 
-/// to = from.
+/// Copies a vector into the memory of another.
 template <class T>
 void copy(const std::vector<T>& from, std::vector<T>& to) {
     to.resize(from.size());
@@ -91,10 +94,10 @@ void copy(const std::vector<T>& from, std::vector<T>& to) {
     });
 }
 
-/// Terms of a partial sum; part of what makes the bits of a sum.
+/// Number of terms of a partial sum. The bits of every sum depend on it.
 inline constexpr std::size_t kSumChunk = 1024;
 
-/// Result by chunk of 0 ... count - 1. Shape: ofChunk(begin, end): of some indices, at least one.
+/// ofChunk(begin, end) for each chunk of 0 ... count - 1, in order; no chunk is empty.
 template <class Result, class OfChunk>
 std::vector<Result> resultsOfChunks(std::size_t count, const OfChunk& ofChunk) {
     std::vector<Result> results((count + kSumChunk - 1) / kSumChunk);
@@ -117,7 +120,7 @@ Sum sumOver(std::size_t count, const Term& term) {
     return sum;
 }
 
-/// The largest term(index), which is no NaN and at least 0, over 0 ... count - 1.
+/// The largest term(index) over 0 ... count - 1, or 0; no term may be NaN.
 template <class Term>
 double largestOver(std::size_t count, const Term& term) {
     const auto largestOf = [&](std::size_t begin, std::size_t end) {

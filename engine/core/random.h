@@ -14,12 +14,12 @@ inline std::uint64_t scatter(std::uint64_t key) {
     return key ^ (key >> 31);
 }
 
-/// A number for a seed and two counters.
+/// Random bits for a seed and two counters.
 inline std::uint64_t randomBits(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
     return scatter(scatter(scatter(seed) ^ stream) ^ index);
 }
 
-/// Bits to a double in [-1, 1): the upper 53 bits, exactly representable.
+/// A double in [-1, 1) from the upper 53 of the bits, which it represents exactly.
 inline double symmetricUnit(std::uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1.0p-52 - 1.0;
 }

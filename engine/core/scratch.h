@@ -1,12 +1,12 @@
-// Memory that is kept from one use to the next, so that it need not be asked for again, and holds nothing in between
-// that anybody needs.
+// Memory that is kept from one use to the next, so that it need not be allocated again. Between uses its contents mean
+// nothing.
 #pragma once
 
 #include <utility>
 
 namespace engine {
 
-/// A T that is not copied along: a copy of what it is part of begins with an empty one, or keeps its own.
+/// A T that copies do not take over: a copy of the object that it is part of begins with an empty T, or keeps its own.
 template <class T>
 struct Scratch : T {
     Scratch() = default;

@@ -1,4 +1,4 @@
-// Births, a step, a verdict.
+// The loop of emission, a step and a verdict on it.
 #include "engine/error_control/checked_steps.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 namespace engine {
 namespace {
 
-/// Chosen: good steps in a row before a longer one is tried again.
+/// Chosen: accepted steps in a row before a longer one is tried again.
 constexpr std::uint32_t kAcceptedBeforeLonger = 8;
 
-/// Chosen: how many steps a run can go back. A step may leave a state that no further step from it can pass.
+/// Chosen: how many steps a run can go back. An accepted step may lead to a state from which no step is accepted.
 constexpr std::size_t kHistory = 4;
 
-/// The energy of the state as it stands; the forces come with it.
+/// Computes the energy of the present state, and the forces with it.
 void establishEnergy(Simulation& simulation) {
     requireValid(simulation, 0.0);
     Particles& particles = simulation.particles;
@@ -32,16 +32,16 @@ void establishEnergy(Simulation& simulation) {
     recordEnergy(simulation, pairEnergy);
 }
 
-/// The implicit steppers know the energy in the middle of a step only. What ends an interval can be seen and is never
-/// taken back, so its last step is judged by its end too.
+/// The implicit steppers know the energy in the middle of a step only. The state at the end of an interval is seen by
+/// others and never taken back, so the last step is also judged by the energy at its end.
 void checkIntervalEnd(Simulation& simulation) {
     if (isVerlet(simulation.stepper) || std::isnan(*simulation.cache->energy)) return;
     if (!isValid(simulation.particles)) return markInvalid(simulation);
     establishEnergy(simulation);
 }
 
-/// Where the steps have to end next: at the time (s) that was asked for or at a birth on the way, or a newborn would be
-/// felt by the others from the next step's start on only.
+/// The time at which the next step must end at the latest, s: the one that was asked for, or the next emission before
+/// it, as otherwise a new particle would act on the others only from the start of the following step.
 double nextStop(const Simulation& simulation, double time) {
     double stop = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
@@ -49,7 +49,7 @@ double nextStop(const Simulation& simulation, double time) {
     return stop < time - kSameMoment ? stop : time;
 }
 
-/// The states of the last few steps, the latest at the end.
+/// The states before the last few steps, the latest at the end.
 class History {
  public:
     void add(const Simulation& simulation) {
@@ -60,7 +60,7 @@ class History {
 
     const SavedState& latest() const { return states_.back(); }
 
-    /// Back to the latest state, or, where that has just been tried, to the one before.
+    /// Restores the latest state, or the one before it where the latest has just been tried.
     void goBack(Simulation& simulation, bool further) {
         if (further && states_.size() > 1) states_.pop_back();
         restore(simulation, states_.back());
@@ -73,9 +73,9 @@ class History {
 
 }  // namespace
 
-bool advanceChecked(Simulation& simulation, double time, double longest, StepLimit why, double mostEvaluations) {
+bool advanceChecked(Simulation& simulation, double time, double longest, StepLimit reason, double mostEvaluations) {
     History history;
-    int refused = 0;
+    int rejectedInRow = 0;
     emitDue(simulation);
     if (!simulation.cache->energy) establishEnergy(simulation);
     const double passesBefore = forceEvaluationsOf(simulation);
@@ -91,17 +91,17 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         history.add(simulation);
         takeStep(simulation, h);
         if (count == 1.0 && stop == time) checkIntervalEnd(simulation);
-        if (const auto reason = rejectionReason(simulation, history.latest())) {
+        if (const auto rejection = rejectionReason(simulation, history.latest())) {
             if (h < kShortestStep) reportInstability(simulation, h);
-            // Two refusals in a row speak against the step that led here.
-            history.goBack(simulation, ++refused % 2 == 0);
+            // Two rejections in a row are evidence against the step that led here.
+            history.goBack(simulation, ++rejectedInRow % 2 == 0);
             ++simulation.steps.rejected;
-            restriction = {0.5 * h, *reason, 0};
+            restriction = {0.5 * h, *rejection, 0};
             if (!isVerlet(simulation.stepper)) establishEnergy(simulation);
             continue;
         }
-        refused = 0;
-        record(simulation.steps, h, restriction.seconds < longest ? restriction.reason : why, simulation.stepper);
+        rejectedInRow = 0;
+        record(simulation.steps, h, restriction.seconds < longest ? restriction.reason : reason, simulation.stepper);
         simulation.time = count == 1.0 ? stop : simulation.time + h;
         emitDue(simulation);
         if (++restriction.passed % kAcceptedBeforeLonger == 0) restriction.seconds *= 2.0;

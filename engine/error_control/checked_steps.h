@@ -1,4 +1,4 @@
-// Steps that may be taken back: what advance() does for every stepper but the paper's.
+// Steps that are judged by the audit and may be rejected: how every stepper but the paper's gets to a point in time.
 #pragma once
 
 #include <limits>
@@ -7,14 +7,17 @@
 
 namespace engine {
 
-/// Chosen: shorter than anything that a motion within the world's limits asks for, s. No shorter step is retried.
+/// Shortest step that is retried, s. Chosen: shorter than any motion within the world's limits needs.
 inline constexpr double kShortestStep = 1e-12;
 
-/// Brings the simulation to the given time (s) by its stepper in use, in steps no longer than `longest` (s), which
-/// `why` is the reason for. A step that the audit objects to is retried at half the length; after a few good ones the
-/// length is doubled again. Returns whether it got there: not if it took more than `mostEvaluations` over all pairs.
-/// Throws: InstabilityError when even the shortest steps do not pass.
-bool advanceChecked(Simulation& simulation, double time, double longest, StepLimit why,
+/// Brings the simulation to the given time (s) by its stepper in use. A step that the audit rejects is retried at half
+/// the length; after a few accepted ones the length is doubled again.
+/// @param longest          upper bound on the step, s
+/// @param reason           what imposes this bound, for the report
+/// @param mostEvaluations  force evaluations after which the run is given up
+/// @return whether the simulation got to the time
+/// @throws InstabilityError when even the shortest steps are rejected
+bool advanceChecked(Simulation& simulation, double time, double longest, StepLimit reason,
                     double mostEvaluations = std::numeric_limits<double>::infinity());
 
 }  // namespace engine

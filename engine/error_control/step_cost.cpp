@@ -1,4 +1,4 @@
-// Counts times weights.
+// Counts of the run's statistics, times weights.
 #include "engine/error_control/step_cost.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 /// accuracy`.
 constexpr ImplicitCosts kWithoutFriction{.matrix = 1.0, .product = 0.15};
 
-/// Likewise of lava and mud.
+/// Measured in the same way on lava and mud.
 constexpr ImplicitCosts kWithFriction{.matrix = 0.8, .product = 0.13};
 
 }  // namespace

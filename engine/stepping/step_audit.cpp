@@ -112,7 +112,7 @@ void restore(Simulation& simulation, const SavedState& saved) {
     simulation.cache->forcesCurrent = saved.forcesCurrent;
     if (saved.forcesCurrent) {
         simulation.cache->forces = saved.forces;
-        simulation.cache->evaluator.renewList(simulation.particles);  // who has forces has their list; see prepareDrift
+        simulation.cache->evaluator.renewList(simulation.particles);  // current forces imply a current list; see prepareDrift
     }
     simulation.cache->energy = saved.energy;
     simulation.cache->kinetic = saved.kinetic;

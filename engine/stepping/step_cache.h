@@ -1,5 +1,5 @@
 // What one step leaves for the next: forces, energy, the neighbor list, and memory that is used again. Part of every
-// Simulation; nobody outside the engine needs it. A run that is resumed without it, or after invalidate(), goes on with
+// Simulation, and of no use outside the engine. A run that is resumed without it, or after invalidate(), goes on with
 // the same motion; only the bits may differ, because sums over pairs run in the order of the neighbor list.
 #pragma once
 
