@@ -87,35 +87,37 @@ void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedC
 }
 
 void save(const Simulation& simulation, SavedState& saved) {
+    const StepCache& cache = *simulation.cache;
     saved.time = simulation.time;
     saved.emitters = simulation.emitters;
     copy(simulation.particles.position, saved.position);
     copy(simulation.particles.velocity, saved.velocity);
-    saved.forcesCurrent = simulation.cache->forcesCurrent;
-    if (saved.forcesCurrent) copy(simulation.cache->forces, saved.forces);
-    saved.energy = simulation.cache->energy;
-    saved.kinetic = simulation.cache->kinetic;
+    saved.forcesCurrent = cache.forcesCurrent;
+    if (saved.forcesCurrent) copy(cache.forces, saved.forces);
+    saved.energy = cache.energy;
+    saved.kinetic = cache.kinetic;
     saved.allowance = energyAllowance(simulation);
     saved.steps = simulation.steps;
 }
 
 void restore(Simulation& simulation, const SavedState& saved) {
-    truncate(simulation.particles, saved.position.size());
+    Particles& particles = simulation.particles;
+    truncate(particles, saved.position.size());
     simulation.time = saved.time;
     simulation.emitters = saved.emitters;
-    simulation.particles.position = saved.position;
-    simulation.particles.velocity = saved.velocity;
-    simulation.cache->clearance.clear();
-    simulation.cache->evaluator.invalidateDisplacementBound();
-    simulation.cache->cachedNeighbors
-        .clear();  // they are from before, and a run that is gone on with does not know them
-    simulation.cache->forcesCurrent = saved.forcesCurrent;
+    particles.position = saved.position;
+    particles.velocity = saved.velocity;
+    StepCache& cache = *simulation.cache;
+    cache.clearance.clear();
+    cache.evaluator.invalidateDisplacementBound();
+    cache.cachedNeighbors.clear();  // a resumed run would not have them
+    cache.forcesCurrent = saved.forcesCurrent;
     if (saved.forcesCurrent) {
-        simulation.cache->forces = saved.forces;
-        simulation.cache->evaluator.renewList(simulation.particles);  // current forces imply a current list; see prepareDrift
+        cache.forces = saved.forces;
+        cache.evaluator.renewList(particles);  // prepareDrift() takes current forces to imply a current list
     }
-    simulation.cache->energy = saved.energy;
-    simulation.cache->kinetic = saved.kinetic;
+    cache.energy = saved.energy;
+    cache.kinetic = saved.kinetic;
     const StepStatistics spent = simulation.steps;
     simulation.steps = saved.steps;
     simulation.steps.forceEvaluations = spent.forceEvaluations;
