@@ -2,6 +2,8 @@
 // See bench.h.
 #include "studies/bench/bench.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -81,11 +83,11 @@ std::string stepName(StepperKind stepper) {
     return "step " + std::string(engine::nameOf(stepper));
 }
 
-/// The names of the rows that each lattice has.
-std::vector<std::string> rowNames() {
+/// The names of the rows that a lattice of this many particles has.
+std::vector<std::string> rowNames(std::size_t count) {
     std::vector<std::string> names = {"forces", "list"};
     for (const StepperKind stepper : engine::kSteppers)
-        if (stepper != StepperKind::automatic) names.push_back(stepName(stepper));
+        if (count <= kMostStepped && stepper != StepperKind::automatic) names.push_back(stepName(stepper));
     return names;
 }
 
@@ -102,27 +104,23 @@ class Bench {
 
     void measure(const Packing& packing, std::size_t count) {
         const std::string material = packing.name;
-        const bool steps = count <= kMostStepped;
-        if (!wantsAny(material)) return;
+        const auto wants = [&](const std::string& name) { return settings_.wants(name, material); };
+        if (std::ranges::none_of(rowNames(count), wants)) return;
         const Subject subject = subjectOf(packing, count);
         for (const Precision precision : {Precision::doubles, Precision::singles})
-            if (settings_.wants("forces", material)) addForces(subject, precision);
-        if (settings_.wants("list", material)) addList(subject);
+            if (wants("forces")) addForces(subject, precision);
+        if (wants("list")) addList(subject);
+        if (count > kMostStepped) return;
         for (const StepperKind stepper : engine::kSteppers)
-            if (steps && stepper != StepperKind::automatic && settings_.wants(stepName(stepper), material))
+            if (stepper != StepperKind::automatic && wants(stepName(stepper)))
                 addSteps(subject, stepper, Precision::doubles);
         for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet})
-            if (steps && settings_.wants(stepName(stepper), material)) addSteps(subject, stepper, Precision::singles);
+            if (wants(stepName(stepper))) addSteps(subject, stepper, Precision::singles);
     }
 
     std::vector<BenchRow> rows;
 
  private:
-    bool wantsAny(const std::string& material) const {
-        return std::ranges::any_of(rowNames(),
-                                   [&](const std::string& name) { return settings_.wants(name, material); });
-    }
-
     void add(BenchRow row) {
         listener_(row);
         rows.push_back(std::move(row));
@@ -234,11 +232,11 @@ double BenchRow::nanosecondsPerPair() const {
     return particles == 0 || neighbors == 0.0 ? 0.0 : 1e9 / pairsPerSecond();
 }
 
-std::vector<std::string> benchRowNames() {
-    std::vector<std::string> names = {"multiply-add", "copy"};
-    for (const Packing& packing : kPackings)
-        for (const std::string& name : rowNames()) names.push_back(name + " " + packing.name);
-    return names;
+std::string benchRowsText() {
+    std::vector<std::string> packings;
+    for (const Packing& packing : kPackings) packings.emplace_back(packing.name);
+    return fmt::format("multiply-add, copy; {} of {}, steps up to {} particles", fmt::join(rowNames(0), ", "),
+                       fmt::join(packings, ", "), kMostStepped);
 }
 
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {

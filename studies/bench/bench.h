@@ -50,8 +50,9 @@ struct BenchSettings {
 /// is done.
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener);
 
-/// What can be filtered for: "name material" of every row of runBench(), for an error message.
-std::vector<std::string> benchRowNames();
+/// The names and materials of the rows that runBench() can measure, in words, for the error message about a filter that
+/// finds none.
+std::string benchRowsText();
 
 /// A scene and its name in the library.
 struct NamedScene {

@@ -140,6 +140,21 @@ TEST_CASE("What becomes unstable soon is checked all the same", "[tools]") {
     CHECK(program::lineCount(outcome.err) == 1);
 }
 
+TEST_CASE("bench refuses a filter that no row contains, and names the rows", "[tools]") {
+    for (const char* format : {"", " --json"}) {
+        const auto outcome = run(std::string("bench --filter zzz") + format);
+        INFO(outcome.out << outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(program::lineCount(outcome.err) == 1);
+        CHECK(outcome.err.find("no row contains \"zzz\"") != std::string::npos);
+        for (const char* row : {"copy", "forces", "settled solid", "step velocity-verlet", "draw frame", "honey"})
+            CHECK(outcome.err.find(row) != std::string::npos);
+    }
+    // Steps are measured up to 100,000 particles only.
+    CHECK(run("bench --filter \"step symplectic\" --particles 1000000 --rounds 1").code == 2);
+}
+
 TEST_CASE("The message of an unstable run names the keys that have an effect", "[tools]") {
     const std::string stiff = "check powder --quiet --set material[0].b1=1e12 --set physics.stepper=";
     const auto automatic = run(stiff + "auto");

@@ -10,6 +10,7 @@
 #include "engine/core/instruction_sets.h"
 #include "engine/forces/simd_forces.h"
 #include "scenes/build/library.h"
+#include "scenes/text/input_error.h"
 #include "studies/bench/bench.h"
 #include "tools/commands/commands.h"
 #include "tools/run/threads.h"
@@ -84,13 +85,16 @@ void bench(const BenchOptions& options) {
     const int threads = threadCount(options.run);
     const bool isText = !options.run.json;
     if (!options.instructionSet.empty()) engine::useInstructionSet(options.instructionSet);
-    if (isText) {
+    bool hasRows = false;
+    const auto printHead = [&] {
         fmt::print("{} threads, {}; medians of {} rounds\n", threads, engine::simdInstructionSet(),
                    options.settings.rounds);
         fmt::print("{:23} {:13} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
                    "particles", "neighbors", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");
-    }
+    };
     const auto report = [&](const studies::BenchRow& row) {
+        if (isText && !hasRows) printHead();
+        hasRows = true;
         if (isText)
             print(row);
         else
@@ -101,6 +105,12 @@ void bench(const BenchOptions& options) {
         runBench(options.settings, report);
         benchFrames(options, threads, report);
     });
+    if (!hasRows)
+        throw scenes::InputError(
+            {{"--filter", 0, 0,
+              fmt::format("no row contains \"{}\"; the rows are: {}; {}, {} of {}", options.settings.filter,
+                          studies::benchRowsText(), studies::kSimulateFrame, studies::kDrawFrame,
+                          fmt::join(kFrameScenes, ", "))}});
 }
 
 }  // namespace
