@@ -1,159 +1,123 @@
-// A uniform grid, and a walk from cell to cell along a ray (Amanatides and Woo 1987).
+// A counting sort of balls into cells, and the walk of Amanatides and Woo (1987) from cell to cell along a ray; see
+// ball_grid.h.
 #include "studies/oracle/ball_grid.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace oracle {
 namespace {
 
-using glm::dvec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A millionth more than a ball's own, so that no rounding of the walk loses it.
-double widthOf(const Extent& ball) {
+/// The radius enlarged by a millionth, so that no rounding of the walk loses a ball.
+double safeRadius(const Extent& ball) {
     return ball.radius * (1.0 + 1e-6);
 }
 
-struct Stretch {
-    double enter = 0.0;
-    double exit = kInfinity;
-};
-
-/// Where the ray, from its origin on, is inside of a box; exit < enter where nowhere.
-Stretch insideBox(const Ray& ray, const dvec3& low, const dvec3& high) {
-    Stretch stretch;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (ray.direction[axis] == 0.0) {
-            if (ray.origin[axis] < low[axis] || ray.origin[axis] > high[axis]) return {0.0, -1.0};
-            continue;
-        }
-        const double a = (low[axis] - ray.origin[axis]) / ray.direction[axis];
-        const double b = (high[axis] - ray.origin[axis]) / ray.direction[axis];
-        stretch.enter = std::max(stretch.enter, std::min(a, b));
-        stretch.exit = std::min(stretch.exit, std::max(a, b));
-    }
-    return stretch;
-}
-
-Indices onceEach(Indices found) {
+Indices sortedWithoutDuplicates(Indices found) {
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
 }
 
-/// Of `count` cells along an axis the one nearest to a place, in cells; around a single ball they are tiny.
-int cellWithin(double place, int count) {
-    return static_cast<int>(std::clamp(std::floor(place), 0.0, static_cast<double>(count - 1)));
-}
-
 }  // namespace
 
-BallGrid BallGrid::everyone(std::size_t count) {
-    BallGrid crowd;
-    crowd.all_ = true;
-    crowd.count_ = static_cast<std::uint32_t>(count);
-    return crowd;
+BallGrid BallGrid::withoutCells(std::size_t ballCount) {
+    BallGrid grid;
+    grid.hasCells_ = false;
+    grid.ballCount_ = static_cast<std::uint32_t>(ballCount);
+    return grid;
 }
 
-BallGrid::BallGrid(const std::vector<Extent>& balls) : count_(static_cast<std::uint32_t>(balls.size())) {
+BallGrid::BallGrid(const std::vector<Extent>& balls) : ballCount_(static_cast<std::uint32_t>(balls.size())) {
     if (balls.empty()) return;
     dvec3 high(-kInfinity);
     low_ = dvec3(kInfinity);
     double sum = 0.0;
     for (const Extent& ball : balls) {
-        const double width = widthOf(ball);
-        low_ = glm::min(low_, ball.center - width);
-        high = glm::max(high, ball.center + width);
-        sum += width;
+        low_ = glm::min(low_, ball.center - safeRadius(ball));
+        high = glm::max(high, ball.center + safeRadius(ball));
+        sum += safeRadius(ball);
     }
     const dvec3 extent = high - low_;
-    // As wide as a mean ball, and no more than some hundred cells an axis.
-    cellSize_ = std::max({2.0 * sum / count_, std::max({extent.x, extent.y, extent.z}) / 128.0, 1e-9});
+    // Cells are as wide as the mean ball, but there are at most 129 of them along an axis. Chosen for speed.
+    cellSize_ = std::max({2.0 * sum / ballCount_, std::max({extent.x, extent.y, extent.z}) / 128.0, 1e-9});
     for (std::size_t axis = 0; axis < 3; ++axis)
-        cells_[axis] = static_cast<int>(extent[static_cast<int>(axis)] / cellSize_) + 1;
-    const auto forCellsOf = [&](const Extent& ball, const auto& visit) {
-        const double width = widthOf(ball);
-        std::array<int, 3> first{};
-        std::array<int, 3> last{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int k = static_cast<int>(axis);
-            const double at = ball.center[k] - low_[k];
-            first[axis] = std::clamp(static_cast<int>((at - width) / cellSize_), 0, cells_[axis] - 1);
-            last[axis] = std::clamp(static_cast<int>((at + width) / cellSize_), 0, cells_[axis] - 1);
-        }
-        for (int z = first[2]; z <= last[2]; ++z)
-            for (int y = first[1]; y <= last[1]; ++y)
-                for (int x = first[0]; x <= last[0]; ++x) visit(cellAt({x, y, z}));
-    };
-    begin_.assign(cellAt({0, 0, cells_[2]}) + 1, 0);
-    for (const Extent& ball : balls) forCellsOf(ball, [&](std::size_t cell) { ++begin_[cell + 1]; });
+        cellCounts_[axis] = static_cast<int>(extent[static_cast<int>(axis)] / cellSize_) + 1;
+    begin_.assign(cellIndex({0, 0, cellCounts_[2]}) + 1, 0);
+    for (const Extent& ball : balls)
+        forCells(ball.center, safeRadius(ball), [&](std::size_t cell) { ++begin_[cell + 1]; });
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     lists_.resize(begin_.back());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t k = 0; k < count_; ++k)
-        forCellsOf(balls[k], [&](std::size_t cell) { lists_[next[cell]++] = k; });
+    for (std::uint32_t k = 0; k < ballCount_; ++k)
+        forCells(balls[k].center, safeRadius(balls[k]), [&](std::size_t cell) { lists_[next[cell]++] = k; });
 }
 
-std::size_t BallGrid::cellAt(const std::array<int, 3>& cell) const {
-    return (static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(cells_[1]) +
-            static_cast<std::size_t>(cell[1])) *
-               static_cast<std::size_t>(cells_[0]) +
-           static_cast<std::size_t>(cell[0]);
+std::size_t BallGrid::cellIndex(const Cell& cell) const {
+    const auto [x, y, z] = cell;
+    return static_cast<std::size_t>((z * cellCounts_[1] + y) * cellCounts_[0] + x);
+}
+
+int BallGrid::cellAlong(std::size_t axis, double coordinate) const {
+    const double cell = std::floor((coordinate - low_[static_cast<int>(axis)]) / cellSize_);
+    return static_cast<int>(std::clamp(cell, 0.0, static_cast<double>(cellCounts_[axis] - 1)));
+}
+
+template <typename Visit>
+void BallGrid::forCells(const dvec3& point, double halfSide, const Visit& visit) const {
+    Cell first{};
+    Cell last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        first[axis] = cellAlong(axis, point[static_cast<int>(axis)] - halfSide);
+        last[axis] = cellAlong(axis, point[static_cast<int>(axis)] + halfSide);
+    }
+    for (int z = first[2]; z <= last[2]; ++z)
+        for (int y = first[1]; y <= last[1]; ++y)
+            for (int x = first[0]; x <= last[0]; ++x) visit(cellIndex({x, y, z}));
 }
 
 Indices BallGrid::along(const Ray& ray) const {
     Indices found;
-    if (all_) {
-        found.resize(count_);
+    if (!hasCells_) {
+        found.resize(ballCount_);
         std::iota(found.begin(), found.end(), 0U);
         return found;
     }
-    const dvec3 high = low_ + cellSize_ * dvec3(cells_[0], cells_[1], cells_[2]);
-    const Stretch stretch = insideBox(ray, low_, high);
-    if (count_ == 0 || stretch.exit < stretch.enter) return found;
-    const dvec3 start = (ray.origin + stretch.enter * ray.direction - low_) / cellSize_;
-    std::array<int, 3> cell{};
-    std::array<double, 3> next{};  // distance along the ray, in cells, at which it leaves the cell along the axis
+    if (ballCount_ == 0) return found;
+    const BoxInterval inside =
+        boxInterval(ray, low_, low_ + cellSize_ * dvec3(cellCounts_[0], cellCounts_[1], cellCounts_[2]));
+    const double enter = std::max(inside.enter, 0.0);
+    if (inside.exit < enter) return found;
+    const dvec3 start = ray.origin + enter * ray.direction;
+    Cell cell{};
+    std::array<double, 3> next{};  // distance along the ray from `start` at which it leaves the cell along each axis, m
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const int k = static_cast<int>(axis);
-        cell[axis] = cellWithin(start[k], cells_[axis]);
+        cell[axis] = cellAlong(axis, start[k]);
         const double slope = ray.direction[k];
-        const double border = cell[axis] + (slope > 0.0 ? 1.0 : 0.0);
+        const double border = low_[k] + cellSize_ * (cell[axis] + (slope > 0.0 ? 1.0 : 0.0));
         next[axis] = slope == 0.0 ? kInfinity : (border - start[k]) / slope;
     }
     while (true) {
-        const std::size_t place = cellAt(cell);
-        found.insert(found.end(), lists_.begin() + begin_[place], lists_.begin() + begin_[place + 1]);
+        const std::size_t index = cellIndex(cell);
+        found.insert(found.end(), lists_.begin() + begin_[index], lists_.begin() + begin_[index + 1]);
         const auto axis = static_cast<std::size_t>(std::min_element(next.begin(), next.end()) - next.begin());
         const double slope = ray.direction[static_cast<int>(axis)];
         cell[axis] += slope > 0.0 ? 1 : -1;
-        if (next[axis] == kInfinity || cell[axis] < 0 || cell[axis] >= cells_[axis]) break;
-        next[axis] += 1.0 / std::abs(slope);
+        if (next[axis] == kInfinity || cell[axis] < 0 || cell[axis] >= cellCounts_[axis]) break;
+        next[axis] += cellSize_ / std::abs(slope);
     }
-    return onceEach(std::move(found));
+    return sortedWithoutDuplicates(std::move(found));
 }
 
-Indices BallGrid::within(const dvec3& place, double halfSide) const {
-    std::array<int, 3> first{};
-    std::array<int, 3> last{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double at = place[static_cast<int>(axis)] - low_[static_cast<int>(axis)];
-        first[axis] = cellWithin((at - halfSide) / cellSize_, cells_[axis]);
-        last[axis] = cellWithin((at + halfSide) / cellSize_, cells_[axis]);
-    }
+Indices BallGrid::within(const dvec3& point, double halfSide) const {
     Indices found;
-    for (int z = first[2]; z <= last[2]; ++z)
-        for (int y = first[1]; y <= last[1]; ++y)
-            for (int x = first[0]; x <= last[0]; ++x) {
-                const std::size_t cell = cellAt({x, y, z});
-                found.insert(found.end(), lists_.begin() + begin_[cell], lists_.begin() + begin_[cell + 1]);
-            }
-    return onceEach(std::move(found));
+    forCells(point, halfSide, [&](std::size_t cell) {
+        found.insert(found.end(), lists_.begin() + begin_[cell], lists_.begin() + begin_[cell + 1]);
+    });
+    return sortedWithoutDuplicates(std::move(found));
 }
 
 }  // namespace oracle

@@ -1,24 +1,22 @@
-// Balls by place, so that the oracle's rays try only those that they may touch. It leaves out none: a ball that a
-// ray crosses lies in a cell that the ray crosses. Used by the oracle alone.
+// Balls sorted into the cells of a uniform grid, so that a ray of the oracle tries only balls that it may meet. No ball
+// is left out: a ball that a ray crosses lies in a cell that the ray crosses. Used by the oracle and by the study of
+// pictures; it shares nothing with the renderer's grids, which the oracle judges.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <cstddef>
-
 #include <glm/glm.hpp>
+
+#include "studies/oracle/intersections.h"
 
 namespace oracle {
 
-struct Ray {
-    glm::dvec3 origin{0.0};
-    glm::dvec3 direction{0.0, 0.0, -1.0};  ///< unit length
-};
-
+/// What a grid needs to know of a ball.
 struct Extent {
-    glm::dvec3 center{0.0};
+    dvec3 center{0.0};
     double radius = 0.0;
 };
 
@@ -27,27 +25,34 @@ using Indices = std::vector<std::uint32_t>;
 
 class BallGrid {
  public:
-    /// Every ball is near every ray.
-    static BallGrid everyone(std::size_t count);
-
-    /// Sorted into cells of a grid.
     explicit BallGrid(const std::vector<Extent>& balls);
+
+    /// A grid without cells, which returns every ball for every ray.
+    static BallGrid withoutCells(std::size_t ballCount);
 
     /// All balls that the ray may cross, and perhaps others.
     Indices along(const Ray& ray) const;
-    /// All balls that may reach into a cube around a place, and perhaps others.
-    Indices within(const glm::dvec3& place, double halfSide) const;
+    /// All balls that may reach into a cube around a point, and perhaps others.
+    /// @pre the grid has cells
+    Indices within(const dvec3& point, double halfSide) const;
 
  private:
-    BallGrid() = default;
-    std::size_t cellAt(const std::array<int, 3>& cell) const;
+    using Cell = std::array<int, 3>;
 
-    bool all_ = false;
-    std::uint32_t count_ = 0;
-    glm::dvec3 low_{0.0};
-    double cellSize_ = 1.0;
-    std::array<int, 3> cells_{0, 0, 0};
-    std::vector<std::uint32_t> begin_;  ///< per cell and one more: where its list begins
+    BallGrid() = default;
+    std::size_t cellIndex(const Cell& cell) const;
+    /// The cell of a coordinate along an axis, or the nearest cell of the grid.
+    int cellAlong(std::size_t axis, double coordinate) const;
+    /// Calls visit(cell index) for every cell that a cube around a point touches.
+    template <typename Visit>
+    void forCells(const dvec3& point, double halfSide, const Visit& visit) const;
+
+    bool hasCells_ = true;
+    std::uint32_t ballCount_ = 0;
+    dvec3 low_{0.0};
+    double cellSize_ = 1.0;                   ///< m
+    std::array<int, 3> cellCounts_{0, 0, 0};  ///< along each axis
+    std::vector<std::uint32_t> begin_;  ///< where the list of each cell begins in lists_, and where the last one ends
     Indices lists_;
 };
 

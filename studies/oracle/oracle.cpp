@@ -1,5 +1,5 @@
-// The oracle's ray caster, see oracle.h. From top to bottom: the metaball field, the nearest surface, light, the
-// picture. Balls, boxes and the ground are in oracle_solids.h, the roots of the field's polynomials in polynomial.h.
+// The oracle's ray caster, see oracle.h. From top to bottom: the metaball field, the nearest surface, shading, the
+// picture. Spheres, boxes and the ground are in intersections.h, the roots of the field's polynomials in polynomial.h.
 #include "studies/oracle/oracle.h"
 
 #include <algorithm>
@@ -7,28 +7,30 @@
 #include <stdexcept>
 #include <string>
 
-#include "studies/oracle/oracle_shadow.h"
-#include "studies/oracle/oracle_solids.h"
 #include "studies/oracle/polynomial.h"
+#include "studies/oracle/soft_shadows.h"
 
 namespace oracle {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// 1 - d^2/R^2, the square root of the kernel, or 0 outside of the ball's reach.
+/// 1 - d^2/R^2, the square root of the kernel, or 0 beyond the ball's reach.
 double kernelRoot(const Ball& ball, const dvec3& point) {
     const dvec3 offset = point - ball.center;
     const double squared = glm::dot(offset, offset);
     return squared < ball.reach * ball.reach ? 1.0 - squared / (ball.reach * ball.reach) : 0.0;
 }
 
-/// A ball whose reach a ray crosses.
+double kernel(const Ball& ball, const dvec3& point) {
+    const double root = kernelRoot(ball, point);
+    return ball.weight * root * root;
+}
+
+/// A ball whose reach a ray crosses, and where.
 struct CrossedBall {
     Foot foot;
     double reach = 0.0;
     double weight = 1.0;
-    Chord chord;
+    Interval interval;
 };
 
 std::vector<CrossedBall> ballsCrossed(const Scene& scene, const Indices& near, const Ray& ray) {
@@ -36,22 +38,24 @@ std::vector<CrossedBall> ballsCrossed(const Scene& scene, const Indices& near, c
     for (const std::uint32_t k : near) {
         const Ball& ball = scene.balls[k];
         const Foot foot = footOf(ray, ball.center);
-        const std::optional<Chord> chord = chordOf(foot, ball.reach);
-        if (chord && chord->exit > 0.0) crossed.push_back({foot, ball.reach, ball.weight, *chord});
+        const std::optional<Interval> inside = sphereInterval(foot, ball.reach);
+        if (inside && inside->exit > 0.0) crossed.push_back({foot, ball.reach, ball.weight, *inside});
     }
     return crossed;
 }
 
-/// The field minus the threshold on the stretch from low to high of a ray, as a polynomial in s from -1 (low) to 1
-/// (high). With half = (high - low)/2, e = (low + high)/2 - middle, a ball's d^2 = offSquared + (e + half s)^2, so that
+/// The field minus the threshold along a part of a ray that no ball begins or ends in, as a polynomial in s from -1 (at
+/// `enter`) to 1 (at `exit`). With
+///   half = (exit - enter)/2  and  e = (enter + exit)/2 - foot.along,
+/// a ball's d^2 = offSquared + (e + half s)^2, so that
 ///   1 - d^2/R^2 = a + b s + c s^2   with   a = 1 - (offSquared + e^2)/R^2,  b = -2 e half/R^2,  c = -half^2/R^2
-/// and the kernel is its square. No ball may begin or end inside the stretch.
-Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, const Chord& stretch) {
-    const double half = 0.5 * (stretch.exit - stretch.enter);
+/// and the kernel is the square of this.
+Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, const Interval& part) {
+    const double half = 0.5 * (part.exit - part.enter);
     Quartic sum{-threshold, 0.0, 0.0, 0.0, 0.0};
     for (const CrossedBall& ball : balls) {
-        if (ball.chord.enter > stretch.enter || ball.chord.exit < stretch.exit) continue;
-        const double e = 0.5 * (stretch.enter + stretch.exit) - ball.foot.middle;
+        if (ball.interval.enter > part.enter || ball.interval.exit < part.exit) continue;
+        const double e = 0.5 * (part.enter + part.exit) - ball.foot.along;
         const double scale = 1.0 / (ball.reach * ball.reach);
         const double a = 1.0 - (ball.foot.offSquared + e * e) * scale;
         const double b = -2.0 * e * half * scale;
@@ -65,29 +69,31 @@ Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, cons
     return sum;
 }
 
-/// The first distance from 0 on where the field is at least the threshold; infinity without one. Between neighboring
-/// entries and exits the field is one polynomial, whose roots are all found: no step, so no sliver is too thin.
+/// The smallest distance along the ray at which the field is at least the threshold; infinity if there is none. Between
+/// neighboring entries and exits of balls the field is one polynomial, of which all roots are found. There is no step
+/// length, so nothing is too thin to be found.
 double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ray) {
     const std::vector<CrossedBall> balls = ballsCrossed(scene, near, ray);
     std::vector<double> ends{0.0};
     for (const CrossedBall& ball : balls) {
-        if (ball.chord.enter > 0.0) ends.push_back(ball.chord.enter);
-        ends.push_back(ball.chord.exit);
+        if (ball.interval.enter > 0.0) ends.push_back(ball.interval.enter);
+        ends.push_back(ball.interval.exit);
     }
     std::sort(ends.begin(), ends.end());
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const Chord stretch{ends[i], ends[i + 1]};
-        if (stretch.enter == stretch.exit) continue;
-        const Quartic excess = fieldAlong(balls, fieldThreshold(scene.view), stretch);
-        if (valueAt(excess, -1.0) >= 0.0) return stretch.enter;
+        const Interval part{ends[i], ends[i + 1]};
+        if (part.enter == part.exit) continue;
+        const Quartic excess = fieldAlong(balls, fieldThreshold(scene.view), part);
+        if (valueAt(excess, -1.0) >= 0.0) return part.enter;
         if (staysNegative(excess)) continue;
         const std::vector<double> roots = rootsIn(excess, -1.0, 1.0);
-        if (!roots.empty()) return stretch.enter + 0.5 * (roots.front() + 1.0) * (stretch.exit - stretch.enter);
+        if (!roots.empty()) return part.enter + 0.5 * (roots.front() + 1.0) * (part.exit - part.enter);
     }
     return kInfinity;
 }
 
-/// The kernel's gradient is -4 (1 - d^2/R^2) (x - c)/R^2; the factor 4 drops out of the normal.
+/// Where a ray meets the metaball surface. The gradient of a ball's kernel is -4 (1 - d^2/R^2) (x - c)/R^2, of which
+/// the factor 4 drops out of the normal.
 Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
     const render::View& view = scene.view;
     const double distance = firstFieldDistance(scene, near, ray);
@@ -99,20 +105,20 @@ Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
     dvec3 downhill{0.0};
     dvec3 colorSum{0.0};
     double kernelSum = 0.0;
-    SixValues openSum{};
+    AxisVisibility skySum{};
     for (const std::uint32_t k : near) {
         const Ball& ball = scene.balls[k];
         const double root = kernelRoot(ball, hit.point);
         if (root == 0.0) continue;
-        const double kernel = ball.weight * root * root;
+        const double weight = kernel(ball, hit.point);
         downhill += ball.weight * root / (ball.reach * ball.reach) * (hit.point - ball.center);
-        colorSum += kernel * dvec3(view.particles[k].color);
-        kernelSum += kernel;
-        for (std::size_t side = 0; side < 6; ++side) openSum[side] += kernel * scene.sky.ofParticle(k)[side];
+        colorSum += weight * dvec3(view.particles[k].color);
+        kernelSum += weight;
+        for (std::size_t side = 0; side < 6; ++side) skySum[side] += weight * scene.sky.ofParticle(k)[side];
     }
     hit.normal = unitOr(downhill, -ray.direction);
     hit.albedo = colorSum / kernelSum;
-    for (std::size_t side = 0; side < 6; ++side) hit.open[side] = openSum[side] / kernelSum;
+    for (std::size_t side = 0; side < 6; ++side) hit.sky[side] = skySum[side] / kernelSum;
     return hit;
 }
 
@@ -126,18 +132,18 @@ void keepNearer(Hit& best, Hit candidate, Hit::Kind kind, const glm::vec3& color
     keepNearer(best, candidate);
 }
 
-/// Everything that casts shadows: all but the ground.
+/// The nearest surface along a ray of those that cast shadows: all but the ground.
 Hit traceCasters(const Scene& scene, const Ray& ray) {
     const render::View& view = scene.view;
     Hit best;
-    const Indices near = scene.crowd.along(ray);
+    const Indices near = scene.grid.along(ray);
     if (view.style == render::Style::metaballs) {
         keepNearer(best, hitField(scene, near, ray));
     } else {
         for (const std::uint32_t k : near) {
             const render::Sphere& sphere = view.particles[k];
             Hit hit = hitSphere(ray, dvec3(sphere.center), sphere.radius);
-            hit.open = scene.sky.ofParticle(k);
+            hit.sky = scene.sky.ofParticle(k);
             keepNearer(best, hit, Hit::Kind::particle, sphere.color);
         }
     }
@@ -152,27 +158,28 @@ dvec3 unitToLight(const render::View& view) {
     return glm::normalize(dvec3(view.light.toLight));
 }
 
-/// Fresnel's term by Schlick, a channel each.
+// The functions below are named after the terms of section 1 of view.h.
+
 dvec3 fresnel(const render::View& view, const dvec3& albedo, double cosine) {
     const dvec3 headOn = glm::mix(dvec3(view.surface.specular), albedo, double(view.surface.metal));
     return headOn + (1.0 - headOn) * std::pow(1.0 - std::max(0.0, cosine), 5.0);
 }
 
-/// Fresnel, gloss and cone of the glint, without the light's color and visibility; toLight must be on the normal's
-/// side.
-dvec3 glint(const render::View& view, const Hit& hit, const dvec3& toEye, const dvec3& toLight) {
+/// highlight without the light's color and visibility.
+/// @pre n.l > 0
+dvec3 highlight(const render::View& view, const Hit& hit, const dvec3& toEye, const dvec3& toLight) {
     if (view.surface.specular == 0.0F && view.surface.metal == 0.0F) return dvec3{0.0};
     const dvec3 halfway = unitOr(toLight + toEye, dvec3{0.0});
-    const double gloss = std::ldexp(1.0, view.surface.glossExponent);
+    const double exponent = std::ldexp(1.0, view.surface.glossExponent);
     return fresnel(view, hit.albedo, glm::dot(toEye, halfway)) *
-           ((gloss + 8.0) / 8.0 * std::pow(std::max(0.0, glm::dot(hit.normal, halfway)), gloss));
+           ((exponent + 8.0) / 8.0 * std::pow(std::max(0.0, glm::dot(hit.normal, halfway)), exponent));
 }
 
-dvec3 skyToward(const render::View& view, const dvec3& d) {
+dvec3 skyLight(const render::View& view, const dvec3& d) {
     return glm::mix(dvec3(view.ambient.ground), dvec3(view.ambient.sky), 0.5 + 0.5 * d.y);
 }
 
-dvec3 surroundingsToward(const render::View& view, const dvec3& d) {
+dvec3 surroundings(const render::View& view, const dvec3& d) {
     const render::Surroundings& around = view.surroundings;
     if (d.y > 0.0) return glm::mix(dvec3(around.horizon), dvec3(around.top), d.y * (2.0 - d.y));
     return glm::mix(dvec3(around.horizon), dvec3(around.bottom), std::min(1.0, -4.0 * d.y));
@@ -185,52 +192,53 @@ dvec3 shoulder(const dvec3& color) {
     return glm::mix(kept / peak * color, dvec3(kept), 1.0 - 1.0 / (1.0 + 0.06 * (peak - kept)));
 }
 
-/// Openness of what was hit: a particle's own, that of the place for all else.
-SixValues openAt(const Scene& scene, const Hit& hit) {
-    return hit.kind == Hit::Kind::particle ? hit.open : scene.sky.at(hit.point);
+/// The sky visibility of a hit: the values of the particle, or those of the point on obstacles and the ground.
+AxisVisibility skyVisibility(const Scene& scene, const Hit& hit) {
+    return hit.kind == Hit::Kind::particle ? hit.sky : scene.sky.at(hit.point);
 }
 
 dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
     const render::View& view = scene.view;
-    // Terms that obstacles and ground do not have.
-    const render::Surface surface = hit.kind == Hit::Kind::particle ? view.surface : render::Surface{};
-    const bool particle = hit.kind == Hit::Kind::particle;
+    const bool isParticle = hit.kind == Hit::Kind::particle;
+    // Obstacles and the ground are matt: the terms of Surface are 0 there.
+    const render::Surface surface = isParticle ? view.surface : render::Surface{};
     const dvec3 toLight = unitToLight(view);
     const dvec3 toEye = -ray.direction;
     const dvec3& n = hit.normal;
     const dvec3 light(view.light.color);
-    const bool facing = glm::dot(n, toLight) > 0.0;
-    const double lit = !facing ? 0.0 : view.light.shadows ? visibility(scene, hit.point, n) : 1.0;
-    const SixValues open = openAt(scene, hit);
+    const bool isLit = glm::dot(n, toLight) > 0.0;
+    const double visible = !isLit ? 0.0 : view.light.shadows ? lightVisibility(scene, hit.point, n) : 1.0;
+    const AxisVisibility sky = skyVisibility(scene, hit);
     double cosine = std::max(0.0, glm::dot(n, toLight));
     const double dust = 2.2 / (cosine + std::max(0.0, glm::dot(n, toEye)) + 0.2);
     cosine *= 1.0 + double(surface.roughness) * (dust - 1.0);
-    const dvec3 ambient = skyToward(view, n) * (1.0 - double(view.ambient.occlusion) * (1.0 - openToward(open, n)));
-    const dvec3 through = double(surface.translucency) * openToward(open, -n) *
-                          (skyToward(view, -n) + light * (0.25 + std::max(0.0, -glm::dot(n, toLight))));
+    const dvec3 ambient = skyLight(view, n) * (1.0 - double(view.ambient.occlusion) * (1.0 - visibilityToward(sky, n)));
+    const dvec3 diffuse = light * (cosine * visible);
+    const dvec3 transmitted = double(surface.translucency) * visibilityToward(sky, -n) *
+                              (skyLight(view, -n) + light * (0.25 + std::max(0.0, -glm::dot(n, toLight))));
     const dvec3 body =
-        glm::mix(hit.albedo, hit.albedo * hit.albedo, double(surface.absorption) * (1.0 - openToward(open, -n)));
-    dvec3 color = (1.0 - double(surface.metal)) * body * (ambient + light * (cosine * lit) + through);
-    if (particle && facing) color += lit * light * glint(view, hit, toEye, toLight);
-    const dvec3 mirrored = glm::reflect(ray.direction, n);
-    color += double(surface.reflection) * fresnel(view, hit.albedo, glm::dot(n, toEye)) * openToward(open, mirrored) *
-             surroundingsToward(view, mirrored);
+        glm::mix(hit.albedo, hit.albedo * hit.albedo, double(surface.absorption) * (1.0 - visibilityToward(sky, -n)));
+    dvec3 color = (1.0 - double(surface.metal)) * body * (ambient + diffuse + transmitted);
+    if (isParticle && isLit) color += visible * light * highlight(view, hit, toEye, toLight);
+    const dvec3 mirror = glm::reflect(ray.direction, n);
+    color += double(surface.reflection) * fresnel(view, hit.albedo, glm::dot(n, toEye)) *
+             visibilityToward(sky, mirror) * surroundings(view, mirror);
     color += double(surface.glow) * hit.albedo * hit.albedo;
     return view.exposure > 0.0F ? shoulder(double(view.exposure) * color) : color;
 }
 
 }  // namespace
 
-Scene::Scene(const render::View& view_, bool everyone)
-    : view(view_), balls(ballsOf(view_)), crowd(BallGrid::everyone(view_.particles.size())), sky(view_) {
-    if (everyone) return;
+Scene::Scene(const render::View& view_, bool bruteForce)
+    : view(view_), balls(ballsOf(view_)), grid(BallGrid::withoutCells(view_.particles.size())), sky(view_) {
+    if (bruteForce) return;
     std::vector<Extent> extents;
     for (std::size_t k = 0; k < balls.size(); ++k) {
-        // The edge of a soft shadow is wider than the sphere.
+        // A soft shadow's edge reaches beyond the sphere.
         const double sphere = double(view.particles[k].radius) * (1.0 + 0.5 * double(view.light.softness));
         extents.push_back({balls[k].center, view.style == render::Style::metaballs ? balls[k].reach : sphere});
     }
-    crowd = BallGrid(extents);
+    grid = BallGrid(extents);
 }
 
 std::vector<Ball> ballsOf(const render::View& view) {
@@ -239,25 +247,25 @@ std::vector<Ball> ballsOf(const render::View& view) {
         balls.push_back({dvec3(particle.center), double(view.field.reach) * double(particle.radius), 1.0});
     if (view.field.skin == render::Skin::plain || view.style == render::Style::spheres) return balls;
     std::vector<Extent> extents;
-    // Half of each reach: two of them overlap where the pair acts.
+    // A pair counts at distances below the mean of both reaches, which is where balls of half the reach overlap.
     for (const Ball& ball : balls) extents.push_back({ball.center, 0.5 * ball.reach});
-    const BallGrid crowd(extents);
-    std::vector<Ball> skin = balls;
+    const BallGrid grid(extents);
+    std::vector<Ball> smooth = balls;
     for (std::size_t k = 0; k < balls.size(); ++k) {
         const dvec3 here = balls[k].center;
-        double crowding = 0.0;
+        double density = 0.0;
         dvec3 pull(0.0);
-        for (const std::uint32_t other : crowd.within(here, 0.5 * balls[k].reach)) {
+        for (const std::uint32_t other : grid.within(here, 0.5 * balls[k].reach)) {
             const dvec3 off = balls[other].center - here;
             const double reach = 0.5 * (balls[k].reach + balls[other].reach);
             const double root = std::max(0.0, 1.0 - glm::dot(off, off) / (reach * reach));
-            crowding += root * root;
+            density += root * root;
             pull += root * root * off;
         }
-        skin[k].center = here + double(render::kSkinPull) * pull / crowding;
-        skin[k].weight = std::pow(crowding, -0.75);
+        smooth[k].center = here + double(render::kSkinPull) * pull / density;
+        smooth[k].weight = std::pow(density, -0.75);
     }
-    return skin;
+    return smooth;
 }
 
 Ray pixelRay(const render::View& view, render::PictureSize size, double px, double py) {
@@ -289,10 +297,13 @@ Hit trace(const Scene& scene, const Ray& ray) {
 
 double fieldAt(const render::View& view, const dvec3& point) {
     double sum = 0.0;
-    for (const Ball& ball : ballsOf(view)) {
-        const double root = kernelRoot(ball, point);
-        sum += ball.weight * root * root;
-    }
+    for (const Ball& ball : ballsOf(view)) sum += kernel(ball, point);
+    return sum;
+}
+
+double fieldAt(const Scene& scene, const Indices& balls, const dvec3& point) {
+    double sum = 0.0;
+    for (const std::uint32_t k : balls) sum += kernel(scene.balls[k], point);
     return sum;
 }
 
@@ -302,28 +313,35 @@ double fieldThreshold(const render::View& view) {
     return root * root;
 }
 
-bool inShadow(const Scene& scene, const dvec3& point, const dvec3& normal) {
-    // Lifts the start off its own surface: a million roundings of the coordinates, still far below anything visible.
+double meanRadius(const render::View& view) {
+    double sum = 0.0;
+    for (const render::Sphere& particle : view.particles) sum += double(particle.radius);
+    return view.particles.empty() ? 0.0 : sum / static_cast<double>(view.particles.size());
+}
+
+bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal) {
+    // Lifts the origin off its own surface by about a million roundings of its coordinates, which is far below anything
+    // visible.
     const double lift = 1e-9 * (1.0 + glm::length(point));
     return traceCasters(scene, {point + lift * normal, unitToLight(scene.view)}).kind != Hit::Kind::none;
 }
 
-double visibility(const Scene& scene, const dvec3& point, const dvec3& normal) {
+double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal) {
     const render::View& view = scene.view;
-    if (view.light.softness == 0.0F) return inShadow(scene, point, normal) ? 0.0 : 1.0;
+    if (view.light.softness == 0.0F) return isInShadow(scene, point, normal) ? 0.0 : 1.0;
     const ShadedPoint shaded{point, normal, unitToLight(view), double(view.light.softness)};
     double cover = 0.0;
     if (view.style == render::Style::spheres) {
-        for (const std::uint32_t k : scene.crowd.along({point, shaded.toLight}))
+        for (const std::uint32_t k : scene.grid.along({point, shaded.toLight}))
             cover += coverOfSphere(shaded, dvec3(view.particles[k].center), double(view.particles[k].radius));
     } else {
         double met = 0.0;
-        const std::vector<dvec3> starts = fieldShadowStarts(shaded, meanRadius(view));
-        for (const dvec3& start : starts) {
-            const Ray ray{start, shaded.toLight};
-            met += firstFieldDistance(scene, scene.crowd.along(ray), ray) < kInfinity ? 1.0 : 0.0;
+        const std::vector<dvec3> origins = fieldShadowOrigins(shaded, meanRadius(view));
+        for (const dvec3& origin : origins) {
+            const Ray ray{origin, shaded.toLight};
+            met += firstFieldDistance(scene, scene.grid.along(ray), ray) < kInfinity ? 1.0 : 0.0;
         }
-        cover += met / static_cast<double>(starts.size());
+        cover += met / static_cast<double>(origins.size());
     }
     for (const render::SphereObstacle& sphere : view.sphereObstacles)
         cover += coverOfSphere(shaded, dvec3(sphere.center), double(sphere.radius));

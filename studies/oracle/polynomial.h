@@ -1,6 +1,6 @@
-// Real roots of polynomials up to degree four inside an interval, for the oracle's metaballs (studies/oracle.cpp).
-// Between two neighboring zeros of its derivative a polynomial is monotone, so it has at most one root there and
-// bisection finds it; the derivative's zeros are found the same way, starting from the linear one. Header only.
+// Real roots of polynomials up to degree four inside an interval, for the oracle's metaballs. Between two neighboring
+// roots of its derivative a polynomial is monotone, so it has at most one root there, which bisection finds. The roots
+// of the derivative are found in the same way, beginning with the derivative that is linear. Header only.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace oracle {
 
-/// c[0] + c[1] x + ... + c[4] x^4.
+/// The coefficients of c[0] + c[1] x + ... + c[4] x^4.
 using Quartic = std::array<double, 5>;
 
 inline double valueAt(const Quartic& c, double x) {
@@ -20,7 +20,8 @@ inline Quartic derivative(const Quartic& c) {
     return {c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0};
 }
 
-/// The root between low and high, where c has opposite signs; to the last bit of x where valueAt's signs are right.
+/// The root between low and high, where c has opposite signs. It is exact to the last bit of x, as far as the signs of
+/// valueAt() are right.
 inline double bisect(const Quartic& c, double low, double high) {
     const bool risesFromLow = valueAt(c, low) < 0.0;
     while (true) {
@@ -32,7 +33,8 @@ inline double bisect(const Quartic& c, double low, double high) {
     }
 }
 
-/// The zeros of c among the knots and between them, ascending; c must be monotone between neighboring knots.
+/// The roots of c at the knots and between them, ascending.
+/// @param knots  ascending; c must be monotone between neighboring knots
 inline std::vector<double> rootsBetweenKnots(const Quartic& c, const std::vector<double>& knots) {
     std::vector<double> roots;
     for (std::size_t i = 0; i < knots.size(); ++i) {
@@ -48,8 +50,8 @@ inline std::vector<double> rootsBetweenKnots(const Quartic& c, const std::vector
     return roots;
 }
 
-/// Whether no root lies in [-1, 1] for certain: with s = 2 t - 1 the polynomial is a mean of its five coefficients in
-/// Bernstein's basis, so it is negative where they all are. False proves nothing.
+/// True only if the polynomial is negative in all of [-1, 1]; false proves nothing. With s = 2 t - 1 and t in [0, 1]
+/// its value is a weighted mean of its five coefficients in the Bernstein basis, so it is negative if all of them are.
 inline bool staysNegative(const Quartic& c) {
     // Powers of t of c(2 t - 1), by Horner's rule: q <- q (2 t - 1) + c[k].
     Quartic q{};
@@ -62,13 +64,13 @@ inline bool staysNegative(const Quartic& c) {
     const double b2 = q[0] + q[1] / 2.0 + q[2] / 6.0;
     const double b3 = q[0] + 3.0 * q[1] / 4.0 + q[2] / 2.0 + q[3] / 4.0;
     const double b4 = q[0] + q[1] + q[2] + q[3] + q[4];
-    // A margin for the rounding of some twenty operations on numbers of the size of q[0] and smaller.
+    // A margin for the rounding of about twenty operations on numbers no larger than q[0].
     const double below = -1e-13;
     return q[0] < below && b1 < below && b2 < below && b3 < below && b4 < below;
 }
 
-/// All distinct roots in [low, high], ascending. A root where c only touches zero is found if it touches in double
-/// arithmetic.
+/// All distinct roots in [low, high], ascending. A double root, where c touches zero without changing its sign, is
+/// found if valueAt() is exactly zero there.
 inline std::vector<double> rootsIn(const Quartic& c, double low, double high) {
     std::array<Quartic, 4> chain{c};  // c and its first three derivatives; the last one is linear, hence monotone
     for (std::size_t order = 1; order < chain.size(); ++order) chain[order] = derivative(chain[order - 1]);

@@ -1,4 +1,4 @@
-// A shaken cubic lattice under a curved surface, and one particle in forty in the air.
+// A jittered cubic lattice under a curved surface, and one particle in forty in the air; see dam_break_view.h.
 #include "studies/pictures/dam_break_view.h"
 
 #include <algorithm>
@@ -9,13 +9,14 @@
 namespace studies {
 namespace {
 
-constexpr double kLength = 11.0;  // m, of the tank
-constexpr double kDepth = 3.6;
-constexpr double kSplash = 0.025;  // share of the particles
+constexpr double kLength = 11.0;   // m, of the tank
+constexpr double kDepth = 3.6;     // m, of the tank
+constexpr double kSplash = 0.025;  // share of the particles that are in the air
 
-/// Numbers from a hash of a counter (the finalizer of SplitMix64), uniform in [0, 1).
-class Shaker {
+/// Pseudorandom numbers: the finalizer of SplitMix64 applied to a counter.
+class Random {
  public:
+    /// Uniform in [0, 1).
     double next() {
         std::uint64_t z = (counter_ += 0x9e3779b97f4a7c15ULL);
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -28,13 +29,14 @@ class Shaker {
     std::uint64_t counter_ = 0;
 };
 
-/// Height of the liquid: high on the left, a slope, low on the right, a little rise at the wall.
+/// Height of the liquid, m: high on the left, a slope, low on the right, a small rise at the far wall.
 double surfaceHeight(double x) {
     const double t = std::clamp((x - 2.0) / 5.0, 0.0, 1.0);
     const double wall = std::clamp((x - 9.0) / 2.0, 0.0, 1.0);
     return 3.6 - 2.6 * t * t * (3.0 - 2.0 * t) + 0.5 * wall * wall;
 }
 
+/// Volume of the liquid, m^3.
 double volume() {
     constexpr int kSlices = 1000;
     double sum = 0.0;
@@ -61,27 +63,27 @@ std::vector<glm::dvec3> lattice(double spacing) {
 
 void addParticles(std::size_t count, render::View& view) {
     const auto airborne = static_cast<std::size_t>(kSplash * static_cast<double>(count));
-    // Slightly denser than needed, and thinned out evenly, so that the number is met.
+    // The lattice is made slightly denser than needed and thinned out evenly to the exact number.
     double spacing = std::cbrt(volume() / static_cast<double>(count - airborne));
     std::vector<glm::dvec3> points = lattice(spacing);
     while (points.size() < count - airborne) points = lattice(spacing *= 0.995);
     const auto radius = static_cast<float>(0.55 * spacing);
-    Shaker shaker;
-    const double shake = 0.12 * spacing;
+    Random random;
+    const double jitter = 0.12 * spacing;
     for (std::size_t k = 0; k < count - airborne; ++k) {
         glm::dvec3 at = points[k * points.size() / (count - airborne)];
-        for (int axis = 0; axis < 3; ++axis) at[axis] += shaker.between(-shake, shake);
+        for (int axis = 0; axis < 3; ++axis) at[axis] += random.between(-jitter, jitter);
         view.particles.push_back({glm::vec3(at) - glm::vec3(5.5F, 0.0F, 1.8F), radius, colorAt(at.x)});
     }
     while (view.particles.size() < count) {
-        const glm::dvec3 at(shaker.between(-1.0, 1.0), shaker.between(-1.0, 1.0), shaker.between(-1.0, 1.0));
+        const glm::dvec3 at(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
         if (dot(at, at) > 1.0) continue;
-        const glm::dvec3 place = glm::dvec3(9.6, 2.7, 1.8) + at * glm::dvec3(1.1, 1.3, 1.5);
-        view.particles.push_back({glm::vec3(place) - glm::vec3(5.5F, 0.0F, 1.8F), radius, colorAt(place.x)});
+        const glm::dvec3 position = glm::dvec3(9.6, 2.7, 1.8) + at * glm::dvec3(1.1, 1.3, 1.5);
+        view.particles.push_back({glm::vec3(position) - glm::vec3(5.5F, 0.0F, 1.8F), radius, colorAt(position.x)});
     }
 }
 
-/// The same view from a place a little further on a circle.
+/// The view in a frame of framesOf().
 render::View seenFrom(render::View view, int frame) {
     const float angle = 0.002F * static_cast<float>(frame);
     const glm::vec3 off = view.camera.eye - view.camera.target;

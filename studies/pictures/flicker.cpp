@@ -1,9 +1,5 @@
-// Differences of pictures that follow one another.
-#include "studies/pictures/flicker.h"
+// Flicker: differences between successive pictures under a slowly moving camera; see FlickerRow in pictures.h.
 
-#include <fmt/format.h>
-
-#include <array>
 #include <cmath>
 
 #include "render/renderer.h"
@@ -13,7 +9,7 @@
 namespace studies {
 namespace {
 
-/// The view from a place so many pixels further to the right.
+/// The view in a frame: the camera has moved to the right by settings.pixelsPerFrame for each frame before it.
 render::View shifted(render::View view, const FlickerSettings& settings, int frame) {
     const glm::vec3 aim = view.camera.target - view.camera.eye;
     const glm::vec3 right = glm::normalize(glm::cross(aim, view.camera.up));
@@ -25,7 +21,8 @@ render::View shifted(render::View view, const FlickerSettings& settings, int fra
     return view;
 }
 
-FlickerRow measured(const std::vector<render::Image>& frames) {
+/// Change and jerk of successive pictures; the rest of the row is the caller's.
+FlickerRow flickerOf(const std::vector<render::Image>& frames) {
     FlickerRow row;
     const auto count = static_cast<double>(frames.front().rgb.size());
     for (std::size_t k = 1; k < frames.size(); ++k) {
@@ -45,7 +42,7 @@ FlickerRow measured(const std::vector<render::Image>& frames) {
 
 }  // namespace
 
-std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const FlickerListener& listener) {
+std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const RowsListener<FlickerRow>& listener) {
     render::Context context(settings.backend);
     std::vector<FlickerRow> rows;
     for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
@@ -56,7 +53,7 @@ std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const Fl
             std::vector<render::Image> frames;
             for (int frame = 0; frame < settings.frames; ++frame)
                 frames.push_back(renderer.draw(shifted(view, settings, frame)));
-            FlickerRow row = measured(frames);
+            FlickerRow row = flickerOf(frames);
             row.style = style;
             row.particles = settings.particles;
             row.size = settings.size;
@@ -66,14 +63,6 @@ std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const Fl
         }
     }
     return rows;
-}
-
-std::string flickerCsv(const std::vector<FlickerRow>& rows) {
-    std::string csv = "style,particles,width,height,quality,change,jerk\n";
-    for (const FlickerRow& row : rows)
-        csv += fmt::format("{},{},{},{},{},{:.4g},{:.4g}\n", nameOf(row.style), row.particles, row.size.width,
-                           row.size.height, nameOf(row.quality), row.change, row.jerk);
-    return csv;
 }
 
 }  // namespace studies

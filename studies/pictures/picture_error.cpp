@@ -1,5 +1,4 @@
-// Sums over the windows' pixels.
-#include "studies/pictures/picture_error.h"
+// Sums over the pixels of the windows, see errorOf() in pictures.h.
 
 #include <algorithm>
 #include <cmath>
@@ -7,29 +6,24 @@
 #include <numbers>
 
 #include "render/compare/picture_metrics.h"
+#include "studies/pictures/pictures.h"
 
 namespace studies {
 namespace {
 
-double meanRadius(const render::View& view) {
-    double sum = 0.0;
-    for (const render::Sphere& particle : view.particles) sum += double(particle.radius);
-    return view.particles.empty() ? 1.0 : sum / static_cast<double>(view.particles.size());
-}
-
-/// What the windows add up to.
+/// Sums over the pixels of all windows, but for similarity, which is summed over the windows.
 struct Sums {
-    double squares = 0.0;  ///< of a pixel: the mean over its channels
+    double squares = 0.0;  ///< squared differences, for each pixel the mean over its channels
     double similarity = 0.0;
-    double depth = 0.0;
-    double normal = 0.0;
-    std::size_t wrong = 0;
-    std::size_t hits = 0;
+    double depth = 0.0;   ///< mean radii
+    double normal = 0.0;  ///< degrees
+    std::size_t wrongHits = 0;
+    std::size_t rightParticleHits = 0;
     std::size_t pixels = 0;
 };
 
-/// The part of a picture that a window shows.
-render::Image cut(const render::Image& image, const oracle::Window& window) {
+/// The window of a picture.
+render::Image cropped(const render::Image& image, const oracle::Window& window) {
     render::Image part{window.width, window.height, {}};
     for (int y = window.y; y < window.y + window.height; ++y) {
         const auto first = image.rgb.begin() + 3 * (std::ptrdiff_t{y} * image.width + window.x);
@@ -39,7 +33,7 @@ render::Image cut(const render::Image& image, const oracle::Window& window) {
 }
 
 void addColors(const render::Image& image, const ExactWindow& exact, Sums& sums) {
-    const render::Image shown = cut(image, exact.window);
+    const render::Image shown = cropped(image, exact.window);
     const render::Image wanted{exact.window.width, exact.window.height, exact.picture.rgb};
     const render::PictureMetrics metrics = render::measure(shown, wanted, {}, 0);
     sums.squares += metrics.meanSquare * static_cast<double>(metrics.pixelCount);
@@ -49,24 +43,24 @@ void addColors(const render::Image& image, const ExactWindow& exact, Sums& sums)
 void addSurfaces(const render::View& view, render::PictureSize size, std::span<const render::VisiblePoint> surfaces,
                  const ExactWindow& exact, Sums& sums) {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(view.camera.target) - glm::dvec3(view.camera.eye));
-    const double radius = meanRadius(view);
+    const double radius = oracle::meanRadius(view);
     for (std::size_t k = 0; k < exact.picture.kinds.size(); ++k) {
         const int x = exact.window.x + static_cast<int>(k) % exact.window.width;
         const int y = exact.window.y + static_cast<int>(k) / exact.window.width;
         const render::VisiblePoint& seen = surfaces[static_cast<std::size_t>(y * size.width + x)];
         const oracle::Hit::Kind kind = exact.picture.kinds[k];
         ++sums.pixels;
-        const bool hit = kind != oracle::Hit::Kind::none;
-        if (hit != (seen.depth >= 0.0F)) ++sums.wrong;
-        if (!hit || seen.depth < 0.0F) continue;
+        const bool isHit = kind != oracle::Hit::Kind::none;
+        if (isHit != (seen.depth >= 0.0F)) ++sums.wrongHits;
+        if (!isHit || seen.depth < 0.0F) continue;
         const oracle::Ray ray = oracle::pixelRay(view, size, x + 0.5, y + 0.5);
         const double depth = exact.picture.distances[k] * glm::dot(ray.direction, forward);
         const double error = std::abs(double(seen.depth) - depth) / radius;
-        // The ground is far away and seen at a slant: single precision shifts it by more.
-        const bool right = error <= 0.1 + 1e-5 * depth / radius;
-        if (!right) ++sums.wrong;
-        if (!right || kind != oracle::Hit::Kind::particle) continue;
-        ++sums.hits;
+        // The ground is far away and seen at a grazing angle, where single precision shifts the depth by more.
+        const bool isRight = error <= 0.1 + 1e-5 * depth / radius;
+        if (!isRight) ++sums.wrongHits;
+        if (!isRight || kind != oracle::Hit::Kind::particle) continue;
+        ++sums.rightParticleHits;
         sums.depth += error;
         const double cosine = glm::dot(glm::dvec3(seen.normal), exact.picture.normals[k]);
         const double sine = glm::length(glm::cross(glm::dvec3(seen.normal), exact.picture.normals[k]));
@@ -87,8 +81,8 @@ PictureError errorOf(const render::Image& image, std::span<const render::Visible
     error.pixels = sums.pixels;
     error.rmse = std::sqrt(sums.squares / static_cast<double>(sums.pixels));
     error.ssim = sums.similarity / static_cast<double>(exact.size());
-    error.wrongHits = static_cast<double>(sums.wrong) / static_cast<double>(sums.pixels);
-    const auto hits = static_cast<double>(std::max<std::size_t>(sums.hits, 1));
+    error.wrongHits = static_cast<double>(sums.wrongHits) / static_cast<double>(sums.pixels);
+    const auto hits = static_cast<double>(std::max<std::size_t>(sums.rightParticleHits, 1));
     error.depth = sums.depth / hits;
     error.normal = sums.normal / hits;
     return error;

@@ -1,4 +1,5 @@
-// Draws the cloud again and again, and compares windows of it with the oracle's.
+// The main table of the study of pictures: draws the dam break again and again, encodes it, and compares windows of it
+// with the oracle's. See pictures.h.
 #include "studies/pictures/pictures.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include "render/output/video.h"
 #include "render/renderer.h"
 #include "studies/common/timing.h"
-#include "studies/oracle/ball_grid.h"
 #include "studies/pictures/dam_break_view.h"
 #include "studies/pictures/quad_baseline.h"
 
@@ -25,7 +25,7 @@ using render::DrawTimes;
 using render::Quality;
 using render::Style;
 
-/// The view with its particles a little further in each frame, seen by a camera at rest.
+/// Frames in which the particles move to the right before a camera at rest.
 std::vector<render::View> framesAtRest(const render::View& view, int count) {
     std::vector<render::View> frames;
     for (int frame = 0; frame < count; ++frame) {
@@ -36,20 +36,21 @@ std::vector<render::View> framesAtRest(const render::View& view, int count) {
 }
 
 DrawTimes medianStages(const std::vector<DrawTimes>& times) {
-    const auto of = [&times](double DrawTimes::*stage) {
+    const auto medianOf = [&times](double DrawTimes::*stage) {
         std::vector<double> values;
         for (const DrawTimes& time : times) values.push_back(time.*stage);
         return median(values);
     };
-    return {of(&DrawTimes::bin),   of(&DrawTimes::occlusion), of(&DrawTimes::shadow),  of(&DrawTimes::cast),
-            of(&DrawTimes::color), of(&DrawTimes::openGl),    of(&DrawTimes::readBack)};
+    return {medianOf(&DrawTimes::bin),     medianOf(&DrawTimes::occlusion), medianOf(&DrawTimes::shadow),
+            medianOf(&DrawTimes::cast),    medianOf(&DrawTimes::color),     medianOf(&DrawTimes::openGl),
+            medianOf(&DrawTimes::readBack)};
 }
 
-/// Seconds of drawing frames while the one before is encoded, as the render loop does.
+/// Seconds of drawing `count` frames, each while the one before is encoded, as the render loop does.
 double overlapped(render::Renderer& renderer, const std::vector<render::View>& frames, int count,
                   const std::function<void(const render::Image&)>& encode) {
     constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
-    std::array<render::Image, 3> places;  // in flight
+    std::array<render::Image, 3> buffers;  // of the frames that are in the pipeline
     int next = 0;
     const auto drawNext = [&](tbb::flow_control& flow) -> render::Image* {
         if (next == count) {
@@ -57,40 +58,31 @@ double overlapped(render::Renderer& renderer, const std::vector<render::View>& f
             return nullptr;
         }
         const auto frame = static_cast<std::size_t>(next++);
-        render::Image& image = places[frame % places.size()];
+        render::Image& image = buffers[frame % buffers.size()];
         tbb::this_task_arena::isolate([&] { image = renderer.draw(frames[frame % frames.size()], std::move(image)); });
         return &image;
     };
-    const auto all = [&] {
-        tbb::parallel_pipeline(places.size(), tbb::make_filter<void, render::Image*>(kInOrder, drawNext) &
-                                                  tbb::make_filter<render::Image*, void>(
-                                                      kInOrder, [&](render::Image* image) { encode(*image); }));
-    };
-    return secondsOf(all, 1);
+    return secondsOf([&] {
+        tbb::parallel_pipeline(buffers.size(), tbb::make_filter<void, render::Image*>(kInOrder, drawNext) &
+                                                   tbb::make_filter<render::Image*, void>(
+                                                       kInOrder, [&](render::Image* image) { encode(*image); }));
+    });
 }
 
-render::VideoOptions videoOptions(const PictureSettings& settings, render::PictureSize size) {
-    render::VideoOptions options;
-    options.path = settings.videoPath;
-    options.size = size;
-    return options;
-}
-
-/// Seconds of a video of so many frames, which are these in turn.
+/// Seconds of a video of `count` frames, for which the images are used in turn.
 double secondsOfVideo(const render::VideoOptions& options, const std::vector<render::Image>& images, int count) {
     render::VideoWriter video(options);
-    return secondsOf(
-        [&] {
-            for (int k = 0; k < count; ++k) video.add(images[static_cast<std::size_t>(k) % images.size()]);
-            video.finish();
-        },
-        1);
+    return secondsOf([&] {
+        for (int k = 0; k < count; ++k) video.add(images[static_cast<std::size_t>(k) % images.size()]);
+        video.finish();
+    });
 }
 
-/// What a video takes once is told apart from what each of its frames takes.
+/// Times PNG and video encoding, alone and with drawing. The time that a video takes once is found as the intercept: a
+/// video of one frame less the time per frame, which is measured by a video with many more frames.
 void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
                      render::Renderer& renderer, PictureRow& row) {
-    // Slow frames are alike; a second of them is enough.
+    // Chosen: slow frames take about the same time each, so a second and a half of them is enough.
     const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.draw)));
     const render::Image image = renderer.draw(frames.front());
     row.png = secondsOf([&] { render::encodePng(image); }, 3);
@@ -98,16 +90,19 @@ void measureEncoding(const PictureSettings& settings, const std::vector<render::
     std::vector<render::Image> images;
     for (int k = 0; k < count; ++k)
         images.push_back(renderer.draw(frames[static_cast<std::size_t>(k) % frames.size()]));
-    const render::VideoOptions options = videoOptions(settings, row.size);
+    render::VideoOptions options;
+    options.path = settings.videoPath;
+    options.size = row.size;
     const double one = secondsOfVideo(options, images, 1);
     row.mp4 = std::max(0.0, secondsOfVideo(options, images, 1 + settings.encodedFrames) - one) / settings.encodedFrames;
     row.mp4Once = std::max(0.0, one - row.mp4);
     render::VideoWriter video(options);
     double seconds = overlapped(renderer, frames, count, [&](const render::Image& i) { video.add(i); });
-    seconds += secondsOf([&] { video.finish(); }, 1);
+    seconds += secondsOf([&] { video.finish(); });
     row.withMp4 = std::max(0.0, seconds - row.mp4Once) / count;
 }
 
+/// The exact picture in windows that are spread evenly over the picture.
 std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const render::View& view,
                                       render::PictureSize size) {
     std::vector<ExactWindow> windows;
@@ -124,36 +119,37 @@ std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const ren
     return windows;
 }
 
-/// The qualities of one style, number and size.
+/// A combination of style, number of particles and size, which is measured in every quality.
 struct Subject {
     Style style;
     std::size_t particles;
     render::PictureSize size;
-    const render::View& fewest;  ///< particles of all that the study draws
+    const render::View& fewest;  ///< the view with the smallest number of particles in the study
 };
 
-/// Medians over some frames.
-struct Drawing {
-    double baseline = 0.0;        ///< s
-    double fewestBaseline = 0.0;  ///< s
-    double draw = 0.0;            ///< s
+/// Median times over some frames, s.
+struct DrawingTimes {
+    double baseline = 0.0;
+    double fewestBaseline = 0.0;
+    double draw = 0.0;
     DrawTimes stages;
 };
 
-/// Draws every frame with the quads and with the renderer in turn, so that both meet the machine in the same mood.
-/// fewest: drawn with the quads in turn, too; none: nothing.
-Drawing measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
-                       const render::View* fewest = nullptr) {
+/// Draws every frame with the baseline and with the renderer by turns, so that changes of the machine's speed affect
+/// both alike.
+/// @param fewest  a view that the baseline draws by turns with the others, unless it is null
+DrawingTimes measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
+                            const render::View* fewest = nullptr) {
     std::vector<DrawTimes> times;
     std::vector<double> baseline, fewestBaseline, draw;
-    // The first frame compiles shaders.
-    render::Image ofQuads = quads.draw(frames.front());
+    // The first frame of each compiles its shaders and allocates memory.
+    render::Image quadImage = quads.draw(frames.front());
     render::Image ours = renderer.draw(frames.front());
     for (const render::View& view : frames) {
         if (fewest != nullptr)
-            fewestBaseline.push_back(secondsOf([&] { ofQuads = quads.draw(*fewest, std::move(ofQuads)); }, 1));
-        baseline.push_back(secondsOf([&] { ofQuads = quads.draw(view, std::move(ofQuads)); }, 1));
-        draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }, 1));
+            fewestBaseline.push_back(secondsOf([&] { quadImage = quads.draw(*fewest, std::move(quadImage)); }));
+        baseline.push_back(secondsOf([&] { quadImage = quads.draw(view, std::move(quadImage)); }));
+        draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }));
         times.push_back(renderer.times());
     }
     return {median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline), median(draw), medianStages(times)};
@@ -169,12 +165,12 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
     render::Renderer renderer(context, subject.size, quality);
     {
         QuadBaseline quads(context, subject.size);
-        const Drawing moving = measureDrawing(quads, renderer, frames, &subject.fewest);
+        const DrawingTimes moving = measureDrawing(quads, renderer, frames, &subject.fewest);
         row.baseline = moving.baseline;
         row.fewestBaseline = moving.fewestBaseline;
         row.draw = moving.draw;
         row.stages = moving.stages;
-        const Drawing resting = measureDrawing(quads, renderer, framesAtRest(frames.front(), settings.frames));
+        const DrawingTimes resting = measureDrawing(quads, renderer, framesAtRest(frames.front(), settings.frames));
         row.atRestBaseline = resting.baseline;
         row.atRest = resting.draw;
     }
@@ -183,7 +179,7 @@ PictureRow measureQuality(const PictureSettings& settings, render::Context& cont
 }
 
 void measureSubject(const PictureSettings& settings, render::Context& context, const Subject& subject,
-                    const PictureListener& listener, std::vector<PictureRow>& rows) {
+                    const RowsListener<PictureRow>& listener, std::vector<PictureRow>& rows) {
     const render::View view = damBreakView(subject.particles, subject.style);
     const std::vector<render::View> frames = framesOf(view, settings.frames);
     const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
@@ -198,15 +194,7 @@ void measureSubject(const PictureSettings& settings, render::Context& context, c
 
 }  // namespace
 
-const char* nameOf(Style style) {
-    return style == Style::spheres ? "spheres" : "metaballs";
-}
-
-const char* nameOf(Quality quality) {
-    return quality == Quality::draft ? "draft" : quality == Quality::normal ? "normal" : "final";
-}
-
-std::vector<PictureRow> measurePictures(const PictureSettings& settings, const PictureListener& listener) {
+std::vector<PictureRow> measurePictures(const PictureSettings& settings, const RowsListener<PictureRow>& listener) {
     render::Context context(settings.backend);
     std::vector<PictureRow> rows;
     if (settings.particles.empty()) return rows;

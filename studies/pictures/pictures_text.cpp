@@ -1,4 +1,4 @@
-// What the study of pictures writes: the table and the scripts of the plots.
+// The results of the study of pictures as text: names, CSV tables and plot scripts. See pictures.h.
 #include <fmt/format.h>
 
 #include "studies/common/report.h"
@@ -10,24 +10,27 @@ namespace {
 constexpr render::Style kStyles[] = {render::Style::spheres, render::Style::metaballs};
 constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal, render::Quality::final};
 
-std::string lookOf(render::Style style, render::Quality quality) {
+/// gnuplot's style of a curve: the color shows the style, the point type the quality.
+std::string curveStyle(render::Style style, render::Quality quality) {
     const char* color = style == render::Style::spheres ? "#0072b2" : "#d55e00";
     const int point = quality == render::Quality::draft ? 6 : quality == render::Quality::normal ? 7 : 5;
     return fmt::format("linespoints pointtype {} pointsize 0.8 linewidth 1.5 linecolor rgb '{}'", point, color);
 }
 
-bool firstSize(const std::vector<PictureRow>& rows, const PictureRow& row) {
+/// Whether a row has the size of the first row, the only size that is plotted.
+bool hasFirstSize(const std::vector<PictureRow>& rows, const PictureRow& row) {
     return row.size.width == rows.front().size.width && row.size.height == rows.front().size.height;
 }
 
+/// A curve for each style and quality. point(row) is a line of the curve's points.
 template <typename Point>
 std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& point) {
     std::vector<Curve> curves;
     for (const render::Style style : kStyles) {
         for (const render::Quality quality : kQualities) {
-            Curve curve{fmt::format("{}, {}", nameOf(style), nameOf(quality)), lookOf(style, quality), "", ""};
+            Curve curve{fmt::format("{}, {}", nameOf(style), nameOf(quality)), curveStyle(style, quality), "", ""};
             for (const PictureRow& row : rows)
-                if (row.style == style && row.quality == quality && firstSize(rows, row)) curve.points += point(row);
+                if (row.style == style && row.quality == quality && hasFirstSize(rows, row)) curve.points += point(row);
             curves.push_back(curve);
         }
     }
@@ -35,6 +38,18 @@ std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& po
 }
 
 }  // namespace
+
+const char* nameOf(render::Style style) {
+    return style == render::Style::spheres ? "spheres" : "metaballs";
+}
+
+const char* nameOf(render::Quality quality) {
+    return quality == render::Quality::draft ? "draft" : quality == render::Quality::normal ? "normal" : "final";
+}
+
+const char* nameOf(render::Skin skin) {
+    return skin == render::Skin::plain ? "plain" : "smooth";
+}
 
 std::string picturesCsv(const std::vector<PictureRow>& rows) {
     std::string csv =
@@ -57,16 +72,32 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
     return csv;
 }
 
-std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& skins) {
+std::string flickerCsv(const std::vector<FlickerRow>& rows) {
+    std::string csv = "style,particles,width,height,quality,change,jerk\n";
+    for (const FlickerRow& row : rows)
+        csv += fmt::format("{},{},{},{},{},{:.4g},{:.4g}\n", nameOf(row.style), row.particles, row.size.width,
+                           row.size.height, nameOf(row.quality), row.change, row.jerk);
+    return csv;
+}
+
+std::string smoothingCsv(const std::vector<SmoothingRow>& rows) {
+    std::string csv = "skin,particles,draw_ms,volume,lone_volume,bumps_degrees\n";
+    for (const SmoothingRow& row : rows)
+        csv += fmt::format("{},{},{:.4g},{:.4f},{:.4f},{:.3f}\n", nameOf(row.skin), row.particles, 1e3 * row.draw,
+                           row.volume, row.lone, row.bumps);
+    return csv;
+}
+
+std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& smoothing) {
     std::vector<Curve> curves =
         curvesOf(rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw); });
     Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2", "", ""};
     for (const PictureRow& row : rows)
-        if (row.style == render::Style::spheres && row.quality == render::Quality::draft && firstSize(rows, row))
+        if (row.style == render::Style::spheres && row.quality == render::Quality::draft && hasFirstSize(rows, row))
             quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
     curves.push_back(quads);
     Curve plain{"metaballs, normal, plain skin", "linespoints pointtype 4 linecolor rgb '#e69f00' dashtype 3", "", ""};
-    for (const SmoothingRow& row : skins)
+    for (const SmoothingRow& row : smoothing)
         if (row.skin == render::Skin::plain) plain.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw);
     curves.push_back(plain);
     return std::string(kPlotHeader) +

@@ -1,18 +1,21 @@
-// One instanced draw of four vertices a particle.
+// One instanced draw call with four vertices for each particle; see quad_baseline.h.
 #include "studies/pictures/quad_baseline.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <utility>
 #include <vector>
 
 #include "render/opengl/gl.h"
 #include "render/picture/camera_frame.h"
-#include "studies/pictures/gl_drawing.h"
+#include "render/picture/system_error.h"
 
 namespace studies {
 namespace {
 
-// In view coordinates x right, y up, z forward. A quad through the center, across the line of sight, as wide as the
-// cone of rays that touch the sphere is there.
+// The shaders work in view coordinates: x right, y up, z forward. The quad passes through the sphere's center across
+// the line of sight, and is as wide there as the cone of rays that touch the sphere.
 constexpr const char* kVertex = R"(#version 330 core
 uniform samplerBuffer spheres;   // center, radius | color
 layout(std140) uniform Picture {
@@ -59,61 +62,92 @@ void main() {
 }
 )";
 
-struct Block {
+/// The uniform block "Picture" of the shaders.
+struct PictureBlock {
     glm::vec4 right, up, forward, eye, toLight;
 };
 
-BufferName buffer(const render::Gl& gl) {
-    GLuint name = 0;
-    gl.GenBuffers(1, &name);
-    return {gl, name};
+void deleteBuffer(const render::Gl& gl, GLuint name) {
+    gl.DeleteBuffers(1, &name);
+}
+void deleteVertexArray(const render::Gl& gl, GLuint name) {
+    gl.DeleteVertexArrays(1, &name);
+}
+void deleteProgram(const render::Gl& gl, GLuint name) {
+    gl.DeleteProgram(name);
 }
 
-/// What shaders read of a buffer by texelFetch.
-render::TextureName fourFloats(const render::Gl& gl, GLuint items) {
+using BufferName = render::GlName<deleteBuffer>;
+using VertexArrayName = render::GlName<deleteVertexArray>;
+using ProgramName = render::GlName<deleteProgram>;
+
+/// A name from one of OpenGL's functions glGenBuffers, glGenTextures and the like, which have the same signature.
+GLuint newName(PFNGLGENBUFFERSPROC generate) {
     GLuint name = 0;
-    gl.GenTextures(1, &name);
-    gl.BindBuffer(GL_TEXTURE_BUFFER, items);
+    generate(1, &name);
+    return name;
+}
+
+/// Compiles a shader and attaches it to a program, which keeps it alive.
+void attach(const render::Gl& gl, const ProgramName& program, GLenum stage, const char* source) {
+    const GLuint shader = gl.CreateShader(stage);
+    gl.ShaderSource(shader, 1, &source, nullptr);
+    gl.CompileShader(shader);
+    gl.AttachShader(program.get(), shader);
+    GLint isCompiled = GL_FALSE;
+    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &isCompiled);
+    std::array<char, 2000> log{};
+    gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    gl.DeleteShader(shader);
+    if (isCompiled != GL_TRUE)
+        throw render::SystemError(fmt::format("OpenGL cannot compile the study's shaders: {}", log.data()));
+}
+
+ProgramName buildProgram(const render::Gl& gl) {
+    ProgramName program(gl, gl.CreateProgram());
+    attach(gl, program, GL_VERTEX_SHADER, kVertex);
+    attach(gl, program, GL_FRAGMENT_SHADER, kFragment);
+    gl.LinkProgram(program.get());
+    GLint isLinked = GL_FALSE;
+    gl.GetProgramiv(program.get(), GL_LINK_STATUS, &isLinked);
+    std::array<char, 2000> log{};
+    gl.GetProgramInfoLog(program.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+    if (isLinked != GL_TRUE)
+        throw render::SystemError(fmt::format("OpenGL cannot link the study's shaders: {}", log.data()));
+    return program;
+}
+
+/// A texture through which shaders read a buffer of four floats per texel.
+render::TextureName bufferTexture(const render::Gl& gl, GLuint buffer) {
+    const GLuint name = newName(gl.GenTextures);
+    gl.BindBuffer(GL_TEXTURE_BUFFER, buffer);
     gl.BindTexture(GL_TEXTURE_BUFFER, name);
-    gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, items);
-    return {gl, name};
-}
-
-VertexArrayName vertexArray(const render::Gl& gl) {
-    GLuint name = 0;
-    gl.GenVertexArrays(1, &name);
+    gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer);
     return {gl, name};
 }
 
 render::TextureName texture(const render::Gl& gl, render::PictureSize size, GLint stored, GLenum format, GLenum type) {
-    GLuint name = 0;
-    gl.GenTextures(1, &name);
+    const GLuint name = newName(gl.GenTextures);
     gl.ActiveTexture(GL_TEXTURE0);
     gl.BindTexture(GL_TEXTURE_2D, name);
     gl.TexImage2D(GL_TEXTURE_2D, 0, stored, size.width, size.height, 0, format, type, nullptr);
     return {gl, name};
 }
 
-render::FramebufferName framebuffer(const render::Gl& gl) {
-    GLuint name = 0;
-    gl.GenFramebuffers(1, &name);
-    return {gl, name};
-}
-
 }  // namespace
 
-struct QuadBaseline::Parts {
-    Parts(render::Context& context_, render::PictureSize size_)
+struct QuadBaseline::Resources {
+    Resources(render::Context& context_, render::PictureSize size_)
         : context(context_),
           size(size_),
           color(texture(context_.gl(), size_, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE)),
           depth(texture(context_.gl(), size_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT)),
-          target(framebuffer(context_.gl())),
-          vertices(vertexArray(context_.gl())),
-          spheres(buffer(context_.gl())),
-          sphereTexels(fourFloats(context_.gl(), spheres.get())),
-          block(buffer(context_.gl())),
-          program(buildProgram(context_.gl(), kVertex, kFragment)) {
+          target(context_.gl(), newName(context_.gl().GenFramebuffers)),
+          vertices(context_.gl(), newName(context_.gl().GenVertexArrays)),
+          spheres(context_.gl(), newName(context_.gl().GenBuffers)),
+          sphereTexels(bufferTexture(context_.gl(), spheres.get())),
+          block(context_.gl(), newName(context_.gl().GenBuffers)),
+          program(buildProgram(context_.gl())) {
         const render::Gl& gl = context.gl();
         gl.BindFramebuffer(GL_FRAMEBUFFER, target.get());
         gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.get(), 0);
@@ -133,9 +167,9 @@ struct QuadBaseline::Parts {
         gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(texels.size() * sizeof(glm::vec4)), texels.data(),
                       GL_STREAM_DRAW);
         const render::CameraFrame frame = render::cameraFrame(view.camera, size);
-        const Block values{glm::vec4(frame.right, frame.halfWidth), glm::vec4(frame.up, frame.halfHeight),
-                           glm::vec4(frame.forward, 0.0F), glm::vec4(frame.eye, 0.0F),
-                           glm::vec4(view.light.toLight, 0.0F)};
+        const PictureBlock values{glm::vec4(frame.right, frame.halfWidth), glm::vec4(frame.up, frame.halfHeight),
+                                  glm::vec4(frame.forward, 0.0F), glm::vec4(frame.eye, 0.0F),
+                                  glm::vec4(view.light.toLight, 0.0F)};
         gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block.get());
         gl.BufferData(GL_UNIFORM_BUFFER, sizeof(values), &values, GL_STREAM_DRAW);
     }
@@ -177,18 +211,18 @@ struct QuadBaseline::Parts {
 
 QuadBaseline::QuadBaseline(render::Context& context, render::PictureSize size) {
     const render::CurrentContext current(context);
-    parts_ = std::make_unique<Parts>(context, size);
+    resources_ = std::make_unique<Resources>(context, size);
     render::checkGl(context.gl(), "setting the baseline up");
 }
 
 QuadBaseline::~QuadBaseline() {
-    const render::CurrentContext current(parts_->context);
-    parts_.reset();
+    const render::CurrentContext current(resources_->context);
+    resources_.reset();
 }
 
 render::Image QuadBaseline::draw(const render::View& view, render::Image old) {
-    const render::CurrentContext current(parts_->context);
-    return parts_->draw(view, std::move(old));
+    const render::CurrentContext current(resources_->context);
+    return resources_->draw(view, std::move(old));
 }
 
 }  // namespace studies

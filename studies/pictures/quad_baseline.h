@@ -1,6 +1,6 @@
-// The baseline of the study of pictures: spheres as what one would write first, a quad for each that faces the eye, its
-// sphere found and its depth written by the fragment shader, lit by the light's cosine and nothing else. Shares the
-// context, but no pass, with the renderer.
+// The baseline that the renderer's times are compared with: the simplest way to draw spheres with OpenGL, a quad facing
+// the eye for each sphere, whose fragment shader finds the sphere, writes its depth and lights it by the cosine to the
+// light. It shares the context with the renderer, but no code.
 #pragma once
 
 #include <memory>
@@ -13,19 +13,21 @@ namespace studies {
 
 class QuadBaseline {
  public:
-    /// The context must outlive it.
+    /// @param context  must outlive the object
+    /// @throws render::SystemError
     QuadBaseline(render::Context& context, render::PictureSize size);
     ~QuadBaseline();
     QuadBaseline(const QuadBaseline&) = delete;
     QuadBaseline& operator=(const QuadBaseline&) = delete;
 
-    /// The particles of a view in perspective over a plain background, read back. Throws render::SystemError.
-    /// old: as Renderer::draw() has it.
+    /// Draws the particles of a view with a perspective camera over a plain background, and reads the picture back.
+    /// @param old  an image whose memory is used again, as by Renderer::draw()
+    /// @throws render::SystemError
     render::Image draw(const render::View& view, render::Image old = {});
 
  private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    struct Resources;
+    std::unique_ptr<Resources> resources_;
 };
 
 }  // namespace studies

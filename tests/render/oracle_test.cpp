@@ -215,7 +215,7 @@ TEST_CASE("oracle: the shadow of a ball on the ground is the analytic ellipse, f
         const double excess = 1.0 - along * along - point.z * point.z / 0.25;
         INFO("point " << point.x << ", " << point.z << ", excess " << excess);
         REQUIRE(std::abs(excess) > 1e-6);  // not so near that 0.6 and 0.8 in float (1e-7) or the lift (1e-9) decide
-        REQUIRE(oracle::inShadow(oracle::Scene(view), point, {0.0, 1.0, 0.0}) == (excess > 0.0));
+        REQUIRE(oracle::isInShadow(oracle::Scene(view), point, {0.0, 1.0, 0.0}) == (excess > 0.0));
         shadowedCount += excess > 0.0 ? 1 : 0;
     }
     CHECK(shadowedCount > 300);  // the area pi 0.5 0.625 over 0.0501^2 is 391 points
@@ -232,8 +232,8 @@ TEST_CASE("oracle: a convex body hides the light from its far side only, and the
         const double angle = i * 3.14159265358979 / 180.0;
         const dvec3 normal{std::sin(angle), std::cos(angle), 0.0};
         CAPTURE(i);
-        CHECK(oracle::inShadow(oracle::Scene(view), dvec3{0.0, -5.0, 0.0} + normal, normal) == (i > 90));
+        CHECK(oracle::isInShadow(oracle::Scene(view), dvec3{0.0, -5.0, 0.0} + normal, normal) == (i > 90));
     }
     view.boxObstacles = {{{-1.0F, -3.0F, -1.0F}, {1.0F, -2.0F, 1.0F}, {}}};
-    CHECK(oracle::inShadow(oracle::Scene(view), {0.0, -4.0, 0.0}, {0.0, 1.0, 0.0}));
+    CHECK(oracle::isInShadow(oracle::Scene(view), {0.0, -4.0, 0.0}, {0.0, 1.0, 0.0}));
 }

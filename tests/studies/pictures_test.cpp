@@ -1,4 +1,4 @@
-// The study of pictures: its cloud, its measures of error, its baseline, and a small run of it.
+// The study of pictures: its view, its measures of error, its baseline, and a small run of it.
 #include "studies/pictures/pictures.h"
 
 #include <algorithm>
@@ -9,12 +9,11 @@
 #include <sstream>
 #include <string>
 #include <vector>
-#include "tests/catch.h"
 
 #include "studies/oracle/ball_grid.h"
 #include "studies/pictures/dam_break_view.h"
-#include "studies/pictures/flicker.h"
 #include "studies/pictures/quad_baseline.h"
+#include "tests/catch.h"
 
 using namespace studies;
 using render::Quality;
@@ -31,7 +30,7 @@ std::vector<ExactWindow> exactPicture(const render::View& view) {
 
 }  // namespace
 
-TEST_CASE("The cloud has as many particles as asked, the same each time, at the spacing of its radius", "[pictures]") {
+TEST_CASE("The dam break has as many particles as asked, the same in every call", "[pictures]") {
     for (const std::size_t count : {1000U, 10000U}) {
         const render::View view = damBreakView(count, Style::spheres);
         REQUIRE(view.particles.size() == count);
@@ -41,27 +40,27 @@ TEST_CASE("The cloud has as many particles as asked, the same each time, at the 
     }
 }
 
-TEST_CASE("A crowd knows every particle that a ray meets", "[pictures]") {
+TEST_CASE("The oracle finds the same hits with its grid as without", "[pictures]") {
     for (const Style style : {Style::spheres, Style::metaballs}) {
         const render::View view = damBreakView(1500, style);
         const oracle::Scene scene(view);
-        const oracle::Scene everyone(view, true);
+        const oracle::Scene bruteForce(view, true);
         int hits = 0;
         std::size_t most = 0;
         for (int k = 0; k < 200; ++k) {
             const oracle::Ray ray = oracle::pixelRay(view, kSize, k * 0.79 + 0.3, (k * 53 % 90) + 0.4);
-            const oracle::Hit brute = oracle::trace(everyone, ray);
-            const oracle::Hit quick = oracle::trace(scene, ray);
-            REQUIRE(brute.kind == quick.kind);
-            REQUIRE(brute.distance == quick.distance);
-            REQUIRE(brute.normal == quick.normal);
-            hits += brute.kind == oracle::Hit::Kind::particle ? 1 : 0;
-            most = std::max(most, scene.crowd.along(ray).size());
+            const oracle::Hit expected = oracle::trace(bruteForce, ray);
+            const oracle::Hit hit = oracle::trace(scene, ray);
+            REQUIRE(hit.kind == expected.kind);
+            REQUIRE(hit.distance == expected.distance);
+            REQUIRE(hit.normal == expected.normal);
+            hits += expected.kind == oracle::Hit::Kind::particle ? 1 : 0;
+            most = std::max(most, scene.grid.along(ray).size());
         }
         CHECK(hits > 50);
-        CHECK(most < 750);  // it does leave out most
+        CHECK(most < 750);  // of 1500: most are left out
     }
-    // A ray along an axis, on the border of cells.
+    // A ray along an axis, which stays at the border between cells.
     const render::View view = damBreakView(1500, Style::spheres);
     const oracle::Ray ray{glm::dvec3(view.particles[7].center) + glm::dvec3(0.0, 50.0, 0.0), {0.0, -1.0, 0.0}};
     CHECK(oracle::trace(oracle::Scene(view), ray).distance == oracle::trace(view, ray).distance);
@@ -75,9 +74,9 @@ TEST_CASE("The error of a picture is small for the right view and large for anot
     render::Renderer renderer(context, kSize, Quality::draft);
     const PictureError right = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
     CHECK(right.pixels == 160 * 90);
-    CHECK(right.wrongHits <= 4.0 / 14400.0);  // outlines, where single precision decides otherwise
+    CHECK(right.wrongHits <= 4.0 / 14400.0);  // at outlines, where single precision decides otherwise
     CHECK(right.depth < 1e-4);                // radii: 1e-7 of 12 m over 0.2 m
-    CHECK(right.normal < 0.1);                // degrees; the same over the slope at outlines
+    CHECK(right.normal < 0.1);                // degrees: the same error over the slope at outlines
     CHECK(right.ssim > 0.98);
     render::View moved = view;
     moved.camera.eye.x += 0.3F;
@@ -87,17 +86,17 @@ TEST_CASE("The error of a picture is small for the right view and large for anot
     CHECK(wrong.rmse > 2.0 * right.rmse);
 }
 
-TEST_CASE("The quads of the baseline show the spheres that the oracle sees", "[pictures]") {
+TEST_CASE("The baseline's quads show the spheres that the oracle sees", "[pictures]") {
     const render::View view = damBreakView(1500, Style::spheres);
     render::Context context(render::Backend::osmesa);
     const render::Image image = QuadBaseline(context, kSize).draw(view);
     const oracle::Picture exact = exactPicture(view).front().picture;
-    int other = 0;
+    int wrong = 0;
     for (std::size_t k = 0; k < exact.kinds.size(); ++k) {
-        const bool background = image.rgb[3 * k] == 204 && image.rgb[3 * k + 1] == 209;  // 0.8 and 0.82 of 255
-        other += background == (exact.kinds[k] == oracle::Hit::Kind::particle) ? 1 : 0;
+        const bool isBackground = image.rgb[3 * k] == 204 && image.rgb[3 * k + 1] == 209;  // 0.8 and 0.82 of 255
+        wrong += isBackground == (exact.kinds[k] == oracle::Hit::Kind::particle) ? 1 : 0;
     }
-    CHECK(other < 20);  // of 14400: outlines
+    CHECK(wrong < 20);  // of 14400: at outlines
 }
 
 TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictures]") {
@@ -122,12 +121,12 @@ TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictu
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 7);
 }
 
-TEST_CASE("A lone ball has its sphere's volume in either skin, and a pool its own in a smooth one", "[pictures]") {
+TEST_CASE("A single particle keeps its sphere's volume, and a pool keeps its own with smoothing", "[pictures]") {
     render::View view;
     view.style = Style::metaballs;
     view.particles.push_back({glm::vec3(0.3F, 1.0F, -0.2F), 0.2F, glm::vec3(0.8F)});
     const double sphere = 4.0 / 3.0 * std::numbers::pi * 0.008;
-    // Cubes of a fiftieth of a radius: a surface of 31,000 of them, whose errors average out.
+    // With a spacing of a fiftieth of a radius the surface passes through 31,000 cells, whose errors average out.
     CHECK(fieldVolume(view, 0.02) == Approx(sphere).epsilon(1e-3));
     SmoothingSettings settings;
     settings.particles = {1000};
@@ -144,9 +143,9 @@ TEST_CASE("A lone ball has its sphere's volume in either skin, and a pool its ow
         CHECK(row.draw > 0.0);
         CHECK(row.lone == Approx(1.0).epsilon(0.01));
         CHECK(row.bumps > 1.0);
-        CHECK(row.bumps < 10.0);  // of spheres: 40 and more
+        CHECK(row.bumps < 10.0);  // those of spheres are 40 and more
     }
-    // Kernels three radii wide push a plain surface outwards by two thirds of a radius on every side.
+    // Kernels of three radii push a plain surface outward by two thirds of a radius on every side.
     CHECK(rows[0].volume > 1.2);
     CHECK(rows[1].volume == Approx(1.0).epsilon(0.03));
     const std::string csv = smoothingCsv(rows);
@@ -191,12 +190,12 @@ TEST_CASE("A small study has a row for each style, number, size and quality", "[
         CHECK(row.ratio() > 0.0);
         CHECK(row.ratioAtRest() > 0.0);
         CHECK(row.fewestBaseline > 0.0);
-        CHECK((row.stages.cast > 1e-5) == (row.style == Style::metaballs));  // s; less is the clock itself
+        CHECK((row.stages.cast > 1e-5) == (row.style == Style::metaballs));  // s; less is the clock's own cost
         CHECK(row.error.ssim > 0.9);
     }
     const std::string csv = picturesCsv(rows);
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 13);
-    // As many fields in each line as the header has names, and each under its own.
+    // Each line has as many fields as the header, and every value stands under its own name.
     std::istringstream lines(csv);
     std::string line;
     std::getline(lines, line);

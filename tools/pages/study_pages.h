@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "studies/accuracy/accuracy.h"
-#include "studies/pictures/flicker.h"
 #include "studies/pictures/pictures.h"
-#include "studies/pictures/surface_smoothing.h"
 #include "studies/scaling/scaling.h"
 #include "studies/stability/stability.h"
 #include "tools/system/text.h"
