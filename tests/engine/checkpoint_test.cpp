@@ -147,11 +147,11 @@ TEST_CASE("A checkpoint with a correct checksum and impossible contents is refus
     auto shorter = bytes;
     shorter.erase(shorter.end() - 12, shorter.end() - 8);
     sign(shorter);
-    CHECK(complaint(setup, shorter).find("cut short") != std::string::npos);
+    CHECK(complaint(setup, shorter).find("truncated") != std::string::npos);
     auto endless = bytes;
     fill(endless, 16);  // the number of particles
     sign(endless);
-    CHECK(complaint(setup, endless).find("cut short") != std::string::npos);
+    CHECK(complaint(setup, endless).find("truncated") != std::string::npos);
     auto nowhere = bytes;
     fill(nowhere, 24);  // the first coordinate becomes NaN
     sign(nowhere);

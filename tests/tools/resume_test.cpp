@@ -180,7 +180,7 @@ TEST_CASE("A damaged manifest stops a run, which says so", "[resume]") {
     const auto outcome = run(fountain(folder / "a", "--resume"));
     CHECK(outcome.code == 1);
     CHECK(program::lineCount(outcome.err) == 1);
-    CHECK(outcome.err.find("manifest.json is no manifest") != std::string::npos);
+    CHECK(outcome.err.find("manifest.json is not a manifest") != std::string::npos);
     REQUIRE(run(fountain(folder / "a", "--overwrite")).code == 0);
 }
 
