@@ -89,6 +89,15 @@ TEST_CASE("compare: two files, whatever their names", "[compare]") {
     CHECK(missing.out.find("there is no golden") != std::string::npos);
 }
 
+TEST_CASE("compare: extensions may be in capitals", "[compare]") {
+    Two two;
+    two.both("one/A.PNG", balls());
+    CHECK(two.compare().out.find("1 pictures: 1 identical") == 0);
+    const std::string picture = (two / "actual/one/A.PNG").string();
+    CHECK(run("compare " + picture + " " + (two / "expected/none.PNG").string()).out.find("there is no golden") !=
+          std::string::npos);
+}
+
 TEST_CASE("compare: missing, extra, unreadable and differently sized pictures are reasons of their own", "[compare]") {
     Two two;
     two.both("frame-00000.png", balls());
@@ -282,8 +291,8 @@ TEST_CASE("compare: pictures that say more than eight opaque bits a channel are 
     CHECK(made("color=red:s=16x16", "rgb48be", "deep.png").out.find("16 bits") != std::string::npos);
     CHECK(made("color=red:s=16x16,format=rgba", "rgba", "opaque.png").code == 0);
     tools::writeFile(two / "text.png", std::string("no picture at all"));
-    CHECK(run("compare " + (two / "text.png").string() + " " + (two / "text.png").string()).out.find("it is not a PNG file") !=
-          std::string::npos);
+    CHECK(run("compare " + (two / "text.png").string() + " " + (two / "text.png").string())
+              .out.find("it is not a PNG file") != std::string::npos);
 }
 
 TEST_CASE("compare: what is no verdict is trouble", "[compare]") {

@@ -1,10 +1,9 @@
-// Everything is checked first, then written.
+// Every picture is checked before the first one is written.
 #include "tools/compare/approve.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "render/output/png.h"
@@ -22,27 +21,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A picture on its way to becoming a golden.
+/// A picture that may become a golden.
 struct Candidate {
     std::string name;
     fs::path from, to;
+    std::string checksum;  ///< of the picture's file when it was checked
+    std::string sidecar;   ///< the text of its sidecar
 };
 
 std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set) {
     std::vector<Candidate> candidates;
     std::vector<scenes::Problem> problems;
-    if (set.decoded)
-        throw render::SystemError("frames of a video are no goldens; approve the PNG files it was made of");
-    if (set.single && !job.names.empty())
+    if (set.decodedFrames)
+        throw render::SystemError("frames of a video cannot be goldens; approve the PNG files it was made of");
+    if (set.isSingle && !job.names.empty())
         throw scenes::InputError({{job.names.front(), 0, 0, "names are of pictures in a folder"}});
     for (const std::string& name : job.names)
-        if (!set.single && set.pictures.count(name) == 0)
+        if (!set.isSingle && set.pictures.count(name) == 0)
             problems.push_back({name, 0, 0, fmt::format("there is no such picture in {}", job.actual.string())});
     if (!problems.empty()) throw scenes::InputError(problems);
     for (const auto& [name, path] : set.pictures) {
         const bool chosen =
-            set.single || job.names.empty() || std::find(job.names.begin(), job.names.end(), name) != job.names.end();
-        if (chosen) candidates.push_back({name, path, set.single ? job.expected : job.expected / name});
+            set.isSingle || job.names.empty() || std::find(job.names.begin(), job.names.end(), name) != job.names.end();
+        if (chosen) candidates.push_back({name, path, set.isSingle ? job.expected : job.expected / name, {}, {}});
     }
     if (candidates.empty())
         throw render::SystemError(fmt::format("there are no pictures to approve in {}", job.actual.string()));
@@ -51,7 +52,8 @@ std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set
 
 std::string sidecarText(const Candidate& candidate, const std::vector<std::uint8_t>& bytes) {
     const render::Image image = render::decodePng(bytes, candidate.from.string());
-    return indentedText(sidecarJson(provenanceOf(candidate.from, bytes), checksumOf(bytes), image.width, image.height));
+    return indentedText(
+        sidecarJson(provenanceOf(candidate.from, bytes), candidate.checksum, image.width, image.height));
 }
 
 /// Why the picture must not replace its golden; empty if it may.
@@ -60,8 +62,8 @@ std::string refusal(const Candidate& candidate) {
     if (!fs::exists(path)) return {};
     const nlohmann::json sidecar = readJson(path);
     if (!sidecar.is_object() || !sidecar.contains("png"))
-        return fmt::format("its sidecar would replace {}, which is none; --force replaces it", path.string());
-    // The sidecar's word counts even where the golden was changed by hand.
+        return fmt::format("its sidecar would replace {}, which is not a sidecar; --force replaces it", path.string());
+    // The sidecar counts even if the golden was changed without it.
     if (!sidecar.contains("gl_renderer") || !sidecar["gl_renderer"].is_string()) return {};
     const std::string before = sidecar["gl_renderer"].get<std::string>();
     const std::string now = provenanceOf(candidate.from, readFile(candidate.from)).glRenderer;
@@ -70,7 +72,7 @@ std::string refusal(const Candidate& candidate) {
                        now.empty() ? "an unknown GL renderer" : now, before);
 }
 
-bool stands(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+bool hasContent(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     return fs::exists(path) && readFile(path) == bytes;
 }
 
@@ -79,11 +81,12 @@ bool stands(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 std::vector<Approved> approvePictures(const ApproveJob& job) {
     if (!fs::exists(job.actual))
         throw render::SystemError(fmt::format("there is no file or folder {}", job.actual.string()));
-    const std::vector<Candidate> candidates = candidatesOf(job, picturesOf(job.actual));
+    std::vector<Candidate> candidates = candidatesOf(job, picturesOf(job.actual));
     std::vector<scenes::Problem> refusals;
-    std::map<std::string, std::string> sidecars;
-    for (const Candidate& candidate : candidates) {
-        sidecars[candidate.name] = sidecarText(candidate, readFile(candidate.from));
+    for (Candidate& candidate : candidates) {
+        const std::vector<std::uint8_t> bytes = readFile(candidate.from);
+        candidate.checksum = checksumOf(bytes);
+        candidate.sidecar = sidecarText(candidate, bytes);
         const std::string why = job.force ? std::string{} : refusal(candidate);
         if (!why.empty()) refusals.push_back({candidate.from.string(), 0, 0, why});
     }
@@ -92,19 +95,22 @@ std::vector<Approved> approvePictures(const ApproveJob& job) {
     std::vector<Approved> approved;
     for (const Candidate& candidate : candidates) {
         const std::vector<std::uint8_t> bytes = readFile(candidate.from);
-        const std::string& sidecar = sidecars[candidate.name];
-        if (stands(candidate.to, bytes) && stands(sidecarPath(candidate.to), {sidecar.begin(), sidecar.end()}))
+        if (checksumOf(bytes) != candidate.checksum)
+            throw render::SystemError(fmt::format("{} has changed meanwhile", candidate.from.string()));
+        const fs::path sidecar = sidecarPath(candidate.to);
+        if (hasContent(candidate.to, bytes) &&
+            hasContent(sidecar, {candidate.sidecar.begin(), candidate.sidecar.end()}))
             continue;
         approved.push_back({candidate.name, !fs::exists(candidate.to)});
         if (candidate.to.has_parent_path()) createFolder(candidate.to.parent_path());
         writeFile(candidate.to, bytes);
-        writeFile(sidecarPath(candidate.to), sidecar);
+        writeFile(sidecar, candidate.sidecar);
     }
     return approved;
 }
 
 std::string approvalLine(const fs::path& actual, const fs::path& expected, const std::vector<std::string>& names) {
-    if (names.empty() || actual.extension() == ".mp4") return {};
+    if (names.empty() || hasExtension(actual, ".mp4")) return {};
     std::vector<std::string> words = {"globular", "approve", actual.string(), expected.string()};
     words.insert(words.end(), names.begin(), names.end());
     return shellLine(words);

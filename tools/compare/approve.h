@@ -1,4 +1,4 @@
-// Actual pictures become goldens, each with a sidecar that says where it comes from.
+// Makes actual pictures the goldens, each with a sidecar that records its provenance. Called by `approve`.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ struct ApproveJob {
     std::filesystem::path actual;
     std::filesystem::path expected;
     std::vector<std::string> names;  ///< as `compare` prints them; empty: every actual picture
-    bool force = false;              ///< also where another GL renderer drew the golden
+    bool force = false;              ///< also replaces goldens that another OpenGL renderer drew
 };
 
 struct Approved {
@@ -19,14 +19,15 @@ struct Approved {
     bool isNew = false;  ///< there was no golden
 };
 
-/// Copies each picture and writes its sidecar; those that are the golden already, sidecar and all, are left alone and
-/// out of the list. Throws: scenes::InputError naming every picture that was drawn by another GL renderer than its
-/// golden, or is not there; render::SystemError for what cannot be read or written. Nothing is written before all of
-/// them are known to be right.
+/// Copies each picture and writes its sidecar. Pictures that equal their goldens, with the same sidecar, are skipped
+/// and not returned. Nothing is written unless all pictures are accepted.
+/// @throws scenes::InputError naming every picture that does not exist or was drawn by another OpenGL renderer than its
+/// golden
+/// @throws render::SystemError for files that cannot be read or written
 std::vector<Approved> approvePictures(const ApproveJob& job);
 
-/// The command that approves these pictures, to copy; empty where there is none: for no names, and for a video, whose
-/// frames are approved instead.
+/// The command line that approves these pictures; empty if there are no names, and for a video, of which only the
+/// frames can be approved.
 std::string approvalLine(const std::filesystem::path& actual, const std::filesystem::path& expected,
                          const std::vector<std::string>& names);
 

@@ -50,8 +50,8 @@ void evaluate(PictureResult& result, const CompareJob& job) {
 
 /// How messages name a picture of a folder or a frame of a video.
 std::string displayName(const fs::path& whole, const std::string& name) {
-    if (whole.extension() == ".png") return whole.string();
-    return whole.extension() == ".mp4" ? fmt::format("{} in {}", name, whole.string()) : (whole / name).string();
+    if (hasExtension(whole, ".png")) return whole.string();
+    return hasExtension(whole, ".mp4") ? fmt::format("{} in {}", name, whole.string()) : (whole / name).string();
 }
 
 PictureResult comparePair(const PicturePair& pair, const CompareJob& job) {

@@ -1,8 +1,10 @@
-// Folders are walked, videos decoded by ffmpeg into a temporary one.
+// Lists the PNG files below a folder; ffmpeg decodes the frames of a video into a temporary folder.
 #include "tools/compare/picture_pairs.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -21,21 +23,21 @@ std::map<std::string, fs::path> pngsBelow(const fs::path& folder) {
     std::error_code error;
     for (fs::recursive_directory_iterator file(folder, error), end; !error && file != end; file.increment(error)) {
         const fs::path& path = file->path();
-        // Files still being written begin with a dot.
-        if (path.extension() != ".png" || path.filename().string().starts_with(".")) continue;
+        // Names of files that are still being written begin with a dot.
+        if (!hasExtension(path, ".png") || path.filename().string().starts_with(".")) continue;
         pictures.emplace(path.lexically_relative(folder).generic_string(), path);
     }
     if (error) throw render::SystemError(fmt::format("cannot read folder {}: {}", folder.string(), error.message()));
     return pictures;
 }
 
-PictureSet framesOf(const fs::path& video) {
+PictureSet decodeVideo(const fs::path& video) {
     PictureSet set;
-    set.decoded = std::make_shared<TemporaryFolder>();
-    // A path that looks like a protocol is still a file, and a percent sign in the folder's name no part of the
-    // pattern.
+    set.decodedFrames = std::make_shared<TemporaryFolder>();
+    // "file:" keeps ffmpeg from taking a path with a colon for a protocol. Percent signs are doubled, because ffmpeg
+    // reads the path as a pattern.
     std::string pattern = "file:";
-    for (const char c : set.decoded->path().string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+    for (const char c : set.decodedFrames->path().string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
     pattern += "/frame-%05d.png";
     render::ChildProcess ffmpeg(
         {"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-i", "file:" + video.string(),
@@ -45,11 +47,17 @@ PictureSet framesOf(const fs::path& video) {
     if (const std::string ending = ffmpeg.wait(); !ending.empty())
         throw render::SystemError(
             fmt::format("ffmpeg cannot decode {}: {}: {}", video.string(), ending, ffmpeg.output()));
-    set.pictures = pngsBelow(set.decoded->path());
+    set.pictures = pngsBelow(set.decodedFrames->path());
     return set;
 }
 
 }  // namespace
+
+bool hasExtension(const fs::path& path, std::string_view extension) {
+    const std::string own = path.extension().string();
+    return std::equal(own.begin(), own.end(), extension.begin(), extension.end(),
+                      [](unsigned char a, char b) { return std::tolower(a) == b; });
+}
 
 TemporaryFolder::TemporaryFolder() {
     std::string pattern = (fs::temp_directory_path() / "globular-XXXXXX").string();
@@ -66,24 +74,24 @@ TemporaryFolder::~TemporaryFolder() {
 PictureSet picturesOf(const fs::path& path) {
     PictureSet set;
     if (!fs::exists(path)) {
-        set.single = path.extension() == ".png";
+        set.isSingle = hasExtension(path, ".png");
         return set;
     }
     if (fs::is_directory(path)) {
         set.pictures = pngsBelow(path);
         return set;
     }
-    if (path.extension() == ".mp4") return framesOf(path);
-    set.single = true;
+    if (hasExtension(path, ".mp4")) return decodeVideo(path);
+    set.isSingle = true;
     set.pictures.emplace(path.filename().string(), path);
     return set;
 }
 
 std::vector<PicturePair> pairsOf(const PictureSet& actual, const PictureSet& expected) {
-    if (!actual.pictures.empty() && !expected.pictures.empty() && actual.single != expected.single)
+    if (!actual.pictures.empty() && !expected.pictures.empty() && actual.isSingle != expected.isSingle)
         throw render::SystemError(
             "one side is a single picture, the other a folder or a video; compare like with like");
-    if (actual.single && actual.pictures.size() == 1 && expected.pictures.size() == 1)
+    if (actual.isSingle && actual.pictures.size() == 1 && expected.pictures.size() == 1)
         return {{expected.pictures.begin()->first, actual.pictures.begin()->second, expected.pictures.begin()->second}};
     std::map<std::string, PicturePair> pairs;
     for (const auto& [name, path] : actual.pictures) pairs[name].actual = path;

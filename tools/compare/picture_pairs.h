@@ -1,4 +1,4 @@
-// Which picture is held against which: two files, two folders, or the frames of videos. Used by `compare` and
+// Which picture is compared with which: two files, two folders, or the frames of videos. Used by `compare` and
 // `approve`.
 #pragma once
 
@@ -7,14 +7,19 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tools {
 
-/// A folder of its own below the system's temporary one, removed with the object.
+/// Whether the file name has this extension, in upper or lower case.
+/// @param extension  in lower case, such as ".png"
+bool hasExtension(const std::filesystem::path& path, std::string_view extension);
+
+/// A new folder below the system's temporary folder; removed with its content when the object is destroyed.
 class TemporaryFolder {
  public:
-    /// Throws render::SystemError.
+    /// @throws render::SystemError
     TemporaryFolder();
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -25,16 +30,16 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// The pictures of one side. Of a folder: every PNG below it, by its path from there ("liquid/frame-00012.png"). Of a
-/// video: its frames as `render` names them. Of a PNG: itself.
+/// The pictures of one side by name. The names in a folder are the paths of all PNG files below it
+/// ("liquid/frame-00012.png"); those in a video are what `render` calls its frames.
 struct PictureSet {
     std::map<std::string, std::filesystem::path> pictures;
-    bool single = false;                       ///< one file, whatever its name
-    std::shared_ptr<TemporaryFolder> decoded;  ///< keeps the frames of a video while the set is in use
+    bool isSingle = false;                           ///< it is one file, whose name does not matter
+    std::shared_ptr<TemporaryFolder> decodedFrames;  ///< holds the frames of a video while the set is in use
 };
 
-/// Nothing there: an empty set. Throws render::SystemError for what cannot be read, or a video that ffmpeg cannot
-/// decode.
+/// The pictures at a path; none if nothing exists there.
+/// @throws render::SystemError if a folder cannot be read or ffmpeg cannot decode a video
 PictureSet picturesOf(const std::filesystem::path& path);
 
 struct PicturePair {
@@ -43,8 +48,8 @@ struct PicturePair {
     std::optional<std::filesystem::path> expected;
 };
 
-/// By name, in order; single files with each other under the expected one's name.
-/// Throws render::SystemError when a file meets a folder.
+/// Pairs of pictures with the same name, ordered by name. Two single files form a pair under the expected file's name.
+/// @throws render::SystemError if one side is a file and the other a folder or video
 std::vector<PicturePair> pairsOf(const PictureSet& actual, const PictureSet& expected);
 
 }  // namespace tools
