@@ -119,6 +119,17 @@ TEST_CASE("globular simulate writes states that a scene can start from", "[tools
     CHECK(nlohmann::json::parse(check.out)["particles_at_start"] == written["particles"]);
 }
 
+TEST_CASE("The cost of error estimates with a fixed step is reported", "[tools]") {
+    const program::Folder folder;
+    REQUIRE(run("simulate figure-2 --frames 0-9 --quiet -o " + (folder / "states").string()).code == 0);
+    const auto json = nlohmann::json::parse(textOf(folder / "states/run.json"));
+    const double spent = json["error_estimate"]["force_evaluations_spent"];
+    INFO(json["steps"].dump() << " " << spent);
+    // A frame takes four steps of 0.01 s, and an estimate takes them at this length and at half of it.
+    CHECK(spent >= json["error_estimate"]["samples"].get<double>() * 12.0);
+    CHECK(run("simulate --help").out.find("error is estimated at up to 8 frames") != std::string::npos);
+}
+
 TEST_CASE("globular strip puts the frames of its moments side by side", "[tools]") {
     const program::Folder folder;
     const std::string scene = "figure-2 --size 120x80 --quiet ";

@@ -26,6 +26,11 @@ void addTo(const Command& command, SceneOptions& options);
 void addTo(const Command& command, DrawOptions& options);
 /// @param fallback  the folder without -o, for the help
 void addTo(const Command& command, FolderOptions& options, const std::string& fallback);
+/// What the help of `render` and `simulate` says about error estimates.
+inline constexpr const char* kErrorSampleNotes =
+    "With a fixed step the error is estimated at up to 8 frames of a run. Each estimate takes about as long as\n"
+    "simulating three frames; run.json has the cost of all of them as error_estimate.force_evaluations_spent.";
+
 /// Adds --gl alone, for commands that choose size, style and quality themselves.
 void addBackendFlag(const Command& command, DrawOptions& options);
 

@@ -53,8 +53,9 @@ void render(RenderOptions options) {
     job.folder = options.folder;
 
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
-    FinishedRun run = renderFrames(job);
-    printSummary(options, saveReport(options.folder.path, scene, run));
+    const FinishedRun run = renderFrames(job);
+    requireComplete(run.report, options.folder.path);
+    printSummary(options, run.json);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ void addRenderCommand(const Command& program) {
     command.option("--frames", options->frames, "draw only frames A to B, counted from 0, or one").of("A-B");
     addTo(command, options->draw);
     addTo(command, options->run);
-    command.example("globular render liquid -o out/liquid --video out/liquid.mp4");
+    command.example("globular render liquid -o out/liquid --video out/liquid.mp4", kErrorSampleNotes);
     command.run([options] { render(*options); });
 }
 

@@ -24,21 +24,30 @@ struct SimulateOptions {
     std::string format = "ply";
 };
 
-FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const FolderOptions& options,
-                           Progress& progress) {
-    FrameFolder folder(options, kStateNames, sceneIdentity(scene));
-    FrameSequence sequence(scene, frames, &folder, options.checkpointSeconds);
-    while (const auto frame = sequence.next()) {
-        std::string ply;
-        const Stopwatch watch(sequence.report().seconds.encoding);
-        if (frame->isWanted && !frame->isKept) ply = scenes::encodeParticles(sequence.simulation().particles);
-        sequence.store(*frame, {reinterpret_cast<const std::uint8_t*>(ply.data()), ply.size()});
-        if (!frame->isWanted) continue;
-        ++sequence.report().frames;
-        progress.frameDone(frame->number, frame->time);
+FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const SimulateOptions& options,
+                           const std::string& title) {
+    FrameFolder folder(options.folder, kStateNames, sceneIdentity(scene));
+    FrameSequence sequence(scene, frames, &folder, options.folder.checkpointSeconds);
+    RunReport& report = sequence.report();
+    report.threads = threadCount(options.run);
+    {
+        const Stopwatch total(report.seconds.all);
+        Progress progress(title, frames.count(), options.run.verbosity());
+        while (const auto frame = sequence.next()) {
+            std::string ply;
+            const Stopwatch watch(report.seconds.encoding);
+            if (frame->isWanted && !frame->isKept) ply = scenes::encodeParticles(sequence.simulation().particles);
+            sequence.store(*frame, {reinterpret_cast<const std::uint8_t*>(ply.data()), ply.size()});
+            if (!frame->isWanted) continue;
+            ++report.frames;
+            progress.frameDone(frame->number, frame->time);
+        }
+        sequence.finish();
     }
-    sequence.finish();
-    return sequence.take();
+    FinishedRun run = sequence.take();
+    run.json = runJson(scene, run);
+    folder.writeReport(run.json);
+    return run;
 }
 
 void simulate(SimulateOptions options) {
@@ -48,21 +57,15 @@ void simulate(SimulateOptions options) {
     std::string& folder = options.folder.path;
     if (folder.empty()) folder = (fs::path("out") / (name + "-states")).string();
 
-    Progress progress(name, frames.count(), options.run.verbosity());
     FinishedRun run;
-    double seconds = 0.0;
-    {
-        const Stopwatch watch(seconds);
-        onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options.folder, progress); });
-    }
-    run.report.seconds.all = seconds;
-    run.report.threads = threadCount(options.run);
-    const Json json = saveReport(folder, scene, run);
+    onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options, name); });
+    const RunReport& report = run.report;
+    requireComplete(report, folder);
     if (options.run.json)
-        printJson(Json{{"event", "done"}, {"folder", folder}, {"run", json}});
+        printJson(Json{{"event", "done"}, {"folder", folder}, {"run", run.json}});
     else if (!options.run.quiet)
-        fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", run.report.frames, folder,
-                   run.simulation.particles.count(), run.simulation.steps.count, seconds, run.report.stateHash);
+        fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", report.frames, folder,
+                   run.simulation.particles.count(), run.simulation.steps.count, report.seconds.all, report.stateHash);
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ void addSimulateCommand(const Command& program) {
     command.option("--format", options->format, "ply: binary little-endian PLY").oneOf({"ply"});
     command.option("--frames", options->frames, "write only frames A to B, counted from 0, or one").of("A-B");
     addTo(command, options->run);
-    command.example("globular simulate powder -o out/states --frames 0-59");
+    command.example("globular simulate powder -o out/states --frames 0-59", kErrorSampleNotes);
     command.run([options] { simulate(*options); });
 }
 

@@ -186,6 +186,10 @@ void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes
     removeUnlistedCheckpoints();
 }
 
+void FrameFolder::writeReport(const Json& json) const {
+    writeFile(folder_ / "run.json", indentedText(json));
+}
+
 void FrameFolder::writeManifest() {
     writeFile(folder_ / "manifest.json", encodeManifest(manifest_));
     isManifestCurrent_ = true;

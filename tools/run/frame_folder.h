@@ -83,6 +83,9 @@ class FrameFolder {
     /// @pre the files of all frames up to this one are written
     void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report);
 
+    /// Writes run.json.
+    void writeReport(const Json& json) const;
+
  private:
     bool hasFrames() const;
     void removeAll();

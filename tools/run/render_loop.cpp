@@ -67,7 +67,12 @@ class RenderRun {
             frames_.finish();
             if (video_ && report().frames > 0) video_->finish();
         }
-        return frames_.take();
+        FinishedRun run = frames_.take();
+        if (folder_) {
+            run.json = runJson(*job_.scene, run);
+            folder_->writeReport(run.json);
+        }
+        return run;
     }
 
  private:

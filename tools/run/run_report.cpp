@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "engine/error_control/error_estimate.h"
@@ -15,7 +14,6 @@
 #include "render/cpu/metaballs/metaball_cast.h"
 #include "render/picture/system_error.h"
 #include "tools/system/json.h"
-#include "tools/system/output_file.h"
 #include "tools/system/process.h"
 
 namespace tools {
@@ -57,7 +55,7 @@ Json stepsJson(const engine::StepStatistics& steps) {
 ErrorSamples errorsOf(const engine::Simulation& simulation, const ErrorSamples& samples) {
     if (simulation.setup.stepper != engine::StepperKind::automatic) return samples;
     const engine::AutoState& state = simulation.automatic;
-    return {static_cast<int>(state.estimateCount), state.errorSum, state.largestError};
+    return {static_cast<int>(state.estimateCount), state.errorSum, state.largestError, state.estimateCost};
 }
 
 Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples) {
@@ -67,15 +65,14 @@ Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples
                  {"largest", errors.largest},
                  {"unit", "radii per second of motion, rms over the particles"},
                  {"obtained", "frames run again at half the step: mean and largest over the samples"},
-                 {"samples", errors.count}};
+                 {"samples", errors.count},
+                 {"force_evaluations_spent", errors.evaluationCost}};
     if (simulation.setup.stepper == engine::StepperKind::automatic) {
         json["obtained"] = fmt::format(
             "frames run again at half the step, times what up to {} s of motion make of an error: mean and largest "
-            "over "
-            "the samples",
+            "over the samples",
             engine::kLongEstimateSeconds);
         json["wanted"] = simulation.setup.error;
-        json["force_evaluations_spent"] = simulation.automatic.estimateCost;
     }
     return json;
 }
@@ -91,25 +88,32 @@ Json energyJson(const engine::Energy& energy) {
 }  // namespace
 
 Json encodeErrors(const ErrorSamples& errors) {
-    return {{"count", errors.count}, {"sum", errors.sum}, {"largest", errors.largest}};
+    return {{"count", errors.count},
+            {"sum", errors.sum},
+            {"largest", errors.largest},
+            {"evaluation_cost", errors.evaluationCost}};
 }
 
 ErrorSamples decodeErrors(const Json& json) {
     const auto isNumber = [&](const char* key) { return json.contains(key) && json[key].is_number(); };
-    if (!isNumber("count") || !json["count"].is_number_integer() || !isNumber("sum") || !isNumber("largest")) return {};
+    if (!isNumber("count") || !json["count"].is_number_integer() || !isNumber("sum") || !isNumber("largest") ||
+        !isNumber("evaluation_cost"))
+        return {};
     const auto count = json["count"].get<std::int64_t>();
     if (count < 0 || count > kMostSamples) return {};
-    return {static_cast<int>(count), json["sum"].get<double>(), json["largest"].get<double>()};
+    return {static_cast<int>(count), json["sum"].get<double>(), json["largest"].get<double>(),
+            json["evaluation_cost"].get<double>()};
 }
 
 void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation) {
     if (simulation.setup.stepper == engine::StepperKind::automatic) return;
     try {
         const double next = simulation.time + 1.0 / scene.fps;
-        const double error = engine::measure(simulation, {next, simulation.stepper, simulation.setup.step}).error;
+        const auto estimate = engine::measure(simulation, {next, simulation.stepper, simulation.setup.step});
         ++samples.count;
-        samples.sum += error;
-        samples.largest = std::max(samples.largest, error);
+        samples.sum += estimate.error;
+        samples.largest = std::max(samples.largest, estimate.error);
+        samples.evaluationCost += estimate.spent;
     } catch (const engine::InstabilityError&) {
         // The run will report this when it gets there.
     }
@@ -156,15 +160,13 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     return json;
 }
 
-Json saveReport(const std::string& folder, const scenes::Scene& scene, FinishedRun& run) {
-    Json json = runJson(scene, run);
-    writeFile(std::filesystem::path(folder) / "run.json", indentedText(json));
-    if (!run.report.unstable.empty()) throw engine::InstabilityError(run.report.unstable);
-    if (run.report.interruptedBy == 0) return json;
-    throw ExitStatus(kSignalExitBase + run.report.interruptedBy,
+void requireComplete(const RunReport& report, const std::string& folder) {
+    if (!report.unstable.empty()) throw engine::InstabilityError(report.unstable);
+    if (report.interruptedBy == 0) return;
+    throw ExitStatus(kSignalExitBase + report.interruptedBy,
                      fmt::format("interrupted after {} frames, which are whole in {}; to go on, give the same command "
                                  "with --resume (and without --overwrite)",
-                                 run.report.frames, folder));
+                                 report.frames, folder));
 }
 
 }  // namespace tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,7 @@ struct ErrorSamples {
     int count = 0;
     double sum = 0.0;
     double largest = 0.0;
+    double evaluationCost = 0.0;  ///< what the estimates cost, in force evaluations
 };
 
 /// Error samples as JSON, for a checkpoint.
@@ -63,6 +65,7 @@ struct RunReport {
 struct FinishedRun {
     engine::Simulation simulation;  ///< at the last frame
     RunReport report;
+    Json json;  ///< the content of run.json; null for a run without a folder
 };
 
 /// The parts of a scene that determine what its frames show. They are the first fields of run.json and part of the
@@ -72,10 +75,10 @@ Json sceneIdentity(const scenes::Scene& scene);
 /// The content of run.json.
 Json runJson(const scenes::Scene& scene, FinishedRun& run);
 
-/// Writes run.json into the folder of a run and returns its content.
+/// Throws if a run ended early.
+/// @param folder  the folder of the run, for the message
 /// @throws engine::InstabilityError if the simulation became unstable
 /// @throws ExitStatus if a signal ended the run, with how to resume
-/// @throws render::SystemError
-Json saveReport(const std::string& folder, const scenes::Scene& scene, FinishedRun& run);
+void requireComplete(const RunReport& report, const std::string& folder);
 
 }  // namespace tools
