@@ -1,4 +1,4 @@
-// The study itself on a dozen particles: what it reports must be what is known of the steppers.
+// The study of accuracy on a dozen particles: what it reports must be what is known of the steppers.
 #include "tests/catch.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using studies::SceneAccuracy;
 
 namespace {
 
-/// Twelve particles closer than their rest length, that fly apart.
+/// Twelve particles that are closer than their rest length and fly apart.
 const char* const kDozen = R"(
 title = "it's a dozen"
 duration = 1
@@ -50,7 +50,7 @@ SceneAccuracy studied(const scenes::Scene& scene, const studies::AccuracySetting
     return studies::measureAccuracy("dozen", scene, settings, [](const studies::WindowRun&, std::string_view) {});
 }
 
-/// Once for all test cases.
+/// The study of the dozen, which is made once for all test cases.
 const SceneAccuracy& dozenStudied() {
     static const SceneAccuracy accuracy = studied(dozen());
     return accuracy;
@@ -81,9 +81,9 @@ TEST_CASE("Halving the step of velocity Verlet quarters its error, that of sympl
             INFO(engine::nameOf(stepper) << " " << rows[k].run.variant.asked << " s: " << rows[k].rms << " radii");
             CHECK(rows[k].run.steps.count == 2 * rows[k - 1].run.steps.count);
             CHECK(rows[k].resolved);
-            // The next order's share at these steps.
+            // At these steps the next term of the error is up to a quarter of the first.
             CHECK(rows[k - 1].rms / rows[k].rms == Approx(factor).epsilon(0.25));
-            CHECK(rows[k].errorPerSecond == Approx(rows[k].rms / 0.1).epsilon(1e-12));  // 3 frames at 30 a second
+            CHECK(rows[k].errorPerSecond == Approx(rows[k].rms / 0.1).epsilon(1e-12));  // 3 frames at 30 per second
         }
     }
 }
@@ -100,20 +100,21 @@ TEST_CASE("The study's reference is fine enough, and the orders are those of the
     for (const studies::OrderRow& row : accuracy.orders) {
         INFO(engine::nameOf(row.stepper));
         REQUIRE(row.order);
-        // The next order's share, as above.
+        // The next term of the error, as above.
         CHECK(*row.order == Approx(engine::orderOf(row.stepper)).margin(0.3));
     }
 }
 
-TEST_CASE("A closed scene keeps its momenta", "[studies]") {
+TEST_CASE("A closed scene conserves its momenta", "[studies]") {
     for (const AccuracyRow& row : dozenStudied().rows) {
         INFO(nameOf(row.run.variant) << " " << row.run.variant.asked);
         CHECK(row.compared == 12);
-        // In float a force and its opposite are summed up with roundings of 6e-8 each.
+        // In single precision a force and its opposite are summed with rounding errors of 6e-8 each.
         const double limit = row.run.variant.precision == engine::Precision::singles ? 1e-6 : 1e-13;
-        CHECK(row.linearDrift <= limit);  // some hundred steps of a rounding each
+        CHECK(row.linearDrift <= limit);  // some hundred steps with one rounding error each
         CHECK(row.angularDrift <= limit);
-        CHECK(std::abs(row.energyDrift) <= 0.2);  // half of that error is the damping's, seen too late by a step
+        // Half of it arises because the damping uses the velocities of the step before.
+        CHECK(std::abs(row.energyDrift) <= 0.2);
     }
 }
 
@@ -129,12 +130,12 @@ TEST_CASE("The automatic stepper is compared with the best of the others", "[stu
                 other.rms <= row.obtained * accuracy.window)
                 CHECK(best->cost <= other.run.evaluationCost * (1 + 1e-12));  // interpolation
     }
-    // The coarsest error that was asked is met by some fixed run.
+    // Some fixed run reaches the largest error that was asked for.
     CHECK(accuracy.autos[0].evaluationsAtAsked);
 }
 
-TEST_CASE("A run that blows up is said to be unstable", "[studies]") {
-    // Damped this strongly, one step of the paper's stepper throws a particle out of the world.
+TEST_CASE("A run that blows up is reported as unstable", "[studies]") {
+    // With damping this strong a single step of the paper's stepper moves a particle out of the world.
     const studies::Window window = studies::openWindow(dozen({"material.bd=1e16"}), 0, 2);
     const auto run = studies::runWindow(window, {StepperKind::symplecticEuler, 0.01, {}}, 60.0);
     REQUIRE(run.ending == studies::Ending::unstable);
@@ -146,14 +147,14 @@ TEST_CASE("A run that blows up is said to be unstable", "[studies]") {
     CHECK(studies::accuracyCsv({accuracy}).find("dozen,symplectic-euler,0.01,,unstable,,,,,positions,,no,") !=
           std::string::npos);
     accuracy.rows.push_back(accuracy.rows[0]);
-    accuracy.rows[1].resolved = true;  // a curve, so that there is a key to say it in
+    accuracy.rows[1].resolved = true;  // so that the plot has a curve and a key
     CHECK(studies::plotScript(accuracy, studies::CostAxis::forceEvaluations).find("symplectic-euler (2 failed)") !=
           std::string::npos);
 }
 
 TEST_CASE("A study shows which runs of a stiff scene failed", "[studies]") {
-    // At b_d = 1000 kg/s and 1 kg the fastest mode of the twelve loses some thousand times its speed a second: far
-    // too much for steps of 2 ms, slow for those of 1/61440 s.
+    // At b_d = 1000 kg/s and 1 kg the fastest mode of the twelve decays at a rate of several thousand per second: too
+    // fast for steps of 2 ms, slow for steps of 1/61440 s.
     auto settings = shortSettings();
     settings.firstFrame = 0;
     settings.stepsPerFrame = {16, 1024, 2048};
@@ -167,14 +168,14 @@ TEST_CASE("A study shows which runs of a stiff scene failed", "[studies]") {
     CHECK(rows[2].rms < 0.01);
 }
 
-TEST_CASE("A scene in which nothing finishes has no reference, and says why", "[studies]") {
+TEST_CASE("A scene in which no run finishes has no reference, and the error says why", "[studies]") {
     auto settings = shortSettings();
     settings.runLimit = 0.0;
     CHECK_THROWS_WITH(studied(dozen(), settings),
                       Catch::Matchers::Contains("there is no reference") && Catch::Matchers::Contains("too slow"));
 }
 
-TEST_CASE("A run that takes too long is given up and said so", "[studies]") {
+TEST_CASE("A run that takes too long is given up and reported as too slow", "[studies]") {
     const scenes::Scene scene = dozen();
     const studies::Window window = studies::openWindow(scene, 0, 2);
     const auto run = studies::runWindow(window, {StepperKind::velocityVerlet, 1e-3, {}}, 0.0);
@@ -183,7 +184,7 @@ TEST_CASE("A run that takes too long is given up and said so", "[studies]") {
     CHECK(run.steps.count == 34);  // one frame of two
 }
 
-TEST_CASE("Float errs by its roundings more than double, and no more", "[studies]") {
+TEST_CASE("Single precision differs from double by rounding errors only", "[studies]") {
     const auto doubles = rowsOf(dozenStudied(), StepperKind::velocityVerlet);
     std::vector<AccuracyRow> singles;
     for (const AccuracyRow& row : dozenStudied().rows)
@@ -192,12 +193,13 @@ TEST_CASE("Float errs by its roundings more than double, and no more", "[studies
     for (std::size_t k = 0; k < singles.size(); ++k) {
         INFO("step " << singles[k].run.variant.asked << ": " << doubles[k].rms << " and " << singles[k].rms);
         CHECK(singles[k].rms != doubles[k].rms);
-        CHECK(singles[k].rms == Approx(doubles[k].rms).margin(1e-4));  // some hundred steps of roundings of 1e-7
+        // Some hundred steps with rounding errors of 1e-7 each.
+        CHECK(singles[k].rms == Approx(doubles[k].rms).margin(1e-4));
     }
 }
 
-TEST_CASE("After chaos, errors are those of statistics", "[studies]") {
-    // Elastic grains in a small container meet a hundred times in a second.
+TEST_CASE("In a chaotic scene errors are those of the bulk statistics", "[studies]") {
+    // Elastic grains in a small container collide a hundred times per second.
     const auto gas = scenes::readScene(R"(
 title = "gas"
 duration = 2
@@ -227,14 +229,14 @@ maximum = [0.7, 0.7, 0.7]
     settings.errors = {1e-1};
     settings.referenceBudget = 1.0;
     const SceneAccuracy accuracy = studied(gas, settings);
-    INFO("twins end " << accuracy.reference.twinSeparation << " radii apart");
+    INFO("the twin runs end " << accuracy.reference.twinSeparation << " radii apart");
     CHECK(accuracy.reference.metric == studies::ErrorMetric::statistics);
     for (const AccuracyRow& row : accuracy.rows)
         CHECK((row.run.ending != studies::Ending::finished || row.error == row.statistics));
     CHECK(dozenStudied().reference.metric == studies::ErrorMetric::positions);
 }
 
-TEST_CASE("The tables have a line for each row and a cell for each column", "[studies]") {
+TEST_CASE("The tables have a line for each row and a field for each column", "[studies]") {
     const std::vector<SceneAccuracy> scenes = {dozenStudied()};
     const std::size_t fixed = engine::kSteppers.size() - 1;
     const std::vector<std::pair<std::string, std::size_t>> tables = {
@@ -268,7 +270,7 @@ TEST_CASE("A plot has a curve for each stepper with resolved runs, and its title
     CHECK(studies::plotScript(accuracy, studies::CostAxis::seconds).find("velocity-verlet") == std::string::npos);
 }
 
-TEST_CASE("A window that begins before anybody is born is measured", "[studies]") {
+TEST_CASE("A window that begins before the first birth is measured", "[studies]") {
     const auto late = scenes::readScene(R"(
 title = "late"
 duration = 1
@@ -290,8 +292,9 @@ start = 0.35
     for (const AccuracyRow& row : accuracy.rows) CHECK(row.compared == 3);  // born at 0.55, 0.75 and 0.95 s
 }
 
-TEST_CASE("A run with other births is compared over those whom both began with, unless even the finest have others",
-          "[studies]") {
+TEST_CASE(
+    "A run with other births is compared over the particles present from the start, unless even the finest runs differ",
+    "[studies]") {
     const studies::Window window = studies::openWindow(dozen(), 1, 3);
     std::vector<studies::WindowRun> runs;
     for (const double step : {0.004, 0.002})
@@ -322,7 +325,7 @@ TEST_CASE("A run with other births is compared over those whom both began with, 
     CHECK(studies::rowOf(window, runs.back(), fine).error > 0.0);
 }
 
-TEST_CASE("An error over no particle is not written as one", "[studies]") {
+TEST_CASE("The CSV leaves position errors empty if no particle was compared", "[studies]") {
     SceneAccuracy accuracy;
     accuracy.name = "a, b";
     accuracy.rows.resize(1);

@@ -24,7 +24,7 @@ std::vector<BenchRow> benched(const std::string& filter, int threads) {
 
 }  // namespace
 
-TEST_CASE("bench has the rows that the filter names", "[bench]") {
+TEST_CASE("bench measures the rows that the filter names", "[bench]") {
     const auto rows = benched("forces solid", 2);
     REQUIRE(rows.size() == 2);
     CHECK(rows[0].precision == engine::Precision::doubles);
@@ -42,7 +42,7 @@ TEST_CASE("bench has the rows that the filter names", "[bench]") {
     CHECK(benched("nothing like it", 1).empty());
 }
 
-TEST_CASE("bench computes the same on any number of threads", "[bench]") {
+TEST_CASE("bench computes the same hashes on any number of threads", "[bench]") {
     for (const char* filter : {"forces", "list", "step"}) {
         const auto one = benched(filter, 1);
         const auto three = benched(filter, 3);
@@ -85,7 +85,7 @@ shape = "plane"
         REQUIRE(rows.size() == 2);
         CHECK(rows[0].name == studies::kSimulateFrame);
         CHECK(rows[1].name == studies::kDrawFrame);
-        CHECK(rows[0].steps == 17.0);  // of at most 2 ms in 33.3 ms
+        CHECK(rows[0].steps == 17.0);  // steps of at most 2 ms in 33.3 ms
         for (const BenchRow& row : rows) {
             CHECK(row.material == "drop");
             CHECK(row.particles > 20);

@@ -1,4 +1,4 @@
-// Runs made by hand, for observables whose value can be worked out on paper.
+// Runs made by hand, for observables whose values can be worked out on paper. Included by the tests of the observables.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ inline engine::Particles frameOf(const std::vector<Dot>& dots) {
     return particles;
 }
 
-/// One step between each two frames.
+/// A run of these frames, with one step between neighboring frames.
 inline studies::Run runOf(const std::vector<engine::Particles>& frames) {
     studies::Run run;
     run.frames = frames;
@@ -34,7 +34,7 @@ inline studies::Run runOf(const std::vector<engine::Particles>& frames) {
     return run;
 }
 
-/// A scene of one ball in empty space without gravity, and what is appended to its text.
+/// A scene of one ball in empty space without gravity, with more TOML appended to its text.
 inline scenes::Scene sceneWith(const std::string& more, const scenes::Overrides& overrides = {}) {
     const std::string text =
         "title = \"t\"\nduration = 0.5\nfps = 60\n[physics]\ngravity = [0, 0, 0]\n[[body]]\nshape = \"ball\"\nradius = "

@@ -1,12 +1,12 @@
-// The study of scaling on small blocks, its fits on made-up rows, and what it asks of the peer.
+// The study of scaling on small cubes, its fits on made-up rows, and its input for LAMMPS.
 #include "studies/scaling/scaling.h"
 
 #include <algorithm>
 #include <cmath>
-#include "tests/catch.h"
 
 #include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
+#include "tests/catch.h"
 
 using namespace studies;
 
@@ -21,7 +21,7 @@ ScalingSettings small() {
     return settings;
 }
 
-/// Rows whose times are powers of the number.
+/// Rows whose times are powers of the number of particles.
 std::vector<ScalingRow> madeUp() {
     std::vector<ScalingRow> rows;
     for (const std::size_t particles : {1000U, 10000U, 100000U}) {
@@ -40,7 +40,7 @@ std::vector<ScalingRow> madeUp() {
 
 }  // namespace
 
-TEST_CASE("Blocks are measured by lists at every size and by every pair where that is allowed", "[scaling]") {
+TEST_CASE("Cubes are measured with lists at every size, and by every pair up to the limit", "[scaling]") {
     std::vector<std::size_t> told;
     const auto rows = measureCubes("powder", small(), [&](const ScalingRow& row) { told.push_back(row.particles); });
     REQUIRE(rows.size() == 2);
@@ -58,10 +58,10 @@ TEST_CASE("Blocks are measured by lists at every size and by every pair where th
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
 }
 
-TEST_CASE("A block has the number, the spacing and the neighbors that were asked for", "[scaling]") {
+TEST_CASE("A cube has the number of particles, the spacing and the velocities that were asked for", "[scaling]") {
     const engine::Setup setup = fccCube("solid", 4000, {});
     CHECK(setup.initial.count() == 4000);
-    // 54 sites of the packing within two spacings, less at the faces of the cube.
+    // The lattice has 54 sites within two spacings; particles near the faces of the cube have fewer neighbors.
     CHECK(meanNeighbors(setup, setup.initial) > 35.0);
     CHECK(meanNeighbors(setup, setup.initial) < 54.0);
     for (const engine::Vec3& velocity : setup.initial.velocity) CHECK(velocity == engine::Vec3::Zero());
@@ -70,7 +70,7 @@ TEST_CASE("A block has the number, the spacing and the neighbors that were asked
     for (const engine::Vec3& velocity : dense.initial.velocity) CHECK(velocity.cwiseAbs().maxCoeff() <= 1.0);
 }
 
-TEST_CASE("Exponents are slopes of logarithms over the sizes that a method is fitted on", "[scaling]") {
+TEST_CASE("Exponents are slopes of logarithms over the sizes that a method is fitted to", "[scaling]") {
     const auto fits = fitsOf(madeUp());
     REQUIRE(fits.size() == 3);
     CHECK(fits[0].method == "every pair");
@@ -84,23 +84,23 @@ TEST_CASE("Exponents are slopes of logarithms over the sizes that a method is fi
     CHECK(fitsOf({}).empty());
 }
 
-TEST_CASE("The plot has a curve for each method that has a time", "[scaling]") {
+TEST_CASE("The plot has a curve for each method with times", "[scaling]") {
     const std::string script = scalingPlot(madeUp());
     CHECK(script.find("every pair, here") != std::string::npos);
     CHECK(script.find("neighbor lists in float") != std::string::npos);
-    CHECK(script.find("Table 2") == std::string::npos);  // nothing was published of it
+    CHECK(script.find("Table 2") == std::string::npos);  // no row has a published time
     auto rows = madeUp();
     rows[0].published = 11.9e-3;
     CHECK(scalingPlot(rows).find("1000 11.9\n") != std::string::npos);
 }
 
-TEST_CASE("The middle of several times", "[scaling]") {
+TEST_CASE("The median is the middle value, the upper one of two", "[scaling]") {
     CHECK(median({3.0, 1.0, 2.0}) == 2.0);
     CHECK(median({4.0, 1.0}) == 4.0);
 }
 
-TEST_CASE("The peer is given as many neighbors, and its last loop is read", "[scaling]") {
-    // 45 = 4/3 pi rc^3 rho: rc = 2.3347 at .8442, 1.5299 at 3.
+TEST_CASE("LAMMPS gets a cutoff for as many neighbors as ours, and the time of its last loop is read", "[scaling]") {
+    // From 45 = 4/3 pi rc^3 rho, the cutoff rc is 2.3347 at a density rho of 0.8442 and 1.5299 at 3.
     CHECK(lammpsScript(PeerForce::lennardJones).find("lj/cut/opt 2.334") != std::string::npos);
     CHECK(lammpsScript(PeerForce::dissipative).find("dpd 1.0 1.529") != std::string::npos);
     const std::string output =
@@ -112,5 +112,5 @@ TEST_CASE("The peer is given as many neighbors, and its last loop is read", "[sc
           "ERROR: Unrecognized pair style 'dpd'");
     CHECK(lammpsError(output).empty());
     CHECK_FALSE(lammpsSeconds("Loop time of nothing for 200 steps").has_value());
-    CHECK_FALSE(lammpsSeconds(output.substr(0, output.find('\n'))).has_value());  // it ended while warming up
+    CHECK_FALSE(lammpsSeconds(output.substr(0, output.find('\n'))).has_value());  // the timed run is missing
 }

@@ -1,4 +1,4 @@
-// Which shots count as having passed an obstacle: first and last places by hand, every shape.
+// Which particles count as having tunneled through an obstacle: first and last positions by hand, for every shape.
 #include "studies/stability/observables.h"
 #include "tests/catch.h"
 #include "tests/studies/handmade_runs.h"
@@ -10,43 +10,43 @@ using studies_test::sceneWith;
 
 namespace {
 
-/// Shots that passed an obstacle on a flight from one place to another.
-double passes(const std::string& obstacle, const Vec3& from, const Vec3& to) {
+/// Number of particles that tunneled through an obstacle on a straight path from one position to another.
+double tunneled(const std::string& obstacle, const Vec3& from, const Vec3& to) {
     const studies::Run run = runOf({frameOf({{from}}), frameOf({{to}})});
     return studies::tunnelingCount({sceneWith("[[obstacle]]\n" + obstacle), run});
 }
 
 }  // namespace
 
-TEST_CASE("a plane is passed behind its repulsor, half a meter deep") {
-    CHECK(passes("shape = \"plane\"\n", {0, 1, 0}, {0, 3, 0}) == 0.0);
-    CHECK(passes("shape = \"plane\"\n", {0, 1, 0}, {0, -0.4, 0}) == 0.0);
-    CHECK(passes("shape = \"plane\"\n", {0, 1, 0}, {0, -0.6, 0}) == 1.0);
+TEST_CASE("a particle is through a plane behind its repulsor, half a meter deep") {
+    CHECK(tunneled("shape = \"plane\"\n", {0, 1, 0}, {0, 3, 0}) == 0.0);
+    CHECK(tunneled("shape = \"plane\"\n", {0, 1, 0}, {0, -0.4, 0}) == 0.0);
+    CHECK(tunneled("shape = \"plane\"\n", {0, 1, 0}, {0, -0.6, 0}) == 1.0);
 }
 
-TEST_CASE("a container is passed beyond its walls") {
+TEST_CASE("a particle is through a container beyond its walls") {
     const std::string container = "shape = \"container\"\nminimum = [-1, -1, -1]\nmaximum = [1, 1, 1]\n";
-    CHECK(passes(container, {0, 0, 0}, {0.9, 0.9, -0.9}) == 0.0);
-    CHECK(passes(container, {0, 0, 0}, {0, 1.6, 0}) == 1.0);
-    CHECK(passes(container, {0, 0, 0}, {0, 0, -1.6}) == 1.0);
+    CHECK(tunneled(container, {0, 0, 0}, {0.9, 0.9, -0.9}) == 0.0);
+    CHECK(tunneled(container, {0, 0, 0}, {0, 1.6, 0}) == 1.0);
+    CHECK(tunneled(container, {0, 0, 0}, {0, 0, -1.6}) == 1.0);
 }
 
-TEST_CASE("a box is passed by a way through it, however thin, or an end inside") {
+TEST_CASE("a particle is through a box if its path crosses the box, however thin, or ends inside") {
     const std::string plate = "shape = \"box\"\nminimum = [-1, -0.01, -1]\nmaximum = [1, 0.01, 1]\n";
-    CHECK(passes(plate, {0, 1, 0}, {0.5, 2, 0}) == 0.0);
-    CHECK(passes(plate, {0, 1, 0}, {0, -100, 0}) == 1.0);
-    CHECK(passes(plate, {0, 1, 0}, {5, -3, 0}) == 0.0);  // meets its plane at x = 1.25, beside it
+    CHECK(tunneled(plate, {0, 1, 0}, {0.5, 2, 0}) == 0.0);
+    CHECK(tunneled(plate, {0, 1, 0}, {0, -100, 0}) == 1.0);
+    CHECK(tunneled(plate, {0, 1, 0}, {5, -3, 0}) == 0.0);  // crosses the plane of the plate at x = 1.25, beside it
     const std::string cube = "shape = \"box\"\nminimum = [-1, -1, -1]\nmaximum = [1, 1, 1]\n";
-    CHECK(passes(cube, {0, 2, 0}, {0, 0.5, 0}) == 1.0);
-    CHECK(passes(cube, {0, 0.5, 0}, {0, 0.2, 0}) == 1.0);
-    CHECK(passes(cube, {0, 0.5, 0}, {0, 3, 0}) == 0.0);  // born inside, let out
+    CHECK(tunneled(cube, {0, 2, 0}, {0, 0.5, 0}) == 1.0);
+    CHECK(tunneled(cube, {0, 0.5, 0}, {0, 0.2, 0}) == 1.0);
+    CHECK(tunneled(cube, {0, 0.5, 0}, {0, 3, 0}) == 0.0);  // born inside, and out again
 }
 
-TEST_CASE("a sphere is passed by a way through it or an end inside") {
+TEST_CASE("a particle is through a sphere if its path crosses the sphere or ends inside") {
     const std::string sphere = "shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.1\n";
-    CHECK(passes(sphere, {0, 1, 0}, {0, 2, 0}) == 0.0);
-    CHECK(passes(sphere, {0, 1, 0}, {0, -50, 0}) == 1.0);
-    CHECK(passes(sphere, {0, 1, 0}, {3, -1, 0}) == 0.0);
-    CHECK(passes(sphere, {0, 1, 0}, {0.05, 0, 0}) == 1.0);
-    CHECK(passes(sphere, {0, 0.05, 0}, {0, 3, 0}) == 0.0);
+    CHECK(tunneled(sphere, {0, 1, 0}, {0, 2, 0}) == 0.0);
+    CHECK(tunneled(sphere, {0, 1, 0}, {0, -50, 0}) == 1.0);
+    CHECK(tunneled(sphere, {0, 1, 0}, {3, -1, 0}) == 0.0);
+    CHECK(tunneled(sphere, {0, 1, 0}, {0.05, 0, 0}) == 1.0);
+    CHECK(tunneled(sphere, {0, 0.05, 0}, {0, 3, 0}) == 0.0);
 }
