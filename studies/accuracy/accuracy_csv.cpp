@@ -1,49 +1,39 @@
 // The tables of the accuracy study as CSV, see accuracy.h.
-#include "studies/accuracy/accuracy.h"
-
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "engine/stepping/steppers.h"
+#include "studies/accuracy/accuracy.h"
 #include "studies/common/report.h"
 
 namespace studies {
 namespace {
 
-std::string number(double value) {
-    return fmt::format("{:.6g}", value);
+/// The value if the condition holds, else an empty field.
+template <typename T>
+std::optional<T> fieldIf(bool condition, const T& value) {
+    return condition ? std::optional<T>(value) : std::nullopt;
 }
 
-std::string errorsOf(const SceneAccuracy& scene, const AccuracyRow& row) {
-    if (row.run.ending != Ending::finished) return fmt::format(",,,,{},,no", nameOf(scene.reference.metric));
-    const bool isCompared = row.compared > 0;
-    return fmt::format("{},{},{},{},{},{},{}", isCompared ? number(row.rms) : "", isCompared ? number(row.largest) : "",
-                       row.compared, number(row.statistics), nameOf(scene.reference.metric),
-                       std::isfinite(row.errorPerSecond) ? number(row.errorPerSecond) : "",
-                       row.resolved ? "yes" : "no");
-}
-
-std::string driftsOf(const AccuracyRow& row) {
-    if (row.run.ending != Ending::finished) return ",,";
-    return fmt::format("{},{},{}", number(row.energyDrift), number(row.linearDrift), number(row.angularDrift));
-}
-
-std::string lineOf(const SceneAccuracy& scene, const AccuracyRow& row) {
+std::string fieldsOf(const SceneAccuracy& scene, const AccuracyRow& row) {
     const WindowRun& run = row.run;
-    const bool automatic = run.variant.stepper == engine::StepperKind::automatic;
     const engine::StepStatistics& steps = run.steps;
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), nameOf(run.variant),
-                       automatic ? "" : number(run.variant.asked), automatic ? number(run.variant.asked) : "",
-                       nameOf(run.ending), errorsOf(scene, row), number(run.seconds), steps.count,
-                       number(steps.shortest), number(steps.longest), steps.forceEvaluations, steps.products,
-                       number(run.errorEstimateCost), steps.rejected, driftsOf(row));
+    const bool isAutomatic = run.variant.stepper == engine::StepperKind::automatic;
+    const bool isFinished = run.ending == Ending::finished;
+    const bool isCompared = isFinished && row.compared > 0;
+    return csvFields(scene.name, nameOf(run.variant), fieldIf(!isAutomatic, run.variant.asked),
+                     fieldIf(isAutomatic, run.variant.asked), nameOf(run.ending), fieldIf(isCompared, row.rms),
+                     fieldIf(isCompared, row.largest), fieldIf(isFinished, row.compared),
+                     fieldIf(isFinished, row.statistics), nameOf(scene.reference.metric),
+                     fieldIf(isFinished && std::isfinite(row.errorPerSecond), row.errorPerSecond), row.resolved,
+                     run.seconds, steps.count, steps.shortest, steps.longest, steps.forceEvaluations, steps.products,
+                     run.errorEstimateCost, steps.rejected, fieldIf(isFinished, row.energyDrift),
+                     fieldIf(isFinished, row.linearDrift), fieldIf(isFinished, row.angularDrift));
 }
 
-/// Three fields: the fixed stepper, its cost, and the automatic stepper's cost over it.
-std::string against(const std::optional<HandPicked>& picked, double cost) {
+/// Three fields: the fixed stepper, its cost, and the automatic stepper's cost over it; empty if there is none.
+std::string comparison(const std::optional<HandPicked>& picked, double cost) {
     if (!picked) return ",,";
-    return fmt::format("{},{},{}", engine::nameOf(picked->stepper), number(picked->cost), number(cost / picked->cost));
+    return csvFields(engine::nameOf(picked->stepper), picked->cost, cost / picked->cost);
 }
 
 }  // namespace
@@ -52,10 +42,10 @@ std::string accuracyCsv(const std::vector<SceneAccuracy>& scenes) {
     std::string csv =
         "scene,stepper,step_s,asked_radii_per_s,ending,rms_error_radii,largest_error_radii,particles_compared,"
         "statistics_error_radii,measure,error_radii_per_s,resolved,seconds,steps,shortest_step_s,longest_step_s,"
-        "force_evaluations,products,error_estimate_evaluations,rejected,energy_drift,linear_momentum_drift,angular_"
-        "momentum_drift\n";
+        "force_evaluations,products,error_estimate_evaluations,rejected,energy_drift,linear_momentum_drift,"
+        "angular_momentum_drift\n";
     for (const SceneAccuracy& scene : scenes)
-        for (const AccuracyRow& row : scene.rows) csv += lineOf(scene, row);
+        for (const AccuracyRow& row : scene.rows) csv += fieldsOf(scene, row) + "\n";
     return csv;
 }
 
@@ -63,9 +53,9 @@ std::string ordersCsv(const std::vector<SceneAccuracy>& scenes) {
     std::string csv = "scene,stepper,order,expected,points,longest_step_s,shortest_step_s\n";
     for (const SceneAccuracy& scene : scenes)
         for (const OrderRow& row : scene.orders)
-            csv += fmt::format("{},{},{},{},{},{},{}\n", csvField(scene.name), engine::nameOf(row.stepper),
-                               row.order ? number(*row.order) : "", engine::orderOf(row.stepper), row.points,
-                               row.points == 0 ? "" : number(row.longest), row.points == 0 ? "" : number(row.shortest));
+            csv += csvFields(scene.name, engine::nameOf(row.stepper), row.order, engine::orderOf(row.stepper),
+                             row.points, fieldIf(row.points > 0, row.longest), fieldIf(row.points > 0, row.shortest)) +
+                   "\n";
     return csv;
 }
 
@@ -77,12 +67,13 @@ std::string autosCsv(const std::vector<SceneAccuracy>& scenes) {
     csv += "\n";
     for (const SceneAccuracy& scene : scenes)
         for (const AutoRow& row : scene.autos)
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), number(row.asked),
-                               number(row.obtained), number(row.obtained / row.asked), row.resolved ? "yes" : "no",
-                               number(row.seconds), number(row.evaluationCost),
-                               against(row.secondsAtObtained, row.seconds), against(row.secondsAtAsked, row.seconds),
-                               against(row.evaluationsAtObtained, row.evaluationCost),
-                               against(row.evaluationsAtAsked, row.evaluationCost));
+            csv +=
+                fmt::format("{},{},{},{},{}\n",
+                            csvFields(scene.name, row.asked, row.obtained, row.obtained / row.asked, row.resolved,
+                                      row.seconds, row.evaluationCost),
+                            comparison(row.secondsAtObtained, row.seconds), comparison(row.secondsAtAsked, row.seconds),
+                            comparison(row.evaluationsAtObtained, row.evaluationCost),
+                            comparison(row.evaluationsAtAsked, row.evaluationCost));
     return csv;
 }
 
@@ -92,11 +83,10 @@ std::string referencesCsv(const std::vector<SceneAccuracy>& scenes) {
         "births_differ,resolution_radii,settled,seconds\n";
     for (const SceneAccuracy& scene : scenes) {
         const ReferenceFacts& facts = scene.reference;
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(scene.name), scene.particleCount,
-                           number(scene.from), number(scene.window), nameOf(facts.metric),
-                           engine::nameOf(facts.variant.stepper), number(facts.variant.asked), number(facts.change),
-                           number(facts.twinSeparation), facts.birthsDiffer ? "yes" : "no", number(facts.resolution),
-                           facts.settled ? "yes" : "no", number(facts.seconds));
+        csv += csvFields(scene.name, scene.particleCount, scene.from, scene.window, nameOf(facts.metric),
+                         engine::nameOf(facts.variant.stepper), facts.variant.asked, facts.change, facts.twinSeparation,
+                         facts.birthsDiffer, facts.resolution, facts.settled, facts.seconds) +
+               "\n";
     }
     return csv;
 }

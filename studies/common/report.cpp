@@ -1,12 +1,10 @@
 // CSV fields and gnuplot scripts, see report.h.
 #include "studies/common/report.h"
 
-#include <fmt/format.h>
-
 namespace studies {
 
-std::string csvField(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+std::string csvText(std::string_view text) {
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
     return quoted + '"';

@@ -1,13 +1,43 @@
-// Building blocks of what the studies write: fields of CSV tables and gnuplot scripts of log-log plots.
+// Building blocks of what the studies write: lines of CSV tables and gnuplot scripts of log-log plots.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace studies {
 
-/// A field of a CSV line, in quotation marks if it needs them (RFC 4180).
-std::string csvField(const std::string& text);
+/// Text as a field of a CSV line, in quotation marks if it needs them (RFC 4180).
+std::string csvText(std::string_view text);
+
+/// Any value as a field of a CSV line: "yes" or "no" for a bool, six digits of a floating-point number, an empty field
+/// for an optional without a value.
+template <typename T>
+std::string csvField(const T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+        return value ? "yes" : "no";
+    else if constexpr (std::is_floating_point_v<T>)
+        return fmt::format("{:.6g}", value);
+    else if constexpr (std::is_integral_v<T>)
+        return fmt::format("{}", value);
+    else if constexpr (std::is_convertible_v<T, std::string_view>)
+        return csvText(value);
+    else
+        return value ? csvField(*value) : std::string();
+}
+
+/// Values as fields of a CSV line, separated by commas.
+template <typename... Fields>
+std::string csvFields(const Fields&... fields) {
+    std::string line;
+    ((line += csvField(fields) + ","), ...);
+    line.pop_back();
+    return line;
+}
 
 /// One curve of a plot.
 struct Curve {

@@ -58,8 +58,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
         "fewest_baseline_ms,ratio,ratio_at_rest,ratio_to_fewest,rmse,ssim,wrong_hits,depth_error_radii,"
         "normal_error_degrees\n";
     for (const PictureRow& row : rows) {
-        csv += fmt::format("{},{},{},{},{}", nameOf(row.style), row.particles, row.size.width, row.size.height,
-                           nameOf(row.quality));
+        csv += csvFields(nameOf(row.style), row.particles, row.size.width, row.size.height, nameOf(row.quality));
         for (const double seconds :
              {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.color,
               row.stages.openGl, row.stages.readBack, row.png, row.mp4, row.mp4Once, row.draw, row.atRest, row.withPng,

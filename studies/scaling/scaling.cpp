@@ -119,8 +119,8 @@ void addFit(std::vector<ScalingFit>& fits, const std::string& subject, const std
 constexpr std::size_t kPairsFrom = 1000;
 constexpr std::size_t kListsFrom = 10000;
 
-std::string milliseconds(const std::optional<double>& seconds) {
-    return seconds ? fmt::format("{:.5g}", 1e3 * *seconds) : "";
+std::optional<double> milliseconds(const std::optional<double>& seconds) {
+    return seconds ? std::optional(1e3 * *seconds) : std::nullopt;
 }
 
 constexpr const char* kAxes = R"(set format x "10^{%L}"
@@ -195,16 +195,16 @@ std::vector<ScalingFit> fitsOf(const std::vector<ScalingRow>& rows) {
 std::string scalingCsv(const std::vector<ScalingRow>& rows) {
     std::string csv = "subject,particles,neighbors,published_ms,every_pair_ms,list_ms,list_in_float_ms,state_hash\n";
     for (const ScalingRow& row : rows)
-        csv += fmt::format("{},{},{:.4g},{},{},{},{},{}\n", row.subject, row.particles, row.neighbors,
-                           milliseconds(row.published), milliseconds(row.everyPair), milliseconds(row.list),
-                           milliseconds(row.listInFloat), row.stateHash);
+        csv += csvFields(row.subject, row.particles, row.neighbors, milliseconds(row.published),
+                         milliseconds(row.everyPair), milliseconds(row.list), milliseconds(row.listInFloat),
+                         row.stateHash) +
+               "\n";
     return csv;
 }
 
 std::string fitsCsv(const std::vector<ScalingFit>& fits) {
     std::string csv = "subject,method,from,to,exponent\n";
-    for (const ScalingFit& fit : fits)
-        csv += fmt::format("{},{},{},{},{:.3f}\n", fit.subject, fit.method, fit.from, fit.to, fit.exponent);
+    for (const ScalingFit& fit : fits) csv += csvFields(fit.subject, fit.method, fit.from, fit.to, fit.exponent) + "\n";
     return csv;
 }
 

@@ -20,14 +20,15 @@ std::string valueText(const Outcome& outcome) {
                            : fmt::format("{:.3g}", outcome.value);
 }
 
+/// An outcome as the fields of a CSV line.
 std::string csvOutcome(const Outcome& outcome) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{:.4g}", outcome.stepper,
-                       outcome.failure  ? "exploded"
-                       : outcome.passes ? "passes"
-                                        : "fails",
-                       outcome.value, outcome.particles, outcome.steps.count, outcome.steps.shortest,
-                       outcome.steps.longest, outcome.steps.forceEvaluations, outcome.steps.products,
-                       outcome.steps.rejected, outcome.seconds);
+    const engine::StepStatistics& steps = outcome.steps;
+    return csvFields(outcome.stepper,
+                     outcome.failure  ? "exploded"
+                     : outcome.passes ? "passes"
+                                      : "fails",
+                     outcome.value, outcome.particles, steps.count, steps.shortest, steps.longest,
+                     steps.forceEvaluations, steps.products, steps.rejected, outcome.seconds);
 }
 
 constexpr const char* kCsvHeader =
@@ -107,9 +108,9 @@ std::string stabilityCsv(const std::vector<CaseResult>& results) {
     for (const CaseResult& result : results)
         for (const VariantResult& variant : result.variants) {
             const scenes::ObservableInfo& info = scenes::infoOf(variant.study.observable);
-            text += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g}\n", result.study.number, csvField(result.name),
-                                csvField(variant.changes), info.name, info.unit, variant.study.limit,
-                                variant.study.atLeast ? fmt::format("{}", *variant.study.atLeast) : "",
+            text += fmt::format("{},{},{},{:.6g}\n",
+                                csvFields(result.study.number, result.name, variant.changes, info.name, info.unit,
+                                          variant.study.limit, variant.study.atLeast),
                                 csvOutcome(variant.paper), csvOutcome(variant.ours), variant.referenceSeconds);
         }
     return text;
