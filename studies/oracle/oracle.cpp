@@ -273,7 +273,7 @@ Ray pixelRay(const render::View& view, render::PictureSize size, double px, doub
     const dvec3 eye(camera.eye);
     const dvec3 forward = glm::normalize(dvec3(camera.target) - eye);
     const dvec3 right = glm::normalize(glm::cross(forward, dvec3(camera.up)));
-    if (!std::isfinite(right.x)) throw std::domain_error("pixelRay: the camera looks nowhere or along its up");
+    if (!std::isfinite(right.x)) throw std::domain_error("pixelRay: the eye is at its target, or up is parallel to the view");
     const dvec3 up = glm::cross(right, forward);
     // In units of half the picture's height, from its center.
     const double x = (2.0 * px - size.width) / size.height;

@@ -74,16 +74,16 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
 std::string flickerCsv(const std::vector<FlickerRow>& rows) {
     std::string csv = "style,particles,width,height,quality,change,jerk\n";
     for (const FlickerRow& row : rows)
-        csv += fmt::format("{},{},{},{},{},{:.4g},{:.4g}\n", nameOf(row.style), row.particles, row.size.width,
-                           row.size.height, nameOf(row.quality), row.change, row.jerk);
+        csv += csvFields(nameOf(row.style), row.particles, row.size.width, row.size.height, nameOf(row.quality),
+                         row.change, row.jerk) +
+               "\n";
     return csv;
 }
 
 std::string smoothingCsv(const std::vector<SmoothingRow>& rows) {
     std::string csv = "skin,particles,draw_ms,volume,lone_volume,bumps_degrees\n";
     for (const SmoothingRow& row : rows)
-        csv += fmt::format("{},{},{:.4g},{:.4f},{:.4f},{:.3f}\n", nameOf(row.skin), row.particles, 1e3 * row.draw,
-                           row.volume, row.lone, row.bumps);
+        csv += csvFields(nameOf(row.skin), row.particles, 1e3 * row.draw, row.volume, row.lone, row.bumps) + "\n";
     return csv;
 }
 

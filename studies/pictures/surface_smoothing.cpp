@@ -46,11 +46,11 @@ constexpr int kPoolSide = 24;  // particles
 constexpr int kPoolDepth = 6;
 constexpr int kPoolVolume = kPoolSide * kPoolSide * kPoolDepth;
 
-/// A level pool on a jittered lattice with a spacing of 1, seen from above. The paper's liquid settles at a spacing of
-/// 0.76 diameters, which gives the radius of 0.658.
-render::View levelPool(const render::View& cloud) {
+/// A level pool on a jittered lattice with a spacing of 1 m, seen from above. The paper's liquid settles at a spacing
+/// of 0.76 diameters, which gives the radius of 0.658.
+render::View levelPool(const render::View& appearance) {
     constexpr double kJitter = 0.12;  // chosen: as in dam_break_view.cpp
-    render::View view = cloud;
+    render::View view = appearance;
     view.particles.clear();
     view.ground.reset();
     view.camera.projection = render::Projection::orthographic;
@@ -84,8 +84,8 @@ double bumpsOf(render::Renderer& renderer, const render::View& pool) {
 }
 
 /// A single particle with a radius of 1 m.
-render::View loneView(const render::View& cloud) {
-    render::View view = cloud;
+render::View loneView(const render::View& appearance) {
+    render::View view = appearance;
     view.particles = {{glm::vec3(0.0F), 1.0F, glm::vec3(0.8F)}};
     return view;
 }
