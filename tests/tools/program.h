@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <string>
 
@@ -42,11 +43,22 @@ class Folder {
     fs::path path_;
 };
 
-/// What a line typed in a shell ends with and says.
+/// Exit code of a program that a sanitizer stopped; the program has no such code of its own.
+inline constexpr int kSanitizerExit = 99;
+
+/// What a line typed in a shell ends with and says. What the sanitizers say of its programs, from findings to a warning
+/// that a tool of theirs is missing, is not in `err`: it goes to this suite's own standard error.
 inline Outcome shell(const std::string& line) {
     const Folder folder;
-    const std::string command = "{ " + line + "; } >" + (folder / "out").string() + " 2>" + (folder / "err").string();
+    const std::string reports = (folder / "sanitizer").string();
+    std::string command;
+    for (const std::string name : {"ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS"})
+        command += "export " + name + "=\"${" + name + ":+$" + name + ":}exitcode=" + std::to_string(kSanitizerExit) +
+                   ":log_path=" + reports + "\"; ";
+    command += "{ " + line + "; } >" + (folder / "out").string() + " 2>" + (folder / "err").string();
     const int status = std::system(command.c_str());
+    for (const fs::directory_entry& file : fs::directory_iterator(folder / ""))
+        if (file.path().stem() == "sanitizer") std::cerr << textOf(file.path());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
 }
 
