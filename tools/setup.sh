@@ -1,29 +1,20 @@
 #!/usr/bin/env bash
-# Installs what globular needs from Debian: compilers, libraries, Mesa's software renderer, ffmpeg; and the packages that are
-# named. Called by the scripts beside it; does nothing where everything is there.
+# Installs the Debian packages that globular is built with and runs with: compiler, libraries, Mesa's software renderer,
+# ffmpeg. Called by the scripts beside it.
+# Usage: setup.sh [--tests] [PACKAGE...]; --tests adds what the tests need besides; further packages are installed as well.
 set -euo pipefail
 
 packages=(
     cmake ninja-build g++ pkg-config
     libtbb-dev libhwy-dev libeigen3-dev libglm-dev libstb-dev libisal-dev libfmt-dev libcli11-dev nlohmann-json3-dev
-    libtomlplusplus-dev catch2 fonts-dejavu-core
+    libtomlplusplus-dev fonts-dejavu-core
     libosmesa6-dev libegl-dev libgl-dev libegl1 libgl1-mesa-dri
-    ffmpeg gnuplot-nox clang libclang-rt-dev
-    "$@"
+    ffmpeg gnuplot-nox
 )
-
-missing=()
-for package in "${packages[@]}"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
-done
-[ ${#missing[@]} -eq 0 ] && exit 0
-
-root=()
-if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || { echo "error: install as root, or install sudo: ${missing[*]}" >&2; exit 1; }
-    root=(sudo)
+if [ "${1:-}" = --tests ]; then
+    shift
+    # clang has the sanitizers and the fuzzer; llvm the symbolizer that puts names into their reports; chromium opens the
+    # report of `globular compare`.
+    packages+=(catch2 clang libclang-rt-dev llvm chromium)
 fi
-echo "installing: ${missing[*]}" >&2
-export DEBIAN_FRONTEND=noninteractive
-"${root[@]}" apt-get update -qq
-"${root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+exec "$(dirname "$0")/install_packages.sh" "${packages[@]}" "$@"

@@ -2,7 +2,7 @@
 # Sets the machine up, builds with warnings as errors, and runs the tests: every suite under AddressSanitizer and
 # UndefinedBehaviorSanitizer; what optimization, timing or memory may change also as users build the program; the engine's
 # under ThreadSanitizer; the fuzzers, half a minute each. With the name of a CMake preset (release, debug, asan-ubsan or tsan):
-# all tests of it.
+# all tests of it. The last lines name the tests that this machine could not run, with the reason that each gave.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,10 +12,25 @@ build() { # preset, targets...
     nice cmake --build --preset "$1" ${2:+--target "${@:2}"}
 }
 
-tools/setup.sh
+# Reads the logs of the runs that this script started; a skipped test prints "skipped: " and its reason.
+report_skipped() {
+    local log reason
+    for log in build/*/Testing/Temporary/LastTest.log; do
+        [ "$log" -nt "$started" ] || continue
+        sed -n 's/^ *\(skipped: .*\)/\1/p' "$log" | sort -u | while read -r reason; do
+            echo "${log#build/}: $reason" | sed 's,/Testing/Temporary/LastTest.log,,'
+        done
+    done
+    rm -f "$started"
+}
+started=$(mktemp)
+trap report_skipped EXIT
+
+tools/setup.sh --tests
 if [ $# -gt 0 ]; then
     build "$1"
-    exec ctest --preset "$1"
+    ctest --preset "$1"
+    exit
 fi
 
 build release globular {engine,golden,memory}_tests

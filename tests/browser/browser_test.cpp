@@ -68,7 +68,7 @@ void makeFolders(const program::Folder& folder) {
 
 TEST_CASE("The report works from file:// in a real browser", "[browser]") {
     if (!hasBrowser()) {
-        WARN("skipped: there is no chromium on this machine");
+        WARN("skipped: browser_tests: there is no chromium");
         return;
     }
     const program::Folder folder;
