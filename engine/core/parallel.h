@@ -11,10 +11,6 @@
 #include <cstddef>
 #include <vector>
 
-#ifdef GLOBULAR_SANITIZES_THREADS
-#include <thread>
-#endif
-
 namespace engine {
 
 /// The number of threads that loops are divided among, at most.
@@ -22,19 +18,6 @@ inline std::size_t threadCount() {
     return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
-#ifdef GLOBULAR_SANITIZES_THREADS
-/// Plain threads for ThreadSanitizer, which does not see how oneTBB, which is not compiled with it, passes work between
-/// threads.
-template <class Ranges>
-void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
-    const std::size_t parts = std::min(threadCount(), (count + grain - 1) / grain);
-    std::vector<std::thread> threads;
-    for (std::size_t part = 1; part < parts; ++part)
-        threads.emplace_back([=, &body] { body(count * part / parts, count * (part + 1) / parts); });
-    body(0, count / parts);
-    for (std::thread& thread : threads) thread.join();
-}
-#else
 /// A few ranges are assigned to threads in the same way every time, so that what a thread has written is still in its
 /// cache. Many ranges are stolen by threads that are done with their own. Isolated, so that a waiting thread does not
 /// begin to draw a whole frame meanwhile.
@@ -50,7 +33,6 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
             tbb::parallel_for(all, each);
     });
 }
-#endif
 
 /// Calls body(begin, end) for ranges that together are 0 ... count - 1. More than `grain` indices are worth another
 /// thread.

@@ -42,9 +42,6 @@ const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
     {"studies", {"fstream", "iostream", "filesystem", "cstdio", "cstdlib", "random", "thread"}},
     {"render", {"iostream"}}};
 
-/// Standard headers that one file may use all the same: ThreadSanitizer sees these threads, and oneTBB's not.
-const std::set<std::pair<std::string, std::string>> kAllowedHeaders = {{"engine/core/parallel.h", "thread"}};
-
 /// The rooms of each folder, from the top down: a room may include those after it in its own list alone. The folder
 /// itself stands for the files that lie in no room.
 const std::map<std::string, std::vector<std::string>> kRooms = {
@@ -132,9 +129,7 @@ std::string verdict(const Include& include) {
             return refusal;
     }
     const auto forbidden = kForbiddenHeaders.find(include.folder);
-    if (forbidden != kForbiddenHeaders.end() && forbidden->second.count(include.target) == 1 &&
-        kAllowedHeaders.count({include.file, include.target}) == 0)
-        return refusal;
+    if (forbidden != kForbiddenHeaders.end() && forbidden->second.count(include.target) == 1) return refusal;
     return "";
 }
 
