@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Sets the machine up, builds with warnings as errors, and runs the tests: every suite under AddressSanitizer and
 # UndefinedBehaviorSanitizer; what optimization, timing or memory may change also as users build the program; the engine's
-# under ThreadSanitizer; the fuzzers, half a minute each. With the name of a CMake preset (release, debug, asan-ubsan or tsan):
+# and the render loop's under ThreadSanitizer; the fuzzers, half a minute each. With the name of a CMake preset (release, debug, asan-ubsan or tsan):
 # all tests of it. The last lines name the tests that this machine could not run, with the reason that each gave.
 set -euo pipefail
 cd "$(dirname "$0")/.."
