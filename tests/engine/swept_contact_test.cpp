@@ -54,7 +54,7 @@ TEST_CASE("Rebounds from a plane are those of a hundred times finer steps", "[sw
     const Obstacles floor = only(Plane{});
     for (const double mass : {0.1, 1.0})
         for (const double speed : {1.0, 5.0, 30.0, 100.0, 1000.0}) {
-            const double expected = reboundOf({Vec3::Zero(), Vec3(0, -speed, 0), mass, 0.15, 2.0}, floor.law);
+            const double expected = reboundOf({{Vec3::Zero(), Vec3(0, -speed, 0), 0.15, 2.0}, mass}, floor.law);
             for (const double start : {0.15, 0.16, 0.18, 0.2, 0.3, 1.1}) {
                 BallisticState flight{{Vec3(0, start, 0), Vec3(2, -speed, 0), 0.15, 2.0}, mass};
                 advanceThroughContacts(floor, flight, 0.5 + 1.0 / speed);
