@@ -10,7 +10,7 @@ namespace engine {
 void PairMatrix::add(std::size_t laneSlot, std::uint32_t other, double alongOf, double acrossOf) {
     const std::size_t block = NeighborRows::blockOf(laneSlot);
     const std::size_t at = rows.at(laneSlot, rows.length[laneSlot]++);
-    rows.blocks[block].setSortedIndex(at, other);
+    rows.blocks[block].entries[at] = static_cast<std::int32_t>(other);
     along[block][at] = alongOf;
     if (!across.empty()) across[block][at] = acrossOf;
 }
@@ -26,12 +26,9 @@ void makeRoom(PairMatrix& matrix, const NeighborList& list, bool hasFriction) {
         const RowBlock& like = list.rows.blocks[block];
         RowBlock& rows = matrix.rows.blocks[block];
         rows.start = like.start;
-        rows.base = like.base;
-        rows.entries16.resize(like.entries16.size());
-        rows.entries32.resize(like.entries32.size());
-        const std::size_t room = std::max(like.entries16.size(), like.entries32.size());
-        matrix.along[block].resize(room);
-        if (hasFriction) matrix.across[block].resize(room);
+        rows.entries.resize(like.entries.size());
+        matrix.along[block].resize(like.entries.size());
+        if (hasFriction) matrix.across[block].resize(like.entries.size());
     });
 }
 
@@ -45,8 +42,7 @@ void close(PairMatrix& matrix) {
         for (std::size_t laneSlot = cluster * kClusterSize; laneSlot < end; ++laneSlot) {
             for (std::uint32_t k = matrix.rows.length[laneSlot]; k < longest; ++k) {
                 const std::size_t at = matrix.rows.at(laneSlot, k);
-                matrix.rows.blocks[block].setSortedIndex(at,
-                                                         static_cast<std::uint32_t>(matrix.rows.ownIndices[laneSlot]));
+                matrix.rows.blocks[block].entries[at] = matrix.rows.ownIndices[laneSlot];
                 matrix.along[block][at] = 0.0;
                 if (!matrix.across.empty()) matrix.across[block][at] = 0.0;
             }

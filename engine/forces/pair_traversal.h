@@ -93,7 +93,7 @@ struct PairTraversal {
             const std::uint32_t end = std::min(begin + kSieve, length);
             std::size_t found = 0;
             for (std::uint32_t k = begin; k < end; ++k) {
-                const std::uint32_t other = block.sortedIndexAt(first + k * kClusterSize);
+                const auto other = static_cast<std::uint32_t>(block.entries[first + k * kClusterSize]);
                 within[found] = other;
                 found += squaredLength(separationOf(p, packed[other])) < cutoffSq ? 1U : 0U;
             }

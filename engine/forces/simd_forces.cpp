@@ -14,12 +14,12 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-Doubles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, std::uint32_t from, Doubles* /*kind*/) {
-    return Doubles(pass.packed.data(), ownIndices, from);
+Doubles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, Doubles* /*kind*/) {
+    return Doubles(pass.packed.data(), ownIndices);
 }
 
-Singles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, std::uint32_t from, Singles* /*kind*/) {
-    return Singles(pass.packedFloats.data(), ownIndices, from);
+Singles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, Singles* /*kind*/) {
+    return Singles(pass.packedFloats.data(), ownIndices);
 }
 
 /// The matrix's rows of a block of lanes as they fill up: every pair is written, and the sortedIndex to write moves on
@@ -30,8 +30,8 @@ struct MatrixRows {
     std::size_t first;  ///< laneSlot of the first lane
     std::array<std::uint32_t, kClusterSize> length = {};
 
-    template <bool hasFriction, class Entry>
-    void add(const Entry* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
+    template <bool hasFriction>
+    void add(const std::int32_t* others, Lanes<T> along, Lanes<T> across, hn::Mask<Tag<T>> isPair) {
         constexpr Tag<T> kTag{};
         std::array<T, kClusterSize> alongOf, acrossOf;
         hn::StoreU(along, kTag, alongOf.data());
@@ -44,7 +44,7 @@ struct MatrixRows {
         const std::size_t block = NeighborRows::blockOf(first);
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane) {
             const std::size_t at = matrix->rows.at(first + lane, length[lane]);
-            entriesOf<Entry>(matrix->rows.blocks[block])[at] = others[lane];
+            matrix->rows.blocks[block].entries[at] = others[lane];
             matrix->along[block][at] = static_cast<double>(alongOf[lane]);
             if constexpr (hasFriction) matrix->across[block][at] = static_cast<double>(acrossOf[lane]);
             length[lane] += (bits >> lane) & 1U;
@@ -68,20 +68,20 @@ void add(Vector3<V>& sum, V factor, const Vector3<V>& vector) {
 
 /// A block of lanes of a cluster, from one of its lanes on. Flattened: where anything in the loop is a call, every
 /// vector goes through memory and it takes twice as long under AVX-512.
-template <class Source, class Kind, class Entry>
+template <class Source, class Kind>
 HWY_FLATTEN void addUpBlock(const SimdPass& pass, std::size_t cluster, std::size_t lane, ClusterSums& sums) {
     using T = typename Source::T;
     constexpr Tag<T> kTag{};
     const std::size_t first = cluster * kClusterSize + lane;
     const std::uint32_t longest = longestRow<T>(pass.rows, first);
     const RowBlock& block = pass.rows.blocks[NeighborRows::blockOf(first)];
-    const Source source = sourceOf(pass, &pass.rows.ownIndices[first], block.base, static_cast<Source*>(nullptr));
+    const Source source = sourceOf(pass, &pass.rows.ownIndices[first], static_cast<Source*>(nullptr));
     const Law<T, Kind> law(pass.constants, pass.weights, pass.unit);
     Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     Lanes<T> energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     [[maybe_unused]] MatrixRows<T> matrixRows{pass.matrix, first};
-    const Entry* entry = &entriesOf<Entry>(block)[pass.rows.at(first, 0)];
+    const std::int32_t* entry = &block.entries[pass.rows.at(first, 0)];
     constexpr bool kVelocity = Kind::kPair.damping;
     auto ahead = source.template load<kVelocity>(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kClusterSize) {
@@ -139,10 +139,7 @@ HWY_FLATTEN void addUpBlock(const SimdPass& pass, std::size_t cluster, std::size
 template <class Source, class Kind>
 void addUpLanes(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
     const std::size_t step = hn::Lanes(Tag<typename Source::T>());
-    const bool uses32Bits = pass.rows.blocks[NeighborRows::blockOf(cluster * kClusterSize)].uses32Bits();
-    for (std::size_t lane = 0; lane < kClusterSize; lane += step)
-        uses32Bits ? addUpBlock<Source, Kind, std::int32_t>(pass, cluster, lane, sums)
-                   : addUpBlock<Source, Kind, std::uint16_t>(pass, cluster, lane, sums);
+    for (std::size_t lane = 0; lane < kClusterSize; lane += step) addUpBlock<Source, Kind>(pass, cluster, lane, sums);
 }
 
 template <class Source, PairTerms terms>

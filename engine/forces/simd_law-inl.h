@@ -51,17 +51,17 @@ struct Law {
     }
 
     /// Shape:  unit of the rows' separations, m.
-    Law(const PairConstants<double>& entries32, const MatrixWeights& weights, double unitLength) {
-        c.b1 = static_cast<T>(entries32.b1);
-        c.bd = static_cast<T>(entries32.bd);
-        c.inverseRestSq = inverseOfRounded(entries32.inverseRestSq);
-        c.inverseReachSq = inverseOfRounded(entries32.inverseReachSq);
-        c.inverseDampingSq = inverseOfRounded(entries32.inverseDampingSq);
-        c.reachSq = static_cast<T>(entries32.reachSq);
-        c.coreSq = static_cast<T>(entries32.coreSq);
+    Law(const PairConstants<double>& exact, const MatrixWeights& weights, double unitLength) {
+        c.b1 = static_cast<T>(exact.b1);
+        c.bd = static_cast<T>(exact.bd);
+        c.inverseRestSq = inverseOfRounded(exact.inverseRestSq);
+        c.inverseReachSq = inverseOfRounded(exact.inverseReachSq);
+        c.inverseDampingSq = inverseOfRounded(exact.inverseDampingSq);
+        c.reachSq = static_cast<T>(exact.reachSq);
+        c.coreSq = static_cast<T>(exact.coreSq);
         b1 = set(c.b1);
         bd = set(c.bd);
-        bdPerUnit = set(static_cast<T>(entries32.bd * unitLength));
+        bdPerUnit = set(static_cast<T>(exact.bd * unitLength));
         inverseRestSq = set(c.inverseRestSq);
         inverseReachSq = set(c.inverseReachSq);
         reachSq = set(c.reachSq);
@@ -69,7 +69,7 @@ struct Law {
         coreSq = set(c.coreSq);
         unitSq = set(static_cast<T>(unitLength * unitLength));
         perUnit = set(static_cast<T>(1.0 / unitLength));
-        if constexpr (Kind::kPair.friction) friction = set(static_cast<T>(entries32.friction));
+        if constexpr (Kind::kPair.friction) friction = set(static_cast<T>(exact.friction));
         if constexpr (Kind::kEnergy) {
             const T reachOf = std::sqrt(c.reachSq);
             const T inverse = T(1) / reachOf;

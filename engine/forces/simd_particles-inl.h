@@ -42,22 +42,6 @@ std::uint32_t longestRow(const NeighborRows& rows, std::size_t first) {
     return longest;
 }
 
-/// Entries of a row as numbers of 32 bits.
-template <class T, class Entry>
-Indices<T> indicesFrom(const Entry* entries) {
-    constexpr hn::Rebind<std::int32_t, Tag<T>> kPlaces;
-    const auto read = hn::LoadU(hn::Rebind<Entry, Tag<T>>(), entries);
-    if constexpr (sizeof(Entry) < sizeof(std::int32_t))
-        return hn::PromoteTo(kPlaces, read);
-    else
-        return read;
-}
-
-template <class V>
-V countedFrom(std::uint32_t base, V sortedIndices) {
-    return hn::Sub(sortedIndices, hn::Set(hn::DFromV<V>(), static_cast<std::int32_t>(base)));
-}
-
 /// The particles of a block of lanes in double: positions as they are.
 struct Doubles {
     using T = double;
@@ -70,14 +54,13 @@ struct Doubles {
     Others<V, V> own;
 
     /// Shape:  where the particles are among the packed; the record that sortedIndices of rows count from.
-    Doubles(const PackedParticle* packed, const std::int32_t* ownIndices, std::uint32_t from) : base(&packed[0].x) {
+    Doubles(const PackedParticle* packed, const std::int32_t* ownIndices) : base(&packed[0].x) {
         own = load<true>(ownIndices);
-        base = &packed[from].x;
-        self = countedFrom(from, hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), ownIndices));
+        self = hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), ownIndices);
     }
 
-    template <bool needsVelocity, class Entry>
-    Others<V, V> load(const Entry* sortedIndices) const {
+    template <bool needsVelocity>
+    Others<V, V> load(const std::int32_t* sortedIndices) const {
         Vector3<V> x;
         Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
 #if HWY_TARGET == HWY_SCALAR
@@ -100,7 +83,7 @@ struct Doubles {
         }
 #else
         // Numbers two by two, of every other record from one on.
-        const auto pairs = [](const double* field, const Entry* from) {
+        const auto pairs = [](const double* field, const std::int32_t* from) {
             return blocksFrom(kTag, field, kStride, from, 2);
         };
         const V xy0 = pairs(base, sortedIndices), xy1 = pairs(base, sortedIndices + 1);
@@ -116,20 +99,20 @@ struct Doubles {
         return {x, v};
     }
 
-    template <bool needsVelocity, class Entry>
-    Row<double> row(const Entry* sortedIndices, const Others<V, V>& others) const {
+    template <bool needsVelocity>
+    Row<double> row(const std::int32_t* sortedIndices, const Others<V, V>& others) const {
         const hn::Rebind<std::int64_t, Tag<double>> kWide;
         Row<double> row;
         row.isPair = hn::RebindMask(
-            kTag, hn::Ne(hn::PromoteTo(kWide, indicesFrom<double>(sortedIndices)), hn::PromoteTo(kWide, self)));
+            kTag, hn::Ne(hn::PromoteTo(kWide, hn::LoadU(hn::Rebind<std::int32_t, Tag<double>>(), sortedIndices)),
+                         hn::PromoteTo(kWide, self)));
         row.separation = difference(own.position, others.position);
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
         return row;
     }
 
     /// Of pairs of a row without separation those that share their position: all, or nearly.
-    template <class Entry>
-    hn::Mask<Tag<double>> sharePlace(const Entry* /*sortedIndices*/, hn::Mask<Tag<double>> pairs) const {
+    hn::Mask<Tag<double>> sharePlace(const std::int32_t* /*sortedIndices*/, hn::Mask<Tag<double>> pairs) const {
         return pairs;
     }
 };
@@ -150,15 +133,14 @@ struct Singles {
     Others<I, V> own;
 
     /// Shape:  as Doubles has it.
-    Singles(const PackedParticleFloat* all, const std::int32_t* ownIndices, std::uint32_t from)
-        : packed(all + from), base(reinterpret_cast<const float*>(all)) {
+    Singles(const PackedParticleFloat* all, const std::int32_t* ownIndices)
+        : packed(all), base(reinterpret_cast<const float*>(all)) {
         own = load<true>(ownIndices);
-        base = reinterpret_cast<const float*>(packed);
-        self = countedFrom(from, hn::LoadU(kWhole, ownIndices));
+        self = hn::LoadU(kWhole, ownIndices);
     }
 
-    template <bool needsVelocity, class Entry>
-    Others<I, V> load(const Entry* sortedIndices) const {
+    template <bool needsVelocity>
+    Others<I, V> load(const std::int32_t* sortedIndices) const {
         Vector3<I> x;
         Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
         const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
@@ -191,7 +173,7 @@ struct Singles {
         if constexpr (needsVelocity) v = {oddBlocks(a.xu, b.xu), oddBlocks(a.yv, b.yv), oddBlocks(a.zw, b.zw)};
 #else
         // Numbers four by four, of every fourth record from one on.
-        const auto fours = [](const float* field, const Entry* from) {
+        const auto fours = [](const float* field, const std::int32_t* from) {
             return blocksFrom(kTag, field, kStride, from, 4);
         };
         const auto fields = [&](const float* field) {
@@ -208,10 +190,10 @@ struct Singles {
         return {x, v};
     }
 
-    template <bool needsVelocity, class Entry>
-    Row<float> row(const Entry* sortedIndices, const Others<I, V>& others) const {
+    template <bool needsVelocity>
+    Row<float> row(const std::int32_t* sortedIndices, const Others<I, V>& others) const {
         Row<float> row;
-        row.isPair = hn::RebindMask(kTag, hn::Ne(indicesFrom<float>(sortedIndices), self));
+        row.isPair = hn::RebindMask(kTag, hn::Ne(hn::LoadU(kWhole, sortedIndices), self));
         const Vector3<I> units = difference(own.position, others.position);
         row.separation = {hn::ConvertTo(kTag, units.x), hn::ConvertTo(kTag, units.y), hn::ConvertTo(kTag, units.z)};
         if constexpr (needsVelocity) row.velocity = difference(own.velocity, others.velocity);
@@ -219,8 +201,7 @@ struct Singles {
     }
 
     /// Of pairs of a row without separation those that share their position: others are only nearer than a unit.
-    template <class Entry>
-    hn::Mask<Tag<float>> sharePlace(const Entry* sortedIndices, hn::Mask<Tag<float>> pairs) const {
+    hn::Mask<Tag<float>> sharePlace(const std::int32_t* sortedIndices, hn::Mask<Tag<float>> pairs) const {
         std::array<std::uint8_t, 8> bits = {};
         std::array<std::int32_t, kClusterSize> ownIndices;
         hn::StoreU(self, kWhole, ownIndices.data());

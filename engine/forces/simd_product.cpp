@@ -13,19 +13,19 @@ namespace engine {
 namespace HWY_NAMESPACE {
 
 /// Flattened, as the forces' kernel is.
-template <bool hasFriction, class Entry>
+template <bool hasFriction>
 HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t cluster, std::size_t lane,
                                ClusterProduct& product) {
     constexpr Tag<double> kTag{};
     const std::size_t first = cluster * kClusterSize + lane;
     const std::size_t block = NeighborRows::blockOf(first);
     const RowBlock& rows = matrix.rows.blocks[block];
-    const Doubles source(matrix.packed.data(), &matrix.rows.ownIndices[first], rows.base);
+    const Doubles source(matrix.packed.data(), &matrix.rows.ownIndices[first]);
     const std::uint32_t longest = longestRow<double>(matrix.rows, first);
     Vector3<Lanes<double>> sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     std::size_t entry = matrix.rows.at(first, 0);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kClusterSize) {
-        const Entry* sortedIndices = &entriesOf<Entry>(rows)[entry];
+        const std::int32_t* sortedIndices = &rows.entries[entry];
         fetchAhead(sortedIndices);
         fetchAhead(&matrix.along[block][entry]);
         const Row<double> row = source.row<true>(sortedIndices, source.load<true>(sortedIndices));
@@ -46,18 +46,15 @@ HWY_FLATTEN void multiplyBlock(const PairMatrix& matrix, std::size_t cluster, st
     hn::StoreU(sum.z, kTag, &product.z[lane]);
 }
 
-template <class Entry>
 void multiplyLanes(const PairMatrix& matrix, std::size_t cluster, ClusterProduct& product) {
     const bool hasFriction = !matrix.across.empty();
     for (std::size_t lane = 0; lane < kClusterSize; lane += hn::Lanes(Tag<double>()))
-        hasFriction ? multiplyBlock<true, Entry>(matrix, cluster, lane, product)
-                    : multiplyBlock<false, Entry>(matrix, cluster, lane, product);
+        hasFriction ? multiplyBlock<true>(matrix, cluster, lane, product)
+                    : multiplyBlock<false>(matrix, cluster, lane, product);
 }
 
 void multiplyClusterHere(const PairMatrix& matrix, std::size_t cluster, ClusterProduct& product) {
-    matrix.rows.blocks[NeighborRows::blockOf(cluster * kClusterSize)].uses32Bits()
-        ? multiplyLanes<std::int32_t>(matrix, cluster, product)
-        : multiplyLanes<std::uint16_t>(matrix, cluster, product);
+    multiplyLanes(matrix, cluster, product);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -171,7 +171,7 @@ struct Search {
 void findInReachHere(const Candidates& candidates, const Neighborhood& around, CellRange ownIndices, double reach,
                      Surroundings& scratch, FoundRows& rows, std::uint32_t* lengths) {
     const std::uint32_t count = countOf(around);
-    const std::size_t room = count + 2 * kSearchOverhang + kRowPadding;
+    const std::size_t room = count + 4 * kSearchOverhang;
     if (scratch.sortedIndices.size() < room) {
         for (std::vector<float>* of : {&scratch.x, &scratch.y, &scratch.z}) of->resize(2 * room);
         scratch.sortedIndices.resize(2 * room);
@@ -189,8 +189,6 @@ void findInReachHere(const Candidates& candidates, const Neighborhood& around, C
             const std::size_t length = search.pick(self - begin, &rows.sortedIndices[rows.used]);
             lengths[self - ownIndices.begin] = static_cast<std::uint32_t>(length);
             rows.used += length;
-            std::fill_n(&rows.sortedIndices[rows.used], kRowPadding, self);
-            rows.used += kRowPadding;
         }
         begin = end;
     }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/neighbors/cell_grid.h"
-#include "engine/neighbors/row_layout.h"
 
 namespace engine {
 

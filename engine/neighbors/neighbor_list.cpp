@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 
 #include "engine/core/bounding_box.h"
 #include "engine/core/parallel.h"
-#include "engine/neighbors/row_layout.h"
 
 namespace engine {
 namespace {
@@ -35,12 +33,11 @@ std::array<std::uint32_t, kSlotsPerBlock> ranksOf(const std::uint32_t* lengths, 
     return ranks;
 }
 
-/// Rows of a block as they are found, in the order of sortedIndices. Kept by each thread.
+/// Rows of a block in the order in which they are found, that of sorted indices. Kept by each thread.
 struct FoundBlock {
     Surroundings surroundings;
     FoundRows rows;
     std::array<std::uint32_t, kSlotsPerBlock> lengths;
-    CellRange around;  ///< from the first sortedIndex to the last that may occur
 };
 
 /// What is around some cells is looked at once for so many particles, if they are no further apart than float sees
@@ -49,98 +46,77 @@ struct FoundBlock {
 constexpr std::uint32_t kRunParticles = 12;
 constexpr auto kRunCells = static_cast<std::uint32_t>(kClearSight);
 
+/// Finds the neighbors of the particles in a range of sorted indices.
 void search(const NeighborList& list, const CellRange& range, FoundBlock& found) {
     found.rows.used = 0;
-    found.around = range;
     const CellGrid& grid = list.scratch.grid;
     std::uint32_t cell = cellOfSortedIndex(grid, range.begin);
-    for (std::uint32_t sortedIndex = range.begin; sortedIndex < range.end;) {
-        while (grid.start[cell + 1] <= sortedIndex) ++cell;
+    for (std::uint32_t first = range.begin; first < range.end;) {
+        while (grid.start[cell + 1] <= first) ++cell;
         const CellRun run = runFrom(grid, cell, kRunParticles, kRunCells);
-        const CellRange ownIndices{sortedIndex, std::min(grid.start[run.last + 1], range.end)};
-        const Neighborhood around = neighborhood(grid, run);
-        for (int r = 0; r < around.count; ++r) {
-            found.around.begin = std::min(found.around.begin, around.ranges[static_cast<std::size_t>(r)].begin);
-            found.around.end = std::max(found.around.end, around.ranges[static_cast<std::size_t>(r)].end);
-        }
-        findInReach(list.scratch.candidates, around, ownIndices, list.reach, found.surroundings, found.rows,
-                    &found.lengths[sortedIndex - range.begin]);
-        sortedIndex = ownIndices.end;
+        const CellRange own{first, std::min(grid.start[run.last + 1], range.end)};
+        findInReach(list.scratch.candidates, neighborhood(grid, run), own, list.reach, found.surroundings, found.rows,
+                    &found.lengths[first - range.begin]);
+        first = own.end;
     }
 }
 
-/// Rows of a block by laneSlot.
-using SlottedRows = std::array<const std::uint32_t*, kSlotsPerBlock>;
-
-/// Seats the particles of a block.
-SlottedRows assignLaneSlots(NeighborList& list, const CellRange& range, const FoundBlock& found) {
-    SlottedRows rows;
+/// Assigns the particles of a block to its lane slots. Returns the found row of each slot; nullptr in empty slots.
+std::array<const std::uint32_t*, kSlotsPerBlock> assignLaneSlots(NeighborList& list, const CellRange& range,
+                                                                 const FoundBlock& found) {
+    std::array<const std::uint32_t*, kSlotsPerBlock> rows = {};
     const std::uint32_t* next = found.rows.sortedIndices.data();
     const std::uint32_t count = range.end - range.begin;
     const auto ranks = ranksOf(found.lengths.data(), count);
-    for (std::uint32_t of = 0; of < count; ++of) {
-        const std::uint32_t sortedIndex = range.begin + of;
-        const std::uint32_t laneSlot = range.begin + ranks[of];
-        rows[ranks[of]] = next;
-        next += found.lengths[of] + kRowPadding;
-        list.rows.length[laneSlot] = found.lengths[of];
-        list.rows.ownIndices[laneSlot] = static_cast<std::int32_t>(sortedIndex);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t laneSlot = range.begin + ranks[k];
+        rows[ranks[k]] = next;
+        next += found.lengths[k];
+        list.rows.length[laneSlot] = found.lengths[k];
+        list.rows.ownIndices[laneSlot] = static_cast<std::int32_t>(range.begin + k);
     }
-    // Where nobody is, the last one's padding.
-    std::fill(rows.begin() + count, rows.end(), next - kRowPadding);
     return rows;
 }
 
-/// Room for so many entries, and not much more: rows of a block change little from list to list.
-template <class Entry>
-void makeRoom(std::vector<Entry>& sortedIndices, std::size_t entries) {
-    if (sortedIndices.capacity() < entries) {
-        sortedIndices = std::vector<Entry>();
-        sortedIndices.reserve(entries + entries / 8);
+/// Makes room for some entries, and for little more: rows of a block change little from list to list.
+void makeRoom(std::vector<std::int32_t>& entries, std::size_t count) {
+    if (entries.capacity() < count) {
+        entries = std::vector<std::int32_t>();
+        entries.reserve(count + count / 8);
     }
-    sortedIndices.resize(entries);
+    entries.resize(count);
 }
 
-/// Lays out the rows of the clusters of a block. Shape: length: of each laneSlot's row.
-template <class Entry>
-void layOut(const SlottedRows& slotted, const std::uint32_t* length, std::size_t clusters, RowBlock& block) {
-    std::vector<Entry>& entries = entriesOf<Entry>(block);
-    makeRoom(entries, (block.start[clusters] + 1) * kClusterSize);
-    std::fill(entries.end() - kClusterSize, entries.end(), Entry(0));
-    for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
-        ClusterRows rows;
-        std::copy_n(&slotted[cluster * kClusterSize], kClusterSize, rows.row.begin());
-        std::copy_n(length + cluster * kClusterSize, kClusterSize, rows.length.begin());
-        rows.longest = block.start[cluster + 1] - block.start[cluster];
-        interleave(rows, block.base, &entries[block.start[cluster] * kClusterSize]);
-    }
+/// Writes a found row into one lane of its cluster and pads it to the length of the longest.
+void writeLane(const std::uint32_t* row, std::uint32_t length, std::uint32_t longest, std::int32_t padding,
+               std::int32_t* entry) {
+    for (std::uint32_t k = 0; k < length; ++k, entry += kClusterSize) *entry = static_cast<std::int32_t>(row[k]);
+    for (std::uint32_t k = length; k < longest; ++k, entry += kClusterSize) *entry = padding;
 }
 
-/// Finds the rows of a block and lays them out.
+/// Finds the rows of a block and interleaves them while they are in the thread's cache.
 void fill(NeighborList& list, std::size_t number) {
     thread_local FoundBlock found;
     const CellRange range = rangeOf(list, number);
     search(list, range, found);
     const CellGrid& grid = list.scratch.grid;
     list.fronts[number] = frontOf(grid, cellOfSortedIndex(grid, range.begin), cellOfSortedIndex(grid, range.end - 1));
-    const SlottedRows slotted = assignLaneSlots(list, range, found);
+    const auto rows = assignLaneSlots(list, range, found);
     RowBlock& block = list.rows.blocks[number];
-    const std::uint32_t* const length = &list.rows.length[range.begin];
+    const std::uint32_t* const lengths = &list.rows.length[range.begin];
     const std::size_t clusters = (range.end - range.begin + kClusterSize - 1) / kClusterSize;
-    block.start[0] = 0;
     for (std::size_t cluster = 0; cluster < kClustersPerBlock; ++cluster) {
-        const std::uint32_t* const first = length + cluster * kClusterSize;
+        const std::uint32_t* const first = lengths + cluster * kClusterSize;
         block.start[cluster + 1] =
             block.start[cluster] + (cluster < clusters ? *std::max_element(first, first + kClusterSize) : 0);
     }
-    block.base = found.around.begin;
-    constexpr std::uint32_t kNarrow = std::numeric_limits<std::uint16_t>::max();
-    if (found.around.end - 1 - block.base <= kNarrow) {
-        block.entries32 = std::vector<std::int32_t>();
-        layOut<std::uint16_t>(slotted, length, clusters, block);
-    } else {
-        block.entries16 = std::vector<std::uint16_t>();
-        layOut<std::int32_t>(slotted, length, clusters, block);
+    makeRoom(block.entries, (block.start[clusters] + 1) * kClusterSize);
+    std::fill(block.entries.end() - kClusterSize, block.entries.end(), 0);  // kernels may read it
+    for (std::size_t slot = 0; slot < clusters * kClusterSize; ++slot) {
+        const std::size_t cluster = slot / kClusterSize;
+        writeLane(rows[slot], lengths[slot], block.start[cluster + 1] - block.start[cluster],
+                  list.rows.ownIndices[range.begin + slot],
+                  &block.entries[block.start[cluster] * kClusterSize + slot % kClusterSize]);
     }
 }
 
@@ -221,14 +197,13 @@ bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double
 
 std::size_t roomOf(const NeighborRows& rows) {
     std::size_t sum = 0;
-    for (const RowBlock& block : rows.blocks)
-        sum += block.uses32Bits() ? block.entries32.capacity() : block.entries16.capacity();
+    for (const RowBlock& block : rows.blocks) sum += block.entries.capacity();
     return sum;
 }
 
 std::size_t bytesOf(const NeighborRows& rows) {
     std::size_t sum = bytesHeld(rows.ownIndices, rows.length, rows.blocks);
-    for (const RowBlock& block : rows.blocks) sum += block.bytes();
+    for (const RowBlock& block : rows.blocks) sum += bytesHeld(block.entries);
     return sum;
 }
 

@@ -1,6 +1,7 @@
-// Rows of neighbors as vector units read them: a particle a lane, sixteen particles a cluster, the rows of a cluster
-// interleaved. Every lane walks its own row in the list's order, so that a sum over it does not depend on how many
-// lanes an instruction set has.
+// The rows of the neighbor list as SIMD kernels read them: one particle in each lane, kClusterSize particles in a
+// cluster, the rows of a cluster interleaved. Every lane reads its own row in the list's order, so that a sum over a
+// row does not depend on how many lanes the instruction set has. Filled by neighbor_list.cpp and pair_matrix.cpp, read
+// by the kernels of engine/forces.
 #pragma once
 
 #include <array>
@@ -10,73 +11,43 @@
 
 namespace engine {
 
-/// As many lanes as the widest instruction set has of the smallest number.
+/// Particles in a cluster: as many as the widest instruction set has lanes of floats.
 inline constexpr std::size_t kClusterSize = 16;
 
-/// Groups whose rows are found and kept together, and whose neighbors are mostly the same. Chosen: some tens of
+/// Clusters whose rows are found and stored together, by one thread. Chosen: finding them takes some tens of
 /// microseconds in a dense scene.
 inline constexpr std::size_t kClustersPerBlock = 8;
 
-/// Seats of a block.
+/// Lane slots in a block.
 inline constexpr std::size_t kSlotsPerBlock = kClustersPerBlock * kClusterSize;
 
-/// The rows of some clusters: sortedIndices counted from a base, in half a word each, unless what is around the
-/// clusters spans too many of them. Kernels read one row beyond the last.
+/// The rows of kClustersPerBlock clusters. Entry k of every lane of a cluster stands side by side: kClusterSize sorted
+/// indices. Kernels may read one such group of entries beyond the last.
 struct RowBlock {
-    std::array<std::uint32_t, kClustersPerBlock + 1> start = {};  ///< of each cluster, in rows of kClusterSize entries
-    std::uint32_t base = 0;
-    std::vector<std::uint16_t> entries16;
-    std::vector<std::int32_t> entries32;  ///< empty where entries16 ones suffice
-
-    bool uses32Bits() const { return !entries32.empty(); }
-
-    /// The sortedIndex that an entry stands for.
-    std::uint32_t sortedIndexAt(std::size_t at) const {
-        return base + (uses32Bits() ? static_cast<std::uint32_t>(entries32[at]) : entries16[at]);
-    }
-
-    std::size_t bytes() const {
-        return entries16.capacity() * sizeof(entries16[0]) + entries32.capacity() * sizeof(entries32[0]);
-    }
-
-    void setSortedIndex(std::size_t at, std::uint32_t sortedIndex) {
-        if (uses32Bits())
-            entries32[at] = static_cast<std::int32_t>(sortedIndex - base);
-        else
-            entries16[at] = static_cast<std::uint16_t>(sortedIndex - base);
-    }
+    std::array<std::uint32_t, kClustersPerBlock + 1> start = {};  ///< of each cluster, in groups of kClusterSize
+    std::vector<std::int32_t> entries;                            ///< sorted indices of neighbors
 };
 
-/// A block's entries of either width.
-template <class Entry, class Part>
-auto& entriesOf(Part& block) {
-    if constexpr (sizeof(Entry) == sizeof(std::uint16_t))
-        return block.entries16;
-    else
-        return block.entries32;
-}
-
-/// Each particle has a laneSlot, a lane of a cluster, beside others with rows of like length. Rows that are shorter
-/// than the longest of their cluster are filled up with their own particle's sortedIndex.
+/// Every particle has a lane slot: its cluster and its lane there, beside particles with rows of similar length. Rows
+/// that are shorter than the longest of their cluster are padded with the sorted index of their own particle.
 struct NeighborRows {
-    std::vector<std::int32_t>
-        ownIndices;                     ///< sortedIndex of the particle in each laneSlot; beyond the last, the last one
-    std::vector<std::uint32_t> length;  ///< entries of each laneSlot's row; 0 beyond the last
+    std::vector<std::int32_t> ownIndices;  ///< sorted index of the particle in each slot; the last one's in empty slots
+    std::vector<std::uint32_t> length;     ///< neighbors of the particle in each slot; 0 in empty slots
     std::vector<RowBlock> blocks;
 
     std::size_t clusterCount() const { return ownIndices.size() / kClusterSize; }
 
     static std::size_t blockOf(std::size_t laneSlot) { return laneSlot / kSlotsPerBlock; }
 
-    /// Where entry k of a laneSlot's row stands in its block.
+    /// Position of entry k of a slot's row in the entries of its block.
     std::size_t at(std::size_t laneSlot, std::size_t k) const {
         const std::size_t cluster = laneSlot % kSlotsPerBlock / kClusterSize;
         return (blocks[blockOf(laneSlot)].start[cluster] + k) * kClusterSize + laneSlot % kClusterSize;
     }
 
-    /// The sortedIndex that entry k of a laneSlot's row stands for.
+    /// Sorted index in entry k of a slot's row.
     std::uint32_t sortedIndexAt(std::size_t laneSlot, std::size_t k) const {
-        return blocks[blockOf(laneSlot)].sortedIndexAt(at(laneSlot, k));
+        return static_cast<std::uint32_t>(blocks[blockOf(laneSlot)].entries[at(laneSlot, k)]);
     }
 };
 

@@ -49,8 +49,8 @@ HWY_INLINE void fetchAhead(const Entry* row) {
 
 #if HWY_TARGET != HWY_SCALAR
 /// Blocks of 128 bits side by side, as many as a vector has: of every so many sortedIndices one record's, at the base.
-template <class D, class Entry>
-HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const Entry* sortedIndices,
+template <class D>
+HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const std::int32_t* sortedIndices,
                                  std::size_t every) {
     constexpr std::size_t kBlocks = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
     if constexpr (kBlocks <= 1) {
@@ -78,8 +78,7 @@ HWY_INLINE hn::Vec<Tag<double>> halvesFrom(const double* base, std::int64_t stri
 }
 
 /// Blocks of 128 bits of every other of eight sortedIndices' packed.
-template <class Entry>
-HWY_INLINE hn::Vec<Tag<double>> blocksOf(const double* base, std::int64_t stride, const Entry* sortedIndices) {
+HWY_INLINE hn::Vec<Tag<double>> blocksOf(const double* base, std::int64_t stride, const std::int32_t* sortedIndices) {
     const auto block = [&](int at) { return _mm_load_pd(base + stride * sortedIndices[at]); };
     __m512d four = _mm512_castpd128_pd512(block(0));
     four = _mm512_mask_broadcast_f64x2(four, 0x0C, block(2));

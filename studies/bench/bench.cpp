@@ -154,7 +154,7 @@ class Bench {
         std::uint64_t hash = engine::fnv1a("");
         for (const engine::RowBlock& block : list.rows.blocks)
             for (std::size_t at = 0; at < block.start.back() * engine::kClusterSize; ++at)
-                hash = engine::fnv1a(std::uint64_t{block.sortedIndexAt(at)}, hash);
+                hash = engine::fnv1a(static_cast<std::uint64_t>(block.entries[at]), hash);
         row.stateHash = engine::hexadecimal(hash);
         add(row);
     }

@@ -38,9 +38,7 @@ void checkSame(const NeighborList& list, const NeighborList& expected) {
     REQUIRE(list.rows.blocks.size() == expected.rows.blocks.size());
     for (std::size_t block = 0; block < list.rows.blocks.size(); ++block) {
         CHECK(list.rows.blocks[block].start == expected.rows.blocks[block].start);
-        CHECK(list.rows.blocks[block].base == expected.rows.blocks[block].base);
-        CHECK(list.rows.blocks[block].entries16 == expected.rows.blocks[block].entries16);
-        CHECK(list.rows.blocks[block].entries32 == expected.rows.blocks[block].entries32);
+        CHECK(list.rows.blocks[block].entries == expected.rows.blocks[block].entries);
     }
 }
 
@@ -246,63 +244,6 @@ TEST_CASE("Rows are filled up to the longest of their cluster with their own par
                       static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]));
         }
     }
-}
-
-namespace {
-
-/// A slab of about one particle a cell: the layer in the middle has 2^16 sortedIndices and more between those beside
-/// it.
-std::vector<Vec3> slab() {
-    constexpr std::uint64_t kCount = 110000;
-    const Vec3 half = Vec3(95.0, 95.0, 1.4) * (kCutoff + kSkin);
-    std::vector<Vec3> positions;
-    for (std::uint64_t p = 0; p < kCount; ++p) positions.push_back(clouds::randomVector(41, p).cwiseProduct(half));
-    return positions;
-}
-
-}  // namespace
-
-TEST_CASE("Rows hold neighbors whose sortedIndices are too far apart for half words", "[neighbor-list]") {
-    const std::vector<Vec3> positions = slab();
-    std::vector<NeighborList> lists;
-    for (const std::string& name : instructionSets()) {
-        const OnInstructionSet only(name);
-        lists.emplace_back();
-        build(lists.back(), positions, kCutoff, kSkin);
-        checkSame(lists.back(), lists.front());
-    }
-    const NeighborList& list = lists.front();
-    std::size_t entries32 = 0;
-    for (const RowBlock& block : list.rows.blocks) {
-        entries32 += block.uses32Bits() ? 1U : 0U;
-        CHECK(block.entries16.empty() == block.uses32Bits());
-    }
-    CHECK(entries32 > 0);
-    CHECK(entries32 < list.rows.blocks.size());
-    CHECK(list.fronts.size() == list.rows.blocks.size());
-    for (std::size_t laneSlot = 0; laneSlot < list.count(); laneSlot += 1999) {
-        const std::uint32_t p = particleIn(list, laneSlot);
-        INFO("particle " << p);
-        CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, laneSlot)));
-        CHECK(isWithin(rowOf(list, laneSlot), neighborsOf(positions, p, (kCutoff + kSkin) * std::sqrt(kFarthest))));
-    }
-}
-
-TEST_CASE("Rows of either width take the sortedIndex of the other's", "[neighbor-list]") {
-    const std::vector<Vec3> cloud = clouds::strewn(110000, 8.0).position;
-    const std::vector<Vec3> flat = slab();
-    NeighborList expected[2];
-    build(expected[0], flat, kCutoff, kSkin);
-    build(expected[1], cloud, 0.1 * kCutoff, 0.1 * kSkin);
-    NeighborList list;
-    for (int round = 0; round < 2; ++round) {
-        build(list, flat, kCutoff, kSkin);
-        checkSame(list, expected[0]);
-        build(list, cloud, 0.1 * kCutoff, 0.1 * kSkin);
-        checkSame(list, expected[1]);
-    }
-    for (const RowBlock& block : list.rows.blocks)
-        CHECK((block.uses32Bits() ? block.entries16.capacity() : block.entries32.capacity()) == 0);
 }
 
 TEST_CASE("A list built again is that of the new positions", "[neighbor-list]") {

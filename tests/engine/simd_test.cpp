@@ -57,33 +57,6 @@ std::string hashOfRun(const char* preset, StepperKind stepper, Precision precisi
     return stateHash(simulation.particles);
 }
 
-/// Forces, N, and what a matrix makes of the velocities, over rows as they are.
-struct OverRows {
-    std::vector<Vec3> forces, product;
-    bool operator==(const OverRows& other) const { return forces == other.forces && product == other.product; }
-};
-
-OverRows overRows(const PairTraversal& pairs, const Particles& particles) {
-    OverRows of;
-    of.forces.resize(particles.count());
-    addUpPairs(pairs, {.forces = of.forces});
-    PairMatrix matrix;
-    matrix.mass = particles.mass;
-    std::vector<Vec3> forces(particles.count());
-    addUpPairs(pairs, {.forces = forces, .matrix = &matrix, .weights = {.damping = 0.01, .stiffness = 0.0001}});
-    multiply(matrix, particles.velocity, of.product);
-    return of;
-}
-
-/// The same rows in whole words.
-void widen(NeighborRows& rows) {
-    for (RowBlock& block : rows.blocks) {
-        REQUIRE_FALSE(block.uses32Bits());
-        block.entries32.assign(block.entries16.begin(), block.entries16.end());
-        block.entries16.clear();
-    }
-}
-
 }  // namespace
 
 TEST_CASE("A run has the same bits with every kind of vectors", "[simd]") {
@@ -98,24 +71,6 @@ TEST_CASE("A run has the same bits with every kind of vectors", "[simd]") {
                     CHECK(simdInstructionSet() == name);
                     CHECK(hashOfRun(preset, stepper, precision) == expected);
                 }
-            }
-}
-
-TEST_CASE("Rows give the same bits in words as in half words", "[simd]") {
-    for (const char* preset : {"liquid", "solid", "powder", "sand"})
-        for (const Precision precision : {Precision::doubles, Precision::singles})
-            for (const std::string& name : instructionSets()) {
-                const OnInstructionSet only(name);
-                INFO(preset << " with " << name);
-                const ForceLaw law = clouds::lawOf(preset);
-                Particles particles = block(law.materials.front(), Vec3(1.0, 2.0, 3.0));
-                particles.position[17] = particles.position[16];
-                PairTraversal pairs(law, precision);
-                pairs.prepare(law, particles, particles.velocity);
-                pairs.packParticles(particles, particles.velocity);
-                const OverRows expected = overRows(pairs, particles);
-                widen(pairs.list.rows);
-                CHECK(overRows(pairs, particles) == expected);
             }
 }
 
