@@ -69,7 +69,6 @@ void packFloatsHere(const SortedParticles& of, double perMeter, std::size_t begi
     const SortedParticles from = of;  // nothing that is written is block of it
     const FloatPacker writer(perMeter);
     for (std::size_t sortedIndex = begin; sortedIndex < end; ++sortedIndex) {
-        from.fetchAhead<PackedParticleFloat>(sortedIndex);
         writer.write(from, from.order[sortedIndex], all[sortedIndex]);
     }
 }
@@ -87,7 +86,6 @@ HWY_EXPORT(packFloatsHere);
 void packDoubles(const SortedParticles& of, std::size_t begin, std::size_t end, PackedParticle* all) {
     const SortedParticles from = of;  // nothing that is written is block of it
     for (std::size_t sortedIndex = begin; sortedIndex < end; ++sortedIndex) {
-        from.fetchAhead<PackedParticle>(sortedIndex);
         all[sortedIndex] = packDouble(from, from.order[sortedIndex]);
     }
 }

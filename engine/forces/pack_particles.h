@@ -32,23 +32,6 @@ struct SortedParticles {
           velocity(velocities.data()),
           radius(particles.radius.data()),
           material(particles.material.data()) {}
-
-    /// Fetches what a record has of a particle some sortedIndices ahead into the cache: the list's order is not that of
-    /// the particles, so that no processor does it by itself. Measured with `globular bench --filter forces` on Zen 5:
-    /// a tenth less time at 256,000 particles in float, a twentieth in double, nothing at 32,000. Always inline: gcc
-    /// takes a call that does nothing but this for one that does nothing.
-    template <class Record>
-    [[gnu::always_inline]] void fetchAhead(std::size_t sortedIndex) const {
-        constexpr std::size_t kPlaces = 32;
-        const std::size_t ahead = order[std::min(sortedIndex + kPlaces, count - 1)];
-        __builtin_prefetch(&position[ahead]);
-        __builtin_prefetch(&velocity[ahead]);
-        __builtin_prefetch(&id[ahead]);
-        if constexpr (std::is_same_v<Record, PackedParticle>) {
-            __builtin_prefetch(&radius[ahead]);
-            __builtin_prefetch(&material[ahead]);
-        }
-    }
 };
 
 /// A sum with 1.5 x 2^52 is rounded to a whole number that stands in its last bits: no conversion, which would need a

@@ -215,27 +215,6 @@ void partCoincident(const PairTraversal& pairs, const PairSums& wanted, const Cl
     }
 }
 
-/// Fetches a cluster's share of the packed that the next block comes upon into the cache. Measured with `globular bench
-/// --filter forces` on Zen 5: a fifth less time at a million particles, little at 32,000.
-/// Always inline: gcc takes a call that does nothing but this for one that does nothing.
-template <class Record>
-[[gnu::always_inline]] inline void fetchFront(const PairTraversal& pairs, const std::vector<Record>& packed,
-                                              std::size_t cluster) {
-    const std::size_t next = cluster / kClustersPerBlock + 1;
-    if (next >= pairs.list.fronts.size()) return;
-    const std::size_t share = cluster % kClustersPerBlock;
-    for (const CellRange& range : pairs.list.fronts[next]) {
-        // At its turn into the next layer a front is long, and soon forgotten. Chosen: others are little above a block.
-        constexpr std::size_t kMost = 4 * kSlotsPerBlock;
-        const std::size_t count = std::min<std::size_t>(range.end - range.begin, kMost);
-        const std::size_t end = range.begin + count * (share + 1) / kClustersPerBlock;
-        constexpr std::size_t kPerLine = 64 / sizeof(Record);
-        for (std::size_t sortedIndex = range.begin + count * share / kClustersPerBlock; sortedIndex < end;
-             sortedIndex += kPerLine)
-            __builtin_prefetch(&packed[sortedIndex]);
-    }
-}
-
 /// What is wanted of uniform particles, a particle a lane.
 template <PairTerms terms>
 double addUpClusters(const PairTraversal& pairs, const PairSums& wanted) {
@@ -252,8 +231,6 @@ double addUpClusters(const PairTraversal& pairs, const PairSums& wanted) {
                         .weights = wanted.weights};
     return overClusters(pairs, hasEnergy, [&](const Cluster& cluster) {
         ClusterSums of;
-        isSingle ? fetchFront(pairs, pairs.packedFloats, cluster.first / kClusterSize)
-                 : fetchFront(pairs, pairs.packed, cluster.first / kClusterSize);
         addUpCluster(pass, cluster.first / kClusterSize, of);
         if (of.coincident != 0) partCoincident<terms>(pairs, wanted, cluster, of);
         for (std::size_t laneSlot = cluster.first; laneSlot < cluster.end; ++laneSlot)

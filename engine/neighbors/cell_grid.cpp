@@ -124,22 +124,4 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
     return found;
 }
 
-Front frontOf(const CellGrid& grid, std::uint32_t first, std::uint32_t last) {
-    const auto [nx, ny, nz] = grid.dimensions;
-    // The first sortedIndex of a cell in the row next to that of another, some cells further along.
-    const auto startAt = [&, nx = nx, ny = ny, nz = nz](const auto& indices, std::int64_t dx, std::int64_t dz) {
-        const auto& [x, y, z] = indices;
-        const std::int64_t row = wrappedStep(z + dz, nz) * ny + wrappedStep(y + 1, ny);
-        return grid.start[static_cast<std::size_t>(row * nx + std::clamp<std::int64_t>(x + dx, 0, nx))];
-    };
-    const auto from = indicesOf(grid, first);
-    const auto to = indicesOf(grid, last);
-    Front front;
-    for (std::int64_t dz = -1; dz <= 1; ++dz) {
-        const CellRange range{startAt(from, -1, dz), startAt(to, 2, dz)};
-        if (range.begin < range.end) front[static_cast<std::size_t>(dz + 1)] = range;
-    }
-    return front;
-}
-
 }  // namespace engine

@@ -54,11 +54,4 @@ CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostPart
 /// consecutive.
 Neighborhood neighborhood(const CellGrid& grid, const CellRun& run);
 
-/// In each of three layers of cells what comes into sight on the way through the cells in their order.
-using Front = std::array<CellRange, 3>;
-
-/// What comes into sight between two cells, the second at or after the first: the rows next to theirs. Except at the
-/// beginning of a layer, all else around them was around cells before them.
-Front frontOf(const CellGrid& grid, std::uint32_t first, std::uint32_t last);
-
 }  // namespace engine

@@ -99,8 +99,6 @@ void fill(NeighborList& list, std::size_t number) {
     thread_local FoundBlock found;
     const CellRange range = rangeOf(list, number);
     search(list, range, found);
-    const CellGrid& grid = list.scratch.grid;
-    list.fronts[number] = frontOf(grid, cellOfSortedIndex(grid, range.begin), cellOfSortedIndex(grid, range.end - 1));
     const auto rows = assignLaneSlots(list, range, found);
     RowBlock& block = list.rows.blocks[number];
     const std::uint32_t* const lengths = &list.rows.length[range.begin];
@@ -162,7 +160,6 @@ void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff
     list.rows.ownIndices.assign(clusters * kClusterSize, static_cast<std::int32_t>(list.count()) - 1);
     list.rows.length.assign(clusters * kClusterSize, 0);
     list.rows.blocks.resize(blocks);
-    list.fronts.resize(blocks);
     inParallel(blocks, 1, [&](std::size_t block) { fill(list, block); });
     list.entryCount = std::accumulate(list.rows.length.begin(), list.rows.length.end(), std::size_t{0});
 }
@@ -209,7 +206,7 @@ std::size_t bytesOf(const NeighborRows& rows) {
 
 std::size_t bytesOf(const NeighborList& list) {
     const BuildScratch& scratch = list.scratch;
-    return bytesOf(list.rows) + bytesHeld(list.order, list.sortedIndexOf, list.fronts, list.builtAt, scratch.grid.start,
+    return bytesOf(list.rows) + bytesHeld(list.order, list.sortedIndexOf, list.builtAt, scratch.grid.start,
                                           scratch.grid.order, scratch.grid.cellOf, scratch.candidates.x,
                                           scratch.candidates.y, scratch.candidates.z);
 }

@@ -26,10 +26,9 @@ struct NeighborList {
     std::vector<std::uint32_t> order;          ///< particle index at each sortedIndex
     std::vector<std::uint32_t> sortedIndexOf;  ///< of each particle index
     NeighborRows rows;                         ///< neighbors of each laneSlot
-    std::vector<Front> fronts;   ///< of each block of the rows: neighbors that those before it do not have
-    std::size_t entryCount = 0;  ///< of all rows
-    std::vector<Vec3> builtAt;   ///< positions by particle index when the list was built, m
-    double reach = 0.0;          ///< cutoff and skin together, m
+    std::size_t entryCount = 0;                ///< of all rows
+    std::vector<Vec3> builtAt;                 ///< positions by particle index when the list was built, m
+    double reach = 0.0;                        ///< cutoff and skin together, m
     Scratch<BuildScratch> scratch;
 
     std::size_t count() const { return order.size(); }

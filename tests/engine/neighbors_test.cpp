@@ -109,39 +109,6 @@ TEST_CASE("Runs are as long as they may be, and end before the end of a row", "[
     CHECK(cellsFrom(last, 100, 100) == 1);
 }
 
-TEST_CASE("What comes into sight on the way through the cells is in the rows next to them", "[neighbors]") {
-    const std::vector<Vec3> positions = clouds::strewn(3000, 2.4).position;
-    CellGrid grid;
-    build(grid, positions, 0.6);
-    const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
-    const auto rows = static_cast<std::uint32_t>(grid.dimensions[1]);
-    std::set<std::uint32_t> seen;
-    constexpr std::uint32_t kStep = 3;
-    for (std::uint32_t first = 0; first + kStep <= grid.cellCount(); first += kStep) {
-        std::set<std::uint32_t> ahead;
-        for (const CellRange& range : frontOf(grid, first, first + kStep - 1)) {
-            CHECK(range.begin <= range.end);
-            CHECK(range.end <= positions.size());
-            // One cell before the first and one behind the last; where that is beyond a row's end, wherever.
-            if (first % nx + kStep < nx && range.begin < range.end) {
-                const std::uint32_t firstCell = grid.cellOf[grid.order[range.begin]];
-                CHECK(grid.cellOf[grid.order[range.end - 1]] - firstCell < kStep + 2);
-            }
-            for (std::uint32_t sortedIndex = range.begin; sortedIndex < range.end; ++sortedIndex)
-                ahead.insert(grid.order[sortedIndex]);
-        }
-        for (std::uint32_t cell = first; cell < first + kStep; ++cell)
-            for (const std::uint32_t p : candidates(grid, {cell, cell})) {
-                // A layer's first row comes upon its own as well; its last and the ends of rows wrap round.
-                const std::uint32_t row = first / nx % rows;
-                const auto away = static_cast<std::int64_t>(grid.cellOf[p] % nx) - cell % nx;
-                const bool isInside = row > 1 && row + 2 < rows && std::abs(away) <= 1;
-                if (isInside && seen.count(p) == 0) CHECK(ahead.count(p) == 1);
-                seen.insert(p);
-            }
-    }
-}
-
 TEST_CASE("Cells are those of the plain twin with every kind of vectors", "[neighbors]") {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Vec3> positions = clouds::strewn(203, 3.0).position;
