@@ -40,12 +40,6 @@ class ForceEvaluator {
     void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                        double step = 0.0);
 
-    /// Since the last call or evaluation over the list every particle has moved by some vector in a box (m), and
-    /// nothing but its velocity has changed besides: spares the next evaluation a look at all of them. Births may
-    /// follow; whoever else moves particles afterward notes that, too, or has the moves forgotten.
-    void addDisplacementBound(const BoundingBox& moves) { pairs_.addDisplacementBound(moves); }
-    void invalidateDisplacementBound() { pairs_.invalidateDisplacementBound(); }
-
     /// The same as evaluate without the obstacles, for steppers that sweep the contacts; returns the pair energy, J.
     double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                         double step = 0.0);

@@ -2,8 +2,8 @@
 #include "engine/forces/pair_traversal.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "engine/core/bounding_box.h"
 #include "engine/forces/pack_particles.h"
 #include "engine/neighbors/verlet_skin.h"
 
@@ -33,20 +33,14 @@ PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
 
 void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                               double step) {
-    const bool areTheSame = areMovesNoted && particles.count() == list.count();
-    if (!areTheSame) terms = termsFor(law, particles);
-    if (!std::exchange(areMovesNoted, false)) invalidateDisplacementBound();
-    const bool isCovered = (displacements && coversWithin(list, *displacements, particles.count(), terms.cutoff)) ||
-                           covers(list, particles.position, terms.cutoff);
-    if (!isCovered) {
-        const bool isForeseen = step > 0.0 && list.count() > 0 && particles.count() > 0;
-        const double skin =
-            isForeseen ? optimalSkin(neighborsWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
-                       : kDefaultSkin;
-        build(list, particles.position, terms.cutoff, skin * terms.cutoff);
-        displacements = BoundingBox{Vec3::Zero(), Vec3::Zero()};
-        arePacked = false;  // they are in another order
-    }
+    terms = termsFor(law, particles);
+    if (covers(list, particles.position, terms.cutoff)) return;
+    const bool isStepKnown = step > 0.0 && list.count() > 0 && particles.count() > 0;
+    const double skin =
+        isStepKnown ? optimalSkin(neighborsWithin(terms.cutoff, list), step * fastest(velocities) / terms.cutoff)
+                    : kDefaultSkin;
+    build(list, particles.position, terms.cutoff, skin * terms.cutoff);
+    arePacked = false;  // they are in another order
 }
 
 void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
@@ -70,19 +64,6 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
 void PairTraversal::forgetList() {
     list.builtAt.clear();
     list.sortedIndexOf.clear();
-    invalidateDisplacementBound();
-}
-
-void PairTraversal::addDisplacementBound(const BoundingBox& moves) {
-    if (!displacements) return;
-    areMovesNoted = true;
-    displacements->low += moves.low;
-    displacements->high += moves.high;
-}
-
-void PairTraversal::invalidateDisplacementBound() {
-    areMovesNoted = false;
-    displacements.reset();
 }
 
 void PairTraversal::packParticles(const Particles& particles, const std::vector<Vec3>& velocities) {

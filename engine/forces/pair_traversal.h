@@ -3,10 +3,8 @@
 // thread waits for another, and no sum depends on how the work is shared out.
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "engine/core/bounding_box.h"
 #include "engine/core/parallel.h"
 #include "engine/core/scratch.h"
 #include "engine/forces/force_law.h"
@@ -31,10 +29,7 @@ struct PairTraversal {
     Scratch<std::vector<PackedParticle>> packed;             ///< in the list's order, where there are any
     Scratch<std::vector<PackedParticleFloat>> packedFloats;  ///< in the list's order; empty in double
     double unit = 0.0;                                       ///< of the packedFloats' positions, m
-    /// Since the list was built, m; none where somebody has prepared without saying how far particles have moved.
-    std::optional<BoundingBox> displacements;
-    bool areMovesNoted = false;  ///< since the last prepare(), in the displacements
-    bool arePacked = false;      ///< not in float, unless they are asked for
+    bool arePacked = false;                                  ///< not in float, unless they are asked for
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
@@ -48,13 +43,6 @@ struct PairTraversal {
     void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
-    /// Since the last call, or else renewList(), every particle has moved by some vector in a box (m), and nothing but
-    /// its velocity has changed besides. Spares the next renewList() a look at each of them.
-    void addDisplacementBound(const BoundingBox& moves);
-
-    /// Particles are moved in ways that nobody notes.
-    void invalidateDisplacementBound();
-
     /// Particles have other indices now: the list serves nobody any more.
     void forgetList();
 
@@ -62,10 +50,7 @@ struct PairTraversal {
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
 
     /// Brings back the list that was built for these positions (m) with this reach (m).
-    void restoreList(const std::vector<Vec3>& builtAt, double reach) {
-        build(list, builtAt, reach, 0.0);
-        invalidateDisplacementBound();
-    }
+    void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(list, builtAt, reach, 0.0); }
 
     template <bool isUniform>
     PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {

@@ -172,11 +172,6 @@ std::size_t NeighborList::laneSlotOf(std::size_t p) const {
     return laneSlot;
 }
 
-bool coversWithin(const NeighborList& list, const BoundingBox& displacements, std::size_t count, double cutoff) {
-    constexpr double kMargin = 1.0 - 1e-9;  // for the roundings of lengths and their squares, in either look
-    return isOf(list, count, cutoff) && displacements.halfDiagonal() <= kMargin * slackOf(list, cutoff);
-}
-
 bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff) {
     if (!isOf(list, positions.size(), cutoff)) return false;
     if (positions.empty()) return true;

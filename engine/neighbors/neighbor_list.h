@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/core/bounding_box.h"
 #include "engine/core/scratch.h"
 #include "engine/neighbors/cell_grid.h"
 #include "engine/neighbors/list_search.h"
@@ -43,16 +42,6 @@ void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff
 
 /// Whether every pair closer than the cutoff (m) is certainly in the list.
 bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff);
-
-/// The same for so many particles whose displacements since the list was built lie in a box (m), wherever in it.
-/// Holds:  where covers() says no, so does this, if the box leaves kDisplacementMargin a step for rounding.
-bool coversWithin(const NeighborList& list, const BoundingBox& displacements, std::size_t count, double cutoff);
-
-/// How much wider a step's box is to be at each end, m, for what roundings do in a world that reaches to kWorldLimit.
-/// With u = 2^-53 and sortedIndices up to 1e8 m: the new sortedIndex is rounded by u 1e8, the box and the sum of boxes
-/// by 2 u 1e8 each, and what covers() subtracts, once and not in each step, by 6 u 1e8: 1.2e-7 together. (The way
-/// itself is rounded as the ends of its box are: rounding is monotone.)
-inline constexpr double kDisplacementMargin = 2e-7;
 
 /// Entries for which the rows have room, with those that fill them up.
 std::size_t roomOf(const NeighborRows& rows);

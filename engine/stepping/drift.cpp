@@ -38,7 +38,6 @@ bool isClearOfObstacles(const Simulation& simulation, std::size_t p) {
 
 void prepareDrift(Simulation& simulation) {
     StepCache& cache = *simulation.cache;
-    cache.evaluator.invalidateDisplacementBound();
     if (simulation.setup.obstacles.shapes.empty()) return;
     const Particles& particles = simulation.particles;
     cache.swept.resize(particles.count());

@@ -72,7 +72,6 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
         drift(simulation, p, 0.5 * h);
     });
     simulation.cache->forcesCurrent = false;
-    simulation.cache->evaluator.invalidateDisplacementBound();
 }
 
 }  // namespace engine

@@ -2,9 +2,7 @@
 // vectors hold those of as many particles as one vector has lanes.
 #include "engine/stepping/kick_drift.h"
 
-#include <algorithm>
 #include <array>
-#include <limits>
 
 #include "engine/stepping/state_checks.h"
 
@@ -45,33 +43,8 @@ class Kicker {
 
     static std::size_t lanes() { return hn::Lanes(kTag); }
 
-    /// The smallest and the largest velocity in each lane of the three vectors, m/s.
-    struct Range {
-        std::array<V, kAxes> low, high;
-
-        Range() {
-            low.fill(hn::Set(kTag, std::numeric_limits<double>::infinity()));
-            high.fill(hn::Set(kTag, -std::numeric_limits<double>::infinity()));
-        }
-
-        BoundingBox extent() const {
-            BoundingBox extent = BoundingBox::empty();
-            std::array<double, kMost> lows, highs;
-            for (std::size_t k = 0; k < kAxes; ++k) {
-                hn::StoreU(low[k], kTag, lows.data());
-                hn::StoreU(high[k], kTag, highs.data());
-                for (std::size_t lane = 0; lane < lanes(); ++lane) {
-                    const auto axis = static_cast<Eigen::Index>((k * lanes() + lane) % kAxes);
-                    extent.low[axis] = std::min(extent.low[axis], lows[lane]);
-                    extent.high[axis] = std::max(extent.high[axis], highs[lane]);
-                }
-            }
-            return extent;
-        }
-    };
-
     /// Moves the particles from index `first` on, as many as there are lanes; returns whether they are valid.
-    bool move(const Numbers& all, std::size_t first, Range& range) const {
+    bool move(const Numbers& all, std::size_t first) const {
         const V mass = hn::LoadU(kTag, all.mass + first);
         const V perMass = hn::Div(h_, mass);
         auto areValid = hn::FirstN(kTag, lanes());
@@ -87,8 +60,6 @@ class Kicker {
             hn::StoreU(position, kTag, all.position + at);
             areValid = hn::And(areValid, isBelow(position, kWorldLimit));
             areValid = hn::And(areValid, isBelow(velocity, kFastest));
-            range.low[k] = hn::Min(range.low[k], velocity);
-            range.high[k] = hn::Max(range.high[k], velocity);
         }
         return hn::AllTrue(kTag, areValid);
     }
@@ -119,23 +90,21 @@ class Kicker {
 
 /// Moves full vectors of particles from `first` on; on return `first` is the start of the remainder.
 template <class D, bool addsWeight>
-KickDriftResult moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, std::size_t end) {
+bool moveMany(const KickDrift& step, const Numbers& all, std::size_t& first, std::size_t end) {
     const Kicker<D, addsWeight> kicker(step);
-    typename Kicker<D, addsWeight>::Range range;
     bool areValid = true;
-    for (; first + kicker.lanes() <= end; first += kicker.lanes()) areValid &= kicker.move(all, first, range);
-    return {areValid, range.extent()};
+    for (; first + kicker.lanes() <= end; first += kicker.lanes()) areValid &= kicker.move(all, first);
+    return areValid;
 }
 
 template <bool addsWeight>
-KickDriftResult moveAll(const KickDrift& step, const Numbers& all, std::size_t begin, std::size_t end) {
+bool moveAll(const KickDrift& step, const Numbers& all, std::size_t begin, std::size_t end) {
     std::size_t first = begin;
-    KickDriftResult moved = moveMany<hn::ScalableTag<double>, addsWeight>(step, all, first, end);
-    moved.include(moveMany<hn::CappedTag<double, 1>, addsWeight>(step, all, first, end));
-    return moved;
+    const bool areValid = moveMany<hn::ScalableTag<double>, addsWeight>(step, all, first, end);
+    return moveMany<hn::CappedTag<double, 1>, addsWeight>(step, all, first, end) && areValid;
 }
 
-KickDriftResult kickAndDriftHere(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+bool kickAndDriftHere(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     const Numbers all{particles.mass.data(), step.forces.data()->data(), particles.position.data()->data(),
                       particles.velocity.data()->data()};
@@ -152,8 +121,8 @@ namespace engine {
 
 HWY_EXPORT(kickAndDriftHere);
 
-KickDriftResult kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
-    if (begin == end) return {};
+bool kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles) {
+    if (begin == end) return true;
     return HWY_DYNAMIC_DISPATCH(kickAndDriftHere)(step, begin, end, particles);
 }
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/core/bounding_box.h"
 #include "engine/state/particles.h"
 
 namespace engine {
@@ -18,19 +17,8 @@ struct KickDrift {
     bool hasWeight = false;           ///< whether the forces include gravity already
 };
 
-/// What is known of a range of particles after the step.
-struct KickDriftResult {
-    bool areValid = true;                           ///< whether all of them are (state_checks.h)
-    BoundingBox velocities = BoundingBox::empty();  ///< box around the velocities, m/s, if they are valid
-
-    void include(const KickDriftResult& others) {
-        areValid &= others.areValid;
-        velocities.include(others.velocities);
-    }
-};
-
 /// Kicks particles begin to end - 1 and lets them drift: v becomes decay (v + h/m F), where F is force and weight, and
-/// x becomes x + h v. The bits are the same on any instruction set and for any split of the particles into ranges.
-KickDriftResult kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles);
+/// x becomes x + h v. Returns whether all of them are valid (state_checks.h). The bits are the same on any instruction set and for any split of the particles into ranges.
+bool kickAndDrift(const KickDrift& step, std::size_t begin, std::size_t end, Particles& particles);
 
 }  // namespace engine

@@ -109,7 +109,6 @@ void restore(Simulation& simulation, const SavedState& saved) {
     particles.velocity = saved.velocity;
     StepCache& cache = *simulation.cache;
     cache.clearance.clear();
-    cache.evaluator.invalidateDisplacementBound();
     cache.cachedNeighbors.clear();  // a resumed run would not have them
     cache.forcesCurrent = saved.forcesCurrent;
     if (saved.forcesCurrent) {

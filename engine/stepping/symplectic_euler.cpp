@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
@@ -28,23 +27,12 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .gravity = evaluator.law().gravity,
                          .forces = simulation.cache->forces,
                          .hasWeight = hasObstacles};
-    KickDriftResult moved;
-    std::mutex merging;
-    inRanges(particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
+    return holdsInRanges(particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
         // Pairs, weight, obstacles: the order is part of the bits.
         if (hasObstacles)
             addExternalForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
-        const KickDriftResult range = kickAndDrift(step, begin, end, particles);
-        const std::scoped_lock lock(merging);
-        moved.include(range);
+        return kickAndDrift(step, begin, end, particles);
     });
-    if (!moved.areValid) {
-        evaluator.invalidateDisplacementBound();
-        return false;
-    }
-    const Vec3 margin = Vec3::Constant(kDisplacementMargin);
-    evaluator.addDisplacementBound({h * moved.velocities.low - margin, h * moved.velocities.high + margin});
-    return true;
 }
 
 void advanceInEqualSteps(Simulation& simulation, double time) {

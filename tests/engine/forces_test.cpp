@@ -223,54 +223,15 @@ TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") 
     }
 }
 
-TEST_CASE("Particles whose moves are noted are not looked at until they may have left the list", "[forces]") {
-    Particles particles = clouds::strewn(300, 1.0);
-    ForceEvaluator evaluator(clouds::lawOf("solid"), ForceMethod::grid);
-    const BoundingBox nothing{Vec3::Zero(), Vec3::Zero()};
-    const auto spread = [&] {
-        for (Vec3& position : particles.position) position *= 2.0;
-    };
-    const auto isListedAnew = [&] {
-        const std::vector<Vec3> before = evaluator.list().builtAt;
-        std::vector<Vec3> forces;
-        evaluator.pairForcesGrid(particles, particles.velocity, forces);
-        return evaluator.list().builtAt != before;
-    };
-    evaluator.addDisplacementBound(nothing);  // of no list
-    REQUIRE(isListedAnew());
-    spread();
-    evaluator.addDisplacementBound(nothing);  // a lie, to see who is believed
-    CHECK_FALSE(isListedAnew());
-    evaluator.addDisplacementBound({Vec3::Zero(), Vec3::Constant(1.0)});
-    CHECK(isListedAnew());
-    spread();
-    CHECK(isListedAnew());  // nobody says anything
-    spread();
-    evaluator.addDisplacementBound(nothing);
-    evaluator.invalidateDisplacementBound();
-    CHECK(isListedAnew());
-    evaluator.restoreList(particles.position, 1.0);
-    spread();
-    evaluator.addDisplacementBound(nothing);  // of who knows what
-    CHECK(isListedAnew());
-    spread();
-    evaluator.addDisplacementBound(nothing);
-    append(particles, {});
-    CHECK(isListedAnew());
-}
-
-TEST_CASE("Whoever comes in somebody's sortedIndex is not taken for him, whatever was noted", "[forces]") {
+TEST_CASE("A forgotten list is not used for particles that have exchanged their indices", "[forces]") {
     const ForceLaw law = clouds::lawOf("solid");
     Particles particles = clouds::strewn(100, 1.0);
     ForceEvaluator evaluator(law, ForceMethod::grid);
-    const BoundingBox nothing{Vec3::Zero(), Vec3::Zero()};
     std::vector<Vec3> forces;
     evaluator.pairForcesGrid(particles, particles.velocity, forces);
-    evaluator.addDisplacementBound(nothing);
     evaluator.forgetList();
     particles.radius.back() *= 0.5;
     std::swap(particles.position.front(), particles.position.back());
-    evaluator.addDisplacementBound(nothing);
     evaluator.pairForcesGrid(particles, particles.velocity, forces);
     CHECK(forces == onGrid(law, particles));
 }

@@ -183,28 +183,6 @@ TEST_CASE("A list covers a crowd until any of it blocks from the others", "[neig
     }
 }
 
-TEST_CASE("A list covers whoever goes which way in a small box", "[neighbor-list]") {
-    const std::vector<Vec3> before = clouds::strewn(200, 1.2).position;
-    NeighborList list;
-    CHECK_FALSE(coversWithin(list, {Vec3::Zero(), Vec3::Zero()}, before.size(), kCutoff));  // never built
-    build(list, before, kCutoff, kSkin);
-    const Vec3 common(30.0, -50.0, 70.0);
-    const Vec3 half(0.3 * kSkin, 0.4 * kSkin, 0.0);  // half a skin to the corners
-    for (const double share : {0.9, 1.0 - 1e-6, 1.0 + 1e-6, 1.1}) {
-        INFO(share << " of half the skin");
-        const BoundingBox ways{common - share * half, common + share * half};
-        CHECK(coversWithin(list, ways, before.size(), kCutoff) == (share < 1.0));
-        CHECK_FALSE(coversWithin(list, ways, before.size() + 1, kCutoff));
-        CHECK_FALSE(coversWithin(list, ways, before.size(), kCutoff + kSkin));
-        std::vector<Vec3> after = before;
-        for (std::size_t p = 0; p < after.size(); ++p) {
-            const Vec3 corner = clouds::randomVector(13, p).unaryExpr([](double x) { return x < 0.0 ? -1.0 : 1.0; });
-            after[p] += common + share * half.cwiseProduct(corner);
-        }
-        CHECK(covers(list, after, kCutoff) == (share < 1.0));
-    }
-}
-
 TEST_CASE("A list that covers holds every pair that has come within the cutoff", "[neighbor-list]") {
     std::vector<Vec3> positions = clouds::strewn(300, 1.2).position;
     NeighborList list;

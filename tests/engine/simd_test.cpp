@@ -116,17 +116,14 @@ TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vecto
             expected.velocity[p] = step.decay * (before.velocity[p] + step.h / before.mass[p] * force);
             expected.position[p] = before.position[p] + step.h * expected.velocity[p];
         }
-        const BoundingBox box = boundingBoxOf(before.count(), [&](std::size_t p) { return expected.velocity[p]; });
         for (const std::string& name : instructionSets()) {
             const OnInstructionSet only(name);
             for (const std::size_t split : {0U, 1U, 50U, 102U}) {
                 Particles actual = before;
-                KickDriftResult moved = kickAndDrift(step, 0, split, actual);
-                moved.include(kickAndDrift(step, split, before.count(), actual));
+                const bool isFirstValid = kickAndDrift(step, 0, split, actual);
+                const bool isSecondValid = kickAndDrift(step, split, before.count(), actual);
                 INFO(name << ", split at " << split);
-                CHECK(moved.areValid);
-                CHECK(moved.velocities.low == box.low);
-                CHECK(moved.velocities.high == box.high);
+                CHECK((isFirstValid && isSecondValid));
                 CHECK(actual.velocity == expected.velocity);
                 CHECK(actual.position == expected.position);
             }
@@ -139,7 +136,7 @@ TEST_CASE("Kick and drift tell of whoever is not sound", "[simd]") {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3> none(kCount, Vec3::Zero());
     const auto areValid = [&](double h, const std::vector<Vec3>& forces, Particles particles) {
-        return kickAndDrift({.h = h, .forces = forces}, 0, kCount, particles).areValid;
+        return kickAndDrift({.h = h, .forces = forces}, 0, kCount, particles);
     };
     const Particles sound = clouds::strewn(kCount, 1.0);
     for (const std::string& name : instructionSets()) {

@@ -46,29 +46,6 @@ Setup crowdAmongObstacles() {
     return setup;
 }
 
-/// Compares a run with two others: in one the evaluator is told that particles may have moved anywhere, so that it
-/// checks all positions every time; in the other it is told nothing, so that it checks radii and materials, too.
-void checkLists(const Setup& setup) {
-    Simulation noted = start(setup);
-    Simulation looked = noted;
-    Simulation forgotten = noted;
-    std::size_t lists = 0;
-    for (int step = 1; step <= 100; ++step) {
-        const std::vector<Vec3> before = noted.cache->evaluator.list().builtAt;
-        for (Simulation* simulation : {&noted, &looked, &forgotten}) advance(*simulation, 0.002 * step);
-        looked.cache->evaluator.addDisplacementBound({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
-        forgotten.cache->evaluator.invalidateDisplacementBound();
-        lists += noted.cache->evaluator.list().builtAt != before ? 1U : 0U;
-        INFO("step " << step);
-        REQUIRE(noted.cache->evaluator.list().builtAt == looked.cache->evaluator.list().builtAt);
-        REQUIRE(noted.particles.position == looked.particles.position);
-        REQUIRE(noted.particles.position == forgotten.particles.position);
-    }
-    CHECK(lists > 5);
-    CHECK(lists < 95);
-    CHECK((noted.removedCount > 0) == setup.world.has_value());
-}
-
 std::string hashAfter(const Setup& setup, double time) {
     Simulation simulation = start(setup);
     advance(simulation, time);
@@ -104,42 +81,6 @@ TEST_CASE("Obstacles that threads share out give the same bits for any number of
             CHECK(hash == expected);
         }
     }
-}
-
-TEST_CASE("The paper's stepper reports displacements", "[simulation]") {
-    Setup setup = runs::freeSetup(*materialPreset("powder"), StepperKind::symplecticEuler, 1e-4);
-    setup.initial = clouds::strewn(1500, 3.0);
-    Simulation simulation = start(setup);
-    advance(simulation, 1e-4);
-    const std::vector<Vec3> builtAt = simulation.cache->evaluator.list().builtAt;
-    REQUIRE(builtAt.size() == 1500);
-    for (Vec3& position : simulation.particles.position) position *= 2.0;  // not reported
-    advance(simulation, 2e-4);
-    CHECK(simulation.cache->evaluator.list().builtAt == builtAt);
-}
-
-TEST_CASE("Another stepper checks the particles that the paper's has moved", "[simulation]") {
-    Setup setup = runs::freeSetup(*materialPreset("solid"), StepperKind::symplecticEuler, 1e-4);
-    runs::addPacking(setup, {6, 6, 6});
-    for (const StepperKind stepper : {StepperKind::linearlyImplicit, StepperKind::velocityVerlet}) {
-        Simulation noted = start(setup);
-        advance(noted, 1e-3);
-        noted.stepper = stepper;
-        Simulation forgotten = noted;
-        forgotten.cache->evaluator.invalidateDisplacementBound();
-        for (Simulation* simulation : {&noted, &forgotten}) takeStep(*simulation, 0.1);
-        INFO(nameOf(stepper));
-        CHECK(noted.cache->evaluator.list().builtAt == forgotten.cache->evaluator.list().builtAt);
-        CHECK(noted.particles.velocity == forgotten.particles.velocity);
-    }
-}
-
-TEST_CASE("Lists are built when they have to be, whether displacements are reported or checked", "[simulation]") {
-    Setup bounded = busyScene(StepperKind::symplecticEuler);
-    bounded.emitters[0].interval = 0.01;
-    bounded.world = BoundingBox{.low = Vec3(-2.0, 0.55, -2.0), .high = Vec3(2.2, 3.0, 2.0)};
-    for (const Setup& setup : {busyScene(StepperKind::symplecticEuler), crowdAmongObstacles(), bounded})
-        clouds::onThreads(3, [&] { checkLists(setup); });
 }
 
 TEST_CASE("The bits of a run are the same in every build and on every machine", "[simulation]") {
