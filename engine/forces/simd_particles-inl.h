@@ -67,20 +67,6 @@ struct Doubles {
         const auto field = [&](int of) { return hn::Load(kTag, base + kStride * sortedIndices[0] + of); };
         x = {field(0), field(1), field(2)};
         if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
-#elif HWY_TARGET <= HWY_AVX3
-        // x y z and vx of two packed two apart, then of these two by two.
-        const auto halves = [&](int first) {
-            return halvesFrom(base, kStride, sortedIndices[first], sortedIndices[first + 2]);
-        };
-        const V a = halves(0), b = halves(1), c = halves(4), d = halves(5);
-        const V xz0 = hn::InterleaveLower(kTag, a, b), xz1 = hn::InterleaveLower(kTag, c, d);
-        const V yu0 = hn::InterleaveUpper(kTag, a, b), yu1 = hn::InterleaveUpper(kTag, c, d);
-        x = {evenBlocks(xz0, xz1), evenBlocks(yu0, yu1), oddBlocks(xz0, xz1)};
-        if constexpr (needsVelocity) {
-            const V vw0 = blocksOf(base + 4, kStride, sortedIndices),
-                    vw1 = blocksOf(base + 4, kStride, sortedIndices + 1);
-            v = {oddBlocks(yu0, yu1), hn::InterleaveLower(kTag, vw0, vw1), hn::InterleaveUpper(kTag, vw0, vw1)};
-        }
 #else
         // Numbers two by two, of every other record from one on.
         const auto pairs = [](const double* field, const std::int32_t* from) {
@@ -155,23 +141,6 @@ struct Singles {
         const auto upper = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
         const auto firsts = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
         const auto seconds = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
-#if HWY_TARGET <= HWY_AVX3
-        // Of eight packed x and vx, y and vy, z and vz, in blocks of four each.
-        struct Eight {
-            V xu, yv, zw;
-        };
-        const auto eight = [&](int first) {
-            const auto halves = [&](int at) {
-                return halvesFrom(base, kStride, sortedIndices[at], sortedIndices[at + 4]);
-            };
-            const V a = halves(first), b = halves(first + 1), c = halves(first + 2), d = halves(first + 3);
-            const auto xy01 = lower(a, b), xy23 = lower(c, d);
-            return Eight{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
-        };
-        const Eight a = eight(0), b = eight(8);
-        x = {whole(evenBlocks(a.xu, b.xu)), whole(evenBlocks(a.yv, b.yv)), whole(evenBlocks(a.zw, b.zw))};
-        if constexpr (needsVelocity) v = {oddBlocks(a.xu, b.xu), oddBlocks(a.yv, b.yv), oddBlocks(a.zw, b.zw)};
-#else
         // Numbers four by four, of every fourth record from one on.
         const auto fours = [](const float* field, const std::int32_t* from) {
             return blocksFrom(kTag, field, kStride, from, 4);
@@ -185,7 +154,6 @@ struct Singles {
         const Vector3<V> position = fields(base);
         x = {whole(position.x), whole(position.y), whole(position.z)};
         if constexpr (needsVelocity) v = fields(base + 4);
-#endif
 #endif
         return {x, v};
     }

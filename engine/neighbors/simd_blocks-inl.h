@@ -63,44 +63,6 @@ HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t st
 }
 #endif
 
-// Highway has no name for these. Masked forms, because gcc takes the others to read what nobody has set.
-#if HWY_TARGET <= HWY_AVX3
-/// Half a vector of each of two sortedIndices' packed, at the base: one load and one that inserts.
-HWY_INLINE hn::Vec<Tag<float>> halvesFrom(const float* base, std::int64_t stride, std::int32_t low, std::int32_t high) {
-    const __m512 lower = _mm512_castps256_ps512(_mm256_load_ps(base + stride * low));
-    return hn::Vec<Tag<float>>{_mm512_maskz_insertf32x8(0xFFFF, lower, _mm256_load_ps(base + stride * high), 1)};
-}
-
-HWY_INLINE hn::Vec<Tag<double>> halvesFrom(const double* base, std::int64_t stride, std::int32_t low,
-                                           std::int32_t high) {
-    const __m512d lower = _mm512_castpd256_pd512(_mm256_load_pd(base + stride * low));
-    return hn::Vec<Tag<double>>{_mm512_maskz_insertf64x4(0xFF, lower, _mm256_load_pd(base + stride * high), 1)};
-}
-
-/// Blocks of 128 bits of every other of eight sortedIndices' packed.
-HWY_INLINE hn::Vec<Tag<double>> blocksOf(const double* base, std::int64_t stride, const std::int32_t* sortedIndices) {
-    const auto block = [&](int at) { return _mm_load_pd(base + stride * sortedIndices[at]); };
-    __m512d four = _mm512_castpd128_pd512(block(0));
-    four = _mm512_mask_broadcast_f64x2(four, 0x0C, block(2));
-    four = _mm512_mask_broadcast_f64x2(four, 0x30, block(4));
-    return hn::Vec<Tag<double>>{_mm512_mask_broadcast_f64x2(four, 0xC0, block(6))};
-}
-
-/// Of two vectors of four blocks of 128 bits each the even ones, and the odd ones.
-HWY_INLINE hn::Vec<Tag<float>> evenBlocks(hn::Vec<Tag<float>> a, hn::Vec<Tag<float>> b) {
-    return hn::Vec<Tag<float>>{_mm512_maskz_shuffle_f32x4(0xFFFF, a.raw, b.raw, 0x88)};
-}
-HWY_INLINE hn::Vec<Tag<float>> oddBlocks(hn::Vec<Tag<float>> a, hn::Vec<Tag<float>> b) {
-    return hn::Vec<Tag<float>>{_mm512_maskz_shuffle_f32x4(0xFFFF, a.raw, b.raw, 0xDD)};
-}
-HWY_INLINE hn::Vec<Tag<double>> evenBlocks(hn::Vec<Tag<double>> a, hn::Vec<Tag<double>> b) {
-    return hn::Vec<Tag<double>>{_mm512_maskz_shuffle_f64x2(0xFF, a.raw, b.raw, 0x88)};
-}
-HWY_INLINE hn::Vec<Tag<double>> oddBlocks(hn::Vec<Tag<double>> a, hn::Vec<Tag<double>> b) {
-    return hn::Vec<Tag<double>>{_mm512_maskz_shuffle_f64x2(0xFF, a.raw, b.raw, 0xDD)};
-}
-#endif
-
 }  // namespace HWY_NAMESPACE
 }  // namespace engine
 HWY_AFTER_NAMESPACE();
