@@ -1,4 +1,4 @@
-// Counting sort into a periodic cell grid.
+// A counting sort into the cells of a periodic grid.
 #include "engine/neighbors/cell_grid.h"
 
 #include <algorithm>
@@ -6,12 +6,24 @@
 
 #include "engine/core/bounding_box.h"
 #include "engine/core/parallel.h"
-#include "engine/neighbors/cell_axes.h"
 
 namespace engine {
 namespace {
 
-/// About two cells a particle keep the grid linear in n when the particles are spread thin.
+/// index modulo size, 0 or more.
+std::int64_t wrapped(std::int64_t index, std::int64_t size) {
+    const std::int64_t rest = index % size;
+    return rest < 0 ? rest + size : rest;
+}
+
+/// wrapped() for an index that is at most one size outside. A division would take as long as the rest of the search for
+/// a cell.
+std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
+    if (index < 0) return index + size;
+    return index < size ? index : index - size;
+}
+
+/// About two cells for each particle keep the grid linear in their number when they are spread thin.
 std::int64_t cellLimit(std::size_t particleCount) {
     return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount));
 }
@@ -21,11 +33,11 @@ std::array<std::int64_t, 3> chooseDimensions(const BoundingBox& extent, std::siz
     std::array<std::int64_t, 3> dimensions{};
     for (int axis = 0; axis < 3; ++axis) {
         const double along = std::floor((extent.high[axis] - extent.low[axis]) / width) + 2.0;
-        // In this order a width that is not a number is the limit.
+        // std::min(limit, x) returns limit when x is NaN; the reverse order would not.
         dimensions[static_cast<std::size_t>(axis)] =
             static_cast<std::int64_t>(std::min(static_cast<double>(limit), along));
     }
-    // Any size is correct; halving the longest axis keeps cells that share storage far apart.
+    // Any size is correct. Halving the longest axis keeps cells that share storage far apart.
     const auto cells = [&] {
         return static_cast<double>(dimensions[0]) * static_cast<double>(dimensions[1]) *
                static_cast<double>(dimensions[2]);
@@ -37,15 +49,32 @@ std::array<std::int64_t, 3> chooseDimensions(const BoundingBox& extent, std::siz
     return dimensions;
 }
 
-/// Along x, y, z.
+/// Indices of a cell along x, y and z.
 std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) {
-    // In 32 bits, which hold any cell's number, divisions take half as long.
+    // In 32 bits, which hold the number of any cell, a division takes half as long.
     const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
     const auto ny = static_cast<std::uint32_t>(grid.dimensions[1]);
     return {cell % nx, cell / nx % ny, cell / nx / ny};
 }
 
 }  // namespace
+
+std::int64_t cellNumber(double coordinate, double width) {
+    constexpr double kLargest = 1e15;  // an integer in double
+    const double cells = std::max(-kLargest, std::min(kLargest, coordinate / width));
+    const auto towardZero = static_cast<std::int64_t>(cells);  // one instruction, where floor is a call
+    return static_cast<double>(towardZero) > cells ? towardZero - 1 : towardZero;
+}
+
+CellAxis::CellAxis(double cellWidth, std::int64_t cells, double lowest)
+    : width(cellWidth), size(cells), first(cellNumber(lowest, width)), stored(wrapped(first, size)) {}
+
+std::int64_t CellAxis::cellOf(double coordinate) const {
+    const std::int64_t number = cellNumber(coordinate, width);
+    const std::int64_t steps = number - first;
+    if (steps < 0 || steps >= size) return wrapped(number, size);
+    return wrappedStep(stored + steps, size);  // the usual case, without a division
+}
 
 void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth) {
     grid.order.resize(positions.size());
@@ -59,12 +88,15 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
         boundingBoxOf(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
     grid.dimensions = chooseDimensions(extent, positions.size(), width);
     const std::array<std::int64_t, 3>& size = grid.dimensions;
-    // One more than there are, and counts two sortedIndices further on: filling leaves each start where it belongs.
+    // One more than there are, and counts two entries further on: the filling below leaves each start in its entry.
     grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 2, 0);
-    const CellAxes axes{CellAxis(width, size[0], extent.low.x()), CellAxis(width, size[1], extent.low.y()),
-                        CellAxis(width, size[2], extent.low.z())};
-    inRanges(positions.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-        findCells(axes, &positions[begin], end - begin, &grid.cellOf[begin]);
+    const CellAxis alongX(width, size[0], extent.low.x());
+    const CellAxis alongY(width, size[1], extent.low.y());
+    const CellAxis alongZ(width, size[2], extent.low.z());
+    inParallel(positions.size(), kParticleGrain, [&](std::size_t p) {
+        const Vec3& x = positions[p];
+        const std::int64_t row = alongZ.cellOf(x.z()) * size[1] + alongY.cellOf(x.y());
+        grid.cellOf[p] = static_cast<std::uint32_t>(row * size[0] + alongX.cellOf(x.x()));
     });
     for (const std::uint32_t cell : grid.cellOf) ++grid.start[cell + 2];
     for (std::size_t at = 2; at < grid.start.size(); ++at) grid.start[at] += grid.start[at - 1];
@@ -92,7 +124,7 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
     const auto [nx, ny, nz] = grid.dimensions;
     const auto [x, y, z] = indicesOf(grid, run.first);
     const std::int64_t lastX = x + run.last - run.first;
-    // With one or two cells along an axis, steps of -1 and +1 meet: visit each cell once.
+    // With one or two cells along an axis, steps of -1 and +1 lead to the same cell, which must be visited once.
     const auto firstStep = [](std::int64_t size) { return size >= 3 ? -1 : 0; };
     const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
 

@@ -1,10 +1,10 @@
-// Cells are told apart by 21 bits of each coordinate: those that share a key are two million cells from each other.
+// The key of a cell has 21 bits of each of its three numbers: cells that share a key are two million cells apart.
 #include "engine/neighbors/linked_cells.h"
 
 #include <algorithm>
 
 #include "engine/core/random.h"
-#include "engine/neighbors/cell_number.h"
+#include "engine/neighbors/cell_grid.h"
 
 namespace engine {
 

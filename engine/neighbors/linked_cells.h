@@ -1,5 +1,6 @@
-// Who is near a sortedIndex, where particles are added one at a time: every cell is a chain through those in it. For
-// the few moments at which particles are born; lists of neighbors come from the sorted CellGrid.
+// Finding particles near a point while more of them are added: every cell is a linked list of its particles, found by a
+// hash of its numbers. Used at the few moments at which particles are emitted, when CellGrid, which is sorted once and
+// for all, would have to be built anew for each; neighbor lists come from CellGrid.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +10,25 @@
 
 namespace engine {
 
-/// Chains of particles, found by a hash of their cell: memory is linear in n, and no box has to bound the world.
+/// Memory is linear in the number of particles, and no box has to bound the world.
 class LinkedCells {
  public:
-    /// Nobody is ever near.
+    /// Cells without a width: they never find a particle.
     LinkedCells() = default;
 
-    /// Of particles 0, 1, ... at finite positions, m. Shape: cells of a width above 0, m.
+    /// Cells with particles 0, 1, ... at these positions (m, finite).
+    /// @param width  of the cells, in meters, above 0
     LinkedCells(double width, const std::vector<Vec3>& positions);
 
     /// Adds the next particle.
     void add(const Vec3& position);
 
-    /// Calls visit(particle) once for each particle within a width of the sortedIndex, and for others; in an order that
-    /// depends on the positions alone.
+    /// Calls visit(particle) once for each particle within a cell width of a point (m), and for some further away, in
+    /// an order that depends on the positions alone.
     template <class Visit>
-    void forEachNear(const Vec3& sortedIndex, const Visit& visit) const {
+    void forEachNear(const Vec3& point, const Visit& visit) const {
         if (links_.empty()) return;
-        const Cell home = cellOf(sortedIndex);
+        const Cell home = cellOf(point);
         for (std::int64_t z = home.z - 1; z <= home.z + 1; ++z)
             for (std::int64_t y = home.y - 1; y <= home.y + 1; ++y)
                 for (std::int64_t x = home.x - 1; x <= home.x + 1; ++x) {
@@ -46,7 +48,7 @@ class LinkedCells {
     };
 
     struct Link {
-        std::uint64_t key = 0;  ///< of its cell: other cells of a chain are passed over
+        std::uint64_t key = 0;  ///< of the particle's cell; a chain may hold other cells, too
         std::uint32_t next = kEnd;
     };
 
@@ -56,8 +58,9 @@ class LinkedCells {
     void link(std::size_t p);
 
     double width_ = 0.0;
-    std::vector<std::uint32_t> first_;  ///< of each chain; a power of two of them, no fewer than there are particles
-    std::vector<Link> links_;           ///< of each particle
+    std::vector<std::uint32_t>
+        first_;                ///< first particle of each chain; as many chains as particles or more, a power of two
+    std::vector<Link> links_;  ///< one for each particle
 };
 
 }  // namespace engine

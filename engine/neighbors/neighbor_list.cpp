@@ -1,9 +1,11 @@
-// Rows are found block by block, and laid out while they are in the cache of whoever found them. The lanes of a cluster
-// wait for its longest row: particles with rows of like length are slotted side by side.
+// Building a list: positions are sorted into a cell grid, then each thread finds the rows of a block of particles and
+// interleaves them while they are in its cache.
 #include "engine/neighbors/neighbor_list.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "engine/core/bounding_box.h"
@@ -12,14 +14,14 @@
 namespace engine {
 namespace {
 
-/// The sortedIndices and the lane slots of a block.
+/// The sorted indices of a block, which are the numbers of its lane slots as well.
 CellRange rangeOf(const NeighborList& list, std::size_t block) {
     return {static_cast<std::uint32_t>(block * kSlotsPerBlock),
             static_cast<std::uint32_t>(std::min((block + 1) * kSlotsPerBlock, list.count()))};
 }
 
-/// Which laneSlot of a block each of its rows gets, the longest first: a counting sort, in which all that are far
-/// shorter are one.
+/// The lane slot within a block that each of its rows gets, the longest row first: a counting sort, in which all rows
+/// that are shorter than the longest by kLengths or more count as equally long.
 std::array<std::uint32_t, kSlotsPerBlock> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
     constexpr std::uint32_t kLengths = 128;
     const std::uint32_t longest = *std::max_element(lengths, lengths + count);
@@ -35,16 +37,16 @@ std::array<std::uint32_t, kSlotsPerBlock> ranksOf(const std::uint32_t* lengths, 
 
 /// Rows of a block in the order in which they are found, that of sorted indices. Kept by each thread.
 struct FoundBlock {
-    Surroundings surroundings;
+    SearchScratch scratch;
     FoundRows rows;
     std::array<std::uint32_t, kSlotsPerBlock> lengths;
 };
 
-/// What is around some cells is looked at once for so many particles, if they are no further apart than float sees
-/// well. Measured with `globular bench --filter list`: a quarter less time for powder than cell by cell; 6 to 32 are
-/// alike.
+/// Cells side by side are searched together while they hold no more than kRunParticles particles, over a distance that
+/// the search's float coordinates resolve. Measured with `globular bench --filter list`: a quarter less time for powder
+/// than cell by cell; limits of 6 to 32 particles take the same time.
 constexpr std::uint32_t kRunParticles = 12;
-constexpr auto kRunCells = static_cast<std::uint32_t>(kClearSight);
+constexpr auto kRunCells = static_cast<std::uint32_t>(kFloatRange);
 
 /// Finds the neighbors of the particles in a range of sorted indices.
 void search(const NeighborList& list, const CellRange& range, FoundBlock& found) {
@@ -55,7 +57,7 @@ void search(const NeighborList& list, const CellRange& range, FoundBlock& found)
         while (grid.start[cell + 1] <= first) ++cell;
         const CellRun run = runFrom(grid, cell, kRunParticles, kRunCells);
         const CellRange own{first, std::min(grid.start[run.last + 1], range.end)};
-        findInReach(list.scratch.candidates, neighborhood(grid, run), own, list.reach, found.surroundings, found.rows,
+        findInReach(list.scratch.candidates, neighborhood(grid, run), own, list.reach, found.scratch, found.rows,
                     &found.lengths[first - range.begin]);
         first = own.end;
     }
@@ -118,6 +120,7 @@ void fill(NeighborList& list, std::size_t number) {
     }
 }
 
+/// Takes the grid's order over and copies the positions in that order, for the search.
 void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
     list.order.swap(list.scratch.grid.order);
     const std::size_t count = list.order.size();
@@ -133,14 +136,26 @@ void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
     });
 }
 
-/// Whether a list is of so many particles and reaches so far (m). One that is forgotten has its order still.
+/// Whether a list was built for `count` particles and reaches at least as far as a cutoff (m). A forgotten list still
+/// has its order, but no positions.
 bool isOf(const NeighborList& list, std::size_t count, double cutoff) {
     return count == list.builtAt.size() && count == list.count() && cutoff <= list.reach;
 }
 
-/// How far each particle may go, m.
+/// How far each particle may have moved since the list was built, in meters.
 double slackOf(const NeighborList& list, double cutoff) {
     return 0.5 * (list.reach - cutoff);
+}
+
+/// Cost of a list and the passes it serves for, in pairs for each particle and step. Building costs as much as a pass
+/// over kPerParticle pairs for each particle, and kPerEntry more for each entry of its row. Measured: rows "list" and
+/// "forces" of `globular bench` at 5 to 90 neighbors, between double and float.
+double costPerStep(double skin, double neighbors, double displacement) {
+    constexpr double kPerParticle = 50.0;
+    constexpr double kPerEntry = 2.0;
+    const double entries = neighbors * (1.0 + skin) * (1.0 + skin) * (1.0 + skin);
+    const double passes = 1.0 + std::floor(0.5 * skin / displacement);
+    return entries + (kPerParticle + kPerEntry * entries) / passes;
 }
 
 template <class... Vectors>
@@ -165,7 +180,7 @@ void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff
 }
 
 std::size_t NeighborList::laneSlotOf(std::size_t p) const {
-    // Few ask: written down for all, lane slots would take longer than to be looked for.
+    // Called for few particles: storing the slots of all would take longer than searching for these.
     const std::uint32_t sortedIndex = sortedIndexOf[p];
     std::size_t laneSlot = NeighborRows::blockOf(sortedIndex) * kSlotsPerBlock;
     while (rows.ownIndices.at(laneSlot) != static_cast<std::int32_t>(sortedIndex)) ++laneSlot;
@@ -176,15 +191,30 @@ bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double
     if (!isOf(list, positions.size(), cutoff)) return false;
     if (positions.empty()) return true;
     const double slack = slackOf(list, cutoff);
-    const auto way = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
-    if (areWithin(slack, Vec3::Zero(), positions.size(), way)) return true;  // mostly, and soon known
-    // Where some have parted by more than two slacks, there is no way that all are near to. The youngest come last, and
-    // are the liveliest.
+    const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
+    if (areWithin(slack, Vec3::Zero(), positions.size(), displacement)) return true;  // the usual case, checked first
+    // Early out: if the displacements of any particles differ by more than 2 * slack, no common translation brings all
+    // within slack. Test the newest particles first; they move fastest.
     const std::size_t some = std::min(positions.size(), kSumChunk);
-    const BoundingBox young = boundingBoxOf(some, [&](std::size_t p) { return way(positions.size() - some + p); });
-    constexpr double kMargin = 1.0 + 1e-6;  // far above what the look at each of them rounds
-    if ((young.high - young.low).maxCoeff() > 2.0 * kMargin * slack) return false;
-    return areWithin(slack, boundingBoxOf(positions.size(), way).middle(), positions.size(), way);
+    const BoundingBox newest =
+        boundingBoxOf(some, [&](std::size_t p) { return displacement(positions.size() - some + p); });
+    constexpr double kMargin = 1.0 + 1e-6;  // chosen: far above the rounding of the test below
+    if ((newest.high - newest.low).maxCoeff() > 2.0 * kMargin * slack) return false;
+    return areWithin(slack, boundingBoxOf(positions.size(), displacement).middle(), positions.size(), displacement);
+}
+
+double optimalSkin(double neighbors, double displacement) {
+    // Chosen: a finer series saves nothing, wider skins take memory.
+    constexpr std::array kSkins = {0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6};
+    double best = kSkins.front();
+    double least = std::numeric_limits<double>::infinity();
+    for (const double skin : kSkins) {
+        const double cost = costPerStep(skin, neighbors, displacement);
+        if (!(cost < least)) continue;  // a NaN is passed over
+        best = skin;
+        least = cost;
+    }
+    return best;
 }
 
 std::size_t roomOf(const NeighborRows& rows) {

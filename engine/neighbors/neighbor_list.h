@@ -1,6 +1,6 @@
-// Who is near whom: for every particle the sortedIndices of all others within the cutoff and a skin around it. The list
-// serves as long as no particle has moved by half the skin beside what all have in common, so that most steps need no
-// search and a crowd that falls as one needs none at all. Kept by PairTraversal.
+// The neighbor list: for every particle all others within the cutoff and a skin around it. It serves until some
+// particle has moved by half the skin relative to the motion that all have in common. So most steps need no search, and
+// particles in free fall together need none at all. Kept by PairTraversal.
 #pragma once
 
 #include <cstdint>
@@ -15,35 +15,46 @@ namespace engine {
 
 /// Memory of a build.
 struct BuildScratch {
-    CellGrid grid;  ///< its order is an older one
+    CellGrid grid;  ///< its order is that of an older list
     Candidates candidates;
 };
 
-/// Particles have sortedIndices, which follow the cells of the grid that the list was built with, and lane slots, in
-/// the same block, of which the longest rows come first.
+/// Every particle has two positions in the list. Its sorted index is its rank in the order of the grid cells. Its lane
+/// slot says which row is its own; it lies in the same block as the sorted index, and within a block the longest rows
+/// come first, so that the lanes of a cluster finish together.
 struct NeighborList {
-    std::vector<std::uint32_t> order;          ///< particle index at each sortedIndex
-    std::vector<std::uint32_t> sortedIndexOf;  ///< of each particle index
-    NeighborRows rows;                         ///< neighbors of each laneSlot
-    std::size_t entryCount = 0;                ///< of all rows
+    std::vector<std::uint32_t> order;          ///< particle index at each sorted index
+    std::vector<std::uint32_t> sortedIndexOf;  ///< sorted index of each particle index
+    NeighborRows rows;                         ///< neighbors of the particle in each lane slot
+    std::size_t entryCount = 0;                ///< sum of the lengths of all rows
     std::vector<Vec3> builtAt;                 ///< positions by particle index when the list was built, m
     double reach = 0.0;                        ///< cutoff and skin together, m
     Scratch<BuildScratch> scratch;
 
     std::size_t count() const { return order.size(); }
 
-    /// Seat of a particle index.
+    /// Lane slot of a particle index, found by searching its block.
     std::size_t laneSlotOf(std::size_t p) const;
 };
 
-/// Builds the list for positions in meters. Holds: the same rows for any number of threads and any instruction set.
-/// Shape:  cutoff and skin in meters, at least 0.
+/// Builds the list for positions in meters. The rows are the same for any number of threads and any instruction set.
+/// @param cutoff  in meters, at least 0
+/// @param skin    in meters, at least 0
 void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff, double skin);
 
-/// Whether every pair closer than the cutoff (m) is certainly in the list.
+/// Whether every pair closer than the cutoff (m) at these positions (m) is certain to be in the list.
 bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff);
 
-/// Entries for which the rows have room, with those that fill them up.
+/// Skin in cutoffs where nothing is known of the motion. Chosen: right for a liquid.
+inline constexpr double kDefaultSkin = 0.1;
+
+/// The skin, in cutoffs, at which building lists and passing over them costs least per step. A wide skin serves for
+/// many steps, a narrow one makes short rows.
+/// @param neighbors     mean number of neighbors within the cutoff
+/// @param displacement  of the fastest particle in a step, in cutoffs
+double optimalSkin(double neighbors, double displacement);
+
+/// Entries for which the rows have room, padding included.
 std::size_t roomOf(const NeighborRows& rows);
 
 /// Bytes that the rows hold.

@@ -11,7 +11,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
-#include "engine/neighbors/verlet_skin.h"
+#include "engine/neighbors/neighbor_list.h"
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/steppers.h"
 #include "studies/common/fcc_cube.h"

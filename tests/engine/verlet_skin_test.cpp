@@ -1,5 +1,5 @@
 // The skin follows the motion: what it is worth shows in `globular bench`, what it must not do is here.
-#include "engine/neighbors/verlet_skin.h"
+#include "engine/neighbors/neighbor_list.h"
 
 #include "tests/catch.h"
 
