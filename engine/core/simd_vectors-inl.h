@@ -1,10 +1,11 @@
-// Vectors of three coordinates over lanes. Included once per instruction set, by Highway's rules; the guard below is
-// theirs.
-#if defined(ENGINE_LANE_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef ENGINE_LANE_VECTORS_INL_H
-#undef ENGINE_LANE_VECTORS_INL_H
+// Arithmetic on SIMD vectors: three-component vectors with a vector for each coordinate, and the functions that the
+// formulas of engine/law need. Included by the kernels, once per instruction set by Highway's rules; so is the guard
+// below.
+#if defined(ENGINE_SIMD_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ENGINE_SIMD_VECTORS_INL_H
+#undef ENGINE_SIMD_VECTORS_INL_H
 #else
-#define ENGINE_LANE_VECTORS_INL_H
+#define ENGINE_SIMD_VECTORS_INL_H
 #endif
 
 #include <hwy/highway.h>
@@ -21,13 +22,49 @@ struct Vector3 {
 };
 
 template <class V>
-Vector3<V> difference(const Vector3<V>& a, const Vector3<V>& b) {
+HWY_INLINE Vector3<V> difference(const Vector3<V>& a, const Vector3<V>& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 
 template <class V>
-V dot(const Vector3<V>& a, const Vector3<V>& b) {
+HWY_INLINE Vector3<V> scaled(V factor, const Vector3<V>& vector) {
+    return {hn::Mul(factor, vector.x), hn::Mul(factor, vector.y), hn::Mul(factor, vector.z)};
+}
+
+/// sum += factor * vector
+template <class V>
+HWY_INLINE void addScaled(Vector3<V>& sum, V factor, const Vector3<V>& vector) {
+    sum.x = hn::Add(sum.x, hn::Mul(factor, vector.x));
+    sum.y = hn::Add(sum.y, hn::Mul(factor, vector.y));
+    sum.z = hn::Add(sum.z, hn::Mul(factor, vector.z));
+}
+
+/// Dot product, summed x, y, z in that order like engine::dot().
+template <class V>
+HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+// pair_law.h has these functions for plain numbers.
+template <class V>
+HWY_INLINE V larger(V a, V b) {
+    return hn::Max(a, b);
+}
+template <class V>
+HWY_INLINE V atLeast(V number, double bound) {
+    return hn::Max(number, hn::Set(hn::DFromV<V>(), static_cast<hn::TFromV<V>>(bound)));
+}
+template <class V>
+HWY_INLINE V positivePart(V number) {
+    return hn::Max(number, hn::Zero(hn::DFromV<V>()));
+}
+template <class V>
+HWY_INLINE V reciprocal(V number) {
+    return hn::Div(hn::Set(hn::DFromV<V>(), hn::TFromV<V>(1)), number);
+}
+template <class V>
+HWY_INLINE V squareRoot(V number) {
+    return hn::Sqrt(number);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,5 @@
-// Compiled once per instruction set: as many particles at a time as a vector has lanes, and one face of an obstacle
-// after the other. Most faces are touched by nobody, which is soon known.
+// Compiled once per instruction set. One particle in each lane meets one face of an obstacle after the other; where no
+// lane touches the face, which is the usual case, it costs a dot product and a comparison.
 #include "engine/forces/external_forces.h"
 
 #include <array>
@@ -18,9 +18,10 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-/// contactForce() on particles side by side, as many as D has lanes: as surfaces.h and pair_law.h have it, with the
-/// same order of products and sums. Of planes, containers and spheres heights alone tell who touches them: mayReach()
-/// spares a single particle work, and changes nothing.
+#include "engine/law/pair_formulas-inl.h"
+
+/// contactForce() for as many particles as D has lanes, with the operations of obstacle_surfaces.h in the same order.
+/// The test mayReach() of the scalar path is left out for all shapes but boxes: it saves work and changes no result.
 template <class D>
 class SimdContacts {
     using V = hn::Vec<D>;
@@ -59,7 +60,7 @@ class SimdContacts {
         return vectors;
     }
 
-    /// Of all that was met, N.
+    /// Force of all obstacles met so far, N.
     const Vector3<V>& force() const { return force_; }
 
     void meet(const Plane& plane) {
@@ -89,7 +90,7 @@ class SimdContacts {
         touch(height, normal, sphere.literalRepulsor ? sphere.radius : law_.radius);
     }
 
-    /// A box has faces, edges and corners: whoever is near meets it alone.
+    /// A box has faces, edges and corners: each particle near it meets it alone, on the scalar path.
     void meet(const Box& box) {
         std::array<Vec3, kMost> force;
         hn::StoreInterleaved3(force_.x, force_.y, force_.z, kTag, force.front().data());
@@ -111,44 +112,30 @@ class SimdContacts {
     static V set(double number) { return hn::Set(kTag, number); }
     static Vector3<V> all(const Vec3& vector) { return {set(vector.x()), set(vector.y()), set(vector.z())}; }
 
-    static V aboveZero(V number) { return hn::IfThenElseZero(hn::Gt(number, hn::Zero(kTag)), number); }
-
-    /// Adds the force of a face at these heights (m) on those who touch it: addForce() of contactWith().
+    /// Adds the force of a face at these heights (m) on the particles that touch it: addForce() of contactWith().
     void touch(V height, const Vector3<V>& normal, double repulsorRadius) {
         const auto isTouched = hn::Lt(height, radius_);
         if (hn::AllFalse(kTag, isTouched)) return;
-        const V rest = hn::Add(radius_, set(repulsorRadius));
-        const V core = hn::Mul(set(law_.coreFraction), rest);
-        const V distance = hn::Max(hn::Add(height, set(repulsorRadius)), core);
-        const V guardedSq = hn::Max(hn::Mul(distance, distance), hn::Mul(core, core));
-        const V inverseSq = hn::Div(set(1.0), guardedSq);
-        const V toRest = hn::Sub(inverseSq, hn::Div(set(1.0), hn::Mul(rest, rest)));
-        const V toReach = aboveZero(toRest);
-        const V conservative = hn::Mul(hn::Mul(set(law_.repulsion), hn::Sqrt(inverseSq)), hn::Mul(toRest, toReach));
-        const V speed = dot(velocity_, normal);
+        const V restLength = hn::Add(radius_, set(repulsorRadius));
+        const V core = hn::Mul(set(law_.coreFraction), restLength);
         const V damping = hn::Mul(set(law_.dampingFactor), dampingReach_);
-        const V damped = hn::Mul(hn::Mul(damping, hn::Mul(distance, speed)), toReach);
-        push(isTouched, hn::Mul(distance, hn::Sub(conservative, damped)), normal);
-        if (hasFriction_) rub(isTouched, hn::Mul(distance, conservative), speed, normal);
+        const auto constants = repulsorConstants(set(law_.repulsion), damping, restLength, core);
+        const V distance = larger(hn::Add(height, set(repulsorRadius)), core);
+        const V speed = dot(velocity_, normal);
+        addWhere(isTouched, repulsorForce(distance, speed, constants), normal);
+        if (!hasFriction_) return;
+        const Vector3<V> slip = difference(velocity_, scaled(speed, normal));
+        const V pressure = repulsorForce(distance, hn::Zero(kTag), constants);
+        const auto isRough = hn::Ne(friction_, hn::Zero(kTag));
+        addWhere(hn::And(isTouched, isRough), hn::Neg(slipDamping(friction_, pressure, dot(slip, slip))), slip);
     }
 
-    /// slipDamping() by contacts of this normal force (N), at this normal speed (m/s).
-    void rub(hn::Mask<D> isTouched, V pressure, V speed, const Vector3<V>& normal) {
-        const Vector3<V> slip =
-            difference(velocity_, {hn::Mul(speed, normal.x), hn::Mul(speed, normal.y), hn::Mul(speed, normal.z)});
-        const V slipSpeed = hn::Max(hn::Sqrt(dot(slip, slip)), set(kStickingSpeed));
-        const V damping = hn::Div(hn::Mul(friction_, aboveZero(pressure)), slipSpeed);
-        push(hn::And(isTouched, hn::Ne(friction_, hn::Zero(kTag))), hn::Neg(damping), slip);
-    }
-
-    /// Adds factor times direction where it applies.
-    void push(hn::Mask<D> applies, V factor, const Vector3<V>& direction) {
-        const auto add = [&](V& sum, V along) {
-            sum = hn::IfThenElse(applies, hn::Add(sum, hn::Mul(factor, along)), sum);
-        };
-        add(force_.x, direction.x);
-        add(force_.y, direction.y);
-        add(force_.z, direction.z);
+    /// Adds factor * direction to the force in the lanes of a mask.
+    void addWhere(hn::Mask<D> applies, V factor, const Vector3<V>& direction) {
+        Vector3<V> sum = force_;
+        addScaled(sum, factor, direction);
+        force_ = {hn::IfThenElse(applies, sum.x, force_.x), hn::IfThenElse(applies, sum.y, force_.y),
+                  hn::IfThenElse(applies, sum.z, force_.z)};
     }
 
     const std::vector<Material>& materials_;

@@ -1,4 +1,5 @@
-// What acts on particles besides each other, the paper's way: their weight, and obstacles as forces.
+// The forces on particles that do not come from other particles, as the paper has them: their weight and the repulsors
+// of obstacles. Called by ForceEvaluator::evaluate() and by the paper's stepper, symplectic Euler.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,9 @@
 
 namespace engine {
 
-/// Adds weight and obstacles of particles begin to end - 1 to their forces (N). Shape: velocities in m/s.
-/// Holds:  equal to the weight and contactForce(), one after the other, on any instruction set, and however particles
-/// are split up into ranges.
+/// Adds weight and obstacle forces to the forces (N) on particles begin to end - 1. The result has the bits of the
+/// weight and contactForce() added one after the other, on any instruction set and for any split into ranges.
+/// @param velocities  seen by the damping and the friction, in m/s
 void addExternalForces(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                        std::size_t begin, std::size_t end, std::vector<Vec3>& forces);
 

@@ -45,12 +45,12 @@ double cutoffRatio(const std::vector<Material>& materials) {
 
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
     ForceTerms terms;
-    terms.pair.oneReach = true;  // of mixtures too, if each has one
+    terms.pair.equalReach = true;  // of mixtures too, if each has one
     for (const Material& material : law.materials) {
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;
         terms.pair.friction |= material.friction > 0.0;
-        if (material.damping > 0.0) terms.pair.oneReach &= material.repulsionReach == material.dampingReach;
+        if (material.damping > 0.0) terms.pair.equalReach &= material.repulsionReach == material.dampingReach;
         terms.uniform &= sameLaw(material, law.materials.front());
     }
     const std::vector<double>& radii = particles.radius;

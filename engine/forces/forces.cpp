@@ -36,7 +36,9 @@ double ForceEvaluator::evaluateFree(const Particles& particles, const std::vecto
         pairForcesReference(law_, particles, velocities, forces);
         energy = pairEnergyReference(law_, particles);
     } else {
-        addUp(particles, velocities, {.forces = forces, .energy = &energy}, step);
+        forces.resize(particles.count());
+        pairs_.prepare(law_, particles, velocities, step);
+        sumPairs(pairs_, {.forces = forces, .energy = &energy});
     }
     addGravity(particles, forces);
     return energy;
@@ -48,7 +50,7 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     forces.resize(particles.count());
     pairs_.prepare(law_, particles, particles.velocity, step);
     pairs_.packParticles(particles, particles.velocity);
-    addUpPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
+    sumPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
     // The matrix has no slow twin: products of the reference's pairs would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
     matrix.mass.resize(particles.count());
@@ -88,14 +90,9 @@ void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& f
 
 void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,
                                     std::vector<Vec3>& forces, double step) {
-    addUp(particles, velocities, {.forces = forces}, step);
-}
-
-void ForceEvaluator::addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums,
-                           double step) {
-    sums.forces.resize(particles.count());
+    forces.resize(particles.count());
     pairs_.prepare(law_, particles, velocities, step);
-    addUpPairs(pairs_, sums);
+    sumPairs(pairs_, {.forces = forces});
 }
 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {

@@ -83,7 +83,6 @@ class ForceEvaluator {
     const ForceLaw& law() const { return law_; }
 
  private:
-    void addUp(const Particles& particles, const std::vector<Vec3>& velocities, const PairSums& sums, double step);
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
 
     ForceLaw law_;

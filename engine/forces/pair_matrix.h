@@ -1,63 +1,51 @@
 // The matrix of the implicit steppers, never formed: A = M + C' + K', where M is the mass, C' the weighted damping and
-// K' the weighted stiffness of all pairs at one configuration, both acting along the line between the two; friction
-// adds weighted damping across it. Each entry is kept as a number: a product is another pass over the pairs, with what
-// is multiplied in the sortedIndex of the velocities.
+// K' the weighted stiffness of all pairs at one configuration. Both act along the line between two particles; friction
+// adds weighted damping across it. Each pair is stored as one number, with friction two; a product is another pass over
+// the pairs. Assembled by sumPairs(), used by conjugate_gradient.cpp and stepping/step_bound.cpp.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "engine/core/vec3.h"
-#include "engine/forces/packed_particle.h"
+#include "engine/forces/packed_particles.h"
 #include "engine/neighbors/neighbor_list.h"
 
 namespace engine {
 
-/// How much of the damping and of the stiffness enters: h/2 and h^2/4 of a step h.
+/// How much of the damping and of the stiffness enters: h/2 and h^2/4 for a step h.
 struct MatrixWeights {
     double damping = 0.0;    ///< s
     double stiffness = 0.0;  ///< s^2; 0 leaves the stiffness out
 };
 
-/// All vectors are by sortedIndex in the neighbor list that it was assembled over. The block of a pair is
-/// -(along P P^T + across 1), its two entries are equal bit for bit. Coincident pairs, which have no direction, add
-/// nothing.
+/// The block of a pair is -(along P P^T + across 1). The two entries of a pair are equal bit for bit. Coincident pairs,
+/// which have no direction, add nothing. All vectors are in the order of the neighbor list that the matrix was
+/// assembled over.
 struct PairMatrix {
-    std::vector<double> mass;  ///< of each particle, kg
-    std::vector<Matrix3> own;  ///< what obstacles add to each particle's own block, kg; empty without any
-    std::vector<PackedParticle>
-        packed;         ///< positions; a product puts what it multiplies in the sortedIndex of the velocities
-    NeighborRows rows;  ///< of the pairs that have an entry
-
-    /// Of each entry of a block of the rows.
+    /// A number for each entry of the rows, by block.
     using Entries = std::vector<std::vector<double>>;
 
-    Entries along;   ///< kg/m^2
-    Entries across;  ///< kg; empty without friction
+    std::vector<double> mass;  ///< of each particle, kg
+    std::vector<Matrix3> own;  ///< what obstacles add to each particle's diagonal block, kg; empty without any
+    std::vector<PackedParticle> packed;  ///< positions; a product stores its factor as the velocities
+    NeighborRows rows;                   ///< of the pairs that have an entry
+    Entries along;                       ///< kg/m^2
+    Entries across;                      ///< kg; empty without friction
 
     std::size_t count() const { return mass.size(); }
 
-    /// Appends an entry to the row of a laneSlot; the laneSlot's own thread alone may.
+    /// Appends an entry to the row of a lane slot. Threads may append to different rows at the same time.
     void add(std::size_t laneSlot, std::uint32_t other, double alongOf, double acrossOf);
 };
 
-/// Empties the matrix and gives it room for the pairs of a list.
+/// Empties the matrix and makes room for the pairs of a list.
 void makeRoom(PairMatrix& matrix, const NeighborList& list, bool hasFriction);
 
-/// Fills the rows up, after the last entry.
-void close(PairMatrix& matrix);
+/// Pads the rows after the last entry was added.
+void padRows(PairMatrix& matrix);
 
-/// product = A x, both of count() entries.
-/// Holds: what the pairs add has neither a total nor a moment, to rounding.
+/// product = A x, both of count() entries. The pairs' part of the product has neither a total nor a moment, to
+/// rounding.
 void multiply(PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>& product);
-
-/// The pairs' share of a product for the particles of one cluster, by laneSlot.
-struct ClusterProduct {
-    std::array<double, kClusterSize> x, y, z;
-};
-
-/// Sum over the others of along P (P . d) + across d, where d is what the packed' velocities differ by; a particle a
-/// lane. Called by multiply().
-void multiplyCluster(const PairMatrix& matrix, std::size_t cluster, ClusterProduct& product);
 
 }  // namespace engine

@@ -1,5 +1,6 @@
 // Equation 1 over the neighbor list, with only the terms that the materials need and the sums that the caller wants
-// compiled into the kernel that runs.
+// compiled into the kernel that runs. Particles of one material and one radius go through the SIMD kernel, all others
+// through the scalar one.
 #include "engine/forces/pair_sums.h"
 
 #include <algorithm>
@@ -11,34 +12,46 @@
 namespace engine {
 namespace {
 
-/// What a kernel is compiled for.
+/// What a scalar kernel is compiled for.
 struct Variant {
     PairTerms terms;
-    bool uniform = true;
-    bool energy = false;
-    bool matrix = false;
+    bool hasEnergy;
+    bool hasMatrix;
 };
 
-/// Friction of a pair.
+/// What a particle gets from its pairs.
+struct ParticleSums {
+    Vec3 force = Vec3::Zero();  ///< N
+    double energy = 0.0;        ///< half of its pairs' energies, J
+};
+
+/// Two particles within the cutoff, with P and P.P as PairTraversal::visitPair() has them.
+struct Pair {
+    const PackedParticle& p;
+    const PackedParticle& i;
+    const Vec3& separation;
+    double distanceSq;
+
+    Vec3 velocity() const { return {p.vx - i.vx, p.vy - i.vy, p.vz - i.vz}; }
+};
+
+/// Friction of a pair: the force is -damping times velocity.
 struct Slip {
     Vec3 velocity = Vec3::Zero();  ///< V_t, m/s
     double damping = 0.0;          ///< c_t, kg/s
 };
 
-/// Inline, so that what the pair's coefficient has in common with it is computed once.
-[[gnu::always_inline]] inline Slip slipOf(const PackedParticle& p, const PackedParticle& i, const Vec3& separation,
-                                          double distanceSq, const PairConstants<double>& constants) {
-    const double coefficient = pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, constants);
+/// Forced inline, so that what it has in common with the pair's coefficient is computed once.
+[[gnu::always_inline]] inline Slip slipOf(const Pair& pair, const PairConstants<double>& constants) {
+    const double coefficient = pairCoefficient<kConservative>(pair.distanceSq, 0.0, constants);
     if (!(coefficient > 0.0)) return {};
-    const Vec3 velocity(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz);
-    Slip slip;
-    slip.velocity = velocity - dot(velocity, separation) / distanceSq * separation;
-    slip.damping = slipDamping(constants.friction, coefficient * std::sqrt(distanceSq), squaredLength(slip.velocity));
-    return slip;
+    const Vec3 velocity = pair.velocity();
+    const Vec3 slip = velocity - dot(velocity, pair.separation) / pair.distanceSq * pair.separation;
+    return {slip, slipDamping(constants.friction, coefficient * std::sqrt(pair.distanceSq), squaredLength(slip))};
 }
 
-/// A coincident pair is parted by a force that its energy at D = 0 does not know: it counts as much above that energy
-/// as its stand-in lies below.
+/// Energy of a pair in joules. The force that separates a coincident pair does work that U(D) at D = 0 does not
+/// contain: such a pair counts as much above U(0) as its stand-in separation lies below.
 [[gnu::always_inline]] inline double energyOf(const PackedParticle& p, const PackedParticle& i, double distance,
                                               const PairConstants<double>& constants) {
     const double energy = pairEnergy(distance, constants);
@@ -46,109 +59,82 @@ struct Slip {
     return 2.0 * pairEnergy(0.0, constants) - energy;
 }
 
-/// Of a particle.
-struct Sums {
-    Vec3 force = Vec3::Zero();  ///< N
-    double energy = 0.0;        ///< half of its pairs', J
-};
-
-Sums operator+(const Sums& a, const Sums& b) {
-    return {a.force + b.force, a.energy + b.energy};
-}
-
-/// Two particles that act on each other. Shape: as visitPair() has it.
-struct Pair {
-    const PackedParticle& p;
-    const PackedParticle& i;
-    const Vec3& separation;
-    double distanceSq;
-};
-
-/// Adds what a pair does to p; returns its slip damping, kg/s.
+/// Adds what a pair contributes to p; returns the damping of its slip, in kg/s.
 template <Variant variant>
-[[gnu::always_inline]] inline double addPair(const Pair& pair, const PairConstants<double>& constants, Sums& sums) {
-    const auto& [p, i, separation, distanceSq] = pair;
+[[gnu::always_inline]] inline double addPair(const Pair& pair, const PairConstants<double>& constants,
+                                             ParticleSums& sums) {
+    const double distanceSq = pair.distanceSq;
     double approach = 0.0;
-    if constexpr (variant.terms.damping) approach = dot(Vec3(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz), separation);
-    sums.force += pairCoefficient<variant.terms>(distanceSq, approach, constants) * separation;
+    if constexpr (variant.terms.damping) approach = dot(pair.velocity(), pair.separation);
+    sums.force += pairCoefficient<variant.terms>(distanceSq, approach, constants) * pair.separation;
     Slip slip;
     if constexpr (variant.terms.friction) {
-        slip = slipOf(p, i, separation, distanceSq, constants);
+        slip = slipOf(pair, constants);
         sums.force -= slip.damping * slip.velocity;
     }
-    if constexpr (variant.energy)
-        if (distanceSq < constants.reachSq) sums.energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), constants);
+    if constexpr (variant.hasEnergy)
+        if (distanceSq < constants.reachSq)
+            sums.energy += 0.5 * energyOf(pair.p, pair.i, std::sqrt(distanceSq), constants);
     return slip.damping;
 }
 
-/// The pass over one particle's neighbors.
-template <Variant variant>
-struct Kernel {
-    const PairTraversal& pairs;
-    const PairSums& wanted;
-
-    Sums operator()(std::size_t laneSlot) const {
-        const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
-        Sums sums;
-        pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
-            const PackedParticle& i = pairs.packed[other];
-            const auto constants = pairs.constants<variant.uniform>(p, i);
-            const double slipDamping = addPair<variant>({p, i, separation, distanceSq}, constants, sums);
-            if constexpr (variant.matrix) addEntry(laneSlot, other, distanceSq, slipDamping, constants);
-        });
-        return sums;
-    }
-
-    /// Across the pair acts friction, along it the damping b_d s_d and the stiffness max(k, 0), each times its weight.
-    void addEntry(std::size_t laneSlot, std::uint32_t other, double distanceSq, double slipDamping,
-                  const PairConstants<double>& constants) const {
-        double along = 0.0;
-        if constexpr (variant.terms.damping) along = wanted.weights.damping * pairDampingOverSq(distanceSq, constants);
-        if (wanted.weights.stiffness > 0.0 && distanceSq < constants.reachSq) {
-            const double stiffness = pairStiffness(std::sqrt(distanceSq), constants);
-            along += wanted.weights.stiffness * std::max(0.0, stiffness) / distanceSq;
-        }
-        const double across = wanted.weights.damping * slipDamping;
-        const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
-        const PackedParticle& i = pairs.packed[other];
-        if ((along == 0.0 && across == 0.0) || coincide(p, i)) return;
-        // across (1 - n n^T) = across 1 - (across / D^2) P P^T
-        wanted.matrix->add(laneSlot, other, along - across / distanceSq, across);
-    }
-};
-
-/// Seats of a cluster.
-struct Cluster {
-    std::size_t first, end;
-};
-
-/// Calls addUp(cluster) for every cluster, shared out over the threads; returns the sum of the energies that it
-/// returns, J. Where nobody asks for them there is none.
-template <class AddUp>
-double overClusters(const PairTraversal& pairs, bool hasEnergy, const AddUp& addUp) {
-    const std::size_t count = pairs.list.count();
-    const std::size_t clusters = (count + kClusterSize - 1) / kClusterSize;
-    std::vector<double> energies(hasEnergy ? clusters : 0);
-    constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
-    inParallel(clusters, kGrain, [&](std::size_t number) {
-        const double energy = addUp(Cluster{number * kClusterSize, std::min((number + 1) * kClusterSize, count)});
-        if (hasEnergy) energies[number] = energy;
-    });
-    return sumOver(energies.size(), [&](std::size_t cluster) { return energies[cluster]; });
+/// Adds a pair's entry to the matrix: friction acts across the pair, along it the damping b_d s_d and the stiffness
+/// max(k, 0), each times its weight.
+template <PairTerms terms>
+void addEntry(const Pair& pair, double slipDamping, const PairConstants<double>& constants, const PairSums& wanted,
+              std::size_t laneSlot, std::uint32_t other) {
+    const MatrixWeights& weights = wanted.weights;
+    const double distanceSq = pair.distanceSq;
+    double along = 0.0;
+    if constexpr (terms.damping) along = weights.damping * pairDampingOverSq(distanceSq, constants);
+    if (weights.stiffness > 0.0 && distanceSq < constants.reachSq)
+        along += weights.stiffness * std::max(0.0, pairStiffness(std::sqrt(distanceSq), constants)) / distanceSq;
+    const double across = weights.damping * slipDamping;
+    if ((along == 0.0 && across == 0.0) || coincide(pair.p, pair.i)) return;
+    // across (1 - n n^T) = across 1 - (across / D^2) P P^T
+    wanted.matrix->add(laneSlot, other, along - across / distanceSq, across);
 }
 
-/// The force (N) on the particle in a laneSlot.
+/// The scalar kernel: one particle and its neighbors.
+template <Variant variant>
+ParticleSums sumParticle(const PairTraversal& pairs, const PairSums& wanted, std::size_t laneSlot) {
+    const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
+    ParticleSums sums;
+    pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+        const Pair pair{p, pairs.packed[other], separation, distanceSq};
+        const auto constants = pairs.constants(p, pair.i);
+        const double slipDamping = addPair<variant>(pair, constants, sums);
+        if constexpr (variant.hasMatrix) addEntry<variant.terms>(pair, slipDamping, constants, wanted, laneSlot, other);
+    });
+    return sums;
+}
+
+/// Calls sumCluster(first slot, end slot) for every cluster, divided among the threads, and returns the sum of the
+/// energies (J) that it returns if they are wanted.
+template <class SumCluster>
+double overClusters(const PairTraversal& pairs, bool hasEnergy, const SumCluster& sumCluster) {
+    const std::size_t count = pairs.list.count();
+    std::vector<double> energies(pairs.list.rows.clusterCount());
+    constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
+    inParallel(energies.size(), kGrain, [&](std::size_t cluster) {
+        const std::size_t first = cluster * kClusterSize;
+        energies[cluster] = sumCluster(first, std::min(first + kClusterSize, count));
+    });
+    return hasEnergy ? sumOver(energies.size(), [&](std::size_t cluster) { return energies[cluster]; }) : 0.0;
+}
+
+/// The force (N) on the particle in a lane slot.
 Vec3& forceOn(const PairTraversal& pairs, std::size_t laneSlot, const PairSums& wanted) {
     return wanted.forces[pairs.list.order[pairs.sortedIndexAt(laneSlot)]];
 }
 
+/// The pass over particles of several materials or radii; returns the pair energy, in joules.
 template <Variant variant>
-double run(const PairTraversal& pairs, const PairSums& wanted) {
-    const Kernel<variant> kernel{pairs, wanted};
-    return overClusters(pairs, variant.energy, [&](const Cluster& cluster) {
+double sumMixed(const PairTraversal& pairs, const PairSums& wanted) {
+    return overClusters(pairs, variant.hasEnergy, [&](std::size_t first, std::size_t end) {
         double energy = 0.0;
-        for (std::size_t laneSlot = cluster.first; laneSlot < cluster.end; ++laneSlot) {
-            const Sums sums = kernel(laneSlot);
+        for (std::size_t laneSlot = first; laneSlot < end; ++laneSlot) {
+            const ParticleSums sums = sumParticle<variant>(pairs, wanted, laneSlot);
             forceOn(pairs, laneSlot, wanted) = sums.force;
             energy += sums.energy;
         }
@@ -165,132 +151,103 @@ bool isCoincident(const PairTraversal& pairs, std::size_t laneSlot) {
     return false;
 }
 
-/// In float: what those who share its position do to a particle. Of them lanes know only the energy at D = 0.
+/// Adds, in float, what coincident neighbors do to a particle. Of them the SIMD kernel has counted the energy at D = 0
+/// alone.
 template <PairTerms terms>
-Sums partingSums(const PairTraversal& pairs, std::size_t laneSlot) {
-    // What is left of a record where P is zero.
-    const auto record = [&](const PackedParticleFloat& of) {
-        return PackedParticle{0.0, 0.0, 0.0, of.vx, of.vy, of.vz, pairs.uniformRadius, 0, of.id};
+void addCoincidentFloat(const PairTraversal& pairs, std::size_t laneSlot, ParticleSums& all) {
+    // What remains of a packed particle where P is zero.
+    const auto atOrigin = [&](const PackedParticleFloat& from) {
+        return PackedParticle{0.0, 0.0, 0.0, from.vx, from.vy, from.vz, pairs.uniformRadius, 0, from.id};
     };
-    const PackedParticleFloat& own = pairs.packedFloats[pairs.sortedIndexAt(laneSlot)];
+    const PackedParticleFloat& own = pairs.packedFloat[pairs.sortedIndexAt(laneSlot)];
     const NeighborRows& rows = pairs.list.rows;
-    Sums sums;
+    ParticleSums sums;
     for (std::uint32_t k = 0; k < rows.length[laneSlot]; ++k) {
-        const PackedParticleFloat& other = pairs.packedFloats[rows.sortedIndexAt(laneSlot, k)];
+        const PackedParticleFloat& other = pairs.packedFloat[rows.sortedIndexAt(laneSlot, k)];
         if (!coincide(own, other)) continue;
-        const PackedParticle p = record(own);
-        const PackedParticle i = record(other);
+        const PackedParticle p = atOrigin(own);
+        const PackedParticle i = atOrigin(other);
         PairTraversal::visitPair(p, i, [&](const Vec3& separation, double distanceSq) {
-            addPair<Variant{terms, true, true, false}>({p, i, separation, distanceSq}, pairs.uniform, sums);
+            addPair<Variant{terms, true, false}>({p, i, separation, distanceSq}, pairs.uniform, sums);
         });
         sums.energy -= 0.5 * pairEnergy(0.0, pairs.uniform);
     }
-    return sums;
+    all.force += sums.force;
+    all.energy += sums.energy;
 }
 
-Sums sumsOf(const ClusterSums& of, std::size_t lane) {
-    return {Vec3(of.x[lane], of.y[lane], of.z[lane]), of.energy[lane]};
-}
-
-void keep(const Sums& sums, std::size_t lane, ClusterSums& of) {
-    of.x[lane] = sums.force.x();
-    of.y[lane] = sums.force.y();
-    of.z[lane] = sums.force.z();
-    of.energy[lane] = sums.energy;
-}
-
-/// What lanes do not know of coincident particles. In double they are done again by the scalar kernel, which knows how
-/// to block them; the rows of the matrix stay those of the lanes, or the two entries of a pair would be rounded
-/// differently.
+/// Corrects the sums of the coincident particles of a cluster, which the SIMD kernel cannot separate. In double the
+/// scalar kernel does them again; the rows of the matrix stay those of the SIMD kernel, or the two entries of a pair
+/// would be rounded differently.
 template <PairTerms terms>
-void partCoincident(const PairTraversal& pairs, const PairSums& wanted, const Cluster& cluster, ClusterSums& of) {
-    const Kernel<Variant{terms, true, true, false}> scalar{pairs, wanted};
-    for (std::size_t laneSlot = cluster.first; laneSlot < cluster.end; ++laneSlot) {
-        const std::size_t lane = laneSlot - cluster.first;
-        if ((of.coincident >> lane & 1U) == 0) continue;
-        if (!pairs.packedFloats.empty())
-            keep(sumsOf(of, lane) + partingSums<terms>(pairs, laneSlot), lane, of);
-        else if (isCoincident(pairs, laneSlot))
-            keep(scalar(laneSlot), lane, of);
+void correctCoincident(const PairTraversal& pairs, const PairSums& wanted, std::size_t first, ClusterSums& sums) {
+    for (std::size_t lane = 0; lane < kClusterSize; ++lane) {
+        if ((sums.coincident >> lane & 1U) == 0) continue;
+        ParticleSums own{Vec3(sums.x[lane], sums.y[lane], sums.z[lane]), sums.energy[lane]};
+        if (!pairs.packedFloat.empty())
+            addCoincidentFloat<terms>(pairs, first + lane, own);
+        else if (isCoincident(pairs, first + lane))
+            own = sumParticle<Variant{terms, true, false}>(pairs, wanted, first + lane);
+        sums.x[lane] = own.force.x();
+        sums.y[lane] = own.force.y();
+        sums.z[lane] = own.force.z();
+        sums.energy[lane] = own.energy;
     }
 }
 
-/// What is wanted of uniform particles, a particle a lane.
-template <PairTerms terms>
-double addUpClusters(const PairTraversal& pairs, const PairSums& wanted) {
-    const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
-    const bool isSingle = !pairs.packedFloats.empty();
+/// The pass over particles of one material and one radius; returns the pair energy, in joules.
+double sumUniform(const PairTraversal& pairs, const PairSums& wanted) {
     const SimdPass pass{.rows = pairs.list.rows,
                         .packed = pairs.packed,
-                        .packedFloats = pairs.packedFloats,
-                        .unit = isSingle ? pairs.unit : 1.0,
+                        .packedFloat = pairs.packedFloat,
+                        .unit = pairs.packedFloat.empty() ? 1.0 : pairs.unit,
                         .constants = pairs.uniform,
-                        .terms = terms,
-                        .energy = hasEnergy,
+                        .terms = pairs.terms.pair,
+                        .hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr,
                         .matrix = wanted.matrix,
                         .weights = wanted.weights};
-    return overClusters(pairs, hasEnergy, [&](const Cluster& cluster) {
-        ClusterSums of;
-        addUpCluster(pass, cluster.first / kClusterSize, of);
-        if (of.coincident != 0) partCoincident<terms>(pairs, wanted, cluster, of);
-        for (std::size_t laneSlot = cluster.first; laneSlot < cluster.end; ++laneSlot)
-            forceOn(pairs, laneSlot, wanted) = sumsOf(of, laneSlot - cluster.first).force;
-        // A sum in order takes a fifth of a pass over few neighbors (`globular bench --filter "forces powder"`).
-        const auto* const energies = of.energy.data();
-        return hasEnergy ? std::accumulate(energies, energies + (cluster.end - cluster.first), 0.0) : 0.0;
+    const ClusterKernel sumCluster = clusterKernel(pass);
+    return overClusters(pairs, pass.hasEnergy, [&](std::size_t first, std::size_t end) {
+        ClusterSums sums;
+        sumCluster(pass, first / kClusterSize, sums);
+        if (sums.coincident != 0)
+            withTerms(pass.terms, [&]<PairTerms terms>() { correctCoincident<terms>(pairs, wanted, first, sums); });
+        for (std::size_t lane = 0; lane < end - first; ++lane)
+            forceOn(pairs, first + lane, wanted) = Vec3(sums.x[lane], sums.y[lane], sums.z[lane]);
+        return pass.hasEnergy ? std::accumulate(sums.energy.data(), sums.energy.data() + (end - first), 0.0) : 0.0;
     });
-}
-
-using Pass = double (*)(const PairTraversal&, const PairSums&);
-
-template <PairTerms terms, bool isUniform>
-Pass passFor(const PairSums& wanted) {
-    if constexpr (isUniform) {
-        return addUpClusters<terms>;
-    } else {
-        if (wanted.matrix != nullptr) return run<Variant{terms, false, true, true}>;
-        return wanted.energy != nullptr ? run<Variant{terms, false, true, false}>
-                                        : run<Variant{terms, false, false, false}>;
-    }
-}
-
-template <bool isUniform>
-Pass passFor(PairTerms terms, const PairSums& wanted) {
-    // Friction is for few scenes: it shares one kernel that has everything.
-    if (terms.friction) return passFor<PairTerms{true, true, true}, isUniform>(wanted);
-    if (terms.damping && terms.oneReach) return passFor<PairTerms{true, true, false, true}, isUniform>(wanted);
-    if (terms.attraction)
-        return terms.damping ? passFor<PairTerms{true, true}, isUniform>(wanted)
-                             : passFor<PairTerms{true, false}, isUniform>(wanted);
-    return terms.damping ? passFor<PairTerms{false, true}, isUniform>(wanted)
-                         : passFor<PairTerms{false, false}, isUniform>(wanted);
 }
 
 }  // namespace
 
-void addUpPairs(const PairTraversal& pairs, const PairSums& wanted) {
+void sumPairs(const PairTraversal& pairs, const PairSums& wanted) {
     if (wanted.matrix != nullptr) {
         makeRoom(*wanted.matrix, pairs.list, pairs.terms.pair.friction);
         wanted.matrix->packed = pairs.packed;
     }
-    const PairTerms terms = pairs.terms.pair;
-    const Pass pass = pairs.terms.uniform ? passFor<true>(terms, wanted) : passFor<false>(terms, wanted);
-    const double energy = pass(pairs, wanted);
-    if (wanted.matrix != nullptr) close(*wanted.matrix);
+    double energy = 0.0;
+    if (pairs.terms.uniform)
+        energy = sumUniform(pairs, wanted);
+    else
+        withTerms(pairs.terms.pair, [&]<PairTerms terms>() {
+            energy = wanted.matrix != nullptr   ? sumMixed<Variant{terms, true, true}>(pairs, wanted)
+                     : wanted.energy != nullptr ? sumMixed<Variant{terms, true, false}>(pairs, wanted)
+                                                : sumMixed<Variant{terms, false, false}>(pairs, wanted);
+        });
+    if (wanted.matrix != nullptr) padRows(*wanted.matrix);
     if (wanted.energy != nullptr) *wanted.energy = energy;
 }
 
 double pairEnergySum(const PairTraversal& pairs) {
-    const auto energyOfOne = [&](std::size_t laneSlot) {
+    return sumOver(pairs.list.count(), [&](std::size_t laneSlot) {
         double energy = 0.0;
         const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
         pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3&, double distanceSq) {
             const PackedParticle& i = pairs.packed[other];
-            energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), pairs.constants<false>(p, i));
+            energy += 0.5 * energyOf(p, i, std::sqrt(distanceSq), pairs.constants(p, i));
         });
         return energy;
-    };
-    return sumOver(pairs.list.count(), energyOfOne);
+    });
 }
 
 }  // namespace engine

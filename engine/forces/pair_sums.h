@@ -1,5 +1,5 @@
-// What one pass over all pairs adds up: forces, and where someone asks for them the pair energy and the matrix of the
-// implicit steppers. Used by ForceEvaluator.
+// The sums of one pass over all pairs: forces and, where they are asked for, the pair energy and the matrix of the
+// implicit steppers. Called by ForceEvaluator and stepping/step_bound.cpp.
 #pragma once
 
 #include <vector>
@@ -9,18 +9,20 @@
 
 namespace engine {
 
-/// The sums of a pass over a prepared traversal; nullptr leaves one out, and out of the kernel.
+/// The sums of a pass; nullptr leaves one out, and out of the kernel.
 struct PairSums {
-    std::vector<Vec3>& forces;     ///< N, by particle index; has their number of entries
-    double* energy = nullptr;      ///< J, of the conservative block
-    PairMatrix* matrix = nullptr;  ///< in the order of the traversal's list
+    std::vector<Vec3>& forces;     ///< N, by particle index; already of the right size
+    double* energy = nullptr;      ///< of the conservative part, J
+    PairMatrix* matrix = nullptr;  ///< in the order of the neighbor list
     MatrixWeights weights = {};    ///< of the matrix
 };
 
-/// Adds up what is wanted.  \pre  with a matrix, there are packed.
-void addUpPairs(const PairTraversal& pairs, const PairSums& wanted);
+/// Sums over the pairs of a prepared traversal.
+/// @pre with a matrix, pairs.isPacked
+void sumPairs(const PairTraversal& pairs, const PairSums& wanted);
 
-/// Pair energy of the conservative block alone, in joules.  \pre  there are packed.
+/// Pair energy of the conservative part alone, in joules.
+/// @pre pairs.isPacked
 double pairEnergySum(const PairTraversal& pairs);
 
 }  // namespace engine

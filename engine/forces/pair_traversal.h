@@ -1,14 +1,16 @@
-// One way over all neighboring pairs for everything that sums over them: forces, energies, the implicit steppers'
-// matrix, the step bound. Each particle visits its own neighbors in a fixed order and writes to itself alone: no
-// thread waits for another, and no sum depends on how the work is shared out.
+// What every pass over neighboring pairs starts from: the neighbor list, the particles packed in its order and the
+// constants of the pairs. Each particle visits its own neighbors in a fixed order and writes to itself alone, so that
+// no thread waits for another and no sum depends on how the work is divided. Used by the sums of pair_sums.cpp and by
+// stepping/step_bound.cpp.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/core/parallel.h"
 #include "engine/core/scratch.h"
 #include "engine/forces/force_law.h"
-#include "engine/forces/packed_particle.h"
+#include "engine/forces/packed_particles.h"
 #include "engine/law/pair_law.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/neighbor_rows.h"
@@ -16,66 +18,64 @@
 
 namespace engine {
 
-/// Particles sorted for visiting, their neighbors, and the constants of their pairs. Kept between visits: most of them
-/// find the list still good.
+/// Kept between passes: in most of them the neighbor list still serves.
 struct PairTraversal {
-    std::vector<Material> pairMaterials;  ///< mixedPairs of the law
+    std::vector<Material> pairMaterials;  ///< mixedPairs() of the law
     std::size_t materialCount = 0;
     ForceTerms terms;
-    PairConstants<double> uniform;  ///< of every pair, where the terms are uniform
-    double uniformRadius = 0.0;     ///< of every particle there, m
+    PairConstants<double> uniform = {};  ///< of every pair where terms.uniform
+    double uniformRadius = 0.0;          ///< of every particle where terms.uniform, m
     NeighborList list;
-    Precision precision = Precision::doubles;                ///< of forces where the terms are uniform
-    Scratch<std::vector<PackedParticle>> packed;             ///< in the list's order, where there are any
-    Scratch<std::vector<PackedParticleFloat>> packedFloats;  ///< in the list's order; empty in double
-    double unit = 0.0;                                       ///< of the packedFloats' positions, m
-    bool arePacked = false;                                  ///< not in float, unless they are asked for
+    Precision precision = Precision::doubles;               ///< used where terms.uniform
+    Scratch<std::vector<PackedParticle>> packed;            ///< valid while isPacked
+    Scratch<std::vector<PackedParticleFloat>> packedFloat;  ///< empty where the pass is in double
+    double unit = 0.0;                                      ///< of the coordinates in packedFloat, m
+    bool isPacked = false;  ///< whether `packed` is that of the last prepare(); in float only after packParticles()
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
 
-    /// Sorts the particles, with the velocities (m/s) that the damping is to see, and brings the list up to date. A new
-    /// one is made for passes that are a step (s) apart; 0: nobody knows.
+    /// Brings the list up to date and packs the particles.
+    /// @param velocities  seen by the damping and the friction, in m/s
+    /// @param step        time until the next pass, from which the skin of a new list is chosen, in s; 0 if unknown
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
 
-    /// The first block of it: brings the list up to date, but makes no packed.
+    /// The part of prepare() that brings the list up to date.
     void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
-    /// Particles have other indices now: the list serves nobody any more.
+    /// Discards the list, since particles have other indices now.
     void forgetList();
 
-    /// After prepare(), for the same: the packed, where there are none yet, for whatever float is not enough for.
+    /// After prepare() with the same arguments: packs the particles in double if only float was needed so far.
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
 
-    /// Brings back the list that was built for these positions (m) with this reach (m).
+    /// Brings back the list that was built for these positions (m) with this cutoff and skin together (m).
     void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(list, builtAt, reach, 0.0); }
 
-    template <bool isUniform>
     PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {
-        if constexpr (isUniform) return uniform;
         return pairConstants<double>(pairMaterials[p.material * materialCount + i.material], p.radius + i.radius);
     }
 
-    /// Place of the particle in a laneSlot of the list.
+    /// Sorted index of the particle in a lane slot of the list.
     std::uint32_t sortedIndexAt(std::size_t laneSlot) const {
         return static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]);
     }
 
-    /// Calls visit(other sortedIndex, P, P.P) for every other particle within the cutoff of the one in a laneSlot of
-    /// the list. A list's row holds some beyond the cutoff, unpredictably so: they are sifted without branches first.
+    /// Calls visit(sorted index, P, P.P) for every particle within the cutoff of the one in a lane slot. Which entries
+    /// of a row lie beyond the cutoff is unpredictable, so they are first filtered without branches.
     template <class Visit>
     void forEachNeighbor(std::size_t laneSlot, const Visit& visit) const {
         const PackedParticle& p = packed[sortedIndexAt(laneSlot)];
         const double cutoffSq = terms.cutoff * terms.cutoff;
-        constexpr std::uint32_t kSieve = 128;  // chosen: longer than most rows
-        std::array<std::uint32_t, kSieve> within;
+        constexpr std::uint32_t kAtOnce = 128;  // chosen: longer than most rows
+        std::array<std::uint32_t, kAtOnce> within;
         const RowBlock& block = list.rows.blocks[NeighborRows::blockOf(laneSlot)];
         const std::size_t first = list.rows.at(laneSlot, 0);
         const std::uint32_t length = list.rows.length[laneSlot];
-        for (std::uint32_t begin = 0; begin < length; begin += kSieve) {
-            const std::uint32_t end = std::min(begin + kSieve, length);
+        for (std::uint32_t begin = 0; begin < length; begin += kAtOnce) {
+            const std::uint32_t end = std::min(begin + kAtOnce, length);
             std::size_t found = 0;
             for (std::uint32_t k = begin; k < end; ++k) {
                 const auto other = static_cast<std::uint32_t>(block.entries[first + k * kClusterSize]);
@@ -91,7 +91,7 @@ struct PairTraversal {
         }
     }
 
-    /// Calls visit(P, P.P) for a pair; one that coincides has a stand-in for P.
+    /// Calls visit(P, P.P) for a pair, with coincidentSeparation() for P where the two coincide.
     template <class Visit>
     static void visitPair(const PackedParticle& p, const PackedParticle& i, const Visit& visit) {
         Vec3 separation = separationOf(p, i);
@@ -104,10 +104,10 @@ struct PairTraversal {
         visit(separation, distanceSq);
     }
 
-    /// Calls body(laneSlot in the list) for every particle, shared out over the threads.
+    /// Calls body(lane slot) for every particle, divided among the threads.
     template <class Body>
     void forEachParticle(const Body& body) const {
-        constexpr std::size_t kGrain = 64;  // chosen: particles of a dense scene take half a microsecond each
+        constexpr std::size_t kGrain = 64;  // chosen: a particle of a dense scene takes half a microsecond
         inParallel(list.count(), kGrain, body);
     }
 

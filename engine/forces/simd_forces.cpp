@@ -1,33 +1,154 @@
-// The kernel, compiled once per instruction set.
+// The kernel over the neighbors of a cluster, compiled once per instruction set. The force law is that of
+// pair_formulas-inl.h; energy and matrix entries are written here in the quantities that the force has computed
+// already. A neighbor beyond the cutoff adds zeros instead of being skipped.
 #include "engine/forces/simd_forces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/forces/simd_forces.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "engine/forces/simd_law-inl.h"
+#include "engine/forces/simd_particles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-Doubles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, Doubles* /*kind*/) {
-    return Doubles(pass.packed.data(), ownIndices);
+#include "engine/law/pair_formulas-inl.h"
+
+/// What a kernel is compiled for.
+struct Variant {
+    PairTerms terms;
+    bool hasEnergy;
+    bool hasMatrix;
+};
+
+/// 1/x^2 in T such that no rounded 1/D^2 exceeds it for D at or beyond the rounded x.
+template <class T>
+T roundedInverse(double inverseSq) {
+    if constexpr (std::is_same_v<T, double>) return inverseSq;
+    return T(1) / static_cast<T>(1.0 / inverseSq);
 }
 
-Singles sourceOf(const SimdPass& pass, const std::int32_t* ownIndices, Singles* /*kind*/) {
-    return Singles(pass.packedFloats.data(), ownIndices);
+/// The law's constants in every lane. Separations P are in units of pass.unit, in meters for double.
+template <class T, Variant variant>
+struct Law {
+    using V = Lanes<T>;
+    static constexpr Tag<T> kTag{};
+    static constexpr bool kHasUnit = std::is_same_v<T, float>;
+
+    PairConstants<V> constants;  ///< bd times the unit, since V.P has P in units
+    V unitSq, perUnit;
+    V reach, inverseReach, inverseReachCubed, a, b, halfSlope;  ///< of the energy
+    V damping, dampingWeight, stiffnessWeight;                  ///< of the matrix
+
+    static V set(T value) { return hn::Set(kTag, value); }
+    static V set64(double value) { return set(static_cast<T>(value)); }
+
+    explicit Law(const SimdPass& pass) {
+        const engine::PairConstants<double>& exact = pass.constants;
+        engine::PairConstants<T> c{};
+        c.b1 = static_cast<T>(exact.b1);
+        c.inverseRestSq = roundedInverse<T>(exact.inverseRestSq);
+        c.inverseReachSq = roundedInverse<T>(exact.inverseReachSq);
+        c.inverseDampingSq = roundedInverse<T>(exact.inverseDampingSq);
+        c.reachSq = static_cast<T>(exact.reachSq);
+        c.coreSq = static_cast<T>(exact.coreSq);
+        constants.b1 = set(c.b1);
+        constants.bd = set64(exact.bd * pass.unit);
+        constants.inverseRestSq = set(c.inverseRestSq);
+        constants.inverseReachSq = set(c.inverseReachSq);
+        constants.reachSq = set(c.reachSq);
+        constants.inverseDampingSq = set(c.inverseDampingSq);
+        constants.coreSq = set(c.coreSq);
+        constants.friction = set64(exact.friction);
+        unitSq = set64(pass.unit * pass.unit);
+        perUnit = set64(1.0 / pass.unit);
+        if constexpr (variant.hasEnergy) {
+            const T reachLength = std::sqrt(c.reachSq);
+            const T inverse = T(1) / reachLength;
+            reach = set(reachLength);
+            inverseReach = set(inverse);
+            inverseReachCubed = set(inverse * inverse * inverse);
+            a = set(c.inverseRestSq + c.inverseReachSq);
+            b = set(c.inverseRestSq * c.inverseReachSq);
+            halfSlope = set(T(0.5) * engine::pairCoefficient<kConservative>(c.coreSq, T(0), c));
+        }
+        if constexpr (variant.hasMatrix) {
+            damping = set64(exact.bd);
+            dampingWeight = set64(pass.weights.damping);
+            stiffnessWeight = set64(pass.weights.stiffness);
+        }
+    }
+
+    /// D^2 in m^2 from P.P in units.
+    V squareMeters(V separationSq) const {
+        if constexpr (kHasUnit) return hn::Mul(unitSq, separationSq);
+        return separationSq;
+    }
+
+    /// A force in newtons in the unit of coefficient * P with P in units.
+    V perUnitOf(V newtons) const {
+        if constexpr (kHasUnit) return hn::Mul(perUnit, newtons);
+        return newtons;
+    }
+
+    /// pairEnergy() of pair_law.h with D = guardedSq * inverse in place of a square root.
+    V energy(V distanceSq, V inverseSq, V inverse) const {
+        const V guardedSq = larger(distanceSq, constants.coreSq);
+        const V guarded = hn::Mul(guardedSq, inverse);
+        const V cubes = hn::Mul(hn::Sub(hn::Mul(inverseSq, inverse), inverseReachCubed), set(T(1) / T(3)));
+        const V middle = hn::Sub(cubes, hn::Mul(a, hn::Sub(inverse, inverseReach)));
+        const V outside = hn::Mul(constants.b1, hn::Add(middle, hn::Mul(b, hn::Sub(reach, guarded))));
+        const V inside = hn::Mul(halfSlope, hn::Sub(guardedSq, distanceSq));  // 0 beyond the core
+        return hn::IfThenElseZero(hn::Lt(distanceSq, constants.reachSq), hn::Add(outside, inside));
+    }
+
+    /// (damping b_d s_d + stiffness max(k, 0)) / D^2 with the weights of the matrix. In the core the force softens with
+    /// approach, so that k counts as 0 there.
+    V along(V distanceSq, V inverseSq, V inverse) const {
+        const V slope = hn::Mul(inverseSq, hn::Sub(hn::Mul(set(T(4)), inverseSq), hn::Add(a, a)));
+        const V k = hn::Mul(hn::Mul(constants.b1, hn::Mul(inverse, inverseSq)), slope);
+        const auto isStiff = hn::And(hn::Ge(distanceSq, constants.coreSq), hn::Lt(distanceSq, constants.reachSq));
+        V sum = hn::IfThenElseZero(isStiff, hn::Mul(stiffnessWeight, positivePart(k)));
+        if constexpr (variant.terms.damping) {
+            const V toDamping = positivePart(hn::Sub(inverseSq, constants.inverseDampingSq));
+            sum = hn::Add(sum, hn::Mul(dampingWeight, hn::Mul(damping, toDamping)));
+        }
+        return sum;
+    }
+};
+
+/// Friction of pairs: the force is -damping times velocity.
+template <class V>
+struct Slip {
+    Vector3<V> velocity;  ///< V_t, m/s
+    V damping;            ///< c_t, kg/s
+};
+
+/// @param separationSq  P.P in units
+/// @param approach      V.P with P in units
+/// @param normalForce   the conservative force, N
+template <class T>
+HWY_INLINE Slip<Lanes<T>> slipOf(const Row<T>& row, Lanes<T> separationSq, Lanes<T> approach, Lanes<T> friction,
+                                 Lanes<T> normalForce) {
+    // The entries that pad a row have P = 0: they shall give zero and not NaN.
+    const auto share = hn::Div(approach, atLeast(separationSq, double{std::numeric_limits<T>::min()}));
+    const auto velocity = difference(row.velocity, scaled(share, row.separation));
+    return {velocity, slipDamping(friction, normalForce, dot(velocity, velocity))};
 }
 
-/// The matrix's rows of a block of lanes as they fill up: every pair is written, and the sortedIndex to write moves on
-/// where it has an entry.
+/// The rows of a matrix for a vector of lanes as they fill up: every pair is written, and the write position moves on
+/// only where the pair has an entry.
 template <class T>
 struct MatrixRows {
     PairMatrix* matrix;
-    std::size_t first;  ///< laneSlot of the first lane
+    std::size_t first;  ///< slot of the first lane
     std::array<std::uint32_t, kClusterSize> length = {};
 
     template <bool hasFriction>
@@ -54,74 +175,78 @@ struct MatrixRows {
     void finish() const { std::copy_n(length.begin(), hn::Lanes(Tag<T>()), &matrix->rows.length[first]); }
 };
 
-/// Whether a row is read while the one before it is worked on. Where registers suffice, the units that shuffle what is
-/// read and those that calculate are then busy together.
-constexpr bool kReadsAhead = HWY_TARGET <= HWY_AVX3;
-
-/// sum += factor * vector
-template <class V>
-void add(Vector3<V>& sum, V factor, const Vector3<V>& vector) {
-    sum.x = hn::Add(sum.x, hn::Mul(factor, vector.x));
-    sum.y = hn::Add(sum.y, hn::Mul(factor, vector.y));
-    sum.z = hn::Add(sum.z, hn::Mul(factor, vector.z));
+/// The particles that a pass in T reads.
+template <class T>
+const auto& packedIn(const SimdPass& pass) {
+    if constexpr (std::is_same_v<T, double>)
+        return pass.packed;
+    else
+        return pass.packedFloat;
 }
 
-/// A block of lanes of a cluster, from one of its lanes on. Flattened: where anything in the loop is a call, every
-/// vector goes through memory and it takes twice as long under AVX-512.
-template <class Source, class Kind>
-HWY_FLATTEN void addUpBlock(const SimdPass& pass, std::size_t cluster, std::size_t lane, ClusterSums& sums) {
+/// Whether the next neighbors are loaded while the present ones are worked on. Where there are enough registers, the
+/// units that shuffle and those that calculate are then busy together.
+constexpr bool kLoadsAhead = HWY_TARGET <= HWY_AVX3;
+
+/// Sums for a vector of lanes, from a lane of the cluster on. Flattened: where anything in the loop is a call, every
+/// vector goes through memory, and it takes twice as long under AVX-512.
+template <class Source, Variant variant>
+HWY_FLATTEN void sumLanes(const SimdPass& pass, std::size_t cluster, std::size_t lane, ClusterSums& sums) {
     using T = typename Source::T;
+    using V = Lanes<T>;
     constexpr Tag<T> kTag{};
+    constexpr PairTerms kTerms = variant.terms;
     const std::size_t first = cluster * kClusterSize + lane;
     const std::uint32_t longest = longestRow<T>(pass.rows, first);
-    const RowBlock& block = pass.rows.blocks[NeighborRows::blockOf(first)];
-    const Source source = sourceOf(pass, &pass.rows.ownIndices[first], static_cast<Source*>(nullptr));
-    const Law<T, Kind> law(pass.constants, pass.weights, pass.unit);
-    Vector3<Lanes<T>> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
-    Lanes<T> energy = hn::Zero(kTag);
+    const Source source(packedIn<T>(pass).data(), &pass.rows.ownIndices[first]);
+    const Law<T, variant> law(pass);
+    Vector3<V> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
+    V energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     [[maybe_unused]] MatrixRows<T> matrixRows{pass.matrix, first};
-    const std::int32_t* entry = &block.entries[pass.rows.at(first, 0)];
-    constexpr bool kVelocity = Kind::kPair.damping;
-    auto ahead = source.template load<kVelocity>(entry);
+    const std::int32_t* entry = &pass.rows.blocks[NeighborRows::blockOf(first)].entries[pass.rows.at(first, 0)];
+    auto ahead = source.template load<kTerms.damping>(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kClusterSize) {
-        fetchAhead(entry);
-        const auto others = kReadsAhead ? ahead : source.template load<kVelocity>(entry);
-        if constexpr (kReadsAhead) ahead = source.template load<kVelocity>(entry + kClusterSize);
-        const Row<T> row = source.template row<kVelocity>(entry, others);
-        const Lanes<T> separationSq = dot(row.separation, row.separation);
-        const Lanes<T> distanceSq = law.squareMeters(separationSq);
+        prefetchRows(entry);
+        const auto others = kLoadsAhead ? ahead : source.template load<kTerms.damping>(entry);
+        if constexpr (kLoadsAhead) ahead = source.template load<kTerms.damping>(entry + kClusterSize);
+        const Row<T> row = source.template row<kTerms.damping>(entry, others);
+        const V separationSq = dot(row.separation, row.separation);
+        const V distanceSq = law.squareMeters(separationSq);
         const auto isCoincident = hn::And(row.isPair, hn::Eq(separationSq, hn::Zero(kTag)));
         if (HWY_UNLIKELY(!hn::AllFalse(kTag, isCoincident)))
-            coincident = hn::Or(coincident, source.sharePlace(entry, isCoincident));
-        Lanes<T> approach = hn::Zero(kTag);
-        if constexpr (Kind::kPair.damping) approach = dot(row.velocity, row.separation);
-        // A sortedIndex that fills up a row is the particle itself, for which P is zero.
-        const auto inverse = law.inverseOf(distanceSq);
-        const Lanes<T> conservative = law.conservative(inverse);
-        add(force, law.coefficient(inverse, approach, conservative), row.separation);
-        typename Law<T, Kind>::Slip slip;
-        if constexpr (Kind::kPair.friction) {
-            slip = law.slipOf(row, separationSq, approach, conservative);
-            add(force, law.inUnits(hn::Neg(slip.damping)), slip.velocity);
+            coincident = hn::Or(coincident, source.sharePosition(entry, isCoincident));
+        V approach = hn::Zero(kTag);
+        if constexpr (kTerms.damping) approach = dot(row.velocity, row.separation);
+        // The entries that pad a row have P = 0 and add nothing.
+        const V inverseSq = guardedInverseSq(distanceSq, law.constants.coreSq);
+        const V inverse = squareRoot(inverseSq);
+        addScaled(force, coefficientFrom<kTerms>(inverseSq, inverse, approach, law.constants), row.separation);
+        Slip<V> slip;
+        if constexpr (kTerms.friction) {
+            const V conservative = conservativeFrom<kTerms>(inverseSq, inverse, law.constants);
+            slip = slipOf<T>(row, separationSq, approach, law.constants.friction,
+                             hn::Mul(conservative, hn::Sqrt(distanceSq)));
+            addScaled(force, law.perUnitOf(hn::Neg(slip.damping)), slip.velocity);
         }
-        if constexpr (Kind::kEnergy)
-            energy = hn::Add(energy, hn::IfThenElseZero(row.isPair, hn::Mul(Law<T, Kind>::set(T(0.5)),
-                                                                            law.energy(inverse, distanceSq))));
-        if constexpr (Kind::kMatrix) {
+        if constexpr (variant.hasEnergy)
+            energy = hn::Add(
+                energy,
+                hn::IfThenElseZero(row.isPair, hn::Mul(law.set(T(0.5)), law.energy(distanceSq, inverseSq, inverse))));
+        if constexpr (variant.hasMatrix) {
             const auto isPair = hn::AndNot(isCoincident, row.isPair);  // a coincident pair has no direction
-            Lanes<T> along = law.along(inverse, distanceSq);
-            Lanes<T> across = hn::Zero(kTag);
-            if constexpr (Kind::kPair.friction) {
+            V along = law.along(distanceSq, inverseSq, inverse);
+            V across = hn::Zero(kTag);
+            if constexpr (kTerms.friction) {
                 // across (1 - n n^T) = across 1 - (across / D^2) P P^T
                 across = hn::Mul(law.dampingWeight, slip.damping);
                 along = hn::Sub(along, hn::Div(across, distanceSq));
             }
-            matrixRows.template add<Kind::kPair.friction>(entry, along, across, isPair);
+            matrixRows.template add<kTerms.friction>(entry, along, across, isPair);
         }
     }
-    if constexpr (Kind::kMatrix) matrixRows.finish();
-    const double unit = pass.unit;  // here, where nobody can change it meanwhile: the loop becomes one of vectors
+    if constexpr (variant.hasMatrix) matrixRows.finish();
+    const double unit = pass.unit;  // a local copy, which no store below can alias: the loop vectorizes
     std::array<T, kClusterSize> x, y, z, e;
     hn::StoreU(force.x, kTag, x.data());
     hn::StoreU(force.y, kTag, y.data());
@@ -136,42 +261,24 @@ HWY_FLATTEN void addUpBlock(const SimdPass& pass, std::size_t cluster, std::size
     sums.coincident |= bitsOf<T>(coincident) << lane;
 }
 
-template <class Source, class Kind>
-void addUpLanes(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
-    const std::size_t step = hn::Lanes(Tag<typename Source::T>());
-    for (std::size_t lane = 0; lane < kClusterSize; lane += step) addUpBlock<Source, Kind>(pass, cluster, lane, sums);
-}
-
-template <class Source, PairTerms terms>
-void addUpWith(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
-    if (pass.matrix != nullptr)
-        addUpLanes<Source, Terms<terms, Besides::energyAndMatrix>>(pass, cluster, sums);
-    else if (pass.energy)
-        addUpLanes<Source, Terms<terms, Besides::energy>>(pass, cluster, sums);
-    else
-        addUpLanes<Source, Terms<terms, Besides::nothing>>(pass, cluster, sums);
+template <class Source, Variant variant>
+void sumCluster(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
+    sums.coincident = 0;
+    for (std::size_t lane = 0; lane < kClusterSize; lane += hn::Lanes(Tag<typename Source::T>()))
+        sumLanes<Source, variant>(pass, cluster, lane, sums);
 }
 
 template <class Source>
-void addUpFrom(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
-    if (pass.terms.friction)
-        addUpWith<Source, PairTerms{true, true, true}>(pass, cluster, sums);
-    else if (pass.terms.damping && pass.terms.oneReach)
-        addUpWith<Source, PairTerms{true, true, false, true}>(pass, cluster, sums);
-    else if (pass.terms.attraction)
-        pass.terms.damping ? addUpWith<Source, PairTerms{true, true}>(pass, cluster, sums)
-                           : addUpWith<Source, PairTerms{true, false}>(pass, cluster, sums);
-    else
-        pass.terms.damping ? addUpWith<Source, PairTerms{false, true}>(pass, cluster, sums)
-                           : addUpWith<Source, PairTerms{false, false}>(pass, cluster, sums);
+ClusterKernel kernelOver(const SimdPass& pass) {
+    return withTerms(pass.terms, [&]<PairTerms terms>() -> ClusterKernel {
+        if (pass.matrix != nullptr) return sumCluster<Source, Variant{terms, true, true}>;
+        return pass.hasEnergy ? sumCluster<Source, Variant{terms, true, false}>
+                              : sumCluster<Source, Variant{terms, false, false}>;
+    });
 }
 
-void addUpClusterHere(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
-    sums.coincident = 0;
-    if (pass.packedFloats.empty())
-        addUpFrom<Doubles>(pass, cluster, sums);
-    else
-        addUpFrom<Singles>(pass, cluster, sums);
+ClusterKernel clusterKernelHere(const SimdPass& pass) {
+    return pass.packedFloat.empty() ? kernelOver<DoubleLanes>(pass) : kernelOver<FloatLanes>(pass);
 }
 
 const char* instructionSetHere() {
@@ -186,11 +293,11 @@ HWY_AFTER_NAMESPACE();
 
 namespace engine {
 
-HWY_EXPORT(addUpClusterHere);
+HWY_EXPORT(clusterKernelHere);
 HWY_EXPORT(instructionSetHere);
 
-void addUpCluster(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
-    HWY_DYNAMIC_DISPATCH(addUpClusterHere)(pass, cluster, sums);
+ClusterKernel clusterKernel(const SimdPass& pass) {
+    return HWY_DYNAMIC_DISPATCH(clusterKernelHere)(pass);
 }
 
 const char* simdInstructionSet() {

@@ -1,5 +1,6 @@
-// Obstacles as surfaces: what a particle sees of each shape is a signed distance, a normal and a repulsor behind it.
-// One contact law then serves all shapes, whether it acts as a force (the paper's way) or along a swept path.
+// Obstacles as surfaces: to a particle, each face of an obstacle is a signed distance, a normal and a repulsor behind
+// it. One contact law then serves all shapes. It acts as a force here and in forces/external_forces.cpp, as in section
+// 3.2 of the paper, and along the path of fast particles in stepping/swept_contact.cpp.
 #pragma once
 
 #include <cmath>
@@ -11,14 +12,17 @@
 
 namespace engine {
 
-/// One face as a particle sees it.
+/// One face of an obstacle relative to one particle.
 struct Surface {
     double height = 0.0;                                             ///< signed distance of the particle's center, m
-    Vec3 normal = Vec3::UnitY();                                     ///< away from the solid
+    Vec3 normal = Vec3::UnitY();                                     ///< unit vector that points away from the solid
     double repulsorRadius = 0.5;                                     ///< m
-    double halfThickness = std::numeric_limits<double>::infinity();  ///< of the solid under the face, m
-    double curvature = 0.0;                                          ///< of a solid sphere, 1/m
+    double halfThickness = std::numeric_limits<double>::infinity();  ///< half the solid's depth under the face, m
+    double curvature = 0.0;                                          ///< 1/radius of a solid sphere, otherwise 0; 1/m
 };
+
+// forEachSurface(shape, point, repulsorRadius, visit) calls visit(Surface) for each face of a shape that can act on a
+// particle at a point (m), whatever its distance.
 
 template <class Visit>
 void forEachSurface(const Plane& plane, const Vec3& point, double repulsorRadius, const Visit& visit) {
@@ -33,7 +37,8 @@ void forEachSurface(const Container& box, const Vec3& point, double repulsorRadi
     }
 }
 
-/// Outside the box the normal points from the closest point; inside, out of the nearest face.
+/// A solid box has one surface: outside, its normal points from the closest point of the box to the particle; inside,
+/// out of the nearest face.
 template <class Visit>
 void forEachSurface(const Box& box, const Vec3& point, double repulsorRadius, const Visit& visit) {
     const double halfThickness = 0.5 * (box.maximum - box.minimum).minCoeff();
@@ -63,18 +68,18 @@ void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadi
                   sphere.radius, 1.0 / sphere.radius});
 }
 
-/// Every surface of the obstacles, near or far.
+/// Calls visit(Surface) for every surface of all obstacles.
 template <class Visit>
 void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& visit) {
     for (const Obstacle& obstacle : obstacles.shapes)
         std::visit([&](const auto& shape) { forEachSurface(shape, point, obstacles.law.radius, visit); }, obstacle);
 }
 
-/// Whether a shape may have a surface nearer than a reach (m). Far obstacles, which most are, need no root and no
-/// normal.
+/// Whether a shape may have a surface nearer than a reach (m). A cheap test, without a square root or a normal, for the
+/// many obstacles that are far away.
 template <class Shape>
 bool mayReach(const Shape& shape, const Vec3& point, double reach) {
-    constexpr double kSlack = 1.0 + 1e-9;  // far above what roundings add up to
+    constexpr double kSlack = 1.0 + 1e-9;  // chosen: far above the sum of the roundings
     if constexpr (std::is_same_v<Shape, Sphere>) {
         const double within = shape.radius + reach;
         return squaredLength(point - shape.center) < kSlack * within * within;
@@ -88,7 +93,7 @@ bool mayReach(const Shape& shape, const Vec3& point, double reach) {
     }
 }
 
-/// Every surface whose distance from a particle's center is less than its radius (m).
+/// Calls visit(Surface) for every surface whose distance from a particle's center is less than its radius (m).
 template <class Visit>
 void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius, const Visit& visit) {
     for (const Obstacle& obstacle : obstacles.shapes)
@@ -102,65 +107,62 @@ void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius
             obstacle);
 }
 
-/// A surface and a particle as a pair: the repulsor sits repulsorRadius behind the face.
+/// A particle and a surface that it touches, as a pair: the repulsor lies repulsorRadius behind the surface.
 struct Contact {
-    PairConstants<double> constants;
-    double distance = 0.0;    ///< particle to repulsor, at least the core distance, m
-    double beyondCore = 0.0;  ///< how much deeper the particle is, m
+    PairConstants<double> constants = {};
+    double distance = 0.0;    ///< from the particle to the repulsor, at least the core distance, m
+    double beyondCore = 0.0;  ///< how much deeper than the core distance the particle is, m
 };
 
 inline Contact contactWith(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
-    Material repulsor;
-    repulsor.repulsion = law.repulsion;
-    repulsor.damping = law.dampingFactor * probe.dampingReach;
-    repulsor.repulsionReach = 1.0;
-    repulsor.dampingReach = 1.0;
-    repulsor.coreFraction = law.coreFraction;
-    Contact contact;
-    contact.constants = pairConstants<double>(repulsor, probe.radius + surface.repulsorRadius);
+    const double restLength = probe.radius + surface.repulsorRadius;
+    const double core = law.coreFraction * restLength;
     const double distance = surface.height + surface.repulsorRadius;
-    contact.distance = std::max(distance, law.coreFraction * (probe.radius + surface.repulsorRadius));
+    Contact contact;
+    contact.constants = repulsorConstants(law.repulsion, law.dampingFactor * probe.dampingReach, restLength, core);
+    contact.distance = std::max(distance, core);
     contact.beyondCore = contact.distance - distance;
     return contact;
 }
 
-inline constexpr PairTerms kRepulsorTerms{.attraction = false, .damping = true};
-
 /// Force along the normal on a particle with this normal speed (m/s), in newtons. A particle deeper than the core
-/// distance feels the force at the core: the half-space has no far side to be pushed out of.
+/// distance feels the force at the core: it can only be pushed out on the near side.
 inline double normalForce(const Contact& contact, double normalSpeed) {
-    const double distanceSq = contact.distance * contact.distance;
-    return contact.distance *
-           pairCoefficient<kRepulsorTerms>(distanceSq, contact.distance * normalSpeed, contact.constants);
+    return repulsorForce(contact.distance, normalSpeed, contact.constants);
 }
 
-/// Energy of the conservative block, J.
+/// Energy of the contact's conservative part, in joules.
 inline double contactEnergy(const Contact& contact) {
     return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
 }
 
-/// Energy of a particle at this surface, J; 0 where it does not touch.
+/// Energy of a particle at this surface, in joules; 0 where it does not touch the surface.
 inline double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
     return surface.height >= probe.radius ? 0.0 : contactEnergy(contactWith(surface, law, probe));
 }
 
-/// Adds the contact's force on the particle, N, friction included. Inline by force: a call is half of its cost.
+/// Velocity of a particle along a surface, in m/s.
+inline Vec3 slipVelocity(const Surface& surface, const Vec3& velocity) {
+    return velocity - dot(velocity, surface.normal) * surface.normal;
+}
+
+/// Adds the contact's force on the particle, in newtons, friction included. Forced inline: a call takes half of its
+/// time.
 [[gnu::always_inline]] inline void addForce(const Surface& surface, const Contact& contact, const Probe& probe,
                                             Vec3& force) {
-    const double normalSpeed = dot(probe.velocity, surface.normal);
-    force += normalForce(contact, normalSpeed) * surface.normal;
+    force += normalForce(contact, dot(probe.velocity, surface.normal)) * surface.normal;
     if (probe.friction == 0.0) return;
-    const Vec3 slip = probe.velocity - normalSpeed * surface.normal;
+    const Vec3 slip = slipVelocity(surface, probe.velocity);
     force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
 }
 
-/// Damping of the normal motion, kg/s.
+/// Damping of the normal motion, in kg/s.
 inline double dampingAlong(const Contact& contact) {
     const double distanceSq = contact.distance * contact.distance;
     return pairDampingOverSq(distanceSq, contact.constants) * distanceSq;
 }
 
-/// Stiffness of the normal motion, N/m; 0 deeper than the core, where the force is constant.
+/// Stiffness of the normal motion, in N/m; 0 deeper than the core, where the force is constant.
 inline double stiffnessAlong(const Contact& contact) {
     return contact.beyondCore > 0.0 ? 0.0 : std::max(0.0, pairStiffness(contact.distance, contact.constants));
 }

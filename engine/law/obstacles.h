@@ -66,7 +66,7 @@ struct Probe {
 /// Source: section 3.2. Planes push along their fixed normal however deep the particle is.
 Vec3 contactForce(const Obstacles& obstacles, const Probe& probe);
 
-/// Energy of the conservative block of contactForce, in joules.
+/// Energy of the conservative part of contactForce, in joules.
 double contactEnergy(const Obstacles& obstacles, const Probe& probe);
 
 struct ContactAnswer {

@@ -23,7 +23,7 @@ OwnSums sumsOf(const PairTraversal& pairs, std::size_t laneSlot) {
     OwnSums sums;
     const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
     pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
-        const auto c = pairs.constants<false>(p, pairs.packed[other]);
+        const auto c = pairs.constants(p, pairs.packed[other]);
         const double distance = std::sqrt(distanceSq);
         const Vec3 normal = separation / distance;
         const Matrix3 along = normal * normal.transpose();
@@ -58,8 +58,8 @@ struct PairSystem {
 PairSystem systemOf(const PairTraversal& pairs, const Particles& particles) {
     PairSystem system;
     std::vector<Vec3> forces(particles.count());
-    addUpPairs(pairs, {.forces = forces, .matrix = &system.damping, .weights = {1.0, 0.0}});
-    addUpPairs(pairs, {.forces = forces, .matrix = &system.stiffness, .weights = {0.0, 1.0}});
+    sumPairs(pairs, {.forces = forces, .matrix = &system.damping, .weights = {1.0, 0.0}});
+    sumPairs(pairs, {.forces = forces, .matrix = &system.stiffness, .weights = {0.0, 1.0}});
     system.damping.mass.assign(particles.count(), 0.0);
     system.stiffness.mass = system.damping.mass;
     for (const std::uint32_t p : pairs.list.order) system.mass.push_back(particles.mass[p]);

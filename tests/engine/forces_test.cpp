@@ -177,14 +177,14 @@ TEST_CASE("Only the terms that a scene needs", "[forces]") {
     undamped.damping = 0.0;
     CHECK_FALSE(termsFor(clouds::lawOf(undamped), equal).pair.damping);
     CHECK(termsFor(clouds::lawOf(undamped), equal).cutoff == Approx(0.3));  // no damping, no reach of damping
-    CHECK(powder.pair.oneReach);
-    CHECK(termsFor(clouds::lawOf(undamped), equal).pair.oneReach);
-    CHECK_FALSE(termsFor(clouds::lawOf("liquid"), equal).pair.oneReach);
+    CHECK(powder.pair.equalReach);
+    CHECK(termsFor(clouds::lawOf(undamped), equal).pair.equalReach);
+    CHECK_FALSE(termsFor(clouds::lawOf("liquid"), equal).pair.equalReach);
     ForceLaw both = clouds::lawOf("powder");
     both.materials.push_back(*materialPreset("solid"));
-    CHECK(termsFor(both, equal).pair.oneReach);  // 1.5 and 1.5 between the two
+    CHECK(termsFor(both, equal).pair.equalReach);  // 1.5 and 1.5 between the two
     both.materials.push_back(*materialPreset("liquid"));
-    CHECK_FALSE(termsFor(both, equal).pair.oneReach);
+    CHECK_FALSE(termsFor(both, equal).pair.equalReach);
 }
 
 TEST_CASE("Radii that change once are not one radius, wherever threads share them out", "[forces]") {

@@ -12,7 +12,7 @@ using namespace engine;
 namespace {
 
 constexpr PairTerms kAll{};
-constexpr PairTerms kOneReach{.oneReach = true};
+constexpr PairTerms kEqualReach{.equalReach = true};
 
 /// Equation 2 literally, without the guard; the coefficient of P.
 double printedCoefficient(double d, double approach, const Material& m, double restLength) {
@@ -40,7 +40,7 @@ TEST_CASE("The factored coefficient is equation 2 as printed", "[pair_law]") {
             INFO(name << " D = " << d);
             CHECK(std::abs(pairCoefficient<kAll>(d * d, approach, c) - printed) <= 12 * kEps * largest);
             if (material.repulsionReach == material.dampingReach)
-                CHECK(std::abs(pairCoefficient<kOneReach>(d * d, approach, c) - printed) <= 12 * kEps * largest);
+                CHECK(std::abs(pairCoefficient<kEqualReach>(d * d, approach, c) - printed) <= 12 * kEps * largest);
         }
     }
 }
@@ -115,7 +115,7 @@ TEST_CASE("A pair at rest length and beyond the cutoff", "[pair_law]") {
         for (const double beyond : {c.cutoffSq, c.cutoffSq * 1.0001, 4.0 * c.cutoffSq})
             CHECK(pairCoefficient<kAll>(beyond, 1.0, c) == 0.0);
         for (const double reachSq = c.reachSq; const double beyond : {reachSq, std::nextafter(reachSq, 1.0)})
-            CHECK(pairCoefficient<kOneReach>(beyond, 1.0, c) == 0.0);
+            CHECK(pairCoefficient<kEqualReach>(beyond, 1.0, c) == 0.0);
         CHECK(pairEnergy(cutoff * 1.0001, c) == 0.0);
     }
 }

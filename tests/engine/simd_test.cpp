@@ -7,7 +7,7 @@
 
 #include "engine/core/instruction_sets.h"
 #include "engine/forces/external_forces.h"
-#include "engine/forces/pack_particles.h"
+#include "engine/forces/packed_particles.h"
 #include "engine/forces/pair_sums.h"
 #include "engine/forces/simd_forces.h"
 #include "engine/run/diagnostics.h"
@@ -74,31 +74,51 @@ TEST_CASE("A run has the same bits with every kind of vectors", "[simd]") {
             }
 }
 
-TEST_CASE("Records in float are those of the plain twin with every kind of vectors", "[simd]") {
-    // Coordinates of which 32 bits hold all units, and such as go round many times.
+TEST_CASE("Coordinates in fixed point differ exactly, wherever they are", "[simd]") {
+    // Coordinates that fit 32 bits, and some that wrap around many times.
     for (const double size : {1.0, 1e4, 1e8}) {
-        Particles particles = clouds::strewnUnequal(1003, size);
-        for (Vec3& velocity : particles.velocity) velocity *= size;
-        particles.position[5] = Vec3(0.0, -0.0, 0.5);
-        for (std::uint32_t p = 0; p < 1003; ++p) particles.material[p] = p % 5;
-        NeighborList list;
-        for (std::uint32_t sortedIndex = 0; sortedIndex < 1003; ++sortedIndex)
-            list.order.push_back(sortedIndex * 7 % 1003);
+        const Particles particles = clouds::strewnUnequal(1003, size);
         constexpr double kPerMeter = 8388608.0 / 0.66;
-        for (const std::string& name : instructionSets()) {
-            const OnInstructionSet only(name);
-            std::vector<PackedParticleFloat> packedFloats(list.count());
-            const SortedParticles from(list, particles, particles.velocity);
-            packFloats(from, kPerMeter, 0, 501, packedFloats.data());
-            packFloats(from, kPerMeter, 501, 1003, packedFloats.data());
-            for (std::size_t sortedIndex = 0; sortedIndex < list.count(); ++sortedIndex) {
-                const std::size_t p = list.order[sortedIndex];
-                const auto expected =
-                    packFloat(particles.position[p], particles.velocity[p], particles.id[p], kPerMeter);
-                INFO(size << " m, " << name << ", sortedIndex " << sortedIndex);
-                CHECK(std::memcmp(&packedFloats[sortedIndex], &expected, sizeof(expected)) == 0);
-            }
+        for (std::size_t p = 0; p + 1 < particles.count(); ++p) {
+            const double units = particles.position[p].x() * kPerMeter;
+            const double near = units + 1e6 * particles.velocity[p].x();
+            const auto difference = static_cast<std::int32_t>(static_cast<std::uint32_t>(toFixedPoint(near)) -
+                                                              static_cast<std::uint32_t>(toFixedPoint(units)));
+            INFO(size << " m, particle " << p);
+            CHECK(difference == std::nearbyint(near) - std::nearbyint(units));  // integers below 2^53
         }
+    }
+}
+
+TEST_CASE("Packed particles are those of the list's order", "[simd]") {
+    Particles particles = clouds::strewnUnequal(1003, 1.0);
+    for (std::uint32_t p = 0; p < 1003; ++p) particles.material[p] = p % 5;
+    NeighborList list;
+    for (std::uint32_t k = 0; k < 1003; ++k) list.order.push_back(k * 7 % 1003);
+    constexpr double kUnit = 0x1p-20;  // a power of two, so that no coordinate below is rounded on the way
+    std::vector<PackedParticle> packed;
+    std::vector<PackedParticleFloat> packedFloat;
+    packDoubles(list, particles, particles.velocity, packed);
+    packFloats(list, particles, particles.velocity, kUnit, packedFloat);
+    REQUIRE(packed.size() == 1003);
+    REQUIRE(packedFloat.size() == 1003);
+    for (std::size_t k = 0; k < 1003; ++k) {
+        const std::size_t p = list.order[k];
+        const Vec3& x = particles.position[p];
+        const Vec3& v = particles.velocity[p];
+        CHECK(Vec3(packed[k].x, packed[k].y, packed[k].z) == x);
+        CHECK(Vec3(packed[k].vx, packed[k].vy, packed[k].vz) == v);
+        CHECK(packed[k].radius == particles.radius[p]);
+        CHECK(packed[k].material == particles.material[p]);
+        CHECK(packed[k].id == particles.id[p]);
+        CHECK(packedFloat[k].x == std::nearbyint(x.x() / kUnit));
+        CHECK(packedFloat[k].y == std::nearbyint(x.y() / kUnit));
+        CHECK(packedFloat[k].z == std::nearbyint(x.z() / kUnit));
+        CHECK(packedFloat[k].vx == static_cast<float>(v.x()));
+        CHECK(packedFloat[k].vy == static_cast<float>(v.y()));
+        CHECK(packedFloat[k].vz == static_cast<float>(v.z()));
+        CHECK(packedFloat[k].id == particles.id[p]);
+        CHECK(packedFloat[k].lowBits == positionBits(x));
     }
 }
 
@@ -274,7 +294,7 @@ TEST_CASE("Coincident particles are parted in float as in double, and near ones 
         Particles particles = block(material, Vec3::Zero());
         particles.position[17] = particles.position[16] + Vec3(0, apart, 0);
         const std::vector<Vec3> doubles = pairForces(material, particles, Precision::doubles);
-        const std::vector<Vec3> packedFloats = pairForces(material, particles, Precision::singles);
+        const std::vector<Vec3> packedFloat = pairForces(material, particles, Precision::singles);
         INFO(preset << ", " << apart << " m apart");
         CHECK(doubles[17].norm() > 0.0);
         const double slope = pairCoefficient<PairTerms{true, false}>(0.0, 0.0, pairConstants<double>(material, 0.3));
@@ -282,8 +302,8 @@ TEST_CASE("Coincident particles are parted in float as in double, and near ones 
         // kCoincidentShare 0.3 m slope.
         const double rounding = apart > 0.0 ? slope * (8e-8 + 2.0 * material.friction * apart) : 0.0;
         const double tolerance = 1e-5 * doubles[17].norm() + rounding;
-        CHECK((packedFloats[17] - doubles[17]).norm() < tolerance);
-        CHECK((packedFloats[16] - doubles[16]).norm() < tolerance);
+        CHECK((packedFloat[17] - doubles[17]).norm() < tolerance);
+        CHECK((packedFloat[16] - doubles[16]).norm() < tolerance);
     }
 }
 
@@ -296,11 +316,11 @@ TEST_CASE("In float, forces and energies need no packed in double", "[simd]") {
     std::vector<Vec3> forces(particles.count());
     double energy = 0.0;
     pairs.prepare(law, particles, particles.velocity);
-    addUpPairs(pairs, {.forces = forces, .energy = &energy});
-    CHECK(!pairs.arePacked);
+    sumPairs(pairs, {.forces = forces, .energy = &energy});
+    CHECK(!pairs.isPacked);
     CHECK_THAT(energy,
                Catch::Matchers::WithinRel(pairEnergyReference(law, particles), 1e-5));  // some roundings of float
     std::vector<Vec3> alone(particles.count());
-    addUpPairs(pairs, {.forces = alone});
+    sumPairs(pairs, {.forces = alone});
     CHECK(alone == forces);
 }

@@ -1,0 +1,39 @@
+// One loop over the list's order for each precision.
+#include "engine/forces/packed_particles.h"
+
+#include "engine/core/parallel.h"
+
+namespace engine {
+
+void packDoubles(const NeighborList& list, const Particles& particles, const std::vector<Vec3>& velocities,
+                 std::vector<PackedParticle>& packed) {
+    packed.resize(list.count());
+    inParallel(packed.size(), kParticleGrain, [&](std::size_t k) {
+        const std::size_t p = list.order[k];
+        const Vec3& x = particles.position[p];
+        const Vec3& v = velocities[p];
+        packed[k] = {x.x(),          x.y(), x.z(), v.x(), v.y(), v.z(), particles.radius[p], particles.material[p],
+                     particles.id[p]};
+    });
+}
+
+void packFloats(const NeighborList& list, const Particles& particles, const std::vector<Vec3>& velocities, double unit,
+                std::vector<PackedParticleFloat>& packed) {
+    packed.resize(list.count());
+    const double perMeter = 1.0 / unit;
+    inParallel(packed.size(), kParticleGrain, [&](std::size_t k) {
+        const std::size_t p = list.order[k];
+        const Vec3 units = particles.position[p] * perMeter;
+        const Eigen::Vector3f v = velocities[p].cast<float>();
+        packed[k] = {toFixedPoint(units.x()),
+                     toFixedPoint(units.y()),
+                     toFixedPoint(units.z()),
+                     particles.id[p],
+                     v.x(),
+                     v.y(),
+                     v.z(),
+                     positionBits(particles.position[p])};
+    });
+}
+
+}  // namespace engine

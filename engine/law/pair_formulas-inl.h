@@ -1,0 +1,116 @@
+// The force law and the friction, written once for plain numbers and for SIMD vectors. pair_law.h includes this file
+// into namespace engine for double and float; simd_forces.cpp and external_forces.cpp include it again for each
+// instruction set, because a function that is inlined into a SIMD kernel must be compiled for that instruction set.
+// Hence there is no include guard and no namespace here, and the formulas use nothing but +, -, *, / and larger(),
+// atLeast(), positivePart(), reciprocal() and squareRoot(), which the includer defines for its Number. Every path
+// computes the same bits. All functions are forced inline, so that a kernel computes once what two of them share.
+//
+// With the symbols of pair_law.h, m = 5, n = 3 and b2 = b1/D0^2, equation 2 is P times the coefficient
+//     s_r (b1/D^5 - b2/D^3) - s_d b_d (V.P)/D^2,   s_r = max(0, 1 - D^2/R^2),  s_d = max(0, 1 - D^2/S^2)
+//   = (1/D) b1 (1/D^2 - 1/D0^2) max(0, 1/D^2 - 1/R^2)  -  b_d (V.P) max(0, 1/D^2 - 1/S^2)
+// because s_r b1/D^5 (1 - D^2/D0^2) = b1/D (1/D^2)(1 - D^2/R^2)(1/D^2)(1 - D^2/D0^2). Rounding keeps the order of
+// quotients: at and beyond the cutoff both terms are exactly zero.
+//
+// The guard near D = 0 is the only departure: below the core distance the coefficient keeps the value it has there, so
+// that the force falls linearly to zero instead of growing without bound, and the energy is finite. With the core at
+// the radius of equal particles (a share of 1/2) this is the clamp of D in the published program.
+
+/// The constants of one pair, worked out once from its material and its rest length.
+template <class Number>
+struct PairConstants {
+    Number b1;                ///< b1, N m^4
+    Number bd;                ///< b_d, kg/s
+    Number inverseRestSq;     ///< 1/D0^2, 1/m^2
+    Number inverseReachSq;    ///< 1/R^2, 1/m^2
+    Number reachSq;           ///< R^2, m^2
+    Number inverseDampingSq;  ///< 1/S^2, 1/m^2
+    Number coreSq;            ///< square of the core distance, m^2
+    Number friction;          ///< mu
+    Number cutoffSq;          ///< square of the distance at and beyond which nothing acts, m^2
+};
+
+/// 1/D^2 of a pair, in 1/m^2, with D no smaller than the core distance.
+template <class Number>
+[[gnu::always_inline]] inline Number guardedInverseSq(Number distanceSq, Number coreSq) {
+    return reciprocal(larger(distanceSq, coreSq));
+}
+
+/// Coefficient of P in the conservative part of equation 2, in N/m.
+/// @param inverseSq  guardedInverseSq() of the pair, 1/m^2
+/// @param inverse    its square root, 1/m
+template <PairTerms terms, class Number>
+[[gnu::always_inline]] inline Number conservativeFrom(Number inverseSq, Number inverse,
+                                                      const PairConstants<Number>& c) {
+    const Number toRest = inverseSq - c.inverseRestSq;
+    const Number toReach = positivePart(terms.attraction ? inverseSq - c.inverseReachSq : toRest);
+    return c.b1 * inverse * (toRest * toReach);
+}
+
+/// Coefficient of P in equation 2, in N/m; the parameters are those of conservativeFrom() and pairCoefficient().
+template <PairTerms terms, class Number>
+[[gnu::always_inline]] inline Number coefficientFrom(Number inverseSq, Number inverse, Number approach,
+                                                     const PairConstants<Number>& c) {
+    const Number damping = c.bd * approach;
+    if constexpr (!terms.damping) {
+        return conservativeFrom<terms>(inverseSq, inverse, c);
+    } else if constexpr (terms.equalReach) {
+        const Number toRest = inverseSq - c.inverseRestSq;
+        return (c.b1 * inverse * toRest - damping) * positivePart(inverseSq - c.inverseReachSq);
+    } else {
+        return conservativeFrom<terms>(inverseSq, inverse, c) - damping * positivePart(inverseSq - c.inverseDampingSq);
+    }
+}
+
+/// Coefficient of P in equation 2, in N/m; exactly zero at and beyond the cutoff. It is the same when p and i are
+/// swapped, so that the force negates bit for bit. Source: Cote 2024, equations 2, 5 and 6, but for the core.
+/// @param distanceSq  P.P, in m^2
+/// @param approach    V.P, in m^2/s
+template <PairTerms terms, class Number>
+[[gnu::always_inline]] inline Number pairCoefficient(Number distanceSq, Number approach,
+                                                     const PairConstants<Number>& c) {
+    const Number inverseSq = guardedInverseSq(distanceSq, c.coreSq);
+    return coefficientFrom<terms>(inverseSq, squareRoot(inverseSq), approach, c);
+}
+
+/// Damping of a pair along the line between the two, over D^2: b_d s_d / D^2, in kg/(s m^2). Times P P^T it is the
+/// pair's damping matrix, times V.P the coefficient of P that damps. Zero at and beyond the damping's reach.
+template <class Number>
+[[gnu::always_inline]] inline Number pairDampingOverSq(Number distanceSq, const PairConstants<Number>& c) {
+    return c.bd * positivePart(guardedInverseSq(distanceSq, c.coreSq) - c.inverseDampingSq);
+}
+
+/// Friction, a departure from the paper, whose law has nothing tangential: the coefficient c_t of -V_t, in kg/s.
+///   c_t = mu N / max(|V_t|, kStickingSpeed),   N = max(0, conservative force),   V_t = V - (V.n) n
+/// So the friction is Coulomb's mu N against the slip; below the sticking speed a viscous creep stands in for static
+/// friction. It only removes energy, since F.V = -c_t V_t^2. It conserves linear momentum but not angular momentum,
+/// since particles have no spin to take it up.
+/// @param normalForce  the conservative force along n, in newtons
+/// @param slipSq       |V_t|^2, in m^2/s^2
+template <class Number>
+[[gnu::always_inline]] inline Number slipDamping(Number friction, Number normalForce, Number slipSq) {
+    return friction * positivePart(normalForce) / atLeast(squareRoot(slipSq), kStickingSpeed);
+}
+
+/// Constants of a particle and an obstacle's repulsor as a pair (section 3.2): c_r = c_d = 1.
+/// @param restLength  D0, the sum of the two radii, in meters
+/// @param core        the core distance, in meters
+template <class Number>
+[[gnu::always_inline]] inline PairConstants<Number> repulsorConstants(Number b1, Number bd, Number restLength,
+                                                                      Number core) {
+    PairConstants<Number> c{};
+    c.b1 = b1;
+    c.bd = bd;
+    c.reachSq = restLength * restLength;
+    c.inverseRestSq = c.inverseReachSq = c.inverseDampingSq = reciprocal(c.reachSq);
+    c.coreSq = core * core;
+    return c;
+}
+
+/// Force along a surface's normal on a particle in contact, in newtons.
+/// @param distance     from the particle to the repulsor, at least the core distance, in meters
+/// @param normalSpeed  of the particle along the normal, in m/s
+template <class Number>
+[[gnu::always_inline]] inline Number repulsorForce(Number distance, Number normalSpeed,
+                                                   const PairConstants<Number>& c) {
+    return distance * pairCoefficient<kRepulsorTerms>(distance * distance, distance * normalSpeed, c);
+}
