@@ -155,25 +155,45 @@ TEST_CASE("Coincident particles block along a direction drawn from their ids", "
 
 TEST_CASE("The law serves float as it serves double", "[pair_law]") {
     const Material material = *materialPreset("solid");
-    const auto entries32 = pairConstants<double>(material, 0.3);
-    const auto entries16 = pairConstants<float>(material, 0.3);
+    const auto inDouble = pairConstants<double>(material, 0.3);
+    const auto inFloat = pairConstants<float>(material, 0.3);
     for (double d = 0.1; d < 0.7; d += 0.013) {
-        const double exact = pairCoefficient<kAll>(d * d, 0.1, entries32);
-        const float rounded = pairCoefficient<kAll>(static_cast<float>(d * d), 0.1F, entries16);
+        const double exact = pairCoefficient<kAll>(d * d, 0.1, inDouble);
+        const float rounded = pairCoefficient<kAll>(static_cast<float>(d * d), 0.1F, inFloat);
         // A dozen float roundings of 1/D^2 - 1/D0^2 before the product: relative to b1/D^5 and b_d/D^2.
         const double largest = material.repulsion / std::pow(d, 5) + material.damping / (d * d);
         CHECK(std::abs(rounded - exact) <= 12 * 1.2e-7 * largest);
     }
 }
 
-TEST_CASE("Mixing two materials does not depend on their order", "[pair_law]") {
-    const Material a = *materialPreset("liquid");
-    const Material b = *materialPreset("solid");
-    const Material there = mixed(a, b);
-    const Material back = mixed(b, a);
-    CHECK(there.repulsion == back.repulsion);
-    CHECK(there.damping == back.damping);
-    CHECK(there.repulsionReach == back.repulsionReach);
-    CHECK(there.repulsion == Approx(std::sqrt(0.008)).epsilon(4 * kEps));  // one product, one root
-    CHECK(there.repulsionReach == 1.5);
+TEST_CASE("Two materials mix by means of every constant, in either order", "[pair_law]") {
+    Material a;
+    a.repulsion = 0.02;
+    a.damping = 3.0;
+    a.repulsionReach = 1.2;
+    a.dampingReach = 1.8;
+    a.friction = 0.2;
+    a.coreFraction = 0.2;
+    Material b;
+    b.repulsion = 0.08;
+    b.damping = 12.0;
+    b.repulsionReach = 1.6;
+    b.dampingReach = 2.6;
+    b.friction = 0.8;
+    b.coreFraction = 0.4;
+    for (const Material& mix : {mixed(a, b), mixed(b, a)}) {
+        // Two roundings each. Every value differs from that of the other kind of mean and from both parts.
+        CHECK(mix.repulsion == Approx(0.04).epsilon(4 * kEps));      // sqrt(0.02 * 0.08)
+        CHECK(mix.damping == Approx(6.0).epsilon(4 * kEps));         // sqrt(3 * 12)
+        CHECK(mix.repulsionReach == Approx(1.4).epsilon(4 * kEps));  // (1.2 + 1.6) / 2
+        CHECK(mix.dampingReach == Approx(2.2).epsilon(4 * kEps));    // (1.8 + 2.6) / 2
+        CHECK(mix.friction == Approx(0.4).epsilon(4 * kEps));        // sqrt(0.2 * 0.8)
+        CHECK(mix.coreFraction == Approx(0.3).epsilon(4 * kEps));    // (0.2 + 0.4) / 2
+    }
+    CHECK(mixed(a, b).repulsion == mixed(b, a).repulsion);  // bit for bit, as momentum needs
+    CHECK(mixed(a, b).damping == mixed(b, a).damping);
+    CHECK(mixed(a, b).repulsionReach == mixed(b, a).repulsionReach);
+    CHECK(mixed(a, b).dampingReach == mixed(b, a).dampingReach);
+    CHECK(mixed(a, b).friction == mixed(b, a).friction);
+    CHECK(mixed(a, b).coreFraction == mixed(b, a).coreFraction);
 }
