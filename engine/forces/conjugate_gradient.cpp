@@ -1,4 +1,4 @@
-// Textbook conjugate gradients (Hestenes and Stiefel 1952); sums in fixed chunks.
+// Conjugate gradients as in Hestenes and Stiefel 1952; sums are taken over fixed chunks.
 #include "engine/forces/conjugate_gradient.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace engine {
 namespace {
 
-/// Chosen: far beyond what a step that is worth taking needs; the audit judges what comes out.
+/// Chosen: far more than a step of useful length needs; the audit after the step judges the result.
 constexpr int kMostIterations = 500;
 
 }  // namespace
@@ -35,7 +35,7 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& toler
         multiply(matrix, direction, product);
         ++iteration;
         const double curvature = sumOver(count, [&](std::size_t p) { return dot(direction[p], product[p]); });
-        if (!(curvature > 0.0)) break;  // rounding alone is left, or numbers that are none: the audit decides
+        if (!(curvature > 0.0)) break;  // only rounding is left, or NaN: the audit decides
         const double length = norm / curvature;
         const double before = norm;
         norm = sumOver(count, [&](std::size_t p) {

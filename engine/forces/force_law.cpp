@@ -1,4 +1,4 @@
-// The terms and the cutoff that materials and radii ask for.
+// The terms and the cutoff that materials and radii need.
 #include "engine/forces/force_law.h"
 
 #include <algorithm>
@@ -14,10 +14,11 @@ bool sameLaw(const Material& a, const Material& b) {
            a.dampingReach == b.dampingReach && a.friction == b.friction && a.coreFraction == b.coreFraction;
 }
 
-/// By their bits, each against the next: a loop over numbers would take as long as a tenth of a powder's forces.
+/// Compares the bits of each number with the next: a loop over numbers would take a tenth of the time of a powder's
+/// forces.
 bool allEqual(const std::vector<double>& numbers) {
     if (numbers.size() < 2) return true;
-    constexpr std::size_t kGrain = 1U << 16;  // chosen: half a megabyte is worth waking a thread for
+    constexpr std::size_t kGrain = 1U << 16;  // chosen: half a megabyte is worth another thread
     return holdsInRanges(numbers.size() - 1, kGrain, [&](std::size_t begin, std::size_t end) {
         const double* const first = numbers.data() + begin;
         return std::memcmp(first, first + 1, (end - begin) * sizeof(double)) == 0;
@@ -34,18 +35,18 @@ std::vector<Material> mixedPairs(const std::vector<Material>& materials) {
 }
 
 double cutoffRatio(const std::vector<Material>& materials) {
-    double reach = 0.0;
+    double ratio = 0.0;
     for (const Material& material : materials) {
-        // The mix's reaches lie between those of its blocks.
-        reach = std::max(reach, material.repulsionReach);
-        if (material.damping > 0.0) reach = std::max(reach, material.dampingReach);
+        // The reaches of a mixture lie between those of its two materials.
+        ratio = std::max(ratio, material.repulsionReach);
+        if (material.damping > 0.0) ratio = std::max(ratio, material.dampingReach);
     }
-    return reach;
+    return ratio;
 }
 
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
     ForceTerms terms;
-    terms.pair.equalReach = true;  // of mixtures too, if each has one
+    terms.pair.equalReach = true;  // if it holds for each material, it holds for their mixtures
     for (const Material& material : law.materials) {
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;

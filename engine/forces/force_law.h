@@ -1,4 +1,5 @@
-// What acts on particles, and which of its terms a set of particles needs.
+// Everything that acts on particles, and which of its terms the particles at hand need. Filled from a Setup by the
+// steppers; read by all of engine/forces.
 #pragma once
 
 #include <vector>
@@ -17,19 +18,20 @@ struct ForceLaw {
     Obstacles obstacles;
 };
 
-/// What some pair of the particles needs; the rest is not compiled into their kernel.
+/// What the pairs of a set of particles need. Their kernel is compiled without all other terms.
 struct ForceTerms {
     PairTerms pair{.attraction = false, .damping = false, .friction = false};
-    bool uniform = true;  ///< one law and one radius: constants are not looked up per pair
+    bool uniform = true;  ///< whether all particles have one law and one radius, hence all pairs the same constants
     double cutoff = 0.0;  ///< no pair acts at or beyond it, m
 };
 
-/// How far a pair of these materials may act on each other, in sums of radii.
+/// The largest cutoff that a pair of these materials can have, in rest lengths (sums of the two radii).
 double cutoffRatio(const std::vector<Material>& materials);
 
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles);
 
-/// Every particle's material against every other's, mixed once. Row-major, materials.size() squared.
+/// mixed() of every material with every other, in row-major order: materials.size() squared entries. Materials with the
+/// same law are not mixed, so that their pairs have exactly its constants.
 std::vector<Material> mixedPairs(const std::vector<Material>& materials);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// The total force: pairs, gravity, obstacles.
+// The total force: pairs, gravity and obstacles, by either method.
 #include "engine/forces/forces.h"
 
 #include <algorithm>
@@ -23,10 +23,10 @@ void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3
 
 void ForceEvaluator::evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities,
                                    std::vector<Vec3>& forces, double step) {
-    if (method_ == ForceMethod::reference)
-        pairForcesReference(law_, particles, velocities, forces);
-    else
-        pairForcesGrid(particles, velocities, forces, step);
+    if (method_ == ForceMethod::reference) return pairForcesReference(law_, particles, velocities, forces);
+    forces.resize(particles.count());
+    pairs_.prepare(law_, particles, velocities, step);
+    sumPairs(pairs_, {.forces = forces});
 }
 
 double ForceEvaluator::evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities,
@@ -51,7 +51,7 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     pairs_.prepare(law_, particles, particles.velocity, step);
     pairs_.packParticles(particles, particles.velocity);
     sumPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
-    // The matrix has no slow twin: products of the reference's pairs would be the same sums.
+    // The matrix has no reference: products over every pair would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
     matrix.mass.resize(particles.count());
     inParallel(particles.count(), kParticleGrain,
@@ -86,13 +86,6 @@ bool ForceEvaluator::hasNoNeighborWithin(const std::vector<Vec3>& positions, dou
 void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
     inParallel(particles.count(), kParticleGrain,
                [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
-}
-
-void ForceEvaluator::pairForcesGrid(const Particles& particles, const std::vector<Vec3>& velocities,
-                                    std::vector<Vec3>& forces, double step) {
-    forces.resize(particles.count());
-    pairs_.prepare(law_, particles, velocities, step);
-    sumPairs(pairs_, {.forces = forces});
 }
 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {

@@ -1,12 +1,12 @@
-// Equation 1 as the paper evaluates it: every pair, in double, one after another. It is the oracle: obvious, serial,
-// slow.
+// Equation 1 as the paper evaluates it: every pair, in double, one after another. All faster paths are tested against
+// it, so it stays obvious, serial and slow.
 #include "engine/forces/forces.h"
 
 namespace engine {
 namespace {
 
 struct Pair {
-    Vec3 separation;  ///< P = x_p - x_i, or its stand-in for coincident particles
+    Vec3 separation;  ///< P = x_p - x_i, or coincidentSeparation()
     PairConstants<double> constants;
 };
 
@@ -21,12 +21,12 @@ Pair pairOf(const ForceLaw& law, const Particles& particles, std::size_t p, std:
     return pair;
 }
 
-/// Against the slip, in newtons.
+/// Friction on p, in newtons.
 Vec3 frictionOf(const Pair& pair, const Vec3& velocity) {
     const double distance = pair.separation.norm();
     const Vec3 normal = pair.separation / distance;
     const Vec3 slip = velocity - velocity.dot(normal) * normal;
-    const double push = distance * pairCoefficient<PairTerms{true, false}>(distance * distance, 0.0, pair.constants);
+    const double push = distance * pairCoefficient<kConservative>(distance * distance, 0.0, pair.constants);
     return -slipDamping(pair.constants.friction, push, slip.squaredNorm()) * slip;
 }
 

@@ -1,4 +1,4 @@
-// Table 1 of the paper, the substances it names, and the symmetric mix of two materials.
+// Table 1 of the paper, the substances that it names, and the symmetric mixture of two materials.
 #include "engine/law/material.h"
 
 #include <array>
@@ -14,9 +14,10 @@ struct Row {
 };
 
 /// Table 1, row by row, with the published masses of 1 kg; then the substances that the paper names without constants.
-/// Those are chosen for looks at g = 9.81 m/s^2: b_d over the mass sets the viscosity, b1 / (D0^4 m g) how far a pile
-/// is squeezed by its own weight (5 to 10: levels like a liquid; 20: keeps a crystal's slope), c_r the cohesion; c_r
-/// stays below 1.8, where matter starts to fall in on itself.
+/// The substances were chosen by their appearance at g = 9.81 m/s^2: b_d over the mass sets the viscosity,
+/// b1 / (D0^4 m g) how far a pile is compressed by its own weight (at 5 to 10 it levels like a liquid, at 20 it keeps
+/// the slope of a crystal), c_r the cohesion; c_r stays below 1.8, above which matter collapses under its own
+/// attraction.
 constexpr std::array<Row, 11> kPresets = {{
     {"liquid", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
     {"solid", 0.15, 1.0, 0.8, 4.0, 2.0, 2.0},

@@ -1,4 +1,4 @@
-// Obstacles as forces, the paper's way, and the energy that goes with them.
+// Obstacles as forces, as the paper has them, and the energy that goes with these forces.
 #include "engine/law/obstacles.h"
 
 #include "engine/core/parallel.h"
@@ -7,7 +7,8 @@
 namespace engine {
 
 std::size_t contactGrain(const Obstacles& obstacles) {
-    constexpr std::size_t kContactGrain = 256;  // chosen: most contacts take a tenth of a microsecond, some a hundred
+    constexpr std::size_t kContactGrain =
+        256;  // chosen: most contacts take a tenth of a microsecond, some a hundred times that
     return obstacles.shapes.empty() ? kParticleGrain : kContactGrain;
 }
 

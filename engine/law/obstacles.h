@@ -1,5 +1,6 @@
-// Fixed obstacles (section 3.2 of the paper). Each answers a particle that touches it with a repulsor: a particle at
-// rest, seen by that particle alone, hidden behind the closest point of the surface.
+// Fixed obstacles (section 3.2 of the paper). A particle that touches one is repelled by a repulsor: a particle at rest
+// behind the closest point of the surface, which acts on that particle alone. Shapes are plain data; what they are to a
+// particle is in obstacle_surfaces.h.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 
 namespace engine {
 
-/// Everything on the far side of the normal is solid.
+/// A half-space: everything on the side that the normal points away from is solid.
 struct Plane {
     Vec3 point = Vec3::Zero();    ///< m
     Vec3 normal = Vec3::UnitY();  ///< unit length, away from the solid side
@@ -32,17 +33,17 @@ struct Box {
 struct Sphere {
     Vec3 center = Vec3::Zero();    ///< m
     double radius = 0.5;           ///< m
-    bool literalRepulsor = false;  ///< one repulsor of the sphere's own radius at its center, as the paper has it
+    bool literalRepulsor = false;  ///< the repulsor has the sphere's own radius and center, as in the paper
 };
 
 using Obstacle = std::variant<Plane, Container, Box, Sphere>;
 
-/// The constants of section 3.2, equal for all obstacles.
+/// The constants of the repulsors (section 3.2), the same for all obstacles.
 struct RepulsorLaw {
     double radius = 0.5;         ///< m
     double repulsion = 10.0;     ///< b1, N m^4
     double dampingFactor = 5.0;  ///< b_d = this times the c_d of the particle's material, kg/s
-    double coreFraction = 0.25;  ///< the guard of the pair law, see Material::coreFraction
+    double coreFraction = 0.25;  ///< core distance over rest length, see Material::coreFraction
 };
 
 struct Obstacles {
@@ -50,10 +51,10 @@ struct Obstacles {
     RepulsorLaw law;
 };
 
-/// How many particles are worth a thread where each of them meets the obstacles, or cheap work if there are none.
+/// Particles that a thread is given at a time in loops over the contacts of each particle.
 std::size_t contactGrain(const Obstacles& obstacles);
 
-/// What an obstacle sees of a particle.
+/// A particle as obstacles need it.
 struct Probe {
     Vec3 position = Vec3::Zero();  ///< m
     Vec3 velocity = Vec3::Zero();  ///< m/s
@@ -62,19 +63,20 @@ struct Probe {
     double friction = 0.0;         ///< mu of its material
 };
 
-/// Force of all obstacles on a particle, in newtons; zero where it touches none.
-/// Source: section 3.2. Planes push along their fixed normal however deep the particle is.
+/// Force of all obstacles on a particle, in newtons; zero where it touches none. Planes push along their normal however
+/// deep the particle is. Source: section 3.2.
 Vec3 contactForce(const Obstacles& obstacles, const Probe& probe);
 
 /// Energy of the conservative part of contactForce, in joules.
 double contactEnergy(const Obstacles& obstacles, const Probe& probe);
 
+/// What all obstacles do to a particle.
 struct ContactAnswer {
     Vec3 force = Vec3::Zero();  ///< N
     double energy = 0.0;        ///< J
 };
 
-/// Both for one walk over the surfaces.
+/// contactForce() and contactEnergy() from one pass over the surfaces.
 ContactAnswer contactForceAndEnergy(const Obstacles& obstacles, const Probe& probe);
 
 }  // namespace engine

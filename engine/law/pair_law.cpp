@@ -1,4 +1,4 @@
-// The direction of exactly coincident particles; the law itself is in the header.
+// The separation that stands in for that of coincident particles.
 #include "engine/law/pair_law.h"
 
 #include "engine/core/random.h"
@@ -14,7 +14,8 @@ std::array<double, 3> coincidentSeparation(std::uint32_t idP, std::uint32_t idI,
         direction[component] = symmetricUnit(randomBits(low, high, component));
         lengthSq += direction[component] * direction[component];
     }
-    // The cube's diagonal directions are a little likelier than its axes; a direction is all that is needed.
+    // A point in a cube, scaled to the length: the directions of the cube's diagonals are a little likelier than those
+    // of its axes, which does not matter here.
     const double sign = idP < idI ? 1.0 : -1.0;
     const double scale = lengthSq > 0.0 ? sign * kCoincidentShare * restLength / std::sqrt(lengthSq) : 0.0;
     for (double& component : direction) component *= scale;

@@ -135,7 +135,7 @@ class Bench {
         row.precision = precision;
         if (precision == Precision::singles)
             row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat);
-        const Work pass = [&] { evaluator.pairForcesGrid(particles, particles.velocity, forces); };
+        const Work pass = [&] { evaluator.evaluatePairs(particles, particles.velocity, forces); };
         pass();  // builds the list
         row.seconds = measured(pass, settings_);
         row.stateHash = hashOf(forces);

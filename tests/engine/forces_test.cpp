@@ -20,7 +20,7 @@ std::vector<Vec3> reference(const ForceLaw& law, const Particles& particles) {
 std::vector<Vec3> onGrid(const ForceLaw& law, const Particles& particles) {
     ForceEvaluator evaluator(law, ForceMethod::grid);
     std::vector<Vec3> forces;
-    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    evaluator.evaluatePairs(particles, particles.velocity, forces);
     return forces;
 }
 
@@ -228,11 +228,11 @@ TEST_CASE("A forgotten list is not used for particles that have exchanged their 
     Particles particles = clouds::strewn(100, 1.0);
     ForceEvaluator evaluator(law, ForceMethod::grid);
     std::vector<Vec3> forces;
-    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    evaluator.evaluatePairs(particles, particles.velocity, forces);
     evaluator.forgetList();
     particles.radius.back() *= 0.5;
     std::swap(particles.position.front(), particles.position.back());
-    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    evaluator.evaluatePairs(particles, particles.velocity, forces);
     CHECK(forces == onGrid(law, particles));
 }
 

@@ -31,7 +31,7 @@ Particles block(const Material& material, const Vec3& center) {
 std::vector<Vec3> pairForces(const Material& material, const Particles& particles, Precision precision) {
     ForceEvaluator evaluator(clouds::lawOf(material), ForceMethod::grid, precision);
     std::vector<Vec3> forces;
-    evaluator.pairForcesGrid(particles, particles.velocity, forces);
+    evaluator.evaluatePairs(particles, particles.velocity, forces);
     return forces;
 }
 
@@ -262,8 +262,8 @@ TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
         REQUIRE_FALSE(termsFor(law, particles).uniform);
         std::vector<Vec3> actual;
         std::vector<Vec3> expected;
-        lanes.pairForcesGrid(particles, particles.velocity, actual);
-        scalar.pairForcesGrid(particles, particles.velocity, expected);
+        lanes.evaluatePairs(particles, particles.velocity, actual);
+        scalar.evaluatePairs(particles, particles.velocity, expected);
         INFO(preset);
         CHECK(actual == expected);
         const double energy = lanes.evaluateFree(particles, particles.velocity, actual);
