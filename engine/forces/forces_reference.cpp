@@ -50,7 +50,7 @@ void pairForcesReference(const ForceLaw& law, const Particles& particles, const 
 double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i) {
     const Pair pair = pairOf(law, particles, p, i);
     const double energy = pairEnergy(std::sqrt(squaredLength(pair.separation)), pair.constants);
-    // What blocks a coincident pair is above its energy by as much as its stand-in lies below.
+    // A coincident pair counts as much above U(0) as its stand-in lies below it; see energyOf() in pair_sums.cpp.
     const bool isCoincident = particles.position[p] == particles.position[i];
     return isCoincident ? 2.0 * pairEnergy(0.0, pair.constants) - energy : energy;
 }

@@ -1,7 +1,7 @@
 // Sums over each particle's pairs, and the eigenvalues that bound the step.
 //
-// The pair's conservative block has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step,
-// so negative blocks count as zero. Its damping has b_d s_d along n and nothing across.
+// The pair's conservative part has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step,
+// so negative parts count as zero. Its damping has b_d s_d along n and nothing across.
 #include "engine/stepping/step_bound.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-// Particle sets that the suites of the engine share.
+// Random sets of particles that the tests of the engine share.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -18,7 +18,8 @@ inline engine::Vec3 randomVector(std::uint64_t seed, std::uint64_t index) {
             engine::symmetricUnit(engine::randomBits(seed, index, 2))};
 }
 
-/// Particles strewn evenly through a cube of the given half edge (m), with random velocities of up to 1 m/s an axis.
+/// Particles distributed evenly in a cube of the given half edge (m), with random velocities of up to 1 m/s along each
+/// axis.
 inline engine::Particles strewn(std::size_t count, double halfEdge, std::uint64_t seed = 7) {
     engine::Particles particles;
     for (std::uint64_t p = 0; p < count; ++p) {
@@ -30,7 +31,7 @@ inline engine::Particles strewn(std::size_t count, double halfEdge, std::uint64_
     return particles;
 }
 
-/// The same with radii of 0.1 to 0.2 m and masses of 0.1 to 1.9 kg.
+/// strewn() with radii of 0.1 to 0.2 m and masses of 0.1 to 1.9 kg.
 inline engine::Particles strewnUnequal(std::size_t count, double halfEdge, std::uint64_t seed = 7) {
     engine::Particles particles = strewn(count, halfEdge, seed);
     for (std::size_t p = 0; p < count; ++p) {
@@ -41,7 +42,7 @@ inline engine::Particles strewnUnequal(std::size_t count, double halfEdge, std::
     return particles;
 }
 
-/// Runs work on exactly so many threads, even where the machine has fewer cores.
+/// Runs work() on a number of threads, even where the machine has fewer cores.
 template <class Work>
 void onThreads(std::size_t threads, const Work& work) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

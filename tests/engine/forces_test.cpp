@@ -1,4 +1,5 @@
-// The grid against the O(n^2) reference, which in turn is held against hand-worked sums and its own energy.
+// The forces over the neighbor list against the O(n^2) reference, and the reference against sums worked by hand and the
+// gradient of its energy.
 #include "engine/forces/forces.h"
 
 #include <set>
@@ -24,7 +25,7 @@ std::vector<Vec3> onGrid(const ForceLaw& law, const Particles& particles) {
     return forces;
 }
 
-/// Sum of the lengths of the pair forces on p: what the rounding of any order of summation scales with.
+/// Sum of the lengths of the pair forces on p, with which the rounding of any order of summation scales.
 double forceScale(const ForceLaw& law, const Particles& particles, std::size_t p) {
     double sum = 0.0;
     for (std::size_t i = 0; i < particles.count(); ++i) {
@@ -46,8 +47,8 @@ void checkGridAgainstReference(const ForceLaw& law, const Particles& particles) 
     const auto actual = onGrid(law, particles);
     REQUIRE(actual.size() == expected.size());
     for (std::size_t p = 0; p < expected.size(); ++p) {
-        // Pairs have equal bits; two orders of summation differ by at most one rounding per term of the running sum,
-        // twice.
+        // The forces of pairs have equal bits. Two orders of summation differ by at most two roundings of the running
+        // sum for each term.
         const double tolerance = 2.0 * static_cast<double>(particles.count()) * kEps * forceScale(law, particles, p);
         const double difference = (actual[p] - expected[p]).cwiseAbs().maxCoeff();
         INFO("particle " << p << ": " << actual[p].transpose() << " against " << expected[p].transpose());
@@ -81,7 +82,7 @@ TEST_CASE("The grid agrees with the reference without damping", "[forces]") {
     }
 }
 
-TEST_CASE("Edges: none, one, two, coincident, one cell, outliers", "[forces]") {
+TEST_CASE("The grid agrees with the reference for few, coincident and far particles", "[forces]") {
     const ForceLaw law = clouds::lawOf("solid");
     for (const std::size_t count : {0U, 1U, 2U}) checkGridAgainstReference(law, clouds::strewn(count, 0.1));
     checkGridAgainstReference(law, clouds::strewn(60, 0.05));
@@ -100,7 +101,7 @@ TEST_CASE("Edges: none, one, two, coincident, one cell, outliers", "[forces]") {
     checkGridAgainstReference(law, far);
 }
 
-TEST_CASE("Two particles by hand", "[forces]") {
+TEST_CASE("The force between two particles is that worked by hand", "[forces]") {
     Particles particles;
     append(particles, {.position = Vec3(0.2, 0, 0), .velocity = Vec3(-1, 0.5, 0)});
     append(particles, {.position = Vec3(0, 0, 0), .velocity = Vec3(0, 0, 0)});
@@ -112,7 +113,7 @@ TEST_CASE("Two particles by hand", "[forces]") {
     CHECK(forces[1] == -forces[0]);
 }
 
-TEST_CASE("Pair forces add up to nothing and turn nothing", "[forces]") {
+TEST_CASE("Pair forces have neither a sum nor a torque", "[forces]") {
     const Particles particles = clouds::strewnUnequal(500, 1.2);
     const ForceLaw law = clouds::lawOf("solid");
     const auto forces = onGrid(law, particles);
@@ -163,7 +164,7 @@ TEST_CASE("The same bits for any number of threads", "[forces]") {
     }
 }
 
-TEST_CASE("Only the terms that a scene needs", "[forces]") {
+TEST_CASE("Terms and cutoff are those that the materials need", "[forces]") {
     const Particles equal = clouds::strewn(10, 1.0);
     const ForceTerms powder = termsFor(clouds::lawOf("powder"), equal);
     CHECK_FALSE(powder.pair.attraction);
@@ -176,18 +177,18 @@ TEST_CASE("Only the terms that a scene needs", "[forces]") {
     Material undamped = *materialPreset("liquid");
     undamped.damping = 0.0;
     CHECK_FALSE(termsFor(clouds::lawOf(undamped), equal).pair.damping);
-    CHECK(termsFor(clouds::lawOf(undamped), equal).cutoff == Approx(0.3));  // no damping, no reach of damping
+    CHECK(termsFor(clouds::lawOf(undamped), equal).cutoff == Approx(0.3));  // without damping its reach does not count
     CHECK(powder.pair.equalReach);
     CHECK(termsFor(clouds::lawOf(undamped), equal).pair.equalReach);
     CHECK_FALSE(termsFor(clouds::lawOf("liquid"), equal).pair.equalReach);
     ForceLaw both = clouds::lawOf("powder");
     both.materials.push_back(*materialPreset("solid"));
-    CHECK(termsFor(both, equal).pair.equalReach);  // 1.5 and 1.5 between the two
+    CHECK(termsFor(both, equal).pair.equalReach);  // both reaches are 1.5 between the two
     both.materials.push_back(*materialPreset("liquid"));
     CHECK_FALSE(termsFor(both, equal).pair.equalReach);
 }
 
-TEST_CASE("Radii that change once are not one radius, wherever threads share them out", "[forces]") {
+TEST_CASE("A single change among the radii is found, wherever threads divide them", "[forces]") {
     const ForceLaw law = clouds::lawOf("solid");
     for (const std::size_t count : {2U, 3U, 200000U}) {
         for (const std::size_t smaller :
@@ -236,7 +237,7 @@ TEST_CASE("A forgotten list is not used for particles that have exchanged their 
     CHECK(forces == onGrid(law, particles));
 }
 
-TEST_CASE("Who is alone is told by positions, however far a list that covers them reaches", "[forces]") {
+TEST_CASE("Whether a particle has a neighbor depends on positions, not on the list that covers them", "[forces]") {
     constexpr double kCutoff = 0.6;
     const ForceLaw law = clouds::lawOf("liquid");
     Particles particles;
@@ -248,11 +249,11 @@ TEST_CASE("Who is alone is told by positions, however far a list that covers the
         ForceEvaluator evaluator(law, ForceMethod::grid);
         std::vector<Vec3> forces;
         evaluator.evaluate(particles, particles.velocity, forces);
-        particles.position[2].y() += 10.0;  // asks for another list
+        particles.position[2].y() += 10.0;  // needs a new list
         evaluator.evaluate(particles, particles.velocity, forces, step);
         reaches.insert(evaluator.list().reach);
         std::vector<Vec3> positions = particles.position;
-        // Whoever is looked at first, the answer is the same.
+        // The answer does not depend on the cached neighbor.
         const auto hasNoNeighborWithin = [&](std::size_t p, std::uint32_t& cachedNeighbor) {
             const bool isNow = evaluator.hasNoNeighborWithin(positions, kCutoff, p, cachedNeighbor);
             CHECK(evaluator.hasNoNeighborWithin(positions, kCutoff, p, cachedNeighbor) == isNow);
@@ -269,9 +270,9 @@ TEST_CASE("Who is alone is told by positions, however far a list that covers the
             CHECK_FALSE(hasNoNeighborWithin(1, cachedNeighbor = first));
             CHECK(cachedNeighbor == 0);
             CHECK(hasNoNeighborWithin(2, cachedNeighbor = first));
-            CHECK_FALSE(hasNoNeighborWithin(3, cachedNeighbor = first));  // a newborn
+            CHECK_FALSE(hasNoNeighborWithin(3, cachedNeighbor = first));  // emitted since, without a row
         }
-        positions.push_back(positions[2]);  // beside whom one has been placed, in nobody's row yet
+        positions.push_back(positions[2]);  // emitted right beside it, in no row yet
         std::uint32_t cachedNeighbor = 3;
         CHECK(hasNoNeighborWithin(2, cachedNeighbor));
     }

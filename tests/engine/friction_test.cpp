@@ -1,4 +1,4 @@
-// Friction: Coulomb's law on one grain, what it must keep and what it may not make, and the heap that it holds up.
+// Friction: Coulomb's law on one grain, conservation of momentum, loss of energy, and the slope of a heap.
 #include <cmath>
 #include "tests/catch.h"
 
@@ -21,8 +21,8 @@ Material grain(double friction) {
     return material;
 }
 
-/// What a column of 490 grains has become on a floor after three seconds: the slope, in degrees, of the cone that has
-/// its mean height over the floor (a quarter of the cone's) and its mean squared distance from the axis (3/10 R^2).
+/// Slope, in degrees, of what a column of 490 grains has become on a floor after three seconds: that of the cone with
+/// the same mean height (a quarter of the cone's height) and mean squared distance from the axis (3/10 R^2).
 double slopeOfHeap(double friction) {
     Setup setup = runs::freeSetup(grain(friction), StepperKind::velocityVerlet, 0.005);
     setup.gravity = Vec3(0, -9.81, 0);
@@ -53,7 +53,7 @@ TEST_CASE("A sliding grain stops where Coulomb's law says", "[friction]") {
             setup.obstacles.shapes = {Plane{}};
             append(setup.initial, {.position = Vec3(0, 0.15, 0), .mass = 0.1});
             Simulation simulation = start(setup);
-            advance(simulation, 2.0);  // comes to rest on the floor
+            advance(simulation, 2.0);  // until it is at rest on the floor
             const double from = simulation.particles.position[0].x();
             simulation.particles.velocity[0].x() = 2.0;
             simulation.cache->forcesCurrent = false;
@@ -84,11 +84,11 @@ TEST_CASE("Friction keeps linear momentum and gains no energy", "[friction]") {
             CHECK(now.total() <= last + steps * energyAllowance(simulation));
             last = now.total();
         }
-        CHECK((linearMomentum(simulation.particles) - before).norm() < 1e-13 * sum);  // the promise
+        CHECK((linearMomentum(simulation.particles) - before).norm() < 1e-13 * sum);  // as friction promises
     }
 }
 
-TEST_CASE("Friction slows what slips and leaves alone what does not", "[friction]") {
+TEST_CASE("More friction leaves less slip, and never reverses it", "[friction]") {
     const auto slipAfter = [](double friction) {
         Setup setup = runs::freeSetup(grain(friction), StepperKind::velocityVerlet, 0.001);
         append(setup.initial, {.position = Vec3(0, 0, 0), .velocity = Vec3(0, 0, 0.5), .mass = 0.1});
@@ -102,7 +102,7 @@ TEST_CASE("Friction slows what slips and leaves alone what does not", "[friction
     CHECK(slipAfter(0.6) > 0.0);
 }
 
-TEST_CASE("Grains with friction heap up, without they do not", "[friction]") {
+TEST_CASE("Grains heap up with friction and spread without it", "[friction]") {
     const double without = slopeOfHeap(0.0);
     const double little = slopeOfHeap(0.2);
     const double sand = slopeOfHeap(0.6);
@@ -110,5 +110,5 @@ TEST_CASE("Grains with friction heap up, without they do not", "[friction]") {
     CHECK(without < 5.0);  // a layer one grain high
     CHECK(little > 2.0 * without);
     CHECK(sand > little);
-    CHECK(sand > 12.0);  // the column slumps lower than a heap that is poured would stand
+    CHECK(sand > 12.0);  // chosen: a column slumps to less than the angle of a poured heap
 }

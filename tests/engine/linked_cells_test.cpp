@@ -1,4 +1,4 @@
-// Who is near a sortedIndex: nobody is missing, nobody twice, and not everybody is asked.
+// The linked cells find every particle near a point exactly once, and visit few others.
 #include "engine/neighbors/linked_cells.h"
 
 #include <map>
@@ -10,7 +10,7 @@ using namespace engine;
 
 namespace {
 
-/// In a cube of this edge around the origin, m.
+/// Random positions in a cube of an edge (m) around the origin.
 std::vector<Vec3> scattered(std::size_t count, double edge) {
     std::vector<Vec3> positions;
     for (std::size_t p = 0; p < count; ++p) {
@@ -20,15 +20,15 @@ std::vector<Vec3> scattered(std::size_t count, double edge) {
     return positions;
 }
 
-std::map<std::size_t, int> visitsNear(const LinkedCells& cells, const Vec3& sortedIndex) {
+std::map<std::size_t, int> visitsNear(const LinkedCells& cells, const Vec3& point) {
     std::map<std::size_t, int> visits;
-    cells.forEachNear(sortedIndex, [&](std::size_t p) { ++visits[p]; });
+    cells.forEachNear(point, [&](std::size_t p) { ++visits[p]; });
     return visits;
 }
 
 }  // namespace
 
-TEST_CASE("Linked cells find everybody within a width, each once, however they were added", "[linked-cells]") {
+TEST_CASE("Linked cells find every particle within a width once, in whatever order they were added", "[linked-cells]") {
     const double width = 0.3;
     std::vector<Vec3> positions = scattered(400, 4.0);
     positions.emplace_back(0.3 * 3, -0.3, 0.6);  // on corners of cells
@@ -38,24 +38,24 @@ TEST_CASE("Linked cells find everybody within a width, each once, however they w
     LinkedCells grown(width, first);
     for (std::size_t p = first.size(); p < positions.size(); ++p) grown.add(positions[p]);
     const LinkedCells whole(width, positions);
-    for (const Vec3& sortedIndex : positions) {
-        const std::map<std::size_t, int> visits = visitsNear(whole, sortedIndex);
-        CHECK(visits == visitsNear(grown, sortedIndex));
+    for (const Vec3& point : positions) {
+        const std::map<std::size_t, int> visits = visitsNear(whole, point);
+        CHECK(visits == visitsNear(grown, point));
         for (const auto& [p, count] : visits) CHECK(count == 1);
         for (std::size_t p = 0; p < positions.size(); ++p)
-            if ((positions[p] - sortedIndex).norm() <= width) CHECK(visits.count(p) == 1);
+            if ((positions[p] - point).norm() <= width) CHECK(visits.count(p) == 1);
     }
 }
 
-TEST_CASE("Linked cells ask a few of many", "[linked-cells]") {
-    const std::vector<Vec3> positions = scattered(20000, 30.0);  // three quarters of a particle in a cell of width 1
+TEST_CASE("Linked cells visit few of many particles", "[linked-cells]") {
+    const std::vector<Vec3> positions = scattered(20000, 30.0);  // 0.74 particles in a cell of width 1 m
     const LinkedCells cells(1.0, positions);
     std::size_t visits = 0;
-    for (const Vec3& sortedIndex : positions) cells.forEachNear(sortedIndex, [&](std::size_t) { ++visits; });
+    for (const Vec3& point : positions) cells.forEachNear(point, [&](std::size_t) { ++visits; });
     CHECK(visits < 30 * positions.size());  // 27 cells hold 20 of them
 }
 
-TEST_CASE("Without cells nobody is near", "[linked-cells]") {
+TEST_CASE("Cells without a width find nothing", "[linked-cells]") {
     LinkedCells none;
     none.add(Vec3::Zero());
     CHECK(visitsNear(none, Vec3::Zero()).empty());

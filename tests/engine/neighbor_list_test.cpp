@@ -1,4 +1,5 @@
-// The neighbor list holds exactly the pairs within its reach, and knows how long it can be trusted.
+// The neighbor list has exactly the pairs within its reach, and tells whether it still covers particles that have
+// moved.
 #include "engine/neighbors/neighbor_list.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ std::uint32_t particleIn(const NeighborList& list, std::size_t laneSlot) {
     return list.order[static_cast<std::size_t>(list.rows.ownIndices[laneSlot])];
 }
 
-/// Particle indices in the row of a laneSlot; fails on one that occurs twice.
+/// Particle indices in the row of a lane slot; fails on one that occurs twice.
 std::set<std::uint32_t> rowOf(const NeighborList& list, std::size_t laneSlot) {
     std::set<std::uint32_t> row;
     for (std::uint32_t k = 0; k < list.rows.length[laneSlot]; ++k)
@@ -29,7 +30,7 @@ std::set<std::uint32_t> rowOf(const NeighborList& list, std::size_t laneSlot) {
     return row;
 }
 
-/// Entry by entry, with what fills the rows up.
+/// Compares two lists entry by entry, padding included.
 void checkSame(const NeighborList& list, const NeighborList& expected) {
     CHECK(list.order == expected.order);
     CHECK(list.sortedIndexOf == expected.sortedIndexOf);
@@ -42,7 +43,7 @@ void checkSame(const NeighborList& list, const NeighborList& expected) {
     }
 }
 
-/// By every pair.
+/// Neighbors of p within a reach (m), found by comparing it with all others.
 std::set<std::uint32_t> neighborsOf(const std::vector<Vec3>& positions, std::size_t p, double reach) {
     std::set<std::uint32_t> near;
     for (std::uint32_t i = 0; i < positions.size(); ++i)
@@ -50,14 +51,14 @@ std::set<std::uint32_t> neighborsOf(const std::vector<Vec3>& positions, std::siz
     return near;
 }
 
-/// Of the reach squared: float errs by 4e-6 of it.
+/// Largest squared distance of a listed pair over the reach squared: float errs by 4e-6 of it.
 constexpr double kFarthest = kFloatMargin + 4e-6;
 
 bool isWithin(const std::set<std::uint32_t>& block, const std::set<std::uint32_t>& all) {
     return std::includes(all.begin(), all.end(), block.begin(), block.end());
 }
 
-/// Rows hold what is within reach, and nothing else but pairs that float does not know to be beyond it.
+/// Checks that the rows have every pair within reach, and no others but those that float cannot distinguish from them.
 void checkRows(const std::vector<Vec3>& positions) {
     NeighborList list;
     build(list, positions, kCutoff, kSkin);
@@ -76,7 +77,7 @@ void checkRows(const std::vector<Vec3>& positions) {
     CHECK(covers(list, positions, kCutoff));
 }
 
-/// Coincident ones, some on faces of cells, and some so far away that cells are shared.
+/// Positions that coincide, that lie on the faces of cells, and that are so far away that cells share storage.
 std::vector<Vec3> hardPositions() {
     std::vector<Vec3> positions = clouds::strewn(60, 0.8).position;
     for (std::size_t p = 0; p < 20; ++p) positions[p] = Vec3(0.1, 0.1, 0.1);
@@ -87,7 +88,8 @@ std::vector<Vec3> hardPositions() {
     return positions;
 }
 
-/// A list over a cloud that then moves far as one, and two of it this far (m) against each other, in some direction.
+/// Whether a list still covers particles that have all moved far together, two of them in addition by `distance` (m)
+/// relative to each other.
 bool coversAfterMove(double distance, std::size_t p) {
     std::vector<Vec3> positions = clouds::strewn(50, 0.8).position;
     NeighborList list;
@@ -104,10 +106,10 @@ bool coversAfterMove(double distance, std::size_t p) {
 TEST_CASE("Rows hold every other particle within the reach once", "[neighbor-list]") {
     for (const std::size_t count : {0U, 1U, 2U}) checkRows(clouds::strewn(count, 0.1).position);
     checkRows(clouds::strewn(300, 1.5).position);   // dense
-    checkRows(clouds::strewn(400, 0.3).position);   // rows longer than the sieve
-    checkRows(clouds::strewn(1200, 0.5).position);  // more candidates than are looked through at once
-    checkRows(clouds::strewn(2000, 4.0).position);  // one a cell: some cells are searched together
-    checkRows(clouds::strewn(100, 40.0).position);  // mostly alone
+    checkRows(clouds::strewn(400, 0.3).position);   // rows longer than forEachNeighbor() filters at once
+    checkRows(clouds::strewn(1200, 0.5).position);  // more candidates than the search packs without testing
+    checkRows(clouds::strewn(2000, 4.0).position);  // one in a cell: some cells are searched together
+    checkRows(clouds::strewn(100, 40.0).position);  // most have no neighbor
 }
 
 TEST_CASE("Rows hold coincident particles, those on cell faces and far outliers", "[neighbor-list]") {
@@ -115,7 +117,7 @@ TEST_CASE("Rows hold coincident particles, those on cell faces and far outliers"
 }
 
 TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbor-list]") {
-    // In pairs, thinly: cells are searched together, up to 8 reaches from where they begin.
+    // Thinly spread pairs: cells are searched together, up to 8 reaches from the origin of their float coordinates.
     std::vector<Vec3> positions;
     for (std::size_t pair = 0; pair < 400; ++pair) {
         const Vec3 middle = clouds::randomVector(31, pair).cwiseProduct(Vec3(6.0, 3.0, 3.0));
@@ -134,11 +136,11 @@ TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbo
     }
 }
 
-TEST_CASE("Positions that are no numbers leave the rows of the others as they are", "[neighbor-list]") {
+TEST_CASE("Positions that are NaN or huge leave the rows of the others as they are", "[neighbor-list]") {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3> sound = clouds::strewn(300, 0.3).position;
     for (const Vec3& lost : {Vec3(kNan, 0, 0), Vec3(0, kNan, 0), Vec3(0, 0, kNan), Vec3(1e300, -1e300, 0)}) {
-        std::vector<Vec3> positions = {lost};  // the first of its cell, whichever that is
+        std::vector<Vec3> positions = {lost};  // the first particle of its cell
         positions.insert(positions.end(), sound.begin(), sound.end());
         NeighborList list;
         build(list, positions, kCutoff, kSkin);
@@ -150,7 +152,7 @@ TEST_CASE("Positions that are no numbers leave the rows of the others as they ar
 
 TEST_CASE("A list covers until two particles have come nearer by the skin", "[neighbor-list]") {
     for (std::size_t p = 0; p < 50; p += 7) {
-        CHECK(coversAfterMove(kSkin * (1 - 1e-12), p));        // positions of 10 m round to 1e-15, 2e-14 of the skin
+        CHECK(coversAfterMove(kSkin * (1 - 1e-12), p));  // positions of 10 m are rounded by 1e-15 m, 2e-14 of the skin
         CHECK_FALSE(coversAfterMove(kSkin * (1 + 1e-12), p));  // same
         CHECK_FALSE(coversAfterMove(std::numeric_limits<double>::quiet_NaN(), p));
     }
@@ -167,7 +169,7 @@ TEST_CASE("A list covers neither a wider cutoff nor another number of particles"
     CHECK_FALSE(covers(list, positions, kCutoff));
 }
 
-TEST_CASE("A list covers a crowd until any of it blocks from the others", "[neighbor-list]") {
+TEST_CASE("A list covers particles in free fall until one moves relative to the others", "[neighbor-list]") {
     const std::vector<Vec3> before = clouds::strewn(3000, 2.5).position;
     NeighborList list;
     build(list, before, kCutoff, kSkin);
@@ -176,7 +178,7 @@ TEST_CASE("A list covers a crowd until any of it blocks from the others", "[neig
     CHECK(covers(list, fallen, kCutoff));
     for (const std::size_t p : {0U, 1975U, 1976U, 2999U}) {
         std::vector<Vec3> parted = fallen;
-        parted[p].x() += 0.9 * kSkin;  // half the skin each from the middle of all ways
+        parted[p].x() += 0.9 * kSkin;  // 0.45 skins from the center of all displacements
         CHECK(covers(list, parted, kCutoff));
         parted[p].x() += 0.2 * kSkin;
         CHECK_FALSE(covers(list, parted, kCutoff));
@@ -200,7 +202,7 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
     }
 }
 
-TEST_CASE("Rows that wait for each other are of like length", "[neighbor-list]") {
+TEST_CASE("Within a block, lane slots are sorted by the length of their rows", "[neighbor-list]") {
     NeighborList list;
     build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
     for (std::size_t laneSlot = 1; laneSlot < list.count(); ++laneSlot)
@@ -208,7 +210,7 @@ TEST_CASE("Rows that wait for each other are of like length", "[neighbor-list]")
     for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.laneSlotOf(p)) == p);
 }
 
-TEST_CASE("Rows are filled up to the longest of their cluster with their own particle", "[neighbor-list]") {
+TEST_CASE("Rows are padded to the longest of their cluster with their own particle", "[neighbor-list]") {
     for (const std::size_t count : {1U, 37U, 3001U}) {
         NeighborList list;
         build(list, clouds::strewn(count, 2.5).position, kCutoff, kSkin);
@@ -246,7 +248,7 @@ TEST_CASE("The same rows for any number of threads", "[neighbor-list]") {
     }
 }
 
-TEST_CASE("The same rows with every kind of vectors", "[neighbor-list]") {
+TEST_CASE("The same rows on every instruction set", "[neighbor-list]") {
     for (const std::vector<Vec3>& positions :
          {clouds::strewn(1000, 1.5).position, clouds::strewn(1, 1.0).position, clouds::strewn(37, 0.1).position,
           clouds::strewn(1200, 0.5).position, clouds::strewn(2000, 4.0).position, clouds::strewn(100, 40.0).position,
@@ -264,7 +266,7 @@ TEST_CASE("The same rows with every kind of vectors", "[neighbor-list]") {
 }
 
 TEST_CASE("Rows are as complete in worlds of any size", "[neighbor-list]") {
-    for (const double unit : {1e-30, 1e30}) {  // squares of neither are numbers of float
+    for (const double unit : {1e-30, 1e30}) {  // the squares of neither fit in float
         std::vector<Vec3> positions = clouds::strewn(200, 1.0).position;
         NeighborList expected;
         build(expected, positions, kCutoff, kSkin);

@@ -12,7 +12,7 @@ using namespace engine;
 
 namespace {
 
-/// Every particle that the grid offers as a candidate for those in a run; fails on one that is offered twice.
+/// Every particle that the grid has in or around a run; fails on one that occurs twice.
 std::set<std::uint32_t> candidates(const CellGrid& grid, const CellRun& run) {
     std::set<std::uint32_t> found;
     const Neighborhood around = neighborhood(grid, run);
@@ -58,9 +58,9 @@ void checkComplete(const std::vector<Vec3>& positions, double width) {
 
 TEST_CASE("Every pair within the width is found once", "[neighbors]") {
     checkComplete(clouds::strewn(300, 1.5).position, 0.6);   // dense
-    checkComplete(clouds::strewn(300, 6.0).position, 0.6);   // more cells wanted than allowed
+    checkComplete(clouds::strewn(300, 6.0).position, 0.6);   // more cells needed than allowed
     checkComplete(clouds::strewn(50, 0.2).position, 0.6);    // all in one or two cells
-    checkComplete(clouds::strewn(200, 40.0).position, 0.6);  // thin
+    checkComplete(clouds::strewn(200, 40.0).position, 0.6);  // thinly spread
 }
 
 TEST_CASE("Flat and linear arrangements have fewer than three cells across", "[neighbors]") {
@@ -88,9 +88,9 @@ TEST_CASE("The order within a cell is that of the indices", "[neighbors]") {
         CHECK(std::is_sorted(grid.order.begin() + grid.start[cell], grid.order.begin() + grid.start[cell + 1]));
 }
 
-TEST_CASE("Runs are as long as they may be, and end before the end of a row", "[neighbors]") {
+TEST_CASE("Runs are as long as their limits allow, and end before the last cell of a line", "[neighbors]") {
     std::vector<Vec3> positions;
-    for (int x = 0; x < 12; ++x) positions.emplace_back(x + 0.5, 0.5, 0.5);  // one a cell
+    for (int x = 0; x < 12; ++x) positions.emplace_back(x + 0.5, 0.5, 0.5);  // one in a cell
     CellGrid grid;
     build(grid, positions, 1.0);
     const auto cellsFrom = [&](std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells) {
@@ -107,14 +107,14 @@ TEST_CASE("Runs are as long as they may be, and end before the end of a row", "[
     CHECK(cellsFrom(last, 100, 100) == 1);
 }
 
-TEST_CASE("No particles, no cells to visit", "[neighbors]") {
+TEST_CASE("Without particles there are no cells to visit", "[neighbors]") {
     CellGrid grid;
     build(grid, {}, 0.6);
     CHECK(grid.order.empty());
     CHECK(neighborhood(grid, {}).count == 0);
 }
 
-TEST_CASE("Positions that are no numbers or beyond all cells do no harm to the others", "[neighbors]") {
+TEST_CASE("Positions that are NaN or huge do no harm to the others", "[neighbors]") {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Vec3> positions = clouds::strewn(100, 3.0).position;
     const std::size_t sound = positions.size();

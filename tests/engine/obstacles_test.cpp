@@ -1,4 +1,4 @@
-// Obstacles of section 3.2 against hand-worked contacts.
+// The obstacles of section 3.2 against contacts worked by hand.
 #include "engine/law/obstacles.h"
 
 #include <cmath>
@@ -79,7 +79,7 @@ TEST_CASE("A container pushes inwards from each of its faces", "[obstacles]") {
     CHECK(corner.y() == Approx(repulsion(0.55, 0.5)).epsilon(1e3 * kEps));   // same
 }
 
-TEST_CASE("A solid box answers by signed distance", "[obstacles]") {
+TEST_CASE("A solid box repels by signed distance", "[obstacles]") {
     const Obstacles box = only(Box{Vec3(-1, -1, -1), Vec3(1, 1, 1)});
     CHECK(forceAt(box, Vec3(0, 1.2, 0)) == Vec3::Zero());
     const Vec3 onTop = forceAt(box, Vec3(0.3, 1.1, 0.2));
@@ -95,17 +95,18 @@ TEST_CASE("A solid box answers by signed distance", "[obstacles]") {
     CHECK(forceAt(box, Vec3::Zero()).allFinite());
 }
 
-TEST_CASE("A sphere answers under its surface, or literally with its own radius", "[obstacles]") {
+TEST_CASE("A sphere repels from under its surface, or literally with its own radius", "[obstacles]") {
     const Obstacles surface = only(Sphere{Vec3(1, 0, 0), 2.0, false});
     const Obstacles literal = only(Sphere{Vec3(1, 0, 0), 2.0, true});
     CHECK(forceAt(surface, Vec3(3.16, 0, 0)) == Vec3::Zero());
     CHECK(forceAt(surface, Vec3(3.1, 0, 0)).x() ==
           Approx(repulsion(0.6, 0.5)).epsilon(1e3 * kEps));  // rounding of 2.1 - 2
     CHECK(forceAt(literal, Vec3(3.1, 0, 0)).x() == Approx(repulsion(2.1, 2.0)).epsilon(1e4 * kEps));  // same, softer
-    CHECK(forceAt(surface, Vec3(1, 0, 0)).y() > 0.0);  // at the very center: some direction, finite
+    CHECK(forceAt(surface, Vec3(1, 0, 0)).y() > 0.0);  // at the very center: some finite force
     const Obstacles published = only(Sphere{Vec3::Zero(), 0.5, true});
     const Obstacles same = only(Sphere{Vec3::Zero(), 0.5, false});
-    CHECK(forceAt(published, Vec3(0.3, 0.4, 0.1)) == forceAt(same, Vec3(0.3, 0.4, 0.1)));  // R = 0.5: one and the same
+    CHECK(forceAt(published, Vec3(0.3, 0.4, 0.1)) ==
+          forceAt(same, Vec3(0.3, 0.4, 0.1)));  // at R = 0.5 m both are the same
 }
 
 TEST_CASE("Contact forces are minus the gradient of the contact energy", "[obstacles]") {
@@ -146,8 +147,8 @@ TEST_CASE("What a particle touches is every surface below its radius, to the las
         touched += near.size();
         untouched += 9 - near.size();
     };
-    // About the sphere and about a face, an edge and a corner of the box: as far as it touches, a rounding to either
-    // side of it, well inside and far away.
+    // Points around the sphere and around a face, an edge and a corner of the box: at the distance of contact, some
+    // roundings to either side of it, well inside and far away.
     for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(-1, 2, 3), Vec3(2, 3, -7)})
         for (const double away : {0.0, 0.1, 1.25, 5.0, 1e6})
             for (const double roundings : {-64.0, -3.0, -1.0, 0.0, 1.0, 3.0, 64.0})

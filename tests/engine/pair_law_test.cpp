@@ -1,4 +1,4 @@
-// Laws of the pair force against closed forms, the printed equation and central differences.
+// The pair law against closed forms, the printed equation and central differences.
 #include "engine/law/pair_law.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr PairTerms kAll{};
 constexpr PairTerms kEqualReach{.equalReach = true};
 
-/// Equation 2 literally, without the guard; the coefficient of P.
+/// Coefficient of P in equation 2 as printed, without the guard near D = 0.
 double printedCoefficient(double d, double approach, const Material& m, double restLength) {
     const double b2 = m.repulsion / (restLength * restLength);
     const double sr = std::max(0.0, 1.0 - d * d / std::pow(m.repulsionReach * restLength, 2));
@@ -77,8 +77,8 @@ TEST_CASE("The force is minus the derivative of the energy", "[pair_law]") {
             const double h = 1e-5 * d;
             const double slope = (pairEnergy(d + h, c) - pairEnergy(d - h, c)) / (2 * h);
             const double scale = material.repulsion / std::pow(std::max(d, 0.075), 4);
-            // Truncation h^2 F''/6 < 20 (h/d)^2 scale = 2e-9 scale, rounding eps U/h < 2e-11 scale; a straddled core
-            // adds little.
+            // Truncation h^2 F''/6 < 20 (h/d)^2 scale = 2e-9 scale, rounding eps U/h < 2e-11 scale; the kink at the
+            // core distance adds little.
             INFO("c_r = " << reach << ", D = " << d);
             CHECK(std::abs(radialForce(d, c) + slope) <= 4e-9 * scale);
         }
@@ -99,10 +99,10 @@ TEST_CASE("Known values of Table 1", "[pair_law]") {
     const auto solid = pairConstants<double>(*materialPreset("solid"), 0.3);
     const double closed = 2.0 * (1.0 - 0.25) * 0.8 / std::pow(0.3, 5);      // 2 (1 - 1/c_r^2) b1 / D0^5
     CHECK(pairStiffness(0.3, solid) == Approx(closed).epsilon(16 * kEps));  // a handful of roundings
-    CHECK(closed == Approx(493.8).epsilon(1e-4));                           // the figure quoted, to its digits
+    CHECK(closed == Approx(493.8).epsilon(1e-4));                           // the quoted value, to its digits
     // Depth of the well at D0: b1 / (12 D0^3) for c_r = 2.
     CHECK(pairEnergy(0.3, solid) == Approx(-0.8 / (12.0 * 0.027)).epsilon(64 * kEps));  // cancellation among four terms
-    // Largest pull 9/64 b1/D0^4 at 1.265 D0 = sqrt(8/5) D0.
+    // Largest attraction 9/64 b1/D0^4 at 1.265 D0 = sqrt(8/5) D0.
     const double widest = std::sqrt(1.6) * 0.3;
     CHECK(radialForce(widest, solid) == Approx(-9.0 / 64.0 * 0.8 / std::pow(0.3, 4)).epsilon(64 * kEps));  // same
 }
@@ -137,11 +137,11 @@ TEST_CASE("Below the core distance the force is linear and the energy finite", "
         CHECK(radialForce(share * core, c) == Approx(share * atCore).epsilon(16 * kEps));  // the product's roundings
         CHECK(std::isfinite(pairEnergy(share * core, c)));
     }
-    CHECK(pairEnergy(core * (1 - 1e-9), c) == Approx(pairEnergy(core, c)).epsilon(1e-7));  // slope F D/U < 30 a share
+    CHECK(pairEnergy(core * (1 - 1e-9), c) == Approx(pairEnergy(core, c)).epsilon(1e-7));  // relative slope F D/U < 30
     CHECK(pairEnergy(0.0, c) > pairEnergy(core, c));
 }
 
-TEST_CASE("Coincident particles block along a direction drawn from their ids", "[pair_law]") {
+TEST_CASE("Coincident particles separate along a direction drawn from their ids", "[pair_law]") {
     const auto there = coincidentSeparation(3, 8, 0.3);
     const auto back = coincidentSeparation(8, 3, 0.3);
     double lengthSq = 0.0;

@@ -1,4 +1,4 @@
-// The implicit steppers' matrix against one that is written out, and what its solver promises at any tolerance.
+// The implicit steppers' matrix against the same matrix written out, and the promises of its solver.
 #include "engine/forces/pair_matrix.h"
 
 #include <Eigen/Dense>
@@ -12,15 +12,15 @@ using namespace engine;
 
 namespace {
 
-/// More than most steps would use: the pairs outweigh the mass by far.
+/// Larger weights than most steps have: the pairs outweigh the mass by far.
 constexpr MatrixWeights kStrong{.damping = 0.3, .stiffness = 1e-3};
 
-/// A cloud with the matrix over it, and the same matrix written out in the order of particle indices.
+/// Particles with their matrix, and the same matrix written out in the order of particle indices.
 struct Case {
     ForceLaw law;
     Particles particles;
     MatrixWeights weights;
-    mutable PairMatrix matrix = {};  ///< products use its packed as scratch
+    mutable PairMatrix matrix = {};  ///< a product stores its factor in matrix.packed
     std::vector<std::uint32_t> order = {};
     Eigen::MatrixXd dense = {};
     Eigen::MatrixXd scale = {};  ///< the same sums over absolute values
@@ -83,7 +83,7 @@ std::vector<Vec3> randomVectors(std::size_t count, std::uint64_t seed) {
     return vectors;
 }
 
-/// From the order of the matrix to that of the particles, as one column.
+/// Vectors in the order of the matrix as one column in the order of the particles.
 Eigen::VectorXd column(const Case& c, const std::vector<Vec3>& byPlace) {
     Eigen::VectorXd all(static_cast<Eigen::Index>(3 * c.count()));
     for (std::size_t sortedIndex = 0; sortedIndex < c.count(); ++sortedIndex)
@@ -91,7 +91,7 @@ Eigen::VectorXd column(const Case& c, const std::vector<Vec3>& byPlace) {
     return all;
 }
 
-/// Sum of a_p . b_p / m_p: the norm that the solver's tolerance is meant in.
+/// Square root of the sum of a_p . a_p / m_p, the norm of the solver's tolerance.
 double inInverseMass(const Case& c, const std::vector<Vec3>& a) {
     double sum = 0.0;
     for (std::size_t sortedIndex = 0; sortedIndex < c.count(); ++sortedIndex)
@@ -117,7 +117,7 @@ std::vector<Case> smallClouds() {
     return cases;
 }
 
-/// Friction turns the whole, so that one promise is not for these.
+/// With cases that have friction, which does not conserve angular momentum.
 std::vector<Case> smallCloudsAndSand() {
     std::vector<Case> cases = smallClouds();
     cases.emplace_back(clouds::lawOf("sand"), clouds::strewn(40, 0.4), kStrong);
@@ -128,7 +128,7 @@ std::vector<Case> smallCloudsAndSand() {
 
 }  // namespace
 
-TEST_CASE("A product is that of the matrix written out", "[pair-matrix]") {
+TEST_CASE("A product equals that of the matrix written out", "[pair-matrix]") {
     for (const Case& c : smallCloudsAndSand()) {
         const auto x = randomVectors(c.count(), 21);
         std::vector<Vec3> product;
@@ -198,7 +198,7 @@ TEST_CASE("Coincident particles leave the matrix symmetric and add nothing to it
         PairMatrix matrix;
         std::vector<Vec3> forces, product;
         evaluator.assemble(particles, kStrong, forces, matrix);
-        CHECK((forces[150] - forces[20]).norm() > 0.0);  // they are parted
+        CHECK((forces[150] - forces[20]).norm() > 0.0);  // they are separated
         const auto x = randomVectors(particles.count(), 27);
         multiply(matrix, x, product);
         Vec3 sum = Vec3::Zero();
@@ -213,8 +213,7 @@ TEST_CASE("Coincident particles leave the matrix symmetric and add nothing to it
 
 TEST_CASE("A solution is off by no more than the tolerance", "[pair-matrix]") {
     // A >= M, so the error x - x* = A^-1 r in the norm of M is at most r in the norm of M^-1, which the solver bounds
-    // by the tolerance, be it a share of b or a number. Its residual is a recurrence: at 1e-12 rounding has eaten half
-    // of it.
+    // by the tolerance, relative or absolute. Its residual is a recurrence: at 1e-12 rounding makes up half of it.
     for (const Case& c : smallClouds()) {
         const auto b = randomVectors(c.count(), 24);
         const Eigen::VectorXd exact = c.dense.ldlt().solve(column(c, b));
@@ -233,7 +232,7 @@ TEST_CASE("A solution is off by no more than the tolerance", "[pair-matrix]") {
     }
 }
 
-TEST_CASE("What pairs push alone neither moves nor turns the whole, at any tolerance", "[pair-matrix]") {
+TEST_CASE("Impulses of pairs conserve linear and angular momentum at any tolerance", "[pair-matrix]") {
     for (const Case& c : smallClouds()) {
         const auto y = randomVectors(c.count(), 25);
         std::vector<Vec3> b;
@@ -273,7 +272,7 @@ TEST_CASE("A smaller tolerance takes more products", "[pair-matrix]") {
     }
 }
 
-TEST_CASE("The tolerance that is met first ends a solution", "[pair-matrix]") {
+TEST_CASE("A solution ends at the tolerance that is met first", "[pair-matrix]") {
     for (const Case& c : smallClouds()) {
         const auto b = randomVectors(c.count(), 26);
         const double size = inInverseMass(c, b);
@@ -288,7 +287,7 @@ TEST_CASE("The tolerance that is met first ends a solution", "[pair-matrix]") {
     }
 }
 
-TEST_CASE("Nothing to solve, nobody to meet", "[pair-matrix]") {
+TEST_CASE("Systems of no particles, of one and with a right-hand side of zero", "[pair-matrix]") {
     SolverScratch scratch;
     std::vector<Vec3> x;
     const Case none(clouds::lawOf("solid"), {}, kStrong);

@@ -1,4 +1,5 @@
-// The kernels on vector units: the same bits whatever vectors the machine has, and what float loses.
+// The SIMD kernels: their results have the same bits on every instruction set, and float loses no more than its
+// roundings.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -20,7 +21,7 @@ using namespace engine;
 
 namespace {
 
-/// A block of a few hundred particles: neither a multiple of a cluster nor of a vector.
+/// A packing of 378 particles, a multiple of neither the cluster size nor any number of lanes.
 Particles block(const Material& material, const Vec3& center) {
     Setup setup = runs::freeSetup(material, StepperKind::velocityVerlet, 0.01);
     runs::addPacking(setup, {7, 6, 9});
@@ -35,7 +36,7 @@ std::vector<Vec3> pairForces(const Material& material, const Particles& particle
     return forces;
 }
 
-/// rms difference over rms size.
+/// RMS of the differences between a and b over the RMS length of b.
 double relativeDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double differenceSq = 0.0;
     double sizeSq = 0.0;
@@ -59,8 +60,8 @@ std::string hashOfRun(const char* preset, StepperKind stepper, Precision precisi
 
 }  // namespace
 
-TEST_CASE("A run has the same bits with every kind of vectors", "[simd]") {
-    CHECK(instructionSets().size() > 1);  // what this machine has and at least one narrower kind
+TEST_CASE("A run has the same bits on every instruction set", "[simd]") {
+    CHECK(instructionSets().size() > 1);  // that of this machine and at least one narrower one
     for (const char* preset : {"liquid", "solid", "powder", "sand"})
         for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::linearlyImplicit})
             for (const Precision precision : {Precision::doubles, Precision::singles}) {
@@ -122,7 +123,7 @@ TEST_CASE("Packed particles are those of the list's order", "[simd]") {
     }
 }
 
-TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vectors", "[simd]") {
+TEST_CASE("Kick and drift have the bits of a plain loop on every instruction set", "[simd]") {
     const Particles before = clouds::strewnUnequal(103, 2.0);
     std::vector<Vec3> forces;
     for (std::uint64_t p = 0; p < before.count(); ++p) forces.push_back(10.0 * clouds::randomVector(51, p));
@@ -151,8 +152,8 @@ TEST_CASE("Kick and drift have the bits of a plain loop with every kind of vecto
     }
 }
 
-TEST_CASE("Kick and drift tell of whoever is not sound", "[simd]") {
-    constexpr std::size_t kCount = 11;  // some in vectors, some not
+TEST_CASE("Kick and drift report particles that are not valid", "[simd]") {
+    constexpr std::size_t kCount = 11;  // some in full vectors, some in the remainder
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3> none(kCount, Vec3::Zero());
     const auto areValid = [&](double h, const std::vector<Vec3>& forces, Particles particles) {
@@ -173,19 +174,19 @@ TEST_CASE("Kick and drift tell of whoever is not sound", "[simd]") {
                 CHECK_FALSE(areValid(1e-3, none, far));
                 Particles fast = sound;
                 fast.velocity[p][axis] = 2.0 * kFastest;
-                CHECK_FALSE(areValid(1e-160, none, fast));  // so short that it gets nowhere
+                CHECK_FALSE(areValid(1e-160, none, fast));  // so short a step that its position stays valid
             }
     }
 }
 
-TEST_CASE("Outer forces have the bits of weight and contacts one by one with every kind of vectors", "[simd]") {
+TEST_CASE("External forces have the bits of weight and contacts one by one on every instruction set", "[simd]") {
     Particles particles = clouds::strewnUnequal(1003, 1.0);
     ForceLaw law;
     law.gravity = Vec3(0.3, -9.8, 0.1);
     law.obstacles.law = {.radius = 0.4, .repulsion = 9.0, .dampingFactor = 4.0, .coreFraction = 0.3};
     const Sphere sphere{Vec3(0.1, -0.2, 0.3), 0.4};
     particles.position[4] = sphere.center;
-    // A wall as far as the first particle's radius, and one just nearer: these differences are exact.
+    // One wall at a distance of exactly the first particle's radius, and one an ulp nearer: both differences are exact.
     particles.position[0].x() = 0.25;
     particles.radius[0] = 0.125;
     constexpr double away = 0.125;
@@ -231,7 +232,7 @@ TEST_CASE("Outer forces have the bits of weight and contacts one by one with eve
     }
 }
 
-TEST_CASE("A step has the same bits with an obstacle out of reach as with none", "[simd]") {
+TEST_CASE("A step has the same bits with an obstacle out of reach as without obstacles", "[simd]") {
     for (const char* preset : {"liquid", "solid"}) {
         std::string hashes[2];
         for (const bool hasPlane : {false, true}) {
@@ -255,7 +256,7 @@ TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
         ForceEvaluator lanes(law, ForceMethod::grid);
         const Particles particles = block(material, Vec3(1.0, 2.0, 3.0));
         REQUIRE(termsFor(law, particles).uniform);
-        // A second material, of which there is no particle, keeps vectors from being used.
+        // A second material, which no particle has, rules out the SIMD kernel.
         material.repulsion *= 2.0;
         law.materials.push_back(material);
         ForceEvaluator scalar(law, ForceMethod::grid);
@@ -273,7 +274,7 @@ TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
     }
 }
 
-TEST_CASE("In float, forces err by its roundings, near the origin and far from it", "[simd]") {
+TEST_CASE("In float, forces differ by float roundings, near the origin and far from it", "[simd]") {
     for (const char* preset : {"liquid", "solid", "powder", "sand"})
         for (const double far : {0.0, 1e3, 1e6}) {
             const Material material = *materialPreset(preset);
@@ -286,8 +287,8 @@ TEST_CASE("In float, forces err by its roundings, near the origin and far from i
         }
 }
 
-TEST_CASE("Coincident particles are parted in float as in double, and near ones are not", "[simd]") {
-    // Float tells 2^-23 of the list's reach apart, 8e-8 m at most.
+TEST_CASE("Coincident particles are separated in float as in double, and near ones are not", "[simd]") {
+    // The unit of float coordinates is 2^-23 of the list's reach, at most 8e-8 m.
     const double apart = GENERATE(0.0, 1e-13, 1e-10, 1e-6);
     for (const char* preset : {"powder", "solid", "sand"}) {
         const Material material = *materialPreset(preset);
@@ -298,8 +299,8 @@ TEST_CASE("Coincident particles are parted in float as in double, and near ones 
         INFO(preset << ", " << apart << " m apart");
         CHECK(doubles[17].norm() > 0.0);
         const double slope = pairCoefficient<PairTerms{true, false}>(0.0, 0.0, pairConstants<double>(material, 0.3));
-        // Both positions are rounded to half a unit, which may turn friction round; the stand-in's push would be
-        // kCoincidentShare 0.3 m slope.
+        // Both positions are rounded to half a unit, which may reverse the friction; the force along the stand-in for P
+        // would be kCoincidentShare 0.3 m slope.
         const double rounding = apart > 0.0 ? slope * (8e-8 + 2.0 * material.friction * apart) : 0.0;
         const double tolerance = 1e-5 * doubles[17].norm() + rounding;
         CHECK((packedFloat[17] - doubles[17]).norm() < tolerance);
@@ -307,7 +308,7 @@ TEST_CASE("Coincident particles are parted in float as in double, and near ones 
     }
 }
 
-TEST_CASE("In float, forces and energies need no packed in double", "[simd]") {
+TEST_CASE("In float, forces and energies need no particles packed in double", "[simd]") {
     const Material material = *materialPreset("solid");
     Particles particles = block(material, Vec3::Zero());
     particles.position[17] = particles.position[16];

@@ -1,4 +1,5 @@
-// The skin follows the motion: what it is worth shows in `globular bench`, what it must not do is here.
+// The skin of the neighbor list follows the motion, and the forces do not depend on it. What it gains is measured by
+// `globular bench`.
 #include "engine/neighbors/neighbor_list.h"
 
 #include "tests/catch.h"
@@ -11,7 +12,7 @@ using namespace engine;
 
 namespace {
 
-/// A packing of grains whose halves block, each at this speed (m/s), after some steps (s).
+/// A packing of grains whose two halves move apart, each at a speed (m/s), after 0.1 s in steps of `step` (s).
 Simulation parting(double speed, double step, ForceMethod method) {
     Setup setup = runs::freeSetup(*materialPreset("powder"), StepperKind::velocityVerlet, step);
     runs::addPacking(setup, {6, 6, 6});
@@ -33,13 +34,13 @@ double skinOf(const Simulation& simulation) {
 
 }  // namespace
 
-TEST_CASE("The skin is entries16 where a list serves for long and where no skin would help", "[verlet-skin]") {
+TEST_CASE("The skin is narrow where a list serves for long and where no skin would help", "[verlet-skin]") {
     CHECK(optimalSkin(45.0, 0.0) < 0.05);
     CHECK(optimalSkin(45.0, 1e-4) < 0.05);
     CHECK(optimalSkin(45.0, 5.0) < 0.05);
 }
 
-TEST_CASE("The skin is wider for fast particles, and where few are near", "[verlet-skin]") {
+TEST_CASE("The skin is wider for fast particles and for few neighbors", "[verlet-skin]") {
     double before = optimalSkin(45.0, 1e-5);
     for (const double way : {1e-3, 5e-3, 0.02, 0.03}) {
         const double skin = optimalSkin(45.0, way);
@@ -50,11 +51,11 @@ TEST_CASE("The skin is wider for fast particles, and where few are near", "[verl
     CHECK(optimalSkin(5.0, 0.03) > optimalSkin(45.0, 0.03));
 }
 
-TEST_CASE("A run's lists fit the way of its steps, and its forces are those of every pair", "[verlet-skin]") {
+TEST_CASE("A run's skins fit the displacements of its steps, and its forces are those of every pair", "[verlet-skin]") {
     CHECK(skinOf(parting(0.1, 1e-5, ForceMethod::grid)) < kDefaultSkin);
     const Simulation fast = parting(8.0, 0.002, ForceMethod::grid);
     CHECK(skinOf(fast) > 2.0 * kDefaultSkin);
     const Simulation expected = parting(8.0, 0.002, ForceMethod::reference);
-    for (std::size_t p = 0; p < fast.particles.count(); ++p)  // some thousand roundings of meters
+    for (std::size_t p = 0; p < fast.particles.count(); ++p)  // some thousand roundings of positions of about 1 m
         CHECK((fast.particles.position[p] - expected.particles.position[p]).norm() < 1e-12);
 }
