@@ -1,5 +1,5 @@
-// From view to image: prepare, cast, color, hand to OpenGL, read back; at final quality casts and colors nine times,
-// with the rays moved within the pixel.
+// From view to image: prepare, cast the metaballs, color the pixels, hand them to OpenGL, read them back, draw the
+// overlay. In final quality metaballs are cast and pixels colored nine times, with the rays moved within the pixel.
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace render {
 
 namespace {
 
-// Shadow texels along the longer side of what the particles cover.
+/// Texels along the longer side of the depth map, which covers all particles.
 int depthMapTexels(Quality quality) {
     return quality == Quality::final ? 2048 : 1024;
 }
@@ -34,7 +34,7 @@ bool finite(glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Numbers that are not finite come from a bug upstream, and would make nonsense of the binning.
+/// Numbers that are not finite come from a bug in the caller, and would break the binning.
 void requireFinite(const View& view) {
     for (std::size_t k = 0; k < view.particles.size(); ++k) {
         const Sphere& s = view.particles[k];
@@ -55,6 +55,17 @@ PictureSize checkedSize(PictureSize size) {
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
 }
 
+/// In final quality a regular grid of 3 x 3 samples per pixel, each clamped, whose mean is taken in linear light.
+std::vector<Sampling> samplingsOf(Quality quality) {
+    if (quality == Quality::draft) return {{.isSparse = true}};
+    if (quality == Quality::normal) return {{.samples = 4, .isSparse = true}};
+    std::vector<Sampling> samplings;
+    for (int row = -1; row <= 1; ++row)
+        for (int column = -1; column <= 1; ++column)
+            samplings.push_back({.offset = glm::vec2(column, row) / 3.0F, .index = samplings.size(), .count = 9});
+    return samplings;
+}
+
 }  // namespace
 
 struct Renderer::Parts {
@@ -70,31 +81,19 @@ struct Renderer::Parts {
         StageClock clock;
         pass.castShadow(view, sampling);
         clock.add(times.shadow);
-        pass.castField(view, sampling);
+        pass.castMetaballs(sampling);
         clock.add(times.cast);
     }
 
     void color(const View& view) {
-        const Sampling sampling{.samples = quality == Quality::draft ? 1 : 4, .sparse = true};
-        cast(view, sampling);
-        timed(times.color, [&] { pass.color(view, sampling, pixels); });
-    }
-
-    // Regular 3 x 3 grid, each sample clamped, averaged in linear light.
-    void colorFinal(const View& view) {
-        pass.clearSum();
-        for (int row = -1; row <= 1; ++row) {
-            for (int column = -1; column <= 1; ++column) {
-                const Sampling sampling{.offset = glm::vec2(column, row) / 3.0F};
-                cast(view, sampling);
-                timed(times.color, [&] { pass.addColors(view, sampling); });
-            }
+        for (const Sampling& sampling : samplingsOf(quality)) {
+            cast(view, sampling);
+            timed(times.color, [&] { pass.color(view, sampling, pixels); });
         }
-        timed(times.color, [&] { pass.takeMean(view, 9, pixels); });
     }
 
     std::vector<VisiblePoint> visiblePoints(const View& view) {
-        const Sampling sampling{.sparse = quality != Quality::final};
+        const Sampling sampling{.isSparse = quality != Quality::final};
         cast(view, sampling);
         return pass.visiblePoints(view, sampling);
     }
@@ -108,9 +107,9 @@ struct Renderer::Parts {
         image.width = size.width;
         image.height = size.height;
         image.rgb.resize(image.byteCount());
-        // What has been read loses its fourth byte while OpenGL hands over the next rows.
+        // Rows are packed from four bytes per pixel to three while OpenGL hands over the next ones.
         tbb::task_group packing;
-        constexpr int kBand = 64;  // chosen: what a processor keeps close by
+        constexpr int kBand = 64;  // rows; chosen: they fit into a core's cache
         for (int row = 0; row < size.height; row += kBand) {
             const int rows = std::min(kBand, size.height - row);
             target.readRows(row, rows, rowOf(row));
@@ -144,7 +143,7 @@ struct Renderer::Parts {
     Quality quality;
     PicturePass pass;
     Target target;
-    std::vector<PixelColor> pixels;  // of the last picture, until those of the next are found
+    std::vector<PixelColor> pixels;  // of whole tiles, row by row
     DrawTimes times;
 };
 
@@ -169,7 +168,7 @@ Image Renderer::draw(const View& view, Image old) {
     const CurrentContext current(parts_->context);
     parts_->times = {};
     parts_->prepare(view);
-    parts_->quality == Quality::final ? parts_->colorFinal(view) : parts_->color(view);
+    parts_->color(view);
     timed(parts_->times.openGl, [&] { parts_->target.put(parts_->pixels); });
     Image image = parts_->readBack(std::move(old));
     drawOverlay(image, view.overlay, view.camera);

@@ -1,4 +1,5 @@
-// The one call of render/ that makes pictures: a view in, pixels out.
+// The one call of render/ that makes pictures: a view in, pixels out. The CPU computes every pixel (render/cpu); OpenGL
+// only carries the finished pixels into a texture and reads them back.
 #pragma once
 
 #include <memory>
@@ -11,25 +12,27 @@
 
 namespace render {
 
-/// Draws views of one size and quality. Frames may come from different threads, one at a time.
-/// Holds:  the same view gives the same bytes: from run to run, for any number of threads, and with either backend.
+/// Draws views of one size and quality. It may be called from different threads, one at a time. The same view gives the
+/// same bytes in every run, with any number of threads and with either backend of the context.
 class Renderer {
  public:
-    /// The context must outlive the renderer. Throws SystemError beyond OpenGL's largest picture.
+    /// @param context  must outlive the renderer
+    /// @throws SystemError if the size is beyond OpenGL's largest texture
     Renderer(Context& context, PictureSize size, Quality quality);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Throws SystemError where OpenGL fails or a list outgrows its limits, and then no longer knows what it keeps of
-    /// the last picture: draw no more with it. Throws std::logic_error for a view with numbers that are not finite.
-    /// old: a picture that is no longer needed, whose memory is used again.
+    /// @param old  an image that is no longer needed, whose memory is reused
+    /// @throws SystemError if OpenGL fails or a list of primitives per tile outgrows its limits; std::logic_error if
+    /// the
+    ///         view has numbers that are not finite
     Image draw(const View& view, Image old = {});
 
-    /// The surfaces that a picture of the view shows, row by row from the top left; found as for the picture.
+    /// What the pixels of the view's picture show, row by row from the top left, computed as for the picture.
     std::vector<VisiblePoint> visiblePoints(const View& view);
 
-    /// Of the last picture drawn.
+    /// Where the time of the last call went.
     const DrawTimes& times() const;
 
  private:

@@ -1,40 +1,39 @@
-// The colors of a picture's pixels, and the points of surfaces that they show, tile by tile. Called by the picture
-// pass.
+// The colors of a picture's pixels, and the surface points that they show, tile by tile. Called by the picture pass.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "render/cpu/lighting/light_visibility.h"
 #include "render/cpu/lighting/shading_points.h"
-#include "render/cpu/picture_samples.h"
 #include "render/cpu/shading/shade.h"
-#include "render/cpu/shading/tile_class.h"
+#include "render/cpu/tile_samples.h"
 #include "render/picture/image.h"
 
 namespace render {
 
-/// One picture that is to be colored.
+/// Everything that the pixels of one picture are colored from.
 struct PictureJob {
     const TileContents& contents;
-    SampleOffsets offsets;  ///< one, or kFourSamples
-    const Surfaces& surfaces;
-    const Obstruction* obstruction;  ///< null where nothing dims anything
+    SampleOffsets offsets;
+    const ShadingGeometry& geometry;
+    const Occluders* occluders;  ///< null where nothing casts shadows or occludes the sky
     const Shading& shading;
 };
 
-/// pixels: row by row, whole tiles of them; only those of tiles of pictures are written. classes: one a tile.
-void colorPixels(const PictureJob& job, std::span<PixelColor> pixels, std::span<TileClass> classes);
+/// A picture that is the mean of several, which are colored one after another.
+struct PictureMean {
+    std::size_t index = 0;  ///< of this picture
+    std::size_t count = 1;
+    std::vector<PointColors>& sums;  ///< of the pictures so far, a tile each; not used for one picture
+};
 
-/// The same of one of several jobs, whose tiles are of the same classes; sums: along kZCurve, a tile each.
-void addColors(const PictureJob& job, std::span<PointColors> sums, std::span<TileClass> classes);
+/// Colors the pixels of a picture, or adds them to the mean, of which the last picture writes the pixels.
+/// @param pixels  of whole tiles, row by row
+void colorPixels(const PictureJob& job, const PictureMean& mean, std::span<PixelColor> pixels);
 
-/// The mean of so many.
-void meanColors(int jobs, std::span<PointColors> sums, std::span<const TileClass> classes, const CellLists& tiles,
-                std::span<PixelColor> pixels);
-
-/// What the job's first sample of each pixel of the picture meets, row by row.
+/// What the job's first sample of each pixel of the picture hits, row by row.
 std::vector<VisiblePoint> visiblePoints(const PictureJob& job);
 
 }  // namespace render

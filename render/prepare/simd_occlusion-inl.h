@@ -85,6 +85,15 @@ HWY_INLINE V skyVisibilityInGrid(const SkyVisibilityGrid& grid, std::size_t side
     return hn::IfThenElse(inGrid, open, splat(1.0F));
 }
 
+/// open(d) of view.h for a unit vector d along the world's axes: the sum over the axes of d's squared component times the
+/// visibility on its side. plus, minus: the visibilities along +x, +y, +z and along -x, -y, -z.
+HWY_INLINE V skyVisibilityToward(const Vec3& direction, const Vec3& plus, const Vec3& minus) {
+    const Vec3 value{hn::IfThenElse(direction.x > splat(0.0F), plus.x, minus.x),
+                     hn::IfThenElse(direction.y > splat(0.0F), plus.y, minus.y),
+                     hn::IfThenElse(direction.z > splat(0.0F), plus.z, minus.z)};
+    return dot(direction * direction, value);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace render
 HWY_AFTER_NAMESPACE();

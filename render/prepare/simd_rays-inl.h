@@ -32,6 +32,23 @@ struct Vec3 {
     V x, y, z;
 };
 
+HWY_INLINE Vec3 operator+(const Vec3& a, const Vec3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+HWY_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+/// Component by component.
+HWY_INLINE Vec3 operator*(const Vec3& a, const Vec3& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+HWY_INLINE Vec3 operator*(const Vec3& a, V factor) {
+    return {a.x * factor, a.y * factor, a.z * factor};
+}
+
 HWY_INLINE V splat(float value) {
     return hn::Set(D(), value);
 }
@@ -46,6 +63,23 @@ HWY_INLINE Vec3 splat(glm::vec3 v) {
 
 HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+HWY_INLINE Vec3 normalize(const Vec3& v) {
+    return v * (splat(1.0F) / hn::Sqrt(dot(v, v)));
+}
+
+/// The vectors of a tile's entries first, first + 1, ..., one per lane.
+HWY_INLINE Vec3 loadVec3(const TileVec3& values, std::size_t first) {
+    const D d;
+    return {hn::Load(d, &values[0][first]), hn::Load(d, &values[1][first]), hn::Load(d, &values[2][first])};
+}
+
+HWY_INLINE void storeVec3(const Vec3& v, TileVec3& values, std::size_t first) {
+    const D d;
+    hn::Store(v.x, d, &values[0][first]);
+    hn::Store(v.y, d, &values[1][first]);
+    hn::Store(v.z, d, &values[2][first]);
 }
 
 HWY_INLINE Vec3 select(M mask, const Vec3& yes, const Vec3& no) {
@@ -103,6 +137,23 @@ HWY_INLINE WorldRay worldRay(const CameraFrame& frame, const ImagePoint& at) {
                    hn::Add(hn::Mul(at.x, right.z), hn::Mul(at.y, up.z))};
     if (!frame.perspective) return {off, splat(frame.forward)};
     return {splat(glm::vec3(0.0F)), pointOnRay(splat(frame.forward), splat(1.0F), off)};
+}
+
+/// Rays in view coordinates; the direction's z is 1, so that a ray's parameter is the view depth.
+struct ViewRay {
+    Vec3 origin, direction;
+};
+
+HWY_INLINE ViewRay viewRay(const CameraFrame& frame, const ImagePoint& at) {
+    const V zero = splat(0.0F);
+    const V one = splat(1.0F);
+    if (frame.perspective) return {{zero, zero, zero}, {at.x, at.y, one}};
+    return {{at.x, at.y, zero}, {zero, zero, one}};
+}
+
+/// A vector in view coordinates as one along the world's axes.
+HWY_INLINE Vec3 toWorld(const CameraFrame& frame, const Vec3& v) {
+    return splat(frame.right) * v.x + splat(frame.up) * v.y + splat(frame.forward) * v.z;
 }
 
 }  // namespace HWY_NAMESPACE

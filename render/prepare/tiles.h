@@ -3,6 +3,7 @@
 // light's grid.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +15,9 @@ namespace render {
 inline constexpr int kTileSize = 16;  ///< pixels; measured to be the fastest of 8, 16 and 32
 
 inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
+
+/// A vector for each pixel of a tile, component by component.
+using TileVec3 = std::array<std::array<float, kTilePixels>, 3>;
 
 /// A list of items for each cell, row by row, one list after another.
 struct CellLists {

@@ -1,4 +1,4 @@
-// sRGB encoding against the formula of the standard: of the background as the renderer draws it, and of packed colors.
+// sRGB encoding against the formula of the standard: of the background as the renderer draws it, and of encodeColors().
 #include "tests/catch.h"
 
 #include <array>
@@ -28,25 +28,25 @@ double largestError(float bottom, float top) {
     return largest;
 }
 
-/// The largest error of packColors(), in steps of 1/255; also checks that each channel is in its byte.
-double largestPackedError(float most) {
+/// The largest error of encodeColors(), in steps of 1/255; also checks that each channel is in its byte.
+double largestEncodedError(float most) {
     constexpr int kTiles = 32;
     double largest = 0.0;
     for (int tile = 0; tile < kTiles; ++tile) {
         render::PointColors colors;
         const auto value = [&](std::size_t channel, std::size_t k) {
-            const auto place =
+            const auto index =
                 static_cast<float>(3 * (render::kTilePixels * static_cast<std::size_t>(tile) + k) + channel);
-            return most * place / static_cast<float>(3 * kTiles * render::kTilePixels - 1);
+            return most * index / static_cast<float>(3 * kTiles * render::kTilePixels - 1);
         };
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t k = 0; k < render::kTilePixels; ++k) colors.rgb[channel][k] = value(channel, k);
-        alignas(64) std::array<render::PixelColor, render::kTilePixels> packed;
-        render::packColors(colors, packed.data());
+        alignas(64) std::array<render::PixelColor, render::kTilePixels> encoded;
+        render::encodeColors(colors, encoded.data());
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t k = 0; k < render::kTilePixels; ++k)
                 largest = std::max(
-                    largest, std::abs(exactSteps(double(value(channel, k))) - (packed[k] >> (8 * channel) & 0xffU)));
+                    largest, std::abs(exactSteps(double(value(channel, k))) - (encoded[k] >> (8 * channel) & 0xffU)));
     }
     return largest;
 }
@@ -59,9 +59,9 @@ constexpr double kMostError = 0.5 + 0.0035;
 
 TEST_CASE("sRGB encoding rounds the exact value to the nearest byte") {
     CHECK(largestError(0.0F, 1.0F) < kMostError);
-    CHECK(largestError(0.0F, 0.02F) < kMostError);  // fine steps over the linear part and the joint
-    CHECK(largestPackedError(1.0F) < kMostError);
-    CHECK(largestPackedError(0.02F) < kMostError);
+    CHECK(largestError(0.0F, 0.02F) < kMostError);  // the linear part, and where the curve begins
+    CHECK(largestEncodedError(1.0F) < kMostError);
+    CHECK(largestEncodedError(0.02F) < kMostError);
 }
 
 TEST_CASE("Black is 0 and white is 255") {

@@ -1,14 +1,13 @@
 // The ray cast of metaballs against the oracle's exact roots: hits, depths, colors, shadows.
 #include "tests/catch.h"
 
-#include <bit>
 #include <cmath>
 
 #include <hwy/highway.h>
 
 #include "render/cpu/lighting/depth_map.h"
-#include "render/cpu/metaballs/binned_field.h"
 #include "render/cpu/metaballs/metaball_frame.h"
+#include "render/cpu/metaballs/metaball_scene.h"
 #include "render/cpu/metaballs/ray_layout.h"
 #include "tests/render/pictures.h"
 
@@ -26,32 +25,33 @@ render::View blobs(int count) {
     return view;
 }
 
-// View depths of the cast, pixel by pixel; 0 where nothing is hit.
-std::vector<double> castDepths(const render::View& view, render::PictureSize size, bool sparse = false) {
-    const std::vector<render::SkinBall> skin = render::skinOf(view);
-    render::FieldPicture picture;
+/// View depths of the cast, pixel by pixel, in meters; 0 where nothing is hit.
+std::vector<double> castDepths(const render::View& view, render::PictureSize size, bool isSparse = false) {
     const render::CameraFrame frame = render::cameraFrame(view.camera, size);
-    const render::Skinned skinned{view, skin, {}};
-    render::castPicture(frame, skinned, render::binField(frame, skinned), {{}, false, sparse}, picture);
+    render::MetaballScene scene = render::metaballScene(frame, view, render::skinOf(view));
+    render::setAttributes(view, {}, scene);
+    render::MetaballHits found;
+    render::castMetaballs(scene, {{}, false, isSparse}, found);
     const int columns = (size.width + render::kTileSize - 1) / render::kTileSize;
     std::vector<double> depths;
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
-            const std::int32_t slot = picture.slots[static_cast<std::size_t>(y / 16 * columns + x / 16)];
-            const auto place = static_cast<std::size_t>(slot * 256 + y % 16 * 16 + x % 16);
-            depths.push_back(slot < 0 ? 0.0 : double(std::bit_cast<float>(picture.samples[place].depthBits)));
+            const std::int32_t slot = found.slots[static_cast<std::size_t>(y / 16 * columns + x / 16)];
+            const auto index = static_cast<std::size_t>(slot * 256 + y % 16 * 16 + x % 16);
+            depths.push_back(slot < 0 ? 0.0 : double(found.hits[index].depth()));
         }
     }
     return depths;
 }
 
 struct DepthCheck {
-    int hits = 0;
-    int otherMask = 0;
-    int otherSurface = 0;  // more than a tenth of a radius apart
-    double largest = 0.0;  // of the others, in radii
+    int hits = 0;          // of both
+    int otherMask = 0;     // pixels where only one hits something
+    int otherSurface = 0;  // hits more than a tenth of a radius apart
+    double largest = 0.0;  // distance of all other hits, in radii
 };
 
+/// The cast's depths against the oracle's.
 DepthCheck checkDepths(const render::View& view, render::PictureSize size) {
     const std::vector<double> depths = castDepths(view, size);
     const glm::dvec3 forward = glm::normalize(glm::dvec3(view.camera.target) - glm::dvec3(view.camera.eye));
@@ -78,10 +78,11 @@ void requireSurface(render::View view, render::PictureSize size, double largest)
     view.ground.reset();
     const DepthCheck check = checkDepths(view, size);
     CAPTURE(size.width, check.hits, check.otherMask, check.otherSurface, check.largest);
-    CHECK(check.hits > size.width * size.height / 6);  // the test looks at something
+    CHECK(check.hits > size.width * size.height / 6);  // a good part of the picture is compared
     CHECK(check.otherMask <= 4);     // grazing rays: the field's maximum lies within a rounding of the threshold
-    CHECK(check.otherSurface <= 4);  // the same at inner outlines
-    // In single precision (1e-6 of the depth) over the root of a flat maximum at grazing rays, of which many see more.
+    CHECK(check.otherSurface <= 4);  // grazing rays at silhouettes before other balls
+    // Single precision (1e-6 of the depth) over the slope of the field, which is flat at grazing rays; more rays graze
+    // more.
     CHECK(check.largest < largest);
 }
 
@@ -104,8 +105,8 @@ TEST_CASE("Metaballs are where the exact roots of the field are") {
     requireSurface(view);
 }
 
-TEST_CASE("Where metaballs are smooth, the rays that are not cast are told from those that are") {
-    // 0.1 m at 5 m and 1000 pixels: 27 pixels, seven and three.
+TEST_CASE("Where metaballs are smooth, rays interpolated between cast ones are near to cast ones") {
+    // A radius of 0.1 m at 5 m is 27 pixels of 1000, seven of 250 and three of 100.
     for (const int height : {1000, 250, 100}) {
         const render::PictureSize size{height * 3 / 2, height};
         render::View view = blobs(300);
@@ -113,49 +114,48 @@ TEST_CASE("Where metaballs are smooth, the rays that are not cast are told from 
         const std::vector<double> all = castDepths(view, size);
         const std::vector<double> sparse = castDepths(view, size, true);
         int hits = 0;
-        int told = 0;
+        int interpolated = 0;
         int lost = 0;
         double worst = 0.0;
         for (std::size_t k = 0; k < all.size(); ++k) {
             lost += (all[k] > 0.0) != (sparse[k] > 0.0) ? 1 : 0;
             if (all[k] <= 0.0 || sparse[k] <= 0.0) continue;
             ++hits;
-            told += all[k] != sparse[k] ? 1 : 0;
+            interpolated += all[k] != sparse[k] ? 1 : 0;
             worst = std::max(worst, std::abs(all[k] - sparse[k]));
         }
-        CAPTURE(height, hits, told, lost, worst);
+        CAPTURE(height, hits, interpolated, lost, worst);
         REQUIRE(hits > 1000);
         CHECK(lost == 0);
-        // A fiftieth of the smallest radius is allowed between what two hits say, and their mean is nearer.
+        // The limit of smoothness is a fiftieth of the smallest radius between two tangent planes, and their mean is
+        // nearer.
         CHECK(worst < 0.02 * 0.08);
-        if (height == 1000) CHECK(told > 0.4 * hits);  // counted: half; a quarter is cast, the rest is not smooth
+        if (height == 1000)
+            CHECK(interpolated > 0.4 * hits);  // counted once: half; a quarter is cast, the others are rough
     }
 }
 
-TEST_CASE("What a ray meets does not depend on the rays that it is cast with") {
+TEST_CASE("What a ray hits does not depend on the rays that it is cast with") {
     render::View view = blobs(200);
     for (const render::Projection projection : {render::Projection::perspective, render::Projection::orthographic}) {
         view.camera.projection = projection;
         view.camera.halfHeight = 1.5F;
         const render::CameraFrame frame = render::cameraFrame(view.camera, {64, 48});
-        const std::vector<render::SkinBall> skin = render::skinOf(view);
-        const render::BinnedField field = render::binField(frame, {view, skin, {}});
-        const std::vector<render::BallLook> looks = render::ballLooks({view, skin, {}}, field);
-        render::FieldCast cast = render::fieldCast(frame, view, field);
-        cast.looks = looks;
+        render::MetaballScene scene = render::metaballScene(frame, view, render::skinOf(view));
+        render::setAttributes(view, {}, scene);
         int hits = 0;
         int differing = 0;
-        for (std::size_t tile = 0; tile + 1 < field.tiles.begin.size(); ++tile) {
+        for (std::size_t tile = 0; tile + 1 < scene.tiles.begin.size(); ++tile) {
             render::RayBlock together;
-            render::placeRays(together, render::tileCorner(field.tiles, tile), render::kZCurve, {});
-            render::castBlock(cast, tile, together);
+            render::placeRays(together, render::tileCorner(scene.tiles, tile), render::kZCurve, {});
+            render::castBlock(scene, tile, together);
             for (std::size_t k = 0; k < together.count; ++k) {
                 render::RayBlock alone;
-                render::placeRays(alone, render::tileCorner(field.tiles, tile), std::array{render::kZCurve[k]}, {});
-                render::castBlock(cast, tile, alone);
+                render::placeRays(alone, render::tileCorner(scene.tiles, tile), std::array{render::kZCurve[k]}, {});
+                render::castBlock(scene, tile, alone);
                 const bool isHit = together.depth[k] >= 0.0F;
                 hits += isHit ? 1 : 0;
-                bool same = alone.depth[0] == together.depth[k] && alone.most[0] == together.most[k];
+                bool same = alone.depth[0] == together.depth[k] && alone.maxField[0] == together.maxField[k];
                 for (std::size_t axis = 0; axis < 3 && isHit; ++axis)
                     same = same && alone.normal[axis][0] == together.normal[axis][k] &&
                            alone.color[axis][0] == together.color[axis][k];
@@ -174,21 +174,23 @@ TEST_CASE("A lone metaball is a sphere") {
     view.style = render::Style::spheres;
     const Difference difference = compare(ball, drawn(view, kSize, Quality::draft), 2);
     INFO(difference);
-    CHECK(difference.share <= 4.0 / 9075.0);  // 2 steps: 16-bit normals and the glint's power of 32; 4 outline pixels
+    CHECK(difference.share <=
+          4.0 / 9075.0);  // 2 steps: 16-bit normals and the glint's power of 32; 4 pixels on outlines
 }
 
-TEST_CASE("Metaballs are colored and shaded as the oracle's") {
+TEST_CASE("Metaballs have the oracle's colors") {
     render::View view = blobs(150);
     view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});
     view.boxObstacles.push_back({{0.81F, 0.01F, 1.2F}, {1.6F, 0.7F, 2.0F}, {0.2F, 0.3F, 0.7F}});
     const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), 2);
     INFO(difference);
-    CHECK(difference.share <= 10.0 / 9075.0);  // 2 steps: packing as above; pixels on outlines
-    CHECK(difference.mean < 0.02);             // rounding: one channel in fifty a step off; counted once: 0.008
+    CHECK(difference.share <= 10.0 / 9075.0);  // 2 steps: packed normals as above; 10 pixels on outlines
+    CHECK(difference.mean < 0.02);             // rounding: one channel in fifty is a step off; counted once: 0.008
 }
 
 TEST_CASE("In parallel projection the ground hides metaballs from where the rays begin") {
-    // A wall of balls on both sides of the ground, which the eye's plane cuts in the picture's middle.
+    // A wall of balls above and below the ground; the eye is so low that the rays of half the picture begin under the
+    // ground.
     render::View view = blobs(0);
     for (int k = 0; k < 25 * 25 * 2; ++k)
         view.particles.push_back(
@@ -201,20 +203,19 @@ TEST_CASE("In parallel projection the ground hides metaballs from where the rays
     view.ground->height = 0.0F;
     const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), 20);
     INFO(difference);
-    CHECK(difference.share <= 10.0 / 9075.0);  // 20 steps: normals between cast rays; outlines as above
+    CHECK(difference.share <= 10.0 / 9075.0);  // 20 steps: interpolated normals; 10 pixels on outlines
 }
 
 TEST_CASE("Metaballs cast the oracle's shadows up to the depth map's resolution") {
     render::View view = blobs(150);
     view.light.shadows = true;
-    const render::Image soft = drawn(view, kSize, Quality::draft);
-    const Difference difference = compare(soft, fromOracle(view, kSize, 1), 3);
+    const render::Image shaded = drawn(view, kSize, Quality::draft);
+    const Difference difference = compare(shaded, fromOracle(view, kSize, 1), 3);
     INFO(difference);
-    CHECK(difference.share <
-          0.015);                  // shadows' smoothed outlines, counted once: 0.009; 0.095 differ without any shadow
+    CHECK(difference.share < 0.015);  // filtered outlines of shadows, counted once: 0.009; without any shadow 0.095
     CHECK(difference.mean < 0.5);  // half the contrast (some 60 steps) of a sixtieth of the pixels; counted once: 0.28
     view.light.shadows = false;
-    CHECK(compare(soft, drawn(view, kSize, Quality::draft), 3).share > 0.05);  // counted once: 0.095
+    CHECK(compare(shaded, drawn(view, kSize, Quality::draft), 3).share > 0.05);  // counted once: 0.095
 }
 
 TEST_CASE("Better quality is nearer to the exact metaballs") {
@@ -224,48 +225,49 @@ TEST_CASE("Better quality is nearer to the exact metaballs") {
     const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;
     const double final = compare(drawn(view, kSize, Quality::final), exact, 0).mean;
     CAPTURE(draft, normal, final);
-    CHECK(normal < 0.6 * draft);   // four samples at outlines: half the error of one
+    CHECK(normal < 0.6 * draft);   // four samples at silhouettes have half the error of one
     CHECK(final < 0.75 * normal);  // nine samples everywhere
 }
 
 TEST_CASE("Every instruction set gives the same bits") {
     render::View view = blobs(200);
-    view.particles.push_back({view.camera.eye, 0.3F, {0.1F, 0.2F, 0.3F}});  // and a ray that starts inside
+    view.particles.push_back({view.camera.eye, 0.3F, {0.1F, 0.2F, 0.3F}});  // rays start inside a ball, too
     const render::CameraFrame frame = render::cameraFrame(view.camera, {200, 150});
     const render::LightBasis light = render::lightBasis(view.light.toLight);
-    std::vector<render::SkyVisibility> open;
+    std::vector<render::SkyVisibility> sky;
     for (std::size_t k = 0; k < view.particles.size(); ++k) {
         const float part = 0.001F * static_cast<float>(k);
-        open.push_back({part, 1.0F - part, 0.5F, 0.5F + part, 0.9F, 0.1F});
+        sky.push_back({part, 1.0F - part, 0.5F, 0.5F + part, 0.9F, 0.1F});
     }
     view.field.skin = render::Skin::smooth;
     std::vector<std::uint32_t> first;
     std::vector<std::uint16_t> firstHeights;
-    std::vector<float> firstSkin;
+    std::vector<float> firstBalls;
     int sets = 0;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         const std::vector<render::SkinBall> skin = render::skinOf(view);
-        std::vector<float> places;
+        std::vector<float> balls;
         for (const render::SkinBall& ball : skin)
-            places.insert(places.end(), {ball.center.x, ball.center.y, ball.center.z, ball.weight});
-        render::FieldPicture picture;
-        const render::Skinned skinned{view, skin, open};
-        render::castPicture(frame, skinned, render::binField(frame, skinned), {glm::vec2(0.0F), true, true}, picture);
+            balls.insert(balls.end(), {ball.center.x, ball.center.y, ball.center.z, ball.weight});
+        render::MetaballScene scene = render::metaballScene(frame, view, skin);
+        render::setAttributes(view, sky, scene);
+        render::MetaballHits found;
+        render::castMetaballs(scene, {glm::vec2(0.0F), true, true}, found);
         std::vector<std::uint32_t> bits;
-        for (const render::FieldSample& s : picture.samples)
-            bits.insert(bits.end(), {s.depthBits, s.normal, s.color, s.open});
-        for (const render::Outlines& outlines : picture.outlines)
-            for (const render::OutlineSample& s : outlines.samples) bits.insert(bits.end(), {s.pixel, s.sample});
-        const std::vector<std::uint16_t> heights = render::castDepthMap(light, {view, skin, {}}, {256, {}}).heights;
+        for (const render::PackedHit& hit : found.hits)
+            bits.insert(bits.end(), {hit.depthBits, hit.normal, hit.color, hit.sky});
+        for (const render::SilhouetteHits& silhouettes : found.silhouettes)
+            for (const render::SilhouetteSample& s : silhouettes.samples) bits.insert(bits.end(), {s.pixel, s.sample});
+        const std::vector<std::uint16_t> heights = render::castDepthMap(light, view, skin, {256, {}}).heights;
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;
         if (sets == 1) firstHeights = heights;
-        if (sets == 1) firstSkin = places;
+        if (sets == 1) firstBalls = balls;
         CHECK(bits == first);
         CHECK(heights == firstHeights);
-        CHECK(places == firstSkin);
+        CHECK(balls == firstBalls);
     }
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());

@@ -1,7 +1,9 @@
-// Shadows and openness on lanes; this file is compiled once per instruction set.
+// Shadows and ambient occlusion with Highway, one shading point per lane; this file is compiled once per instruction
+// set.
 //
-// Spheres and boxes are tested exactly, so there is neither grain nor acne; their edge is softened over one pixel's
-// width at least. Metaballs are looked up in the map that was cast from the light.
+// Spheres and boxes are tested exactly, so that there is neither noise nor shadow acne; the edge of their shadows is
+// softened over at least one pixel's width. The shadows of metaballs come from the depth map that was cast from the
+// light.
 #include "render/cpu/lighting/light_visibility.h"
 
 #include <algorithm>
@@ -21,148 +23,157 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// Points in the light's space.
-struct LitPoints {
+/// Points that receive light; u, v and height in the light's space.
+struct Receivers {
     V u, v, height;
     Vec3 position, normal;
-    V pixelWidth;
-    M facing;
+    V pixelWidth;  // at the point's depth, m
+    M isFacing;    // turned to the light
 };
 
-V softened(V x) {
-    const V t = clamp(hn::Add(x, splat(0.5F)), 0.0F, 1.0F);
-    return hn::Mul(hn::Mul(t, t), hn::Sub(splat(3.0F), hn::Add(t, t)));
+V sharpEdge(V x) {
+    return clamp(x + splat(0.5F), 0.0F, 1.0F);
 }
 
-V sharp(V x) {
-    return clamp(hn::Add(x, splat(0.5F)), 0.0F, 1.0F);
+/// edge(x) of view.h.
+V softEdge(V x) {
+    const V t = sharpEdge(x);
+    return t * t * (splat(3.0F) - (t + t));
 }
 
-/// What one sphere covers of a strip one pixel wide around each ray to the light.
-V coverOfSphere(float height, float radius, const LitPoints& at, V square, float softness) {
-    const V drop = hn::Max(hn::Sub(splat(radius * radius), square), splat(0.0F));
-    const V top = hn::Add(splat(height), hn::Sqrt(drop));
-    // A point of this very sphere lies at `top`; one hundredth of a radius is far above the rounding and invisible.
-    const M above = hn::Gt(top, hn::Add(at.height, splat(0.01F * radius)));
-    // The light's grid leaves a tenth of a radius for the softened edge.
+/// How much one sphere covers of a strip around each ray to the light, as wide as a pixel or as the soft edge.
+/// @param square  squared distance of the sphere's center from the ray, m^2
+V sphereCoverage(float height, float radius, const Receivers& at, V square, float softness) {
+    const V drop = hn::Max(splat(radius * radius) - square, splat(0.0F));
+    const V top = splat(height) + hn::Sqrt(drop);
+    // A point of this very sphere lies at `top`. A hundredth of a radius (chosen) is far above the rounding and
+    // invisible.
+    const M isAbove = top > at.height + splat(0.01F * radius);
+    // lightGrid() leaves a margin of a tenth of a radius for this edge.
     V edge = clamp(at.pixelWidth, 1.0e-4F * radius, 0.2F * radius);
-    const V depth = hn::Sub(splat(radius), hn::Sqrt(square));
-    if (softness > 0.0F) {
-        const V half = hn::Mul(splat(0.5F), hn::Sub(splat(height), at.height));
-        edge = hn::Max(edge, hn::Mul(splat(softness), clamp(half, 0.0F, radius)));
-        return hn::IfThenElseZero(above, softened(hn::Div(depth, edge)));
-    }
-    return hn::IfThenElseZero(above, sharp(hn::Div(depth, edge)));
+    const V inside = splat(radius) - hn::Sqrt(square);
+    if (softness <= 0.0F) return hn::IfThenElseZero(isAbove, sharpEdge(inside / edge));
+    const V half = splat(0.5F) * (splat(height) - at.height);
+    edge = hn::Max(edge, splat(softness) * clamp(half, 0.0F, radius));
+    return hn::IfThenElseZero(isAbove, softEdge(inside / edge));
 }
 
-/// What points on the light's plane lie within, and the lowest of them.
-struct Spread {
+/// Bounds of some receivers on the light's plane, and the least of their heights.
+struct ReceiverBounds {
     V lowU, highU, lowV, highV, bottom;
 
-    Spread(const LitPoints& at, M here)
-        : lowU(minOfLanes(at.u, here)),
-          highU(hn::Neg(minOfLanes(hn::Neg(at.u), here))),
-          lowV(minOfLanes(at.v, here)),
-          highV(hn::Neg(minOfLanes(hn::Neg(at.v), here))),
-          bottom(minOfLanes(at.height, here)) {}
+    ReceiverBounds(const Receivers& at, M where)
+        : lowU(minOfLanes(at.u, where)),
+          highU(hn::Neg(minOfLanes(hn::Neg(at.u), where))),
+          lowV(minOfLanes(at.v, where)),
+          highV(hn::Neg(minOfLanes(hn::Neg(at.v), where))),
+          bottom(minOfLanes(at.height, where)) {}
 };
 
-/// Bits of those of a vector of spheres, from place k of the grid's on, that may cover points of this spread.
-std::uint32_t coveringBits(const LightSpheres& spheres, std::size_t k, const Spread& spread) {
+/// A bit for each of the grid's spheres first, first + 1, ..., set if it may cover receivers within these bounds.
+std::uint32_t coveringSpheres(const LightSpheres& spheres, std::size_t first, const ReceiverBounds& bounds) {
     const D d;
     const V zero = splat(0.0F);
-    const V u = hn::LoadU(d, &spheres.u[k]);
-    const V v = hn::LoadU(d, &spheres.v[k]);
-    const V height = hn::LoadU(d, &spheres.height[k]);
-    const V radius = hn::LoadU(d, &spheres.radius[k]);
-    const V offU = hn::Max(hn::Max(hn::Sub(spread.lowU, u), hn::Sub(u, spread.highU)), zero);
-    const V offV = hn::Max(hn::Max(hn::Sub(spread.lowV, v), hn::Sub(v, spread.highV)), zero);
-    // Beyond half the widest edge nothing is covered; a little more than that for the rounding.
-    const V farthest = hn::Mul(splat(1.501F), radius);
-    const M near = hn::Lt(hn::Add(hn::Mul(offU, offU), hn::Mul(offV, offV)), hn::Mul(farthest, farthest));
-    return maskBits(hn::And(near, hn::Ge(hn::Add(height, radius), spread.bottom)));
+    const V u = hn::LoadU(d, &spheres.u[first]);
+    const V v = hn::LoadU(d, &spheres.v[first]);
+    const V height = hn::LoadU(d, &spheres.height[first]);
+    const V radius = hn::LoadU(d, &spheres.radius[first]);
+    const V offU = hn::Max(hn::Max(bounds.lowU - u, u - bounds.highU), zero);
+    const V offV = hn::Max(hn::Max(bounds.lowV - v, v - bounds.highV), zero);
+    // Nothing is covered beyond half the widest edge, which is a radius wide; 0.001 more for the rounding.
+    const V farthest = splat(1.501F) * radius;
+    const M isNear = offU * offU + offV * offV < farthest * farthest;
+    return maskBits(hn::And(isNear, height + radius >= bounds.bottom));
 }
 
-/// Of the spheres of one cell, for the points in it. The sum (not the product) closes the seam between two spheres that
-/// touch.
-V coverInCell(const LightGrid& grid, std::size_t cell, const LitPoints& at, M here, float softness) {
+/// Coverage by the spheres of one cell of the grid, for the receivers in it. The covers are added, not multiplied,
+/// which closes the seam between two spheres that touch.
+V cellCoverage(const LightGrid& grid, std::size_t cell, const Receivers& at, M where, float softness) {
     const D d;
     const LightSpheres& spheres = grid.spheres;
-    const Spread spread(at, here);
-    const float bottom = hn::GetLane(spread.bottom);
+    const ReceiverBounds bounds(at, where);
+    const float bottom = hn::GetLane(bounds.bottom);
     const auto end = static_cast<std::size_t>(grid.cells[cell].end);
-    V cover = splat(0.0F);
+    V coverage = splat(0.0F);
     for (auto first = static_cast<std::size_t>(grid.cells[cell].begin); first < end; first += hn::Lanes(d)) {
-        // Front to back: nothing further on the list reaches above the points.
+        // The list runs from the light on: none of the later spheres reaches above the receivers.
         if (spheres.height[first] + spheres.radius[first] < bottom) break;
-        const std::size_t left = std::min(end - first, hn::Lanes(d));
-        for (std::uint32_t bits = coveringBits(spheres, first, spread) & ((1U << left) - 1U); bits != 0;
+        const std::size_t count = std::min(end - first, hn::Lanes(d));
+        for (std::uint32_t bits = coveringSpheres(spheres, first, bounds) & ((1U << count) - 1U); bits != 0;
              bits &= bits - 1) {
             const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(bits));
-            const V offU = hn::Sub(at.u, splat(spheres.u[k]));
-            const V offV = hn::Sub(at.v, splat(spheres.v[k]));
-            const V square = hn::Add(hn::Mul(offU, offU), hn::Mul(offV, offV));
-            cover = hn::Add(cover, coverOfSphere(spheres.height[k], spheres.radius[k], at, square, softness));
-            if (hn::AllFalse(d, hn::And(here, hn::Lt(cover, splat(1.0F))))) return cover;
+            const V offU = at.u - splat(spheres.u[k]);
+            const V offV = at.v - splat(spheres.v[k]);
+            const V square = offU * offU + offV * offV;
+            coverage = coverage + sphereCoverage(spheres.height[k], spheres.radius[k], at, square, softness);
+            if (hn::AllFalse(d, hn::And(where, coverage < splat(1.0F)))) return coverage;
         }
     }
-    return cover;
+    return coverage;
 }
 
-V coverOfSpheres(const LightGrid& grid, const LitPoints& at, float softness) {
+/// Lanes whose column and row lie in [low, columns) and [low, rows).
+M isWithin(V column, V row, float low, int columns, int rows) {
+    const V least = splat(low);
+    return hn::And(hn::And(column >= least, column < splat(static_cast<float>(columns))),
+                   hn::And(row >= least, row < splat(static_cast<float>(rows))));
+}
+
+/// column + row * columns where the mask is set, 0 elsewhere.
+VI cellIndex(V column, V row, int columns, M where) {
+    const auto toInt = [&](V v) { return hn::ConvertTo(DI(), hn::IfThenElseZero(where, v)); };
+    return toInt(column) + toInt(row) * splatInt(columns);
+}
+
+V spheresCoverage(const LightGrid& grid, const Receivers& at, float softness) {
     const D d;
-    const DI di;
     const V inverse = splat(1.0F / grid.cellSize);
-    const V column = hn::Floor(hn::Mul(hn::Sub(at.u, splat(grid.origin.x)), inverse));
-    const V row = hn::Floor(hn::Mul(hn::Sub(at.v, splat(grid.origin.y)), inverse));
-    const V zero = splat(0.0F);
-    const M inGrid = hn::And(
-        at.facing, hn::And(hn::And(hn::Ge(column, zero), hn::Lt(column, splat(static_cast<float>(grid.columns)))),
-                           hn::And(hn::Ge(row, zero), hn::Lt(row, splat(static_cast<float>(grid.rows))))));
-    const VI cell = hn::Add(hn::Mul(hn::ConvertTo(di, hn::IfThenElseZero(inGrid, row)), splatInt(grid.columns)),
-                            hn::ConvertTo(di, hn::IfThenElseZero(inGrid, column)));
+    const V column = hn::Floor((at.u - splat(grid.origin.x)) * inverse);
+    const V row = hn::Floor((at.v - splat(grid.origin.y)) * inverse);
+    const M inGrid = hn::And(at.isFacing, isWithin(column, row, 0.0F, grid.columns, grid.rows));
+    const VI cell = cellIndex(column, row, grid.columns, inGrid);
     alignas(64) std::array<std::int32_t, kTileSize> cells;
-    hn::Store(cell, di, cells.data());
-    V cover = zero;
-    // Neighboring points mostly lie in one cell.
+    hn::Store(cell, DI(), cells.data());
+    V coverage = splat(0.0F);
+    // Cell by cell: neighboring points mostly lie in the same one.
     for (M left = inGrid; !hn::AllFalse(d, left);) {
         const std::int32_t one = cells[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
-        const M here = hn::And(left, floatMask(hn::Eq(cell, splatInt(one))));
-        const V found = coverInCell(grid, static_cast<std::size_t>(one), at, here, softness);
-        cover = hn::IfThenElse(here, found, cover);
-        left = hn::AndNot(here, left);
+        const M where = hn::And(left, floatMask(cell == splatInt(one)));
+        const V found = cellCoverage(grid, static_cast<std::size_t>(one), at, where, softness);
+        coverage = hn::IfThenElse(where, found, coverage);
+        left = hn::AndNot(where, left);
     }
-    return cover;
+    return coverage;
 }
 
-struct Slabs {
+struct Slab {
     V near, far;
 };
 
-/// The gap between entering one pair of faces and leaving another as a distance from the outline that they share.
-V outlineGap(const Slabs& entered, const Slabs& left, float inverseA, float inverseB) {
-    return hn::Mul(hn::Sub(left.far, entered.near), splat(1.0F / std::sqrt(inverseA * inverseA + inverseB * inverseB)));
+/// The gap between entering one pair of faces and leaving another, as a distance from the outline that the two share.
+V outlineGap(const Slab& entered, const Slab& left, float inverseA, float inverseB) {
+    return (left.far - entered.near) * splat(1.0F / std::sqrt(inverseA * inverseA + inverseB * inverseB));
 }
 
-// Seen from the light a box is a convex hexagon. For faces i (entered) and j (left) the gap between entry and exit,
-// (b_j - p_j)/l_j - (a_i - p_i)/l_i, falls linearly with the distance to the hexagon's side; its gradient in p is
-// e_i/l_i - e_j/l_j, of length sqrt(1/l_i^2 + 1/l_j^2). The least gap over that length is the signed distance to the
-// outline.
-V coverOfBox(const BoxObstacle& box, const Obstruction& obstruction, const LitPoints& at) {
-    const glm::vec3 toLight = obstruction.light.toLight;
+/// Seen from the light a box is a convex hexagon. For faces i (entered) and j (left) the gap between entry and exit,
+/// (b_j - p_j)/l_j - (a_i - p_i)/l_i, falls linearly with the distance to the hexagon's side; its gradient in p is
+/// e_i/l_i - e_j/l_j, of length sqrt(1/l_i^2 + 1/l_j^2). The least gap over that length is the signed distance to the
+/// outline.
+V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receivers& at) {
+    const glm::vec3 toLight = occluders.light.toLight;
     glm::vec3 inverse;
     for (int axis = 0; axis < 3; ++axis)
         inverse[axis] = 1.0F / (std::abs(toLight[axis]) > 1.0e-6F ? toLight[axis] : 1.0e-6F);
-    const glm::vec3 low = box.minimum - obstruction.eye;
-    const glm::vec3 high = box.maximum - obstruction.eye;
-    const auto slabs = [&](V position, int axis) {
-        const V first = hn::Mul(hn::Sub(splat(low[axis]), position), splat(inverse[axis]));
-        const V second = hn::Mul(hn::Sub(splat(high[axis]), position), splat(inverse[axis]));
-        return Slabs{hn::Min(first, second), hn::Max(first, second)};
+    const glm::vec3 low = box.minimum - occluders.eye;
+    const glm::vec3 high = box.maximum - occluders.eye;
+    const auto slab = [&](V position, int axis) {
+        const V first = (splat(low[axis]) - position) * splat(inverse[axis]);
+        const V second = (splat(high[axis]) - position) * splat(inverse[axis]);
+        return Slab{hn::Min(first, second), hn::Max(first, second)};
     };
-    const Slabs x = slabs(at.position.x, 0);
-    const Slabs y = slabs(at.position.y, 1);
-    const Slabs z = slabs(at.position.z, 2);
+    const Slab x = slab(at.position.x, 0);
+    const Slab y = slab(at.position.y, 1);
+    const Slab z = slab(at.position.z, 2);
     V inside = outlineGap(x, y, inverse.x, inverse.y);
     inside = hn::Min(inside, outlineGap(y, z, inverse.y, inverse.z));
     inside = hn::Min(inside, outlineGap(z, x, inverse.z, inverse.x));
@@ -171,177 +182,157 @@ V coverOfBox(const BoxObstacle& box, const Obstruction& obstruction, const LitPo
     inside = hn::Min(inside, outlineGap(z, y, inverse.z, inverse.y));
     const V exit = hn::Min(x.far, hn::Min(y.far, z.far));
     const float tolerance = 1.0e-4F * length(box.maximum - box.minimum);
+    const bool isSoft = occluders.softness > 0.0F;
     V width = at.pixelWidth;
-    V cover;
-    if (obstruction.softness > 0.0F) {
-        const V most = hn::Min(splat(obstruction.meanRadius), hn::Mul(splat(0.5F), exit));
-        width = hn::Max(width, hn::Mul(splat(obstruction.softness), most));
-        cover = softened(hn::Div(inside, hn::Max(width, splat(tolerance))));
-    } else {
-        cover = sharp(hn::Div(inside, hn::Max(width, splat(tolerance))));
+    if (isSoft) {
+        const V limit = hn::Min(splat(occluders.meanRadius), splat(0.5F) * exit);
+        width = hn::Max(width, splat(occluders.softness) * limit);
     }
-    return hn::IfThenElseZero(hn::Gt(exit, splat(tolerance)), cover);
+    const V ratio = inside / hn::Max(width, splat(tolerance));
+    return hn::IfThenElseZero(exit > splat(tolerance), isSoft ? softEdge(ratio) : sharpEdge(ratio));
 }
 
-/// Weights of six heights in a row, which stand half a texel apart, around a place that lies `behind` the third, 0 to 1
-/// of these steps: a quadratic B-spline three texels wide.
+/// Weights of six heights in a row, which stand half a texel apart: a quadratic B-spline three texels wide around a
+/// point that lies `behind` (0 to 1 of these steps) the third height.
 struct HeightWeights {
     static constexpr std::size_t kCount = 6;
     V of[kCount];
 
     explicit HeightWeights(V behind) {
         const V half = splat(0.5F);
-        const V off = hn::Mul(half, behind);
-        // At 1.5 texels less this much from the place, and at places nearer to it.
-        const auto side = [&](V rest) { return hn::Mul(splat(0.25F), hn::Mul(rest, rest)); };
-        const auto middle = [&](V at) { return hn::Sub(splat(0.375F), hn::Mul(half, hn::Mul(at, at))); };
-        of[0] = side(hn::Sub(half, off));
-        of[1] = side(hn::Sub(splat(1.0F), off));
-        of[2] = middle(off);
-        of[3] = middle(hn::Sub(half, off));
-        of[4] = side(hn::Add(half, off));
-        of[5] = side(off);
+        const V off = half * behind;
+        // The spline at the distance of 1.5 - rest texels, and at distances below half a texel.
+        const auto outer = [&](V rest) { return splat(0.25F) * (rest * rest); };
+        const auto inner = [&](V distance) { return splat(0.375F) - half * (distance * distance); };
+        of[0] = outer(half - off);
+        of[1] = outer(splat(1.0F) - off);
+        of[2] = inner(off);
+        of[3] = inner(half - off);
+        of[4] = outer(half + off);
+        of[5] = outer(off);
     }
 };
 
-/// What is higher than points, in steps; start: of each point's first height.
-V coverOfHeights(const DepthMap& map, VI start, const HeightWeights& across, const HeightWeights& down, VI steps) {
-    V cover = splat(0.0F);
+/// The weight of the heights above points.
+/// @param start   index of each point's first height
+/// @param height  of each point, in steps of the map
+V weightAbove(const DepthMap& map, VI start, const HeightWeights& across, const HeightWeights& down, VI height) {
+    V coverage = splat(0.0F);
     for (const V& weight : down.of) {
         const Int6 heights = gather6(map.heights.data(), start);
         V sum = splat(0.0F);
         for (std::size_t k = 0; k < HeightWeights::kCount; ++k)
-            sum = hn::Add(sum, hn::IfThenElseZero(floatMask(hn::Gt(heights.of[k], steps)), across.of[k]));
-        cover = hn::Add(cover, hn::Mul(weight, sum));
-        start = hn::Add(start, splatInt(2 * map.columns));
+            sum = sum + hn::IfThenElseZero(floatMask(heights.of[k] > height), across.of[k]);
+        coverage = coverage + weight * sum;
+        start = start + splatInt(2 * map.columns);
     }
-    return cover;
+    return coverage;
 }
 
-// Weights change continuously with the point.
-V coverOfField(const DepthMap& map, const Obstruction& obstruction, const LitPoints& at) {
+/// Percentage-closer filtering of the depth map, with weights that change continuously with the point.
+V metaballCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& at) {
     const D d;
-    const DI di;
-    const LightBasis& light = obstruction.light;
+    const LightBasis& light = occluders.light;
     // Off the surface by as much as the filter reaches sideways, so that a slope does not shade itself.
     const Vec3 raised = pointOnRay(at.position, splat(1.5F * map.texelSize), at.normal);
     const V inverse = splat(1.0F / map.texelSize);
-    const V u = hn::Mul(hn::Sub(dot(raised, splat(light.u)), splat(map.origin.x)), inverse);
-    const V v = hn::Mul(hn::Sub(dot(raised, splat(light.v)), splat(map.origin.y)), inverse);
-    const V height = hn::Add(dot(raised, splat(light.toLight)), splat(0.5F * map.texelSize - map.bottom));
-    // Nothing, at 0, is higher than no point.
-    const V steps = hn::Max(hn::Add(hn::Div(height, splat(map.step)), splat(1.0F)), splat(0.0F));
+    const V u = (dot(raised, splat(light.u)) - splat(map.origin.x)) * inverse;
+    const V v = (dot(raised, splat(light.v)) - splat(map.origin.y)) * inverse;
+    const V height = dot(raised, splat(light.toLight)) + splat(0.5F * map.texelSize - map.bottom);
+    // The map's 0, where there is no surface, is above no point.
+    const V steps = hn::Max(height / splat(map.step) + splat(1.0F), splat(0.0F));
     const V column = hn::Floor(u);
     const V row = hn::Floor(v);
-    const V two = splat(2.0F);
-    const M inMap = hn::And(hn::And(hn::Ge(column, two), hn::Lt(column, splat(static_cast<float>(map.columns - 2)))),
-                            hn::And(hn::Ge(row, two), hn::Lt(row, splat(static_cast<float>(map.rows - 2)))));
-    const auto placeOf = [&](V atColumn, V atRow, int columns) {
-        const auto whole = [&](V place) { return hn::ConvertTo(di, hn::IfThenElseZero(inMap, place)); };
-        return hn::Add(whole(atColumn), hn::Mul(whole(atRow), splatInt(columns)));
-    };
-    const VI texel = placeOf(column, row, map.columns);
-    const M below = hn::And(inMap, hn::Lt(steps, hn::GatherIndex(d, map.highest.data(), texel)));
-    if (hn::AllFalse(d, below)) return splat(0.0F);
-    const M within = hn::And(below, hn::Ge(steps, hn::GatherIndex(d, map.lowest.data(), texel)));
-    V cover = hn::IfThenElseZero(below, splat(1.0F));
-    if (hn::AllFalse(d, within)) return cover;
-    // From the first height, in their steps.
-    const V half = splat(0.5F);
-    const V fineU = hn::Sub(hn::Add(u, u), half);
-    const V fineV = hn::Sub(hn::Add(v, v), half);
+    const M inMap = isWithin(column, row, 2.0F, map.columns - 2, map.rows - 2);
+    const VI texel = cellIndex(column, row, map.columns, inMap);
+    const M isBelowSome = hn::And(inMap, steps < hn::GatherIndex(d, map.highest.data(), texel));
+    if (hn::AllFalse(d, isBelowSome)) return splat(0.0F);
+    const M isBetween = hn::And(isBelowSome, steps >= hn::GatherIndex(d, map.lowest.data(), texel));
+    const V coverage = hn::IfThenElseZero(isBelowSome, splat(1.0F));
+    if (hn::AllFalse(d, isBetween)) return coverage;
+    // Positions counted in heights, from the first of a row.
+    const V fineU = u + u - splat(0.5F);
+    const V fineV = v + v - splat(0.5F);
     const V fineColumn = hn::Floor(fineU);
     const V fineRow = hn::Floor(fineV);
-    const VI start = placeOf(hn::Sub(fineColumn, two), hn::Sub(fineRow, two), 2 * map.columns);
-    // Within the map's bounds, and so within those of its heights.
-    const VI wholeSteps = hn::ConvertTo(di, hn::Floor(hn::IfThenElseZero(within, steps)));
-    const V found = coverOfHeights(map, start, HeightWeights(hn::Sub(fineU, fineColumn)),
-                                   HeightWeights(hn::Sub(fineV, fineRow)), wholeSteps);
-    return hn::IfThenElse(within, found, cover);
+    const VI start = cellIndex(fineColumn - splat(2.0F), fineRow - splat(2.0F), 2 * map.columns, inMap);
+    // Between the map's bounds steps fit into an integer.
+    const VI wholeSteps = hn::ConvertTo(DI(), hn::Floor(hn::IfThenElseZero(isBetween, steps)));
+    const V found =
+        weightAbove(map, start, HeightWeights(fineU - fineColumn), HeightWeights(fineV - fineRow), wholeSteps);
+    return hn::IfThenElse(isBetween, found, coverage);
 }
 
-V visibility(const Obstruction& obstruction, const LitPoints& at) {
-    V cover = splat(0.0F);
-    if (obstruction.spheres != nullptr)
-        cover = hn::Add(cover, coverOfSpheres(*obstruction.spheres, at, obstruction.softness));
-    for (const BoxObstacle& box : obstruction.boxes) cover = hn::Add(cover, coverOfBox(box, obstruction, at));
-    if (obstruction.field != nullptr) cover = hn::Add(cover, coverOfField(*obstruction.field, obstruction, at));
-    return hn::IfThenElseZero(at.facing, hn::Max(hn::Sub(splat(1.0F), cover), splat(0.0F)));
+V lightVisibilityAt(const Occluders& occluders, const Receivers& at) {
+    V coverage = splat(0.0F);
+    if (occluders.spheres != nullptr) coverage = coverage + spheresCoverage(*occluders.spheres, at, occluders.softness);
+    for (const BoxObstacle& box : occluders.boxes) coverage = coverage + boxCoverage(box, occluders, at);
+    if (occluders.metaballs != nullptr) coverage = coverage + metaballCoverage(*occluders.metaballs, occluders, at);
+    return hn::IfThenElseZero(at.isFacing, hn::Max(splat(1.0F) - coverage, splat(0.0F)));
 }
 
-V openOfGround(const SkyVisibilityMap& map, glm::vec3 eye, const Vec3& position) {
+V groundSkyVisibility(const SkyVisibilityMap& map, glm::vec3 eye, const Vec3& position) {
     const D d;
-    const DI di;
     const V inverse = splat(1.0F / map.side);
-    const V x = hn::Mul(hn::Sub(position.x, splat(map.origin.x - eye.x)), inverse);
-    const V z = hn::Mul(hn::Sub(position.z, splat(map.origin.y - eye.z)), inverse);
+    const V x = (position.x - splat(map.origin.x - eye.x)) * inverse;
+    const V z = (position.z - splat(map.origin.y - eye.z)) * inverse;
     const V column = hn::Floor(x);
     const V row = hn::Floor(z);
-    const V zero = splat(0.0F);
-    const M inMap = hn::And(hn::And(hn::Ge(column, zero), hn::Lt(column, splat(static_cast<float>(map.columns - 1)))),
-                            hn::And(hn::Ge(row, zero), hn::Lt(row, splat(static_cast<float>(map.rows - 1)))));
+    const M inMap = isWithin(column, row, 0.0F, map.columns - 1, map.rows - 1);
     if (hn::AllFalse(d, inMap)) return splat(1.0F);
-    const VI place = hn::Add(hn::ConvertTo(di, hn::IfThenElseZero(inMap, column)),
-                             hn::Mul(hn::ConvertTo(di, hn::IfThenElseZero(inMap, row)), splatInt(map.columns)));
-    const auto at = [&](int off) { return hn::GatherIndex(d, map.values.data(), hn::Add(place, splatInt(off))); };
-    const V partX = hn::Sub(x, column);
-    const V open = lerp(lerp(at(0), at(1), partX), lerp(at(map.columns), at(map.columns + 1), partX), hn::Sub(z, row));
+    const VI first = cellIndex(column, row, map.columns, inMap);
+    const auto at = [&](int offset) { return hn::GatherIndex(d, map.values.data(), first + splatInt(offset)); };
+    const V partX = x - column;
+    const V open = lerp(lerp(at(0), at(1), partX), lerp(at(map.columns), at(map.columns + 1), partX), z - row);
     return hn::IfThenElse(inMap, open, splat(1.0F));
 }
 
-/// Sum over the axes of the squared component of the normal times the openness on its side.
-V openOfObstacle(const SkyVisibilityGrid& grid, glm::vec3 eye, const Vec3& position, const Vec3& normal) {
-    const D d;
+V obstacleSkyVisibility(const SkyVisibilityGrid& grid, glm::vec3 eye, const Vec3& position, const Vec3& normal) {
+    const V zero = splat(0.0F);
     const Vec3 at = gridPosition(grid, eye, position);
-    const std::array<V, 3> components = {normal.x, normal.y, normal.z};
-    V open = splat(0.0F);
-    for (std::size_t side = 0; side < 6; ++side) {
-        const V component = components[side / 2];
-        const bool isPlus = side % 2 == 0;
-        const M toward = isPlus ? hn::Gt(component, splat(0.0F)) : hn::Lt(component, splat(0.0F));
-        if (hn::AllFalse(d, toward)) continue;
-        const V value = skyVisibilityInGrid(grid, side, at);
-        open = hn::Add(open, hn::IfThenElseZero(toward, hn::Mul(hn::Mul(component, component), value)));
-    }
-    return open;
+    // Only the sides that some normal points to are looked up.
+    const auto visibility = [&](std::size_t side, M isToward) {
+        return hn::AllFalse(D(), isToward) ? zero : skyVisibilityInGrid(grid, side, at);
+    };
+    const Vec3 plus{visibility(0, normal.x > zero), visibility(2, normal.y > zero), visibility(4, normal.z > zero)};
+    const Vec3 minus{visibility(1, normal.x < zero), visibility(3, normal.y < zero), visibility(5, normal.z < zero)};
+    return skyVisibilityToward(normal, plus, minus);
 }
 
-V skyVisibility(const Obstruction& obstruction, const Surfaces& surfaces, VI seen, const Vec3& position,
-                const Vec3& normal) {
+V skyVisibilityAt(const Occluders& occluders, const ShadingGeometry& geometry, VI hitId, const Vec3& position,
+                  const Vec3& normal) {
     const D d;
-    V open = splat(1.0F);
-    const M isGround = floatMask(hn::Eq(seen, splatInt(kSeesGround)));
+    V sky = splat(1.0F);
+    const M isGround = floatMask(hitId == splatInt(kHitGround));
     if (!hn::AllFalse(d, isGround))
-        open = hn::IfThenElse(isGround, openOfGround(*obstruction.ground, obstruction.eye, position), open);
+        sky = hn::IfThenElse(isGround, groundSkyVisibility(*occluders.groundSky, occluders.eye, position), sky);
     const M isObstacle =
-        floatMask(hn::And(hn::Gt(seen, splatInt(surfaces.firstObstacle - 1)), hn::Lt(seen, splatInt(kSeesField))));
+        floatMask(hn::And(hitId > splatInt(geometry.firstObstacle - 1), hitId < splatInt(kHitMetaballs)));
     if (!hn::AllFalse(d, isObstacle))
-        open = hn::IfThenElse(isObstacle, openOfObstacle(*obstruction.open, obstruction.eye, position, normal), open);
-    return open;
+        sky = hn::IfThenElse(isObstacle, obstacleSkyVisibility(*occluders.sky, occluders.eye, position, normal), sky);
+    return sky;
 }
 
-void reach(const Obstruction& obstruction, const Surfaces& surfaces, const SurfacePoints& points, LightReach& found) {
+void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& geometry, const ShadingPoints& points,
+                            LightVisibility& visibility) {
     const D d;
-    const DI di;
-    const LightBasis& light = obstruction.light;
-    for (std::size_t place = 0; place < points.count; place += hn::Lanes(d)) {
-        const auto of = [place](const std::array<std::array<float, kTilePixels>, 3>& v) {
-            return Vec3{hn::Load(D(), &v[0][place]), hn::Load(D(), &v[1][place]), hn::Load(D(), &v[2][place])};
-        };
-        const Vec3 position = of(points.position);
-        const Vec3 normal = of(points.normal);
-        const V width = splat(surfaces.frame.pixelWidth());
-        const V pixelWidth = surfaces.frame.perspective ? hn::Mul(width, hn::Load(d, &points.depth[place])) : width;
-        const M facing = hn::Gt(dot(normal, splat(light.toLight)), splat(0.0F));
+    const LightBasis& light = occluders.light;
+    const V width = splat(geometry.frame.pixelWidth());
+    for (std::size_t first = 0; first < points.count; first += hn::Lanes(d)) {
+        const Vec3 position = loadVec3(points.position, first);
+        const Vec3 normal = loadVec3(points.normal, first);
+        const V pixelWidth = geometry.frame.perspective ? width * hn::Load(d, &points.depth[first]) : width;
+        const M isFacing = dot(normal, splat(light.toLight)) > splat(0.0F);
         V lit = splat(0.0F);
-        if (!hn::AllFalse(d, facing))
-            lit = visibility(obstruction, {dot(position, splat(light.u)), dot(position, splat(light.v)),
-                                           dot(position, splat(light.toLight)), position, normal, pixelWidth, facing});
-        const VI seen = hn::Load(di, &points.seen[place]);
-        const bool asks = obstruction.open != nullptr;
-        const V sky = asks ? skyVisibility(obstruction, surfaces, seen, position, normal) : splat(1.0F);
-        hn::Store(lit, d, &found.light[place]);
-        hn::Store(sky, d, &found.sky[place]);
+        if (!hn::AllFalse(d, isFacing))
+            lit = lightVisibilityAt(occluders,
+                                    {dot(position, splat(light.u)), dot(position, splat(light.v)),
+                                     dot(position, splat(light.toLight)), position, normal, pixelWidth, isFacing});
+        const VI hitId = hn::Load(DI(), &points.hitId[first]);
+        const V sky =
+            occluders.sky != nullptr ? skyVisibilityAt(occluders, geometry, hitId, position, normal) : splat(1.0F);
+        hn::Store(lit, d, &visibility.light[first]);
+        hn::Store(sky, d, &visibility.sky[first]);
     }
 }
 
@@ -353,10 +344,11 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-HWY_EXPORT(reach);
+HWY_EXPORT(computeLightVisibility);
 
-void reach(const Obstruction& obstruction, const Surfaces& surfaces, const SurfacePoints& points, LightReach& found) {
-    HWY_DYNAMIC_DISPATCH(reach)(obstruction, surfaces, points, found);
+void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& geometry, const ShadingPoints& points,
+                            LightVisibility& visibility) {
+    HWY_DYNAMIC_DISPATCH(computeLightVisibility)(occluders, geometry, points, visibility);
 }
 
 }  // namespace render

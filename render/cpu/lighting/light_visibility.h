@@ -1,5 +1,5 @@
-// How much of the light and of the sky reaches the points that a picture shows; view.h defines both. Called by
-// picture_colors.cpp for tiles where anything may dim them.
+// How much of the light and of the sky reaches shading points, by the definitions of view.h. Called by
+// picture_colors.cpp for tiles where anything may cast a shadow or occlude the sky.
 #pragma once
 
 #include <array>
@@ -14,26 +14,29 @@
 
 namespace render {
 
-/// All that stands in the light's way, and how open the places of the scene are.
-struct Obstruction {
+/// Everything that casts shadows or occludes the sky. A null pointer stands for what does neither.
+struct Occluders {
     LightBasis light;
     glm::vec3 eye{0.0F};
-    const LightGrid* spheres = nullptr;  ///< null where no sphere casts a shadow
-    const DepthMap* field = nullptr;     ///< null where no metaballs do
-    std::span<const BoxObstacle> boxes;  ///< that cast shadows
-    float softness = 0.0F;
-    float meanRadius = 0.0F;                   ///< of the particles
-    const SkyVisibilityGrid* open = nullptr;   ///< null where the look does not ask for occlusion
-    const SkyVisibilityMap* ground = nullptr;  ///< likewise
+    const LightGrid* spheres = nullptr;
+    const DepthMap* metaballs = nullptr;
+    std::span<const BoxObstacle> boxes;
+    float softness = 0.0F;                        ///< of the shadows' edges, see Light
+    float meanRadius = 0.0F;                      ///< of the particles, m
+    const SkyVisibilityGrid* sky = nullptr;       ///< null without ambient occlusion
+    const SkyVisibilityMap* groundSky = nullptr;  ///< null without ambient occlusion
+
+    bool isEmpty() const { return spheres == nullptr && metaballs == nullptr && boxes.empty() && sky == nullptr; }
 };
 
-/// Shares for each point.
-struct LightReach {
-    alignas(64) std::array<float, kTilePixels> light;  ///< none in shadow or turned away from the light
-    alignas(64) std::array<float, kTilePixels> sky;    ///< 1 on particles, which bring their openness along
+/// Shares from 0 to 1 of each shading point.
+struct LightVisibility {
+    alignas(64) std::array<float, kTilePixels> light;  ///< 0 in shadow and on surfaces turned away from the light
+    alignas(64) std::array<float, kTilePixels> sky;    ///< 1 on particles, whose sky visibility is in ShadingPoints
 };
 
-/// Holds:  a point's values depend on the point alone, bit for bit, not on the number of lanes.
-void reach(const Obstruction& obstruction, const Surfaces& surfaces, const SurfacePoints& points, LightReach& reach);
+/// A point's values depend on the point alone, bit for bit, not on the instruction set.
+void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& geometry, const ShadingPoints& points,
+                            LightVisibility& visibility);
 
 }  // namespace render

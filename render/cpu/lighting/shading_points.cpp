@@ -1,5 +1,4 @@
-// Where rays meet what they see, and what it looks like there, on lanes; this file is compiled once per instruction
-// set.
+// Shading points with Highway, one per lane; this file is compiled once per instruction set.
 #include "render/cpu/lighting/shading_points.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -8,205 +7,182 @@
 #include <hwy/highway.h>
 
 #include "render/prepare/simd_loads-inl.h"
+#include "render/prepare/simd_occlusion-inl.h"
 #include "render/prepare/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// What is known of a group of points so far.
-struct Placed {
+/// What is known of a vector of points so far.
+struct PointVector {
     V depth;
-    Vec3 normal, albedo, open;
+    Vec3 normal, albedo, sky;
 
-    void set(M where, V itsDepth, const Vec3& itsNormal, const Vec3& itsAlbedo) {
-        depth = hn::IfThenElse(where, itsDepth, depth);
-        normal = select(where, itsNormal, normal);
-        albedo = select(where, itsAlbedo, albedo);
+    void set(M where, V newDepth, const Vec3& newNormal, const Vec3& newAlbedo) {
+        depth = hn::IfThenElse(where, newDepth, depth);
+        normal = select(where, newNormal, normal);
+        albedo = select(where, newAlbedo, albedo);
     }
 };
 
-/// A group of rays and what they see.
-struct PixelGroup {
+/// A vector of rays and what they hit.
+struct HitRays {
     WorldRay ray;
     V inverseSquare;  // of the direction's length
-    VI seen;
+    VI hitId;
 
-    /// Of these lanes, counted from the first of its kind; 0 of the others.
+    /// Indices, counted from the first of a kind, of the lanes that hit it; 0 in the other lanes.
     VI indexOf(M where, std::int32_t first) const {
-        return hn::IfThenElseZero(hn::RebindMask(DI(), where), hn::Sub(seen, splatInt(first)));
+        return hn::IfThenElseZero(hn::RebindMask(DI(), where), hitId - splatInt(first));
     }
 
-    /// The ray as it leaves a mirror, of unit length.
+    /// Direction of the ray after a mirror, of unit length.
     Vec3 mirrored(const Vec3& normal) const {
         const V scale = hn::Sqrt(inverseSquare);
-        const V twice = hn::Mul(splat(-2.0F), hn::Mul(scale, dot(ray.direction, normal)));
-        return pointOnRay(
-            {hn::Mul(scale, ray.direction.x), hn::Mul(scale, ray.direction.y), hn::Mul(scale, ray.direction.z)}, twice,
-            normal);
+        return ray.direction * scale + normal * (splat(-2.0F) * (scale * dot(ray.direction, normal)));
     }
 };
 
-Vec3 normalized(const Vec3& v) {
-    const V scale = hn::Div(splat(1.0F), hn::Sqrt(dot(v, v)));
-    return {hn::Mul(v.x, scale), hn::Mul(v.y, scale), hn::Mul(v.z, scale)};
-}
-
+/// Some bits of a word as a number from 0 to 1.
 template <int kFirst, int kBits>
-V bitsAsShare(VI word) {
+V unpackUnit(VI word) {
     constexpr std::int32_t kMost = (1 << kBits) - 1;
     const VI bits = hn::And(hn::ShiftRight<kFirst>(word), splatInt(kMost));
-    return hn::Mul(hn::ConvertTo(D(), bits), splat(1.0F / static_cast<float>(kMost)));
+    return hn::ConvertTo(D(), bits) * splat(1.0F / static_cast<float>(kMost));
 }
 
-/// What field_sample.h and drawn_spheres.h pack: square roots in 11, 11 and 10 bits, finer than an 8-bit sRGB step.
-Vec3 unpackedColor(VI word) {
-    const V red = bitsAsShare<0, 11>(word);
-    const V green = bitsAsShare<11, 11>(word);
-    const V blue = bitsAsShare<22, 10>(word);
-    return {hn::Mul(red, red), hn::Mul(green, green), hn::Mul(blue, blue)};
+/// Colors as metaball_hits.h and drawn_spheres.h pack them: square roots in 11, 11 and 10 bits, finer than an 8-bit
+/// sRGB step.
+Vec3 unpackColor(VI word) {
+    const Vec3 root{unpackUnit<0, 11>(word), unpackUnit<11, 11>(word), unpackUnit<22, 10>(word)};
+    return root * root;
 }
 
-Vec3 unpackedOpen(VI word) {
-    return {bitsAsShare<0, 10>(word), bitsAsShare<10, 10>(word), bitsAsShare<20, 10>(word)};
+Vec3 unpackSky(VI word) {
+    return {unpackUnit<0, 10>(word), unpackUnit<10, 10>(word), unpackUnit<20, 10>(word)};
 }
 
-/// Sum over the axes of the squared component times the value on its side.
-V openAlong(const Vec3& direction, const Vec3& plus, const Vec3& minus) {
-    const auto part = [](V component, V above, V below) {
-        const V value = hn::IfThenElse(hn::Gt(component, splat(0.0F)), above, below);
-        return hn::Mul(hn::Mul(component, component), value);
-    };
-    return hn::Add(hn::Add(part(direction.x, plus.x, minus.x), part(direction.y, plus.y, minus.y)),
-                   part(direction.z, plus.z, minus.z));
-}
+/// One record of four 32-bit words for each lane, as integers.
+struct Words {
+    VI x, y, z, w;
+};
 
 template <typename Record>
-Float4 recordsAt(std::span<const Record> records, VI index) {
+Words loadRecords(std::span<const Record> records, VI index) {
     static_assert(sizeof(Record) == 4 * sizeof(float));
-    return gather4(reinterpret_cast<const float*>(records.data()), hn::ShiftLeft<2>(index));
+    const Float4 four = gather4(reinterpret_cast<const float*>(records.data()), hn::ShiftLeft<2>(index));
+    const DI di;
+    return {hn::BitCast(di, four.x), hn::BitCast(di, four.y), hn::BitCast(di, four.z), hn::BitCast(di, four.w)};
 }
 
-void placeOnSpheres(const Surfaces& surfaces, const PixelGroup& group, M where, Placed& placed) {
-    const WorldRay& ray = group.ray;
-    const VI index = group.indexOf(where, 0);
-    const Float4 sphere = recordsAt(surfaces.spheres, index);
-    const Vec3 toCenter{hn::Sub(sphere.x, ray.origin.x), hn::Sub(sphere.y, ray.origin.y),
-                        hn::Sub(sphere.z, ray.origin.z)};
+void addSpheres(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
+    const WorldRay& ray = hits.ray;
+    const VI index = hits.indexOf(where, 0);
+    const Float4 sphere = gather4(reinterpret_cast<const float*>(geometry.spheres.data()), hn::ShiftLeft<2>(index));
+    const Vec3 toCenter = Vec3{sphere.x, sphere.y, sphere.z} - ray.origin;
     const V radius = sphere.w;
-    const V closest = hn::Mul(dot(toCenter, ray.direction), group.inverseSquare);
-    const Vec3 off{hn::Sub(hn::Mul(closest, ray.direction.x), toCenter.x),
-                   hn::Sub(hn::Mul(closest, ray.direction.y), toCenter.y),
-                   hn::Sub(hn::Mul(closest, ray.direction.z), toCenter.z)};
+    // As primary_hits.cpp has it, but along the world's axes and with a position and a normal.
+    const V closest = dot(toCenter, ray.direction) * hits.inverseSquare;
+    const Vec3 off = ray.direction * closest - toCenter;
     const V zero = splat(0.0F);
-    const V inside = hn::Max(hn::Sub(hn::Mul(radius, radius), dot(off, off)), zero);
-    const V depth = hn::Max(hn::Sub(closest, hn::Sqrt(hn::Mul(inside, group.inverseSquare))), zero);
-    const Vec3 normal = normalized(pointOnRay(off, hn::Sub(depth, closest), ray.direction));
-    const Float4 look = recordsAt(surfaces.looks, index);
-    const auto word = [](V bits) { return hn::BitCast(DI(), bits); };
-    placed.set(where, depth, normal, unpackedColor(word(look.x)));
-    if (!surfaces.opens) return;
-    const Vec3 plus = unpackedOpen(word(look.y));
-    const Vec3 minus = unpackedOpen(word(look.z));
-    const Vec3 open{openAlong(normal, plus, minus), openAlong(normal, minus, plus),
-                    openAlong(group.mirrored(normal), plus, minus)};
-    placed.open = select(where, open, placed.open);
+    const V inside = hn::Max(radius * radius - dot(off, off), zero);
+    const V depth = hn::Max(closest - hn::Sqrt(inside * hits.inverseSquare), zero);
+    const Vec3 normal = normalize(pointOnRay(off, depth - closest, ray.direction));
+    const Words attributes = loadRecords(geometry.attributes, index);
+    points.set(where, depth, normal, unpackColor(attributes.x));
+    if (!geometry.hasSky) return;
+    const Vec3 plus = unpackSky(attributes.y);
+    const Vec3 minus = unpackSky(attributes.z);
+    const Vec3 sky{skyVisibilityToward(normal, plus, minus), skyVisibilityToward(normal, minus, plus),
+                   skyVisibilityToward(hits.mirrored(normal), plus, minus)};
+    points.sky = select(where, sky, points.sky);
 }
 
-/// The component along an axis (0, 1, 2) of each lane.
-V component(const Vec3& v, VI axis) {
-    const M isX = floatMask(hn::Eq(axis, splatInt(0)));
-    const M isY = floatMask(hn::Eq(axis, splatInt(1)));
+/// The component of each lane along its axis (0, 1, 2).
+V componentOf(const Vec3& v, VI axis) {
+    const M isX = floatMask(axis == splatInt(0));
+    const M isY = floatMask(axis == splatInt(1));
     return hn::IfThenElse(isX, v.x, hn::IfThenElse(isY, v.y, v.z));
 }
 
-void placeOnBoxes(const Surfaces& surfaces, const PixelGroup& group, M where, Placed& placed) {
+void addBoxes(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
     static_assert(sizeof(BoxObstacle) == 9 * sizeof(float));
-    const WorldRay& ray = group.ray;
-    const auto* records = reinterpret_cast<const float*>(surfaces.boxes.data());
-    const VI id = group.indexOf(where, kSeesBox);
+    const WorldRay& ray = hits.ray;
+    const auto* records = reinterpret_cast<const float*>(geometry.boxes.data());
+    const VI id = hits.indexOf(where, kHitBox);
     const VI side = hn::And(id, splatInt(7));
     const VI axis = hn::ShiftRight<1>(side);
-    const auto isPlus = hn::Eq(hn::And(side, splatInt(1)), splatInt(0));
-    // Nine floats a box: minimum, maximum, color.
-    const VI box = hn::Mul(hn::ShiftRight<4>(id), splatInt(9));
-    const VI corner = hn::Add(hn::Add(box, axis), hn::IfThenElse(isPlus, splatInt(3), splatInt(0)));
-    const V bound = hn::Sub(hn::GatherIndex(D(), records, corner), component(splat(surfaces.frame.eye), axis));
-    // The ray of an outline's middle may run along the face.
-    const V slope = component(ray.direction, axis);
-    const V safe = hn::IfThenElse(hn::Gt(hn::Abs(slope), splat(1.0e-20F)), slope, splat(1.0e-20F));
-    const V reached = clamp(hn::Div(hn::Sub(bound, component(ray.origin, axis)), safe), 0.0F, 1.0e30F);
-    const V depth = hn::IfThenElse(floatMask(hn::Eq(hn::And(id, splatInt(8)), splatInt(0))), reached, splat(0.0F));
+    const auto isPlus = hn::And(side, splatInt(1)) == splatInt(0);
+    // Nine floats per box: minimum, maximum, color.
+    const VI box = hn::ShiftRight<4>(id) * splatInt(9);
+    const VI corner = box + axis + hn::IfThenElse(isPlus, splatInt(3), splatInt(0));
+    const V bound = hn::GatherIndex(D(), records, corner) - componentOf(splat(geometry.frame.eye), axis);
+    // The ray through the middle of an outline's samples may run along the face.
+    const V slope = componentOf(ray.direction, axis);
+    const V safe = hn::IfThenElse(hn::Abs(slope) > splat(1.0e-20F), slope, splat(1.0e-20F));
+    const V reached = clamp((bound - componentOf(ray.origin, axis)) / safe, 0.0F, 1.0e30F);
+    const M isOutside = floatMask(hn::And(id, splatInt(8)) == splatInt(0));
     const V sign = hn::IfThenElse(floatMask(isPlus), splat(1.0F), splat(-1.0F));
-    const auto onAxis = [&](int which) { return hn::IfThenElseZero(floatMask(hn::Eq(axis, splatInt(which))), sign); };
+    const auto onAxis = [&](int which) { return hn::IfThenElseZero(floatMask(axis == splatInt(which)), sign); };
     const auto channel = [&](int which) { return hn::GatherIndex(D(), records + 6 + which, box); };
-    placed.set(where, depth, {onAxis(0), onAxis(1), onAxis(2)}, {channel(0), channel(1), channel(2)});
+    points.set(where, hn::IfThenElseZero(isOutside, reached), {onAxis(0), onAxis(1), onAxis(2)},
+               {channel(0), channel(1), channel(2)});
 }
 
-/// Sixteen bits as a number from -1 to 1.
-V folded(VI bits) {
-    return hn::Sub(hn::Mul(hn::ConvertTo(D(), hn::And(bits, splatInt(0xffff))), splat(1.0F / 32767.5F)), splat(1.0F));
-}
-
-Vec3 octahedralNormal(VI bits) {
-    const V x = folded(bits);
-    const V y = folded(hn::ShiftRight<16>(bits));
-    const V z = hn::Sub(hn::Sub(splat(1.0F), hn::Abs(x)), hn::Abs(y));
-    const V under = hn::Max(hn::Neg(z), splat(0.0F));
-    const auto unfolded = [&](V v) {
-        return hn::Sub(v, hn::IfThenElse(hn::Ge(v, splat(0.0F)), under, hn::Neg(under)));
+/// Normals as packNormal() of metaball_hits.cpp packs them.
+Vec3 unpackNormal(VI bits) {
+    const auto unpack = [](VI half) {
+        return hn::ConvertTo(D(), hn::And(half, splatInt(0xffff))) * splat(1.0F / 32767.5F) - splat(1.0F);
     };
-    return normalized({unfolded(x), unfolded(y), z});
+    const V x = unpack(bits);
+    const V y = unpack(hn::ShiftRight<16>(bits));
+    const V z = splat(1.0F) - hn::Abs(x) - hn::Abs(y);
+    const V below = hn::Max(hn::Neg(z), splat(0.0F));
+    const auto unfold = [&](V v) { return v - hn::IfThenElse(v >= splat(0.0F), below, hn::Neg(below)); };
+    return normalize({unfold(x), unfold(y), z});
 }
 
-void placeOnField(const Surfaces& surfaces, const PixelGroup& group, M where, Placed& placed) {
-    const Float4 sample = recordsAt(surfaces.field, group.indexOf(where, kSeesField));
-    const auto word = [](V bits) { return hn::BitCast(DI(), bits); };
-    placed.set(where, sample.x, octahedralNormal(word(sample.y)), unpackedColor(word(sample.z)));
-    if (surfaces.opens) placed.open = select(where, unpackedOpen(word(sample.w)), placed.open);
+void addMetaballs(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
+    const Words hit = loadRecords(geometry.metaballs, hits.indexOf(where, kHitMetaballs));
+    points.set(where, hn::BitCast(D(), hit.x), unpackNormal(hit.y), unpackColor(hit.z));
+    if (geometry.hasSky) points.sky = select(where, unpackSky(hit.w), points.sky);
 }
 
-void placeOnGround(const Surfaces& surfaces, const PixelGroup& group, M where, Placed& placed) {
-    const V below = hn::Sub(splat(surfaces.ground.value_or(0.0F)), group.ray.origin.y);
-    placed.set(where, hn::Div(below, group.ray.direction.y), splat({0.0F, 1.0F, 0.0F}), splat(surfaces.groundColor));
+void addGround(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
+    const V below = splat(geometry.ground.value_or(0.0F)) - hits.ray.origin.y;
+    points.set(where, below / hits.ray.direction.y, splat({0.0F, 1.0F, 0.0F}), splat(geometry.groundColor));
 }
 
-void store(const Vec3& values, std::size_t place, std::array<std::array<float, kTilePixels>, 3>& to) {
+void evaluateVector(const ShadingGeometry& geometry, std::size_t first, ShadingPoints& points) {
     const D d;
-    hn::Store(values.x, d, &to[0][place]);
-    hn::Store(values.y, d, &to[1][place]);
-    hn::Store(values.z, d, &to[2][place]);
+    HitRays hits;
+    hits.hitId = hn::Load(DI(), &points.hitId[first]);
+    hits.ray = worldRay(geometry.frame,
+                        imagePointAt(geometry.frame, hn::Load(d, &points.x[first]), hn::Load(d, &points.y[first])));
+    hits.inverseSquare = splat(1.0F) / dot(hits.ray.direction, hits.ray.direction);
+    const Vec3 one = splat(glm::vec3(1.0F));
+    PointVector found{splat(0.0F), splat(-geometry.toLight), one, one};
+    const M isMetaball = floatMask(hits.hitId > splatInt(kHitMetaballs - 1));
+    const M isBox = hn::AndNot(isMetaball, floatMask(hits.hitId > splatInt(kHitBox - 1)));
+    const M isSphere = hn::AndNot(isMetaball, hn::AndNot(isBox, floatMask(hits.hitId > splatInt(-1))));
+    const M isGround = floatMask(hits.hitId == splatInt(kHitGround));
+    if (!hn::AllFalse(d, isGround)) addGround(geometry, hits, isGround, found);
+    if (!hn::AllFalse(d, isSphere)) addSpheres(geometry, hits, isSphere, found);
+    if (!hn::AllFalse(d, isBox)) addBoxes(geometry, hits, isBox, found);
+    if (!hn::AllFalse(d, isMetaball)) addMetaballs(geometry, hits, isMetaball, found);
+    hn::Store(found.depth, d, &points.depth[first]);
+    storeVec3(pointOnRay(hits.ray.origin, found.depth, hits.ray.direction), points.position, first);
+    storeVec3(found.normal, points.normal, first);
+    storeVec3(found.albedo, points.albedo, first);
+    if (geometry.hasSky) storeVec3(found.sky, points.sky, first);
 }
 
-void placeGroup(const Surfaces& surfaces, std::size_t place, SurfacePoints& points) {
-    const D d;
-    const CameraFrame& frame = surfaces.frame;
-    PixelGroup group;
-    group.seen = hn::Load(DI(), &points.seen[place]);
-    group.ray = worldRay(frame, imagePointAt(frame, hn::Load(d, &points.x[place]), hn::Load(d, &points.y[place])));
-    group.inverseSquare = hn::Div(splat(1.0F), dot(group.ray.direction, group.ray.direction));
-    const Vec3 one{splat(1.0F), splat(1.0F), splat(1.0F)};
-    Placed placed{splat(0.0F), splat(-surfaces.toLight), one, one};
-    const M isField = floatMask(hn::Gt(group.seen, splatInt(kSeesField - 1)));
-    const M isBox = hn::AndNot(isField, floatMask(hn::Gt(group.seen, splatInt(kSeesBox - 1))));
-    const M isSphere = hn::AndNot(isField, hn::AndNot(isBox, floatMask(hn::Gt(group.seen, splatInt(-1)))));
-    const M isGround = floatMask(hn::Eq(group.seen, splatInt(kSeesGround)));
-    if (!hn::AllFalse(d, isGround)) placeOnGround(surfaces, group, isGround, placed);
-    if (!hn::AllFalse(d, isSphere)) placeOnSpheres(surfaces, group, isSphere, placed);
-    if (!hn::AllFalse(d, isBox)) placeOnBoxes(surfaces, group, isBox, placed);
-    if (!hn::AllFalse(d, isField)) placeOnField(surfaces, group, isField, placed);
-    hn::Store(placed.depth, d, &points.depth[place]);
-    store(pointOnRay(group.ray.origin, placed.depth, group.ray.direction), place, points.position);
-    store(placed.normal, place, points.normal);
-    store(placed.albedo, place, points.albedo);
-    if (surfaces.opens) store(placed.open, place, points.open);
-}
-
-// Whole groups: what lies beyond `count` is placed too, and nobody reads it.
-void placePoints(const Surfaces& surfaces, SurfacePoints& points) {
+void evaluateShadingPoints(const ShadingGeometry& geometry, ShadingPoints& points) {
     const std::size_t lanes = hn::Lanes(D());
-    for (std::size_t place = points.count; place % lanes != 0; ++place) points.seen[place] = kSeesBackground;
-    for (std::size_t place = 0; place < points.count; place += lanes) placeGroup(surfaces, place, points);
+    // Whole vectors: the lanes beyond `count` are evaluated, too, and not used.
+    for (std::size_t k = points.count; k % lanes != 0; ++k) points.hitId[k] = kHitBackground;
+    for (std::size_t first = 0; first < points.count; first += lanes) evaluateVector(geometry, first, points);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -217,10 +193,10 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-HWY_EXPORT(placePoints);
+HWY_EXPORT(evaluateShadingPoints);
 
-void placePoints(const Surfaces& surfaces, SurfacePoints& points) {
-    HWY_DYNAMIC_DISPATCH(placePoints)(surfaces, points);
+void evaluateShadingPoints(const ShadingGeometry& geometry, ShadingPoints& points) {
+    HWY_DYNAMIC_DISPATCH(evaluateShadingPoints)(geometry, points);
 }
 
 }  // namespace render

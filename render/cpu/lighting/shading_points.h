@@ -1,5 +1,5 @@
-// The points of surfaces that a picture's pixels show, up to a tile's worth at a time. Called by picture_colors.cpp,
-// for light_reach.h and shade.h.
+// Shading points (a G-buffer): position, normal and material of what rays hit, up to a tile's worth at a time. Filled
+// for picture_colors.cpp, read by light_visibility.cpp and shade.cpp.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/cpu/metaballs/metaball_sample.h"
+#include "render/cpu/metaballs/metaball_hits.h"
 #include "render/cpu/raster/primary_hits.h"
 #include "render/picture/camera_frame.h"
 #include "render/picture/view.h"
@@ -19,36 +19,37 @@
 
 namespace render {
 
-/// All that may be seen, positions relative to the eye in world axes.
-struct Surfaces {
+/// Everything that a ray may hit, with its material; positions relative to the eye along the world's axes.
+struct ShadingGeometry {
     CameraFrame frame;
-    std::span<const ViewSphere> spheres;      ///< particles first
-    std::span<const SphereAttributes> looks;  ///< of each
-    std::int32_t firstObstacle = 0;           ///< index of the first that is none
-    std::span<const BoxObstacle> boxes;       ///< in the world
-    std::optional<float> ground;              ///< height
+    std::span<const ViewSphere> spheres;           ///< particles first
+    std::span<const SphereAttributes> attributes;  ///< of each sphere
+    std::int32_t firstObstacle = 0;                ///< index of the first sphere that is no particle
+    std::span<const BoxObstacle> boxes;            ///< in world coordinates
+    std::optional<float> ground;                   ///< height, m
     glm::vec3 groundColor{0.0F};
-    std::span<const FieldSample> field;
+    std::span<const PackedHit> metaballs;
     glm::vec3 toLight{0.0F, 1.0F, 0.0F};
-    bool opens = false;  ///< some term of the look asks how open particles are
+    bool hasSky = false;  ///< some term of the shading needs the particles' sky visibility
 };
 
-/// Rays and what they see in, points out; a structure of arrays for the lanes.
-struct SurfacePoints {
+/// A structure of arrays. In: count, hitId, x and y; out: all others.
+struct ShadingPoints {
     std::size_t count = 0;
-    alignas(64) std::array<std::int32_t, kTilePixels> seen;  ///< as first_hits.h has it
-    alignas(64) std::array<float, kTilePixels> x;            ///< of the ray, pixels of the picture
+    alignas(64) std::array<std::int32_t, kTilePixels> hitId;  ///< see primary_hits.h
+    alignas(64) std::array<float, kTilePixels> x;             ///< position of the ray on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
-    alignas(64) std::array<std::array<float, kTilePixels>, 3> position;  ///< relative to the eye, world axes
-    alignas(64) std::array<std::array<float, kTilePixels>, 3> normal;
-    alignas(64) std::array<float, kTilePixels> depth;  ///< in view; 0 of the background
-    alignas(64) std::array<std::array<float, kTilePixels>, 3> albedo;
-    /// Of particles: along the normal, against it, along the mirrored ray; where Surfaces::opens.
-    alignas(64) std::array<std::array<float, kTilePixels>, 3> open;
+    alignas(64) TileVec3 position;  ///< relative to the eye, along the world's axes
+    alignas(64) TileVec3 normal;
+    alignas(64) std::array<float, kTilePixels> depth;  ///< view depth, m; 0 of the background
+    alignas(64) TileVec3 albedo;
+    /// Of particles: sky visibility along the normal, against it and along the mirrored ray; if the geometry has it.
+    alignas(64) TileVec3 sky;
 };
 
-/// Fills in all but what goes in. The background's normal points away from the light. A ray that misses what it is said
-/// to see, by the rounding at an outline, is given the outline.
-void placePoints(const Surfaces& surfaces, SurfacePoints& points);
+/// Intersects each ray with the one thing that primary_hits.cpp found it to hit: only identity and depth were kept
+/// there, and most hits of a pixel's samples are never shaded. A ray that misses by rounding, at an outline, gets the
+/// outline. The background's normal points away from the light.
+void evaluateShadingPoints(const ShadingGeometry& geometry, ShadingPoints& points);
 
 }  // namespace render

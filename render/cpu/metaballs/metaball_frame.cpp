@@ -1,4 +1,5 @@
-// Tiles of rays, all cast or a quarter of them and what is in between, and the packing of what they hit.
+// Tiles of rays, all of them cast, or a quarter and what is interpolated between them, and the packing of what they
+// hit.
 #include "render/cpu/metaballs/metaball_frame.h"
 
 #include <algorithm>
@@ -6,7 +7,6 @@
 #include <cmath>
 #include <span>
 
-#include "render/cpu/metaballs/binned_field.h"
 #include "render/cpu/metaballs/ray_interpolation.h"
 #include "render/cpu/metaballs/ray_layout.h"
 #include "render/cpu/metaballs/silhouette_rays.h"
@@ -15,132 +15,127 @@ namespace render {
 
 namespace {
 
-/// Packs a block's hits to their pixels of the tile.
-void putSamples(const FieldCast& cast, const RayBlock& block, std::span<const std::uint8_t> places, std::size_t slot,
-                FieldPicture& picture) {
-    const std::size_t out = slot * kBlockRays;
-    PackedBlock packed;
-    packBlock(cast.frame, block, cast.skyVisibility, packed.data());
-    for (std::size_t k = 0; k < block.count; ++k) picture.samples[out + places[k]] = packed[k];
-    for (std::size_t k = 0; k < block.count; ++k) picture.depths[out + places[k]] = packed[k].depth();
+/// Packs the hits of rays through these pixels of a tile.
+void packPixels(const MetaballScene& scene, const RayBlock& block, std::span<const std::uint8_t> pixels,
+                std::size_t slot, MetaballHits& hits) {
+    const std::size_t first = slot * kTilePixels;
+    std::array<PackedHit, kTilePixels> packed;
+    packHits(scene, block, packed.data());
+    for (std::size_t k = 0; k < block.count; ++k) hits.hits[first + pixels[k]] = packed[k];
+    for (std::size_t k = 0; k < block.count; ++k) hits.depths[first + pixels[k]] = packed[k].depth();
 }
 
-/// Packs a block of all pixels of a tile, row by row.
-void putTile(const FieldCast& cast, const RayBlock& block, std::size_t slot, FieldPicture& picture) {
-    const std::size_t out = slot * kBlockRays;
-    packBlock(cast.frame, block, cast.skyVisibility, &picture.samples[out]);
-    for (std::size_t k = 0; k < kBlockRays; ++k) picture.depths[out + k] = picture.samples[out + k].depth();
+/// Packs the hits of a tile, row by row.
+void packTile(const MetaballScene& scene, const RayBlock& block, std::size_t slot, MetaballHits& hits) {
+    const std::size_t first = slot * kTilePixels;
+    packHits(scene, block, &hits.hits[first]);
+    for (std::size_t k = 0; k < kTilePixels; ++k) hits.depths[first + k] = hits.hits[first + k].depth();
 }
 
-/// A tile's coarse hits with those of its neighbors to the right and below; none where they have no slot.
-const CoarseHits& withBorder(FieldPicture& picture, const CellLists& tiles, std::size_t tile) {
-    CoarseHits& hits = picture.coarse[static_cast<std::size_t>(picture.slots[tile])];
+/// A tile's coarse hits together with the first column and row of the tiles to the right and below, where these have
+/// slots.
+const CoarseHits& withBorder(MetaballHits& hits, const CellLists& tiles, std::size_t tile) {
+    CoarseHits& own = hits.coarse[static_cast<std::size_t>(hits.slots[tile])];
     const auto columns = static_cast<std::size_t>(tiles.columns);
     const auto neighbor = [&](std::size_t right, std::size_t down) -> const CoarseHits* {
         const std::size_t at = tile + right + down * columns;
-        if (tile % columns + right >= columns || at >= picture.slots.size() || picture.slots[at] < 0) return nullptr;
-        return &picture.coarse[static_cast<std::size_t>(picture.slots[at])];
+        if (tile % columns + right >= columns || at >= hits.slots.size() || hits.slots[at] < 0) return nullptr;
+        return &hits.coarse[static_cast<std::size_t>(hits.slots[at])];
     };
-    hits.clearBorder();
+    own.clearBorder();
     if (const CoarseHits* right = neighbor(1, 0))
-        for (std::size_t row = 0; row < kCoarseSide; ++row) hits.putBorder(kCoarseSide, row, *right, 0, row);
+        for (std::size_t row = 0; row < kCoarseSide; ++row) own.setBorder(kCoarseSide, row, *right, 0, row);
     if (const CoarseHits* below = neighbor(0, 1))
         for (std::size_t column = 0; column < kCoarseSide; ++column)
-            hits.putBorder(column, kCoarseSide, *below, column, 0);
-    if (const CoarseHits* diagonal = neighbor(1, 1)) hits.putBorder(kCoarseSide, kCoarseSide, *diagonal, 0, 0);
-    return hits;
+            own.setBorder(column, kCoarseSide, *below, column, 0);
+    if (const CoarseHits* diagonal = neighbor(1, 1)) own.setBorder(kCoarseSide, kCoarseSide, *diagonal, 0, 0);
+    return own;
 }
 
-// Where a ray between cast ones begins to look for the surface: a radius before the nearest hit around it, as the rays
-// of outlines do, so that nothing is missed but what fits between the cast rays. At the eye where they met nothing, and
-// where a ball may be as small as that.
-float startBetween(const CameraFrame& frame, const CoarseHits& hits, std::uint8_t place, float radius) {
-    const std::size_t corner = place / kTileSize / 2 * CoarseHits::kSide + place % kTileSize / 2;
-    float nearest = kEndless;
+/// Where a ray between four cast ones begins to look for the surface: a radius before the nearest of their hits, as the
+/// rays at silhouettes do, so that nothing is missed but what fits between the cast rays. At the eye where they hit
+/// nothing, and where a ball may be so small that it does fit.
+float minDepthBetween(const CameraFrame& frame, const CoarseHits& hits, std::uint8_t pixel, float radius) {
+    const std::size_t corner = pixel / kTileSize / 2 * CoarseHits::kSide + pixel % kTileSize / 2;
+    float nearest = kNoDepthLimit;
     for (const std::size_t at : {corner, corner + 1, corner + CoarseHits::kSide, corner + CoarseHits::kSide + 1})
         if (hits.depth[at] >= 0.0F) nearest = std::min(nearest, hits.depth[at]);
     // Half the diagonal between four cast rays, two pixels apart, is 1.42 pixels.
     const float least = 1.5F * frame.pixelWidth() * (frame.perspective ? nearest : 1.0F);
-    return nearest < kEndless && radius > least ? nearest - radius : 0.0F;
+    return nearest < kNoDepthLimit && radius > least ? nearest - radius : 0.0F;
 }
 
-// Within a pixel the field rises by less than this times the pixel's share of the smallest ball's radius (a lone ball's
-// by half of it, and a pixel's diagonal away).
-constexpr float kSteepest = 2.0F;
-
-Smoothness smoothnessOf(const FieldCast& cast, const BinnedField& field) {
+SmoothnessLimits smoothnessLimits(const MetaballScene& scene) {
+    // Within a pixel the field rises by less than this times the pixel's share of the smallest ball's radius (a lone
+    // ball's by half of it, and a pixel's diagonal away).
+    constexpr float kSteepest = 2.0F;
     float farthest = 0.0F;
-    for (const FieldBall& ball : field.balls) farthest = std::max(farthest, ball.center.z + ball.reach);
-    const float pixel = cast.frame.pixelWidth() * (cast.frame.perspective ? farthest : 1.0F);
+    for (const Metaball& ball : scene.balls) farthest = std::max(farthest, ball.center.z + ball.reach);
+    const float pixel = scene.frame.pixelWidth() * (scene.frame.perspective ? farthest : 1.0F);
     // A ray's greatest sample lies a quarter of a radius from the field's peak at most, where a lone ball at the
-    // threshold bends by 4 sqrt(threshold) / reach^2 a square radius.
-    const float root = std::sqrt(cast.threshold);  // 1 - 1 / reach^2
+    // threshold bends by 4 sqrt(threshold) / reach^2 per square radius.
+    const float root = std::sqrt(scene.threshold);  // 1 - 1 / reach^2
     const float missed = 0.125F * root * (1.0F - root);
-    return {0.02F * field.smallestRadius, cast.threshold - missed - kSteepest * pixel / field.smallestRadius};
+    return {0.02F * scene.smallestRadius, scene.threshold - missed - kSteepest * pixel / scene.smallestRadius};
 }
 
-void castSparsely(const FieldCast& cast, const BinnedField& field, glm::vec2 offset, FieldPicture& picture) {
-    const Smoothness smoothness = smoothnessOf(cast, field);
-    const CellLists& tiles = *cast.tiles;
-    picture.coarse.resize(picture.outlines.size());
-    picture.forSlots([&](std::size_t tile, std::size_t slot) {
+void castSparsely(const MetaballScene& scene, glm::vec2 offset, MetaballHits& hits) {
+    const SmoothnessLimits limits = smoothnessLimits(scene);
+    const CellLists& tiles = scene.tiles;
+    hits.coarse.resize(hits.silhouettes.size());
+    hits.forEachSlot([&](std::size_t tile, std::size_t slot) {
         RayBlock block;
-        placeRays(block, tileCorner(tiles, tile), kCoarsePlaces, offset);
-        castBlock(cast, tile, block);
-        picture.coarse[slot].put(block, cast.skyVisibility);
+        placeRays(block, tileCorner(tiles, tile), kCoarsePixels, offset);
+        castBlock(scene, tile, block);
+        hits.coarse[slot].set(block, scene.hasSky);
     });
-    picture.forSlots([&](std::size_t tile, std::size_t slot) {
-        const CoarseHits& hits = withBorder(picture, tiles, tile);
+    hits.forEachSlot([&](std::size_t tile, std::size_t slot) {
+        const CoarseHits& coarse = withBorder(hits, tiles, tile);
         const glm::vec2 corner = tileCorner(tiles, tile);
         RayBlock block;
-        std::array<bool, kBlockRays> isRough;
-        fillBetween(cast, hits, smoothness, pixelMiddle(corner, 0) + offset, block, isRough);
-        putTile(cast, block, slot, picture);
-        const TilePlaces rough = placesWhere(isRough);
+        std::array<bool, kTilePixels> isRough;
+        interpolateRays(scene, coarse, limits, pixelMiddle(corner, 0) + offset, block, isRough);
+        packTile(scene, block, slot, hits);
+        const TilePixels rough = pixelsWhere(isRough);
         placeRays(block, corner, rough, offset);
         for (std::size_t k = 0; k < rough.size(); ++k)
-            block.from[k] = startBetween(cast.frame, hits, rough[k], field.smallestRadius);
-        castBlock(cast, tile, block);
-        putSamples(cast, block, rough, slot, picture);
+            block.minDepth[k] = minDepthBetween(scene.frame, coarse, rough[k], scene.smallestRadius);
+        castBlock(scene, tile, block);
+        packPixels(scene, block, rough, slot, hits);
     });
 }
 
-// Tiles where nothing of the surface is seen lose their slots.
-void forgetEmptyTiles(FieldPicture& picture) {
-    picture.forSlots([&](std::size_t tile, std::size_t slot) {
-        const bool isSeen = std::ranges::any_of(picture.depthsOf(slot), [](float depth) { return depth > 0.0F; });
-        if (!isSeen && picture.outlines[slot].samples.empty()) picture.slots[tile] = -1;
+void castEveryPixel(const MetaballScene& scene, glm::vec2 offset, MetaballHits& hits) {
+    hits.forEachSlot([&](std::size_t tile, std::size_t slot) {
+        RayBlock block;
+        placeRays(block, tileCorner(scene.tiles, tile), kZCurve, offset);
+        castBlock(scene, tile, block);
+        packPixels(scene, block, kZCurve, slot, hits);
+    });
+}
+
+/// Takes the slots from tiles where nothing of the surface is seen.
+void dropEmptyTiles(MetaballHits& hits) {
+    hits.forEachSlot([&](std::size_t tile, std::size_t slot) {
+        const bool isSeen = std::ranges::any_of(hits.depthsOf(slot), [](float depth) { return depth > 0.0F; });
+        if (!isSeen && hits.silhouettes[slot].samples.empty()) hits.slots[tile] = -1;
     });
 }
 
 }  // namespace
 
-void castPicture(const CameraFrame& frame, const Skinned& skin, const BinnedField& field, const FieldSampling& sampling,
-                 FieldPicture& picture) {
-    FieldCast cast = fieldCast(frame, skin.view, field);
-    const std::vector<BallLook> looks = ballLooks(skin, field);
-    cast.looks = looks;
-    cast.skyVisibility = !skin.open.empty();
-    const std::size_t tileCount = field.tiles.begin.size() - 1;
-    picture.slots.assign(tileCount, -1);
+void castMetaballs(const MetaballScene& scene, const CastSampling& sampling, MetaballHits& hits) {
+    const CellLists& tiles = scene.tiles;
+    const std::size_t tileCount = tiles.begin.size() - 1;
+    hits.slots.assign(tileCount, -1);
     std::int32_t slotCount = 0;
-    for (std::size_t tile = 0; tile < tileCount; ++tile) {
-        if (field.tiles.begin[tile + 1] > field.tiles.begin[tile]) picture.slots[tile] = slotCount++;
-    }
-    picture.makeRoom(static_cast<std::size_t>(slotCount));
-    if (sampling.sparse) {
-        castSparsely(cast, field, sampling.offset, picture);
-    } else {
-        picture.forSlots([&](std::size_t tile, std::size_t slot) {
-            RayBlock block;
-            placeRays(block, tileCorner(field.tiles, tile), kZCurve, sampling.offset);
-            castBlock(cast, tile, block);
-            putSamples(cast, block, kZCurve, slot, picture);
-        });
-    }
-    if (sampling.extraAtOutlines) castOutlines(cast, field.smallestRadius, picture);
-    // Not of samplings whose mean is taken, so that all have the same tiles.
-    if (sampling.sparse) forgetEmptyTiles(picture);
+    for (std::size_t tile = 0; tile < tileCount; ++tile)
+        if (tiles.begin[tile + 1] > tiles.begin[tile]) hits.slots[tile] = slotCount++;
+    hits.reserve(static_cast<std::size_t>(slotCount));
+    sampling.isSparse ? castSparsely(scene, sampling.offset, hits) : castEveryPixel(scene, sampling.offset, hits);
+    if (sampling.atSilhouettes) castSilhouettes(scene, hits);
+    // Samplings whose mean is taken are not sparse: all of them keep the same tiles.
+    if (sampling.isSparse) dropEmptyTiles(hits);
 }
 
 }  // namespace render

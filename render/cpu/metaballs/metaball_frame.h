@@ -1,23 +1,22 @@
-// The metaballs of one view, cast: samples of their surface for the picture. Called by the picture pass.
+// Casts the metaballs of one picture: the hits of every pixel's ray. Called by the picture pass.
 #pragma once
 
 #include <glm/glm.hpp>
 
-#include "render/cpu/metaballs/binned_field.h"
-#include "render/cpu/metaballs/field_picture.h"
-#include "render/picture/camera_frame.h"
+#include "render/cpu/metaballs/metaball_hits.h"
+#include "render/cpu/metaballs/metaball_scene.h"
 
 namespace render {
 
-/// Where in the pixel the rays go.
-struct FieldSampling {
-    glm::vec2 offset{0.0F};        ///< of the one sample, in pixels from the middle
-    bool extraAtOutlines = false;  ///< four samples where neighbors differ
-    bool sparse = false;  ///< every second pixel of every second row is cast, others where the surface is not smooth
+/// Which rays are cast.
+struct CastSampling {
+    glm::vec2 offset{0.0F};      ///< of each pixel's ray from the pixel's middle, pixels
+    bool atSilhouettes = false;  ///< adds the rays of castSilhouettes()
+    bool isSparse = false;  ///< casts every second pixel of every second row, others where the surface is not smooth
 };
 
-/// The field is binned from this frame and skin. Overwrites `picture`, whose memory is used again.
-void castPicture(const CameraFrame& frame, const Skinned& skin, const BinnedField& field, const FieldSampling& sampling,
-                 FieldPicture& picture);
+/// @param scene  with attributes
+/// @param hits   overwritten; its memory is reused
+void castMetaballs(const MetaballScene& scene, const CastSampling& sampling, MetaballHits& hits);
 
 }  // namespace render

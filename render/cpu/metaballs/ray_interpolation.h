@@ -1,5 +1,5 @@
-// The surface of metaballs between rays that were cast: where it is smooth, a quarter of the rays tells the rest.
-// Called by metaball_frame.cpp.
+// The surface of metaballs between rays that were cast: where it is smooth, a quarter of a picture's rays tell the
+// rest. Called by metaball_frame.cpp.
 #pragma once
 
 #include <array>
@@ -9,46 +9,49 @@
 #include <glm/glm.hpp>
 
 #include "render/cpu/metaballs/metaball_cast.h"
-#include "render/picture/camera_frame.h"
 
 namespace render {
 
-/// Columns and rows of rays of a tile where every second pixel of every second row is cast.
+/// Columns and rows of cast rays in a tile: every second pixel of every second row.
 inline constexpr std::size_t kCoarseSide = kTileSize / 2;
 
-/// Hits of these rays, row by row, and of the first column and row after the tile, so that nothing lies beyond.
+/// Hits of the cast rays, row by row, and of the first column and row beyond the tile, so that every pixel lies
+/// between.
 struct CoarseHits {
     static constexpr std::size_t kSide = kCoarseSide + 1;
     using Values = std::array<float, kSide * kSide>;
 
-    Values depth{};                                   ///< in view; negative: nothing
-    Values most{};                                    ///< the greatest sample of the field on the way
-    std::array<Values, 3> normal{}, color{}, open{};  ///< of hits; open: where it is asked for
+    Values depth{};                                  ///< as in RayBlock; negative: no hit
+    Values maxField{};                               ///< as in RayBlock
+    std::array<Values, 3> normal{}, color{}, sky{};  ///< of hits; sky: if the scene has it
 
-    /// Takes a block of rays that go through kCoarsePlaces.
-    void put(const RayBlock& block, bool skyVisibility);
-    /// No hits, and no field, in the column and the row after the tile.
+    /// @param block  rays through kCoarsePixels
+    void set(const RayBlock& block, bool hasSky);
+    /// No hit, and no field, in the column and the row beyond the tile.
     void clearBorder();
-    void putBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
+    void setBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
                    std::size_t otherRow);
 };
 
 /// What counts as smooth.
-struct Smoothness {
-    float depth = 0.0F;  ///< m, between what their tangent planes say of the middle, and between these and their chord
-    float most = 0.0F;   ///< of the field on rays beside which there is no surface
+struct SmoothnessLimits {
+    float depth =
+        0.0F;  ///< between what two hits' tangent planes say of the middle, and between these and the chord, m
+    float maxField = 0.0F;  ///< of the field on rays that have no surface beside them
 };
 
-/// Every second pixel of every second row (columns plus 16 rows), a quarter of the tile after the other: each group of
-/// rays is compact, and so are the rows of a quarter.
-extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePlaces;
+/// The pixels that are cast (column + 16 row), one quarter of the tile after the other: each group of rays is compact,
+/// and so are the rows of a quarter.
+extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePixels;
 
-/// Makes a block of a tile's pixels, row by row, of its cast rays and those of its neighbors. In between they are on a
-/// cubic through depths and slopes of two hits (Hermite) or of two pairs, with the mean of normals, colors and
-/// openness; or there is nothing, where the rays around missed the surface by more than the field may rise within a
-/// pixel. Where neither is sure, isRough tells. corner: the first cast ray's place in the picture. Holds: a ray's
-/// result depends on the hits around it alone, bit for bit, not on the number of lanes.
-void fillBetween(const FieldCast& cast, const CoarseHits& coarse, Smoothness smoothness, glm::vec2 corner,
-                 RayBlock& block, std::array<bool, kBlockRays>& isRough);
+/// Fills a block with all pixels of a tile, row by row, from its cast rays and those of its neighbors. The rays in
+/// between lie on a cubic through depths and slopes of two hits (Hermite), or of two pairs, with the mean of normals,
+/// colors and sky visibilities; or they hit nothing, where the rays around missed the surface by more than the field
+/// may rise within a pixel. A ray's result depends on the hits around it alone, bit for bit, not on the instruction
+/// set.
+/// @param corner   position of the first cast ray on the picture, pixels
+/// @param isRough  set for pixels that are neither, which have to be cast
+void interpolateRays(const MetaballScene& scene, const CoarseHits& coarse, SmoothnessLimits limits, glm::vec2 corner,
+                     RayBlock& block, std::array<bool, kTilePixels>& isRough);
 
 }  // namespace render

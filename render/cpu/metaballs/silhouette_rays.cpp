@@ -1,23 +1,89 @@
-// Outlines are told by the depths of pixels beside each other, which also tell where extra rays look.
+// Silhouettes are found from the depths of neighboring pixels, which also bound the depths of the extra rays. The
+// search runs on SIMD vectors; this file is compiled once per instruction set.
 #include "render/cpu/metaballs/silhouette_rays.h"
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/cpu/metaballs/silhouette_rays.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/prepare/simd_rays-inl.h"
+
+#ifndef RENDER_SILHOUETTE_TYPES
+#define RENDER_SILHOUETTE_TYPES
+namespace render {
+
+/// Depths of a tile's pixels and of their neighbors around the tile, row by row; the four corners are not used.
+struct BorderedDepths {
+    static constexpr std::ptrdiff_t kSide = kTileSize + 2;
+
+    std::array<float, kSide * kSide> values;
+
+    /// @param pixel  of the tile, column + 16 row
+    static std::size_t indexOf(std::uint8_t pixel) {
+        return static_cast<std::size_t>((pixel / kTileSize + 1) * kSide + pixel % kTileSize + 1);
+    }
+};
+
+/// One of the four neighbors of every pixel, and the samples of the pixel that lie toward it.
+struct NeighborSide {
+    std::ptrdiff_t step;       ///< to the neighbor, in BorderedDepths
+    std::uint32_t sampleMask;  ///< a bit per sample
+};
+
+}  // namespace render
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+/// Of each pixel the samples toward those neighbors whose depth differs by more than `jump`.
+std::array<std::uint32_t, kTilePixels> samplesAtJumps(const BorderedDepths& depths, float jump,
+                                                      const std::array<NeighborSide, 4>& sides) {
+    const D d;
+    const hn::RebindToUnsigned<D> du;
+    std::array<std::uint32_t, kTilePixels> samples;
+    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
+        const float* at = &depths.values[BorderedDepths::indexOf(static_cast<std::uint8_t>(first))];
+        const V own = hn::LoadU(d, at);
+        auto found = hn::Zero(du);
+        for (const NeighborSide& side : sides) {
+            const M isJump = hn::Abs(hn::LoadU(d, at + side.step) - own) > splat(jump);
+            found = hn::Or(found, hn::IfThenElseZero(hn::RebindMask(du, isJump), hn::Set(du, side.sampleMask)));
+        }
+        hn::StoreU(found, du, &samples[first]);
+    }
+    return samples;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
 #include "render/cpu/metaballs/ray_layout.h"
-#include "render/cpu/metaballs/silhouette_marks.h"
 
 namespace render {
 
+HWY_EXPORT(samplesAtJumps);
+
 namespace {
 
-/// Where a pixel's extra rays look for the surface.
+/// View depths between which a pixel's extra rays look for the surface.
 struct DepthRange {
-    float from = 0.0F;
-    float to = kEndless;
+    float low = 0.0F;
+    float high = kNoDepthLimit;
 };
 
 /// A bit for each of a pixel's samples that lies in this direction from its middle.
@@ -28,14 +94,14 @@ constexpr std::uint32_t samplesToward(glm::vec2 direction) {
     return bits;
 }
 
-// The depths of a tile's pixels and of those around them; kNothing where there is no surface.
-class Depths {
+/// The depths of a tile's pixels and of those around them; kNoSurface where there is none.
+class TileDepths {
  public:
-    Depths(const FieldPicture& picture, const CellLists& tiles, std::size_t tile) : picture_(picture), tiles_(tiles) {
+    TileDepths(const MetaballHits& hits, const CellLists& tiles, std::size_t tile) : hits_(hits), tiles_(tiles) {
         const auto columns = static_cast<std::size_t>(tiles.columns);
         const int left = static_cast<int>(tile % columns);
         const int top = static_cast<int>(tile / columns);
-        depths_.values.fill(kNothing);
+        depths_.values.fill(kNoSurface);
         copy(left, top, {0, 0}, {kTileSize, kTileSize}, {1, 1});
         copy(left - 1, top, {kTileSize - 1, 0}, {1, kTileSize}, {0, 1});
         copy(left + 1, top, {0, 0}, {1, kTileSize}, {kTileSize + 1, 1});
@@ -43,135 +109,133 @@ class Depths {
         copy(left, top + 1, {0, 0}, {kTileSize, 1}, {1, kTileSize + 1});
     }
 
-    // Samples of each pixel, a bit each, on the side of a pixel beside it whose depth differs by more than this; a hit
-    // and a miss differ by more than any.
-    std::array<std::uint32_t, kTilePixels> samplesAtOutlines(float jump) const {
-        return marksOf(depths_, jump, kSides);
+    /// A bit for each of a pixel's samples toward a neighbor whose depth differs by more than `jump`. The depths of a
+    /// hit and a miss always do.
+    std::array<std::uint32_t, kTilePixels> samplesAtSilhouettes(float jump) const {
+        return HWY_DYNAMIC_DISPATCH(samplesAtJumps)(depths_, jump, kSides);
     }
 
-    // Whether a sample of a pixel shows what its middle shows.
-    bool isMiddles(std::uint8_t place, float depth, float jump) const {
-        return std::abs(known(depth) - at(place)) <= jump;
+    /// Whether a sample of this depth shows the surface that its pixel's middle shows.
+    bool isSameSurface(std::uint8_t pixel, float depth, float jump) const {
+        return std::abs(markMiss(depth) - depths_.values[BorderedDepths::indexOf(pixel)]) <= jump;
     }
 
-    // From a radius before the nearest of what the pixel and its neighbors show; where one of them shows nothing, to
-    // two radii behind the farthest: what extra rays see is what the rays around them see.
-    DepthRange around(std::uint8_t place, float radius) const {
-        const float* at = &depths_.values[BorderedDepths::indexOf(place)];
-        DepthRange range{kEndless, 0.0F};
+    /// From a radius before the nearest of the depths of a pixel and its neighbors and, where one of them shows
+    /// nothing, to two radii behind the farthest: extra rays are to see what the rays around them see.
+    DepthRange rangeAround(std::uint8_t pixel, float radius) const {
+        const float* at = &depths_.values[BorderedDepths::indexOf(pixel)];
+        DepthRange range{kNoDepthLimit, 0.0F};
         bool isOpen = false;
         for (const std::ptrdiff_t step : {std::ptrdiff_t{0}, std::ptrdiff_t{1}, std::ptrdiff_t{-1}, kSide, -kSide}) {
             const float depth = at[step];
-            isOpen = isOpen || depth == kNothing;
-            range.from = depth > 0.0F ? std::min(range.from, depth - radius) : range.from;
-            range.to = std::max(range.to, depth + 2.0F * radius);
+            isOpen = isOpen || depth == kNoSurface;
+            range.low = depth > 0.0F ? std::min(range.low, depth - radius) : range.low;
+            range.high = std::max(range.high, depth + 2.0F * radius);
         }
-        return isOpen ? range : DepthRange{range.from, kEndless};
+        return isOpen ? range : DepthRange{range.low, kNoDepthLimit};
     }
 
  private:
     static constexpr std::ptrdiff_t kSide = BorderedDepths::kSide;
 
-    // A neighbor, and the samples that lie toward it.
-    static constexpr std::array<MarkedSide, 4> kSides = {{{1, samplesToward({1.0F, 0.0F})},
-                                                          {-1, samplesToward({-1.0F, 0.0F})},
-                                                          {kSide, samplesToward({0.0F, 1.0F})},
-                                                          {-kSide, samplesToward({0.0F, -1.0F})}}};
+    static constexpr std::array<NeighborSide, 4> kSides = {{{1, samplesToward({1.0F, 0.0F})},
+                                                            {-1, samplesToward({-1.0F, 0.0F})},
+                                                            {kSide, samplesToward({0.0F, 1.0F})},
+                                                            {-kSide, samplesToward({0.0F, -1.0F})}}};
 
-    static constexpr float kNothing = -1e30F;  // farther than any jump from what is seen
+    static constexpr float kNoSurface = -1e30F;  // farther than any jump from every depth
 
-    static float known(float depth) { return depth > 0.0F ? depth : kNothing; }
+    static float markMiss(float depth) { return depth > 0.0F ? depth : kNoSurface; }
 
-    float at(std::uint8_t place) const { return depths_.values[BorderedDepths::indexOf(place)]; }
-
+    /// Copies a rectangle of the tile in this column and row.
     void copy(int column, int row, glm::ivec2 from, glm::ivec2 size, glm::ivec2 to) {
         if (column < 0 || row < 0 || column >= tiles_.columns || row >= tiles_.rows) return;
-        const std::int32_t slot = picture_.slots[tiles_.cellIndex(column, row)];
+        const std::int32_t slot = hits_.slots[tiles_.cellIndex(column, row)];
         if (slot < 0) return;
-        const auto depths = picture_.depthsOf(static_cast<std::size_t>(slot));
+        const auto depths = hits_.depthsOf(static_cast<std::size_t>(slot));
         for (int y = 0; y < size.y; ++y) {
             float* out = &depths_.values[static_cast<std::size_t>((to.y + y) * kSide + to.x)];
-            const float* own = &depths[static_cast<std::size_t>((from.y + y) * kTileSize + from.x)];
-            for (int x = 0; x < size.x; ++x) out[x] = known(own[x]);
+            const float* in = &depths[static_cast<std::size_t>((from.y + y) * kTileSize + from.x)];
+            for (int x = 0; x < size.x; ++x) out[x] = markMiss(in[x]);
         }
     }
 
-    const FieldPicture& picture_;
+    const MetaballHits& hits_;
     const CellLists& tiles_;
     BorderedDepths depths_;
 };
 
-class OutlineCast {
+/// Casts the extra rays of one tile, a block at a time.
+class SilhouetteCast {
  public:
-    OutlineCast(const FieldCast& cast, float radius, const FieldPicture& picture, std::size_t tile, Outlines& outlines)
-        : cast_(cast),
-          radius_(radius),
+    SilhouetteCast(const MetaballScene& scene, const MetaballHits& hits, std::size_t tile, SilhouetteHits& found)
+        : scene_(scene),
           tile_(tile),
-          corner_(tileCorner(*cast.tiles, tile)),
-          depths_(picture, *cast.tiles, tile),
-          outlines_(outlines) {
+          corner_(tileCorner(scene.tiles, tile)),
+          depths_(hits, scene.tiles, tile),
+          found_(found) {
         block_.count = 0;
     }
 
     void run() {
-        const std::array<std::uint32_t, kTilePixels> samples = depths_.samplesAtOutlines(jump());
-        std::array<bool, kBlockRays> isAtOutline;
-        for (std::size_t k = 0; k < kBlockRays; ++k) isAtOutline[k] = samples[k] != 0;
-        for (const std::uint8_t pixel : placesWhere(isAtOutline)) {
-            const DepthRange range = depths_.around(pixel, radius_);
-            for (std::uint32_t left = samples[pixel]; left != 0; left &= left - 1)
-                add({pixel, static_cast<std::uint8_t>(std::countr_zero(left))}, range);
+        const std::array<std::uint32_t, kTilePixels> samples = depths_.samplesAtSilhouettes(jump());
+        std::array<bool, kTilePixels> isAtSilhouette;
+        for (std::size_t k = 0; k < kTilePixels; ++k) isAtSilhouette[k] = samples[k] != 0;
+        for (const std::uint8_t pixel : pixelsWhere(isAtSilhouette)) {
+            const DepthRange range = depths_.rangeAround(pixel, scene_.smallestRadius);
+            for (std::uint32_t bits = samples[pixel]; bits != 0; bits &= bits - 1)
+                add({pixel, static_cast<std::uint8_t>(std::countr_zero(bits))}, range);
         }
         flush();
     }
 
  private:
-    float jump() const { return 0.5F * radius_; }
+    float jump() const { return 0.5F * scene_.smallestRadius; }
 
-    void add(OutlineSample sample, DepthRange range) {
+    void add(SilhouetteSample sample, DepthRange range) {
         const glm::vec2 at = pixelMiddle(corner_, sample.pixel) + kFourSamples[sample.sample];
         const std::size_t k = block_.count++;
         samples_[k] = sample;
-        block_.from[k] = range.from;
-        block_.to[k] = range.to;
+        block_.minDepth[k] = range.low;
+        block_.maxDepth[k] = range.high;
         block_.x[k] = at.x;
         block_.y[k] = at.y;
-        if (block_.count == kBlockRays) flush();
+        if (block_.count == kTilePixels) flush();
     }
 
     void flush() {
-        castBlock(cast_, tile_, block_);
-        PackedBlock packed;
-        packBlock(cast_.frame, block_, cast_.skyVisibility, packed.data());
+        castBlock(scene_, tile_, block_);
+        std::array<PackedHit, kTilePixels> packed;
+        packHits(scene_, block_, packed.data());
         for (std::size_t k = 0; k < block_.count; ++k) {
-            if (depths_.isMiddles(samples_[k].pixel, packed[k].depth(), jump())) continue;
-            outlines_.samples.push_back(samples_[k]);
-            outlines_.shown.push_back(packed[k]);
+            if (depths_.isSameSurface(samples_[k].pixel, packed[k].depth(), jump())) continue;
+            found_.samples.push_back(samples_[k]);
+            found_.hits.push_back(packed[k]);
         }
         block_.count = 0;
     }
 
-    const FieldCast& cast_;
-    float radius_;
+    const MetaballScene& scene_;
     std::size_t tile_;
     glm::vec2 corner_;
-    Depths depths_;
-    Outlines& outlines_;
+    TileDepths depths_;
+    SilhouetteHits& found_;
     RayBlock block_;
-    std::array<OutlineSample, kBlockRays> samples_;
+    std::array<SilhouetteSample, kTilePixels> samples_;
 };
 
 }  // namespace
 
-void castOutlines(const FieldCast& cast, float radius, FieldPicture& picture) {
-    picture.forSlots([&](std::size_t tile, std::size_t slot) {
-        OutlineCast(cast, radius, picture, tile, picture.outlines[slot]).run();
-    });
-    std::size_t end = picture.depths.size();
-    for (Outlines& outlines : picture.outlines) outlines.first = std::exchange(end, end + outlines.shown.size());
-    picture.samples.resize(std::max(picture.samples.size(), end));
-    for (const Outlines& outlines : picture.outlines)
-        std::ranges::copy(outlines.shown, picture.samples.begin() + static_cast<std::ptrdiff_t>(outlines.first));
+void castSilhouettes(const MetaballScene& scene, MetaballHits& hits) {
+    hits.forEachSlot(
+        [&](std::size_t tile, std::size_t slot) { SilhouetteCast(scene, hits, tile, hits.silhouettes[slot]).run(); });
+    std::size_t end = hits.depths.size();
+    for (SilhouetteHits& one : hits.silhouettes) one.firstIndex = std::exchange(end, end + one.hits.size());
+    hits.hits.resize(std::max(hits.hits.size(), end));
+    for (const SilhouetteHits& one : hits.silhouettes)
+        std::ranges::copy(one.hits, hits.hits.begin() + static_cast<std::ptrdiff_t>(one.firstIndex));
 }
 
 }  // namespace render
+
+#endif

@@ -1,14 +1,16 @@
-// Extra rays where the outlines of metaballs cross the picture, so that they are smooth. Called by metaball_frame.cpp.
+// Extra rays where silhouettes of metaballs cross the picture, so that they are antialiased. Called by
+// metaball_frame.cpp.
 #pragma once
 
-#include "render/cpu/metaballs/field_picture.h"
-#include "render/cpu/metaballs/metaball_cast.h"
+#include "render/cpu/metaballs/metaball_hits.h"
+#include "render/cpu/metaballs/metaball_scene.h"
 
 namespace render {
 
-/// Looks again where a pixel and one beside it see the surface at depths that half a radius does not explain, or one of
-/// them sees none: an outline runs between their middles. Of the pixel's four samples those on that side are cast, and
-/// kept where they do not show the middle's surface. picture: cast with one ray a pixel. radius: of the smallest ball.
-void castOutlines(const FieldCast& cast, float radius, FieldPicture& picture);
+/// A silhouette runs between two neighboring pixels whose depths differ by more than half the smallest radius, or one
+/// of which shows no surface. Of the four samples of both pixels those toward the other pixel are cast, and those that
+/// do not show the surface at their pixel's middle are added to the silhouettes of `hits`, which hold one ray per pixel
+/// before.
+void castSilhouettes(const MetaballScene& scene, MetaballHits& hits);
 
 }  // namespace render

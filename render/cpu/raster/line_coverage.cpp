@@ -1,5 +1,6 @@
-// Lines mostly run along faces of boxes and over the ground, where the depth of the pixel says nothing (the pixel is
-// beside the line): there the ray through the line's own point is followed.
+// Most lines run along faces of boxes and over the ground. There the depth of the pixel's own ray does not tell whether
+// the line is hidden, because the line may pass beside the middle of the pixel: a ray through the line's nearest point
+// is cast.
 #include "render/cpu/raster/line_coverage.h"
 
 #include <algorithm>
@@ -8,64 +9,63 @@ namespace render {
 
 namespace {
 
-// A line is hidden by what is nearer than this share of its depth: closer than anything stands to a line.
+// What hides a line is nearer than this share of the line's depth. Chosen: nothing but the face that a line lies on
+// comes closer to it.
 constexpr float kNearer = 0.999F;
 
 struct LinePoint {
-    float cover = 0.0F;  // share of the pixel that the line covers
-    float depth = 1.0F;  // view depth of the nearest point of the line
-    glm::vec2 at{0.0F};  // where that point is, in pixels
+    float coverage = 0.0F;  // share of the pixel that the line covers
+    float depth = 1.0F;     // view depth of the point of the line that is nearest to the pixel, m
+    glm::vec2 at{0.0F};     // where that point is, in pixels
 };
 
-LinePoint nearestOnLine(const ScreenLine& line, bool perspective, glm::vec2 at) {
-    const glm::vec2 from = line.from;
-    const glm::vec2 along = line.to - from;
-    const float part = std::clamp(dot(at - from, along) / std::max(dot(along, along), 1.0e-12F), 0.0F, 1.0F);
+LinePoint nearestOnLine(const ScreenLine& line, bool perspective, glm::vec2 pixel) {
+    const glm::vec2 along = line.to - line.from;
+    const float t = std::clamp(dot(pixel - line.from, along) / std::max(dot(along, along), 1.0e-12F), 0.0F, 1.0F);
     LinePoint point;
-    point.at = from + part * along;
-    // 1/depth is linear on the picture in perspective, depth itself in parallel projection.
-    point.depth = perspective ? 1.0F / glm::mix(1.0F / line.fromDepth, 1.0F / line.toDepth, part)
-                              : glm::mix(line.fromDepth, line.toDepth, part);
+    point.at = line.from + t * along;
+    // In perspective 1/depth is linear on the picture, in parallel projection the depth itself.
+    point.depth = perspective ? 1.0F / glm::mix(1.0F / line.fromDepth, 1.0F / line.toDepth, t)
+                              : glm::mix(line.fromDepth, line.toDepth, t);
     // A line thinner than a pixel covers no more than its width.
-    const float width = line.width;
-    point.cover = std::clamp(0.5F * width + 0.5F - distance(at, point.at), 0.0F, std::min(width, 1.0F));
+    point.coverage = std::clamp(0.5F * line.width + 0.5F - distance(pixel, point.at), 0.0F, std::min(line.width, 1.0F));
     return point;
 }
 
-bool isFlat(std::int32_t seen) {
-    return seen < 0 || (seen >= kSeesBox && seen < kSeesField);
+bool isFlat(std::int32_t hitId) {
+    return hitId < 0 || (hitId >= kHitBox && hitId < kHitMetaballs);
 }
 
-// Share of the samples at a pixel that do not hide what is at this depth.
-float shareInFront(std::span<const TileRays> samples, std::size_t place, float depth) {
+/// Share of a pixel's samples that no sphere or metaball hides at this depth.
+float shareInFront(std::span<const TileRays> samples, std::size_t pixel, float depth) {
     int shown = 0;
     for (const TileRays& rays : samples)
-        shown += isFlat(rays.seen[place]) || rays.depth[place] >= depth * kNearer ? 1 : 0;
+        shown += isFlat(rays.hitId[pixel]) || rays.depth[pixel] >= depth * kNearer ? 1 : 0;
     return static_cast<float>(shown) / static_cast<float>(samples.size());
 }
 
 }  // namespace
 
-LineCover lineCover(const Solids& solids, const LineList& lines, std::size_t tile, std::span<const TileRays> samples,
-                    glm::vec2 where) {
-    const glm::vec2 corner = tileCorner(lines.tiles, tile) + where;
-    LineCover over{};
+LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, std::size_t tile,
+                          std::span<const TileRays> samples, glm::vec2 point) {
+    const glm::vec2 corner = tileCorner(lines.tiles, tile) + point;
+    LineCoverage over{};
     for (std::size_t k = lines.tiles.begin[tile]; k < lines.tiles.begin[tile + 1]; ++k) {
         const ScreenLine& line = lines.lines[lines.tiles.items[k]];
         std::array<LinePoint, kTilePixels> points;
         TileRays rays;
-        for (std::size_t place = 0; place < kTilePixels; ++place) {
-            const glm::vec2 at = corner + glm::vec2(place % kTileSize, place / kTileSize);
-            points[place] = nearestOnLine(line, solids.frame.perspective, at);
-            rays.x[place] = points[place].at.x;
-            rays.y[place] = points[place].at.y;
+        for (std::size_t pixel = 0; pixel < kTilePixels; ++pixel) {
+            const glm::vec2 at = corner + glm::vec2(pixel % kTileSize, pixel / kTileSize);
+            points[pixel] = nearestOnLine(line, geometry.frame.perspective, at);
+            rays.x[pixel] = points[pixel].at.x;
+            rays.y[pixel] = points[pixel].at.y;
         }
-        lookAtFlats(solids, {}, rays);
-        for (std::size_t place = 0; place < kTilePixels; ++place) {
-            const LinePoint& point = points[place];
-            if (point.cover <= 0.0F || rays.depth[place] < point.depth * kNearer) continue;
-            const float share = point.cover * shareInFront(samples, place, point.depth);
-            over[place] = over[place] * (1.0F - share) + share * glm::vec4(line.color, 1.0F);
+        findFlatHits(geometry, {}, rays);
+        for (std::size_t pixel = 0; pixel < kTilePixels; ++pixel) {
+            const LinePoint& nearest = points[pixel];
+            if (nearest.coverage <= 0.0F || rays.depth[pixel] < nearest.depth * kNearer) continue;
+            const float share = nearest.coverage * shareInFront(samples, pixel, nearest.depth);
+            over[pixel] = over[pixel] * (1.0F - share) + share * glm::vec4(line.color, 1.0F);
         }
     }
     return over;

@@ -1,5 +1,5 @@
 // Lines over a tile: antialiased, of constant width in pixels, hidden by what is nearer than they are. Called by
-// picture_samples.cpp.
+// picture_colors.cpp.
 #pragma once
 
 #include <array>
@@ -13,11 +13,12 @@
 
 namespace render {
 
-/// What is laid over each pixel of a tile: a color times its share of the pixel; w: the share.
-using LineCover = std::array<glm::vec4, kTilePixels>;
+/// What is laid over each pixel of a tile, row by row: the color times its share of the pixel, and in w the share.
+using LineCoverage = std::array<glm::vec4, kTilePixels>;
 
-/// samples: what the tile's rays see; where: of the line within the pixel, from its corner.
-LineCover lineCover(const Solids& solids, const LineList& lines, std::size_t tile, std::span<const TileRays> samples,
-                    glm::vec2 where);
+/// @param samples  the primary hits of the tile
+/// @param point    where in each pixel the coverage is measured, from the pixel's corner
+LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, std::size_t tile,
+                          std::span<const TileRays> samples, glm::vec2 point);
 
 }  // namespace render

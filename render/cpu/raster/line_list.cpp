@@ -1,4 +1,4 @@
-// Projection and clipping of edges, in double: a line that passes close to the eye is very long on the picture.
+// Edges are projected and clipped in double precision: one that passes close to the eye is very long on the picture.
 #include "render/cpu/raster/line_list.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace render {
 
 namespace {
 
-constexpr double kNearDepth = 1e-3;  // m; closer than that a line has no direction on the picture
+constexpr double kNearDepth = 1e-3;  // m; chosen: at the eye itself a line has no direction on the picture
 
 struct ScreenPoint {
     double x;
@@ -23,7 +23,7 @@ ScreenPoint project(const CameraFrame& frame, glm::dvec3 view) {
             0.5 * frame.height * (1.0 - view.y * scale / frame.halfHeight), view.z};
 }
 
-// Cuts the segment to where a + (b - a) t has a z of at least kNearDepth.
+/// Clips the segment from a to b to view depths of at least kNearDepth. @return false if nothing is left
 bool clipNear(glm::dvec3& a, glm::dvec3& b) {
     if (a.z < kNearDepth && b.z < kNearDepth) return false;
     if (a.z < kNearDepth) a += (b - a) * ((kNearDepth - a.z) / (b.z - a.z));
@@ -31,17 +31,19 @@ bool clipNear(glm::dvec3& a, glm::dvec3& b) {
     return true;
 }
 
-// Liang-Barsky: the part of the segment within [low, high] along one axis.
-bool narrow(double from, double step, double low, double high, std::pair<double, double>& part) {
+/// Liang-Barsky clipping along one axis: narrows the range of parameters t to where from + t step lies in [low, high].
+/// @return false if nothing is left
+bool clipAxis(double from, double step, double low, double high, std::pair<double, double>& range) {
     if (step == 0.0) return from >= low && from <= high;
     const double first = (low - from) / step;
     const double second = (high - from) / step;
-    part.first = std::max(part.first, std::min(first, second));
-    part.second = std::min(part.second, std::max(first, second));
-    return part.first <= part.second;
+    range.first = std::max(range.first, std::min(first, second));
+    range.second = std::min(range.second, std::max(first, second));
+    return range.first <= range.second;
 }
 
-ScreenPoint between(const CameraFrame& frame, const ScreenPoint& a, const ScreenPoint& b, double t) {
+/// The point at parameter t of a projected segment.
+ScreenPoint pointAt(const CameraFrame& frame, const ScreenPoint& a, const ScreenPoint& b, double t) {
     const double depth =
         frame.perspective ? 1.0 / ((1.0 - t) / a.depth + t / b.depth) : a.depth + (b.depth - a.depth) * t;
     return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, depth};
@@ -54,29 +56,33 @@ std::optional<ScreenLine> screenLine(const CameraFrame& frame, const Edge& edge)
     const ScreenPoint a = project(frame, from);
     const ScreenPoint b = project(frame, to);
     const double margin = edge.width + 2.0;
-    std::pair<double, double> part{0.0, 1.0};
-    if (!narrow(a.x, b.x - a.x, -margin, frame.width + margin, part)) return std::nullopt;
-    if (!narrow(a.y, b.y - a.y, -margin, frame.height + margin, part)) return std::nullopt;
-    const ScreenPoint c = between(frame, a, b, part.first);
-    const ScreenPoint d = between(frame, a, b, part.second);
+    std::pair<double, double> range{0.0, 1.0};
+    if (!clipAxis(a.x, b.x - a.x, -margin, frame.width + margin, range)) return std::nullopt;
+    if (!clipAxis(a.y, b.y - a.y, -margin, frame.height + margin, range)) return std::nullopt;
+    const ScreenPoint c = pointAt(frame, a, b, range.first);
+    const ScreenPoint d = pointAt(frame, a, b, range.second);
     return ScreenLine{{c.x, c.y}, {d.x, d.y}, static_cast<float>(c.depth), static_cast<float>(d.depth),
                       edge.width, edge.color};
 }
 
-// Whether the line comes within reach of a tile: distance of the tile's center to the segment against half its
-// diagonal.
+/// How far from a line its pixels may be, in pixels: half its width and what the antialiasing adds.
+float reachOf(const ScreenLine& line) {
+    return 0.5F * line.width + 1.5F;
+}
+
+/// Compares the distance of the tile's center from the segment with half the tile's diagonal.
 bool touches(const ScreenLine& line, int column, int row) {
     const glm::vec2 center = (glm::vec2(column, row) + 0.5F) * static_cast<float>(kTileSize);
     const glm::vec2 from = line.from;
     const glm::vec2 along = line.to - from;
     const float t = std::clamp(dot(center - from, along) / std::max(dot(along, along), 1e-12F), 0.0F, 1.0F);
-    const float reach = 0.7072F * static_cast<float>(kTileSize) + 0.5F * line.width + 1.5F;
-    return length(center - (from + t * along)) <= reach;
+    return length(center - (from + t * along)) <= 0.7072F * static_cast<float>(kTileSize) + reachOf(line);
 }
 
-void addTouched(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame, std::vector<CellItem>& items) {
-    const float reach = 0.5F * line.width + 1.5F;
-    // Conversion rounds toward zero, below which all is zero.
+void addTouchedTiles(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame,
+                     std::vector<CellItem>& items) {
+    const float reach = reachOf(line);
+    // Conversion rounds toward zero; what is below zero is clamped to it.
     const auto tileOf = [](float at, int count) {
         return std::clamp(static_cast<int>(at / static_cast<float>(kTileSize)), 0, (count - 1) / kTileSize);
     };
@@ -99,7 +105,7 @@ LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges) {
     for (const Edge& edge : edges) {
         const auto line = screenLine(frame, edge);
         if (!line) continue;
-        addTouched(*line, static_cast<std::uint32_t>(list.lines.size()), frame, items);
+        addTouchedTiles(*line, static_cast<std::uint32_t>(list.lines.size()), frame, items);
         list.lines.push_back(*line);
     }
     list.tiles =

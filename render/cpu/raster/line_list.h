@@ -1,5 +1,5 @@
-// Edges of boxes and the like as straight lines on the picture: projected, clipped, binned to tiles. Used by the
-// picture pass.
+// The edges of a view as straight lines on the picture: projected, clipped and binned to tiles. Made by the picture
+// pass, read by line_coverage.cpp.
 #pragma once
 
 #include <span>
@@ -13,11 +13,11 @@
 
 namespace render {
 
-/// A line as it is seen.
+/// A projected edge.
 struct ScreenLine {
-    glm::vec2 from{0.0F};  ///< pixels
+    glm::vec2 from{0.0F};  ///< position on the picture, pixels
     glm::vec2 to{0.0F};
-    float fromDepth = 1.0F;  ///< in view, m
+    float fromDepth = 1.0F;  ///< view depth, m
     float toDepth = 1.0F;
     float width = 1.0F;  ///< pixels
     glm::vec3 color{0.0F};
@@ -25,10 +25,10 @@ struct ScreenLine {
 
 struct LineList {
     std::vector<ScreenLine> lines;
-    CellLists tiles;
+    CellLists tiles;  ///< lines that may touch each tile
 };
 
-/// Leaves out what is behind the eye or outside the picture.
+/// Leaves out the parts of edges that are behind the eye or outside of the picture.
 LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges);
 
 }  // namespace render

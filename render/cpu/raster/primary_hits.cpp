@@ -1,7 +1,7 @@
 // Exact intersections with Highway, one ray per lane; this file is compiled once per instruction set.
 //
-// Spheres and boxes are solid: a ray that starts inside one meets it at depth 0. Of two things at the same depth the
-// one that was looked at first is seen.
+// Spheres and boxes are solid: a ray that starts inside one hits it at depth 0. Of two hits at the same depth the one
+// that was found first counts.
 #include "render/cpu/raster/primary_hits.h"
 
 #include <algorithm>
@@ -17,26 +17,31 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// What a group of rays sees so far.
-struct Seen {
+/// The nearest hits of a vector of rays so far.
+struct NearestHits {
     V depth;
-    VI what;
+    VI id;
 
-    void add(V at, VI id) {
-        const M nearer = hn::Lt(at, depth);
-        depth = hn::IfThenElse(nearer, at, depth);
-        what = hn::IfThenElse(hn::RebindMask(DI(), nearer), id, what);
+    void add(V newDepth, VI newId) {
+        const M isNearer = newDepth < depth;
+        depth = hn::IfThenElse(isNearer, newDepth, depth);
+        id = hn::IfThenElse(hn::RebindMask(DI(), isNearer), newId, id);
     }
 };
 
-V depthOfGround(const WorldRay& ray, float height) {
+WorldRay rayAt(const SolidGeometry& geometry, const TileRays& rays, std::size_t first) {
     const D d;
-    const V depth = hn::Div(hn::Sub(hn::Set(d, height), ray.origin.y), ray.direction.y);
-    const M isHit = hn::And(hn::Gt(depth, hn::Zero(d)), hn::Lt(depth, hn::Set(d, kFarDepth)));
-    return hn::IfThenElse(isHit, depth, hn::Set(d, kFarDepth));
+    return worldRay(geometry.frame,
+                    imagePointAt(geometry.frame, hn::Load(d, &rays.x[first]), hn::Load(d, &rays.y[first])));
 }
 
-/// One pair of a box' faces along a ray.
+V depthOfGround(const WorldRay& ray, float height) {
+    const V depth = (splat(height) - ray.origin.y) / ray.direction.y;
+    const M isHit = hn::And(depth > splat(0.0F), depth < splat(kFarDepth));
+    return hn::IfThenElse(isHit, depth, splat(kFarDepth));
+}
+
+/// A ray against one pair of a box's faces.
 struct Slab {
     V near, far;      // view depths
     V toLow, toHigh;  // distances of the ray's start from the faces
@@ -45,225 +50,212 @@ struct Slab {
 };
 
 Slab slabOf(V origin, V direction, float low, float high, int axis) {
-    const D d;
-    const DI di;
-    const V least = hn::Set(d, 1.0e-20F);
-    const V slope = hn::IfThenElse(hn::Gt(hn::Abs(direction), least), direction, least);
+    const V least = splat(1.0e-20F);
+    const V slope = hn::IfThenElse(hn::Abs(direction) > least, direction, least);
     Slab slab;
-    const V first = hn::Div(hn::Sub(hn::Set(d, low), origin), slope);
-    const V second = hn::Div(hn::Sub(hn::Set(d, high), origin), slope);
+    const V first = (splat(low) - origin) / slope;
+    const V second = (splat(high) - origin) / slope;
     slab.near = hn::Min(first, second);
     slab.far = hn::Max(first, second);
-    slab.toLow = hn::Sub(origin, hn::Set(d, low));
-    slab.toHigh = hn::Sub(hn::Set(d, high), origin);
-    const VI plus = hn::Set(di, 2 * axis);
-    const VI minus = hn::Set(di, 2 * axis + 1);
-    slab.entered = hn::IfThenElse(hn::RebindMask(di, hn::Gt(slope, hn::Zero(d))), minus, plus);
-    slab.nearest = hn::IfThenElse(hn::RebindMask(di, hn::Lt(slab.toLow, slab.toHigh)), minus, plus);
+    slab.toLow = origin - splat(low);
+    slab.toHigh = splat(high) - origin;
+    const VI plus = splatInt(2 * axis);
+    const VI minus = splatInt(2 * axis + 1);
+    slab.entered = hn::IfThenElse(hn::RebindMask(DI(), slope > splat(0.0F)), minus, plus);
+    slab.nearest = hn::IfThenElse(hn::RebindMask(DI(), slab.toLow < slab.toHigh), minus, plus);
     return slab;
 }
 
-V least(V a, V b, V c) {
+V minOf(V a, V b, V c) {
     return hn::Min(a, hn::Min(b, c));
 }
 
-/// What belongs to the first axis whose value is the wanted one.
+/// The integer of the first axis whose value equals the wanted one.
 VI ofAxis(V wanted, V x, V y, VI ofX, VI ofY, VI ofZ) {
     const DI di;
-    return hn::IfThenElse(hn::RebindMask(di, hn::Eq(x, wanted)), ofX,
-                          hn::IfThenElse(hn::RebindMask(di, hn::Eq(y, wanted)), ofY, ofZ));
+    return hn::IfThenElse(hn::RebindMask(di, x == wanted), ofX,
+                          hn::IfThenElse(hn::RebindMask(di, y == wanted), ofY, ofZ));
 }
 
-void addBox(const WorldRay& ray, const BoxObstacle& box, glm::vec3 eye, std::int32_t id, Seen& seen) {
-    const D d;
-    const DI di;
+void addBox(const WorldRay& ray, const BoxObstacle& box, glm::vec3 eye, std::int32_t id, NearestHits& hits) {
     const glm::vec3 low = box.minimum - eye;
     const glm::vec3 high = box.maximum - eye;
     const Slab x = slabOf(ray.origin.x, ray.direction.x, low.x, high.x, 0);
     const Slab y = slabOf(ray.origin.y, ray.direction.y, low.y, high.y, 1);
     const Slab z = slabOf(ray.origin.z, ray.direction.z, low.z, high.z, 2);
     const V entry = hn::Max(x.near, hn::Max(y.near, z.near));
-    const V exit = least(x.far, y.far, z.far);
-    const V zero = hn::Zero(d);
-    const M isHit = hn::And(hn::Le(entry, exit), hn::Ge(exit, zero));
+    const V exit = minOf(x.far, y.far, z.far);
+    const V zero = splat(0.0F);
+    const M isHit = hn::And(entry <= exit, exit >= zero);
     const VI entered = ofAxis(entry, x.near, y.near, x.entered, y.entered, z.entered);
     // From inside, the nearest face is the one that is seen.
-    const V ofX = hn::Min(x.toLow, x.toHigh);
-    const V ofY = hn::Min(y.toLow, y.toHigh);
-    const V nearest = least(ofX, ofY, hn::Min(z.toLow, z.toHigh));
-    const VI around = hn::Add(ofAxis(nearest, ofX, ofY, x.nearest, y.nearest, z.nearest), hn::Set(di, 8));
-    const VI face = hn::IfThenElse(hn::RebindMask(di, hn::Ge(entry, zero)), entered, around);
-    seen.add(hn::IfThenElse(isHit, hn::Max(entry, zero), hn::Set(d, kFarDepth)), hn::Add(face, hn::Set(di, id)));
+    const V gapX = hn::Min(x.toLow, x.toHigh);
+    const V gapY = hn::Min(y.toLow, y.toHigh);
+    const V nearest = minOf(gapX, gapY, hn::Min(z.toLow, z.toHigh));
+    const VI around = ofAxis(nearest, gapX, gapY, x.nearest, y.nearest, z.nearest) + splatInt(8);
+    const VI face = hn::IfThenElse(hn::RebindMask(DI(), entry >= zero), entered, around);
+    hits.add(hn::IfThenElse(isHit, hn::Max(entry, zero), splat(kFarDepth)), face + splatInt(id));
 }
 
-void lookAtFlats(const Solids& solids, Flats flats, TileRays& rays) {
+void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays) {
     const D d;
-    const DI di;
-    for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
-        const WorldRay ray = worldRay(
-            solids.frame, imagePointAt(solids.frame, hn::Load(d, &rays.x[place]), hn::Load(d, &rays.y[place])));
-        Seen seen{hn::Set(d, kFarDepth), hn::Set(di, kSeesBackground)};
-        if (flats.ground && solids.ground) seen.add(depthOfGround(ray, *solids.ground), hn::Set(di, kSeesGround));
-        if (flats.boxes) {
-            std::int32_t id = kSeesBox;
-            for (const BoxObstacle& box : solids.boxes) {
-                addBox(ray, box, solids.frame.eye, id, seen);
+    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
+        const WorldRay ray = rayAt(geometry, rays, first);
+        NearestHits hits{splat(kFarDepth), splatInt(kHitBackground)};
+        if (flats.hasGround && geometry.ground) hits.add(depthOfGround(ray, *geometry.ground), splatInt(kHitGround));
+        if (flats.hasBoxes) {
+            std::int32_t id = kHitBox;
+            for (const BoxObstacle& box : geometry.boxes) {
+                addBox(ray, box, geometry.frame.eye, id, hits);
                 id += 16;
             }
         }
-        hn::Store(seen.depth, d, &rays.depth[place]);
-        hn::Store(seen.what, di, &rays.seen[place]);
+        hn::Store(hits.depth, d, &rays.depth[first]);
+        hn::Store(hits.id, DI(), &rays.hitId[first]);
     }
 }
 
-/// The rays of a tile's samples, as spheres need them.
+/// The rays of a tile's samples, as the spheres' intersections need them.
 struct SphereRays {
     alignas(64) std::array<std::array<float, kTilePixels>, 4> x, y, inverseSquare;
-    alignas(64) std::array<float, kTilePixels> farthest;  ///< of a pixel's samples
+    alignas(64) std::array<float, kTilePixels> farthest;  ///< the greatest depth of a pixel's samples so far
 
     SphereRays(const CameraFrame& frame, std::span<const TileRays> samples) {
         const D d;
-        const V one = hn::Set(d, 1.0F);
-        for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
-            V most = hn::Zero(d);
+        const V one = splat(1.0F);
+        for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
+            V most = splat(0.0F);
             for (std::size_t s = 0; s < samples.size(); ++s) {
                 const ImagePoint at =
-                    imagePointAt(frame, hn::Load(d, &samples[s].x[place]), hn::Load(d, &samples[s].y[place]));
-                hn::Store(at.x, d, &x[s][place]);
-                hn::Store(at.y, d, &y[s][place]);
-                const V square = hn::Add(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)), one);
-                hn::Store(hn::Div(one, square), d, &inverseSquare[s][place]);
-                most = hn::Max(most, hn::Load(d, &samples[s].depth[place]));
+                    imagePointAt(frame, hn::Load(d, &samples[s].x[first]), hn::Load(d, &samples[s].y[first]));
+                hn::Store(at.x, d, &x[s][first]);
+                hn::Store(at.y, d, &y[s][first]);
+                hn::Store(one / (at.x * at.x + at.y * at.y + one), d, &inverseSquare[s][first]);
+                most = hn::Max(most, hn::Load(d, &samples[s].depth[first]));
             }
-            hn::Store(most, d, &farthest[place]);
+            hn::Store(most, d, &farthest[first]);
         }
     }
 
-    float mostOfAll() const {
+    float farthestOfTile() const {
         const D d;
         V most = hn::Load(d, farthest.data());
-        for (std::size_t place = hn::Lanes(d); place < kTilePixels; place += hn::Lanes(d))
-            most = hn::Max(most, hn::Load(d, &farthest[place]));
+        for (std::size_t first = hn::Lanes(d); first < kTilePixels; first += hn::Lanes(d))
+            most = hn::Max(most, hn::Load(d, &farthest[first]));
         return hn::GetLane(hn::MaxOfLanes(d, most));
     }
 };
 
-/// Measured from the point of the ray that is closest to the center: no cancellation, however far the sphere.
+/// Adds one sphere to one vector of rays of sample s. The intersection is measured from the point of the ray that is
+/// closest to the center, so that nothing cancels, however far away the sphere is.
 template <bool kPerspective>
-void addSphere(const ViewSphere& sphere, std::int32_t id, const SphereRays& rays, std::size_t s, std::size_t place,
+void addSphere(const ViewSphere& sphere, std::int32_t id, const SphereRays& rays, std::size_t s, std::size_t first,
                TileRays& sample) {
     const D d;
-    const DI di;
-    const V x = hn::Load(d, &rays.x[s][place]);
-    const V y = hn::Load(d, &rays.y[s][place]);
-    const V cx = hn::Set(d, sphere.center.x);
-    const V cy = hn::Set(d, sphere.center.y);
-    const V cz = hn::Set(d, sphere.center.z);
-    V closest = cz;
+    const V x = hn::Load(d, &rays.x[s][first]);
+    const V y = hn::Load(d, &rays.y[s][first]);
+    const Vec3 center = splat(sphere.center);
+    V closest = center.z;
     V square;
     if constexpr (kPerspective) {
-        const V inverse = hn::Load(d, &rays.inverseSquare[s][place]);
-        closest = hn::Mul(hn::Add(hn::Add(hn::Mul(cx, x), hn::Mul(cy, y)), cz), inverse);
-        const V offX = hn::Sub(cx, hn::Mul(closest, x));
-        const V offY = hn::Sub(cy, hn::Mul(closest, y));
-        const V offZ = hn::Sub(cz, closest);
-        square = hn::Add(hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY)), hn::Mul(offZ, offZ));
+        const V inverse = hn::Load(d, &rays.inverseSquare[s][first]);
+        closest = (center.x * x + center.y * y + center.z) * inverse;
+        const Vec3 off{center.x - closest * x, center.y - closest * y, center.z - closest};
+        square = dot(off, off);
     } else {
-        const V offX = hn::Sub(cx, x);
-        const V offY = hn::Sub(cy, y);
-        square = hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY));
+        const V offX = center.x - x;
+        const V offY = center.y - y;
+        square = offX * offX + offY * offY;
     }
-    const V zero = hn::Zero(d);
-    const V inside = hn::Sub(hn::Set(d, sphere.radius * sphere.radius), square);
-    M isHit = hn::Gt(inside, zero);
+    const V zero = splat(0.0F);
+    const V inside = splat(sphere.radius * sphere.radius) - square;
+    M isHit = inside > zero;
     if (hn::AllFalse(d, isHit)) return;
     V halfSquare = hn::Max(inside, zero);
-    if constexpr (kPerspective) halfSquare = hn::Mul(halfSquare, hn::Load(d, &rays.inverseSquare[s][place]));
+    if constexpr (kPerspective) halfSquare = halfSquare * hn::Load(d, &rays.inverseSquare[s][first]);
     const V halfChord = hn::Sqrt(halfSquare);
-    isHit = hn::And(isHit, hn::Ge(hn::Add(closest, halfChord), zero));
-    const V depth = hn::Max(hn::Sub(closest, halfChord), zero);
-    Seen seen{hn::Load(d, &sample.depth[place]), hn::Load(di, &sample.seen[place])};
-    seen.add(hn::IfThenElse(isHit, depth, hn::Set(d, kFarDepth)), hn::Set(di, id));
-    hn::Store(seen.depth, d, &sample.depth[place]);
-    hn::Store(seen.what, di, &sample.seen[place]);
+    isHit = hn::And(isHit, closest + halfChord >= zero);
+    const V depth = hn::Max(closest - halfChord, zero);
+    NearestHits hits{hn::Load(d, &sample.depth[first]), hn::Load(DI(), &sample.hitId[first])};
+    hits.add(hn::IfThenElse(isHit, depth, splat(kFarDepth)), splatInt(id));
+    hn::Store(hits.depth, d, &sample.depth[first]);
+    hn::Store(hits.id, DI(), &sample.hitId[first]);
 }
 
-/// Pixels of a tile, from its corner.
+/// The part of a rectangle of pixels that lies in a tile, from the tile's corner.
 Rect withinTile(const Rect& pixels, int left, int top) {
     return {std::max(pixels.x0 - left, 0), std::max(pixels.y0 - top, 0), std::min(pixels.x1 - left, kTileSize - 1),
             std::min(pixels.y1 - top, kTileSize - 1)};
 }
 
-/// Returns a height over the eye that those that were looked at do not reach under.
+/// @return a height over the eye that none of the spheres that were tested reaches below, m
 template <bool kPerspective>
-float addSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
+float addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
     const D d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
-    SphereRays rays(solids.frame, samples);
-    const auto columns = static_cast<std::size_t>(solids.tiles->columns);
-    const int left = static_cast<int>(tile % columns) * kTileSize;
-    const int top = static_cast<int>(tile / columns) * kTileSize;
-    const glm::vec3 upwards(solids.frame.right.y, solids.frame.up.y, solids.frame.forward.y);
+    SphereRays rays(geometry.frame, samples);
+    const CellLists& tiles = *geometry.tiles;
+    const glm::ivec2 corner(tileCorner(tiles, tile));
+    const glm::vec3 upwards(geometry.frame.right.y, geometry.frame.up.y, geometry.frame.forward.y);
     float lowest = kFarDepth;
     constexpr float kRounding = 1e-6F;  // of a center's height, as a share of its distance
-    for (std::size_t k = solids.tiles->begin[tile]; k < solids.tiles->begin[tile + 1]; ++k) {
-        const std::uint32_t index = solids.tiles->items[k];
-        const ViewSphere& sphere = solids.spheres[index];
+    for (std::size_t k = tiles.begin[tile]; k < tiles.begin[tile + 1]; ++k) {
+        const std::uint32_t index = tiles.items[k];
+        const ViewSphere& sphere = geometry.spheres[index];
         const float front = sphere.center.z - sphere.radius;
-        // Front to back: what comes later on the list is behind what is already seen.
-        if (front > rays.mostOfAll()) break;
+        // Front to back: all later spheres of the list are behind what has been hit.
+        if (front > rays.farthestOfTile()) break;
         const glm::vec3 off = abs(sphere.center);
         const float rounding = kRounding * (off.x + off.y + off.z);
         lowest = std::min(lowest, dot(sphere.center, upwards) - sphere.radius - rounding);
-        const Rect touched = withinTile(solids.pixels[index], left, top);
+        const Rect touched = withinTile(geometry.pixels[index], corner.x, corner.y);
         for (int row = touched.y0; row <= touched.y1; ++row) {
             for (int column = touched.x0 / lanes * lanes; column <= touched.x1; column += lanes) {
-                const auto place = static_cast<std::size_t>(row * kTileSize + column);
-                if (hn::AllTrue(d, hn::Lt(hn::Load(d, &rays.farthest[place]), hn::Set(d, front)))) continue;
-                V most = hn::Zero(d);
+                const auto first = static_cast<std::size_t>(row * kTileSize + column);
+                if (hn::AllTrue(d, hn::Load(d, &rays.farthest[first]) < splat(front))) continue;
+                V most = splat(0.0F);
                 for (std::size_t s = 0; s < samples.size(); ++s) {
-                    addSphere<kPerspective>(sphere, static_cast<std::int32_t>(index), rays, s, place, samples[s]);
-                    most = hn::Max(most, hn::Load(d, &samples[s].depth[place]));
+                    addSphere<kPerspective>(sphere, static_cast<std::int32_t>(index), rays, s, first, samples[s]);
+                    most = hn::Max(most, hn::Load(d, &samples[s].depth[first]));
                 }
-                hn::Store(most, d, &rays.farthest[place]);
+                hn::Store(most, d, &rays.farthest[first]);
             }
         }
     }
     return lowest;
 }
 
-float addSpheresOf(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
-    return solids.frame.perspective ? addSpheres<true>(solids, tile, samples)
-                                    : addSpheres<false>(solids, tile, samples);
+float addSpheresOf(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
+    return geometry.frame.perspective ? addSpheres<true>(geometry, tile, samples)
+                                      : addSpheres<false>(geometry, tile, samples);
 }
 
-void lookAtSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
-    addSpheresOf(solids, tile, samples);
+void findSphereHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
+    addSpheresOf(geometry, tile, samples);
 }
 
-/// The ground hides what lies behind it.
-void hideBehindGround(const Solids& solids, float height, TileRays& rays) {
+/// Replaces the hits that lie behind the ground.
+void hideBehindGround(const SolidGeometry& geometry, float height, TileRays& rays) {
     const D d;
     const DI di;
-    for (std::size_t place = 0; place < kTilePixels; place += hn::Lanes(d)) {
-        const ImagePoint at = imagePointAt(solids.frame, hn::Load(d, &rays.x[place]), hn::Load(d, &rays.y[place]));
-        const M isNearer = hn::Le(depthOfGround(worldRay(solids.frame, at), height), hn::Load(d, &rays.depth[place]));
-        const VI seen = hn::Load(di, &rays.seen[place]);
-        hn::Store(hn::IfThenElse(hn::RebindMask(di, isNearer), hn::Set(di, kSeesGround), seen), di, &rays.seen[place]);
+    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
+        const M isNearer = depthOfGround(rayAt(geometry, rays, first), height) <= hn::Load(d, &rays.depth[first]);
+        const VI id = hn::Load(di, &rays.hitId[first]);
+        hn::Store(hn::IfThenElse(hn::RebindMask(di, isNearer), splatInt(kHitGround), id), di, &rays.hitId[first]);
     }
 }
 
-void lookAtSpheresOnGround(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
+void findSphereHitsOverGround(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
     for (TileRays& rays : samples) {
         rays.depth.fill(kFarDepth);
-        rays.seen.fill(kSeesGround);
+        rays.hitId.fill(kHitGround);
     }
-    const float lowest = addSpheresOf(solids, tile, samples);
-    const float ground = solids.ground.value_or(0.0F);
+    const float lowest = addSpheresOf(geometry, tile, samples);
+    const float ground = geometry.ground.value_or(0.0F);
     // Seen from below, the ground hides what stands on it; in parallel projection rays begin on both sides of it.
-    const bool isFromAbove = solids.frame.perspective ? ground < 0.0F : solids.frame.forward.y < 0.0F;
+    const bool isFromAbove = geometry.frame.perspective ? ground < 0.0F : geometry.frame.forward.y < 0.0F;
     if (isFromAbove && lowest > ground) return;
-    for (TileRays& rays : samples) hideBehindGround(solids, ground, rays);
+    for (TileRays& rays : samples) hideBehindGround(geometry, ground, rays);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -274,20 +266,20 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-HWY_EXPORT(lookAtFlats);
-HWY_EXPORT(lookAtSpheres);
-HWY_EXPORT(lookAtSpheresOnGround);
+HWY_EXPORT(findFlatHits);
+HWY_EXPORT(findSphereHits);
+HWY_EXPORT(findSphereHitsOverGround);
 
-void lookAtFlats(const Solids& solids, Flats flats, TileRays& rays) {
-    HWY_DYNAMIC_DISPATCH(lookAtFlats)(solids, flats, rays);
+void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays) {
+    HWY_DYNAMIC_DISPATCH(findFlatHits)(geometry, flats, rays);
 }
 
-void lookAtSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
-    HWY_DYNAMIC_DISPATCH(lookAtSpheres)(solids, tile, samples);
+void findSphereHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
+    HWY_DYNAMIC_DISPATCH(findSphereHits)(geometry, tile, samples);
 }
 
-void lookAtSpheresOnGround(const Solids& solids, std::size_t tile, std::span<TileRays> samples) {
-    HWY_DYNAMIC_DISPATCH(lookAtSpheresOnGround)(solids, tile, samples);
+void findSphereHitsOverGround(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
+    HWY_DYNAMIC_DISPATCH(findSphereHitsOverGround)(geometry, tile, samples);
 }
 
 }  // namespace render

@@ -1,5 +1,6 @@
-// What rays through the pixels of a tile see first: spheres, boxes and the ground, on the CPU, as many rays at a time
-// as the machine has lanes. Called by picture_samples.cpp.
+// Primary hits: what rays through the pixels of a tile meet first of spheres, boxes and the ground, as many rays at a
+// time as a SIMD vector holds. Called by picture_samples.cpp. Only the identity and the depth of a hit are kept;
+// shading_points.cpp computes its position and normal for the few samples that are shaded.
 #pragma once
 
 #include <array>
@@ -16,18 +17,18 @@
 
 namespace render {
 
-/// What a ray sees, as one number. From 0 on: a sphere's index.
-inline constexpr std::int32_t kSeesBackground = -1;
-inline constexpr std::int32_t kSeesGround = -2;
-/// From here on: 16 a box, plus its face (0 +x, 1 -x, 2 +y, ... 5 -z), plus 8 where the eye is inside.
-inline constexpr std::int32_t kSeesBox = 1 << 28;
-/// From here on: a sample of the metaballs' surface.
-inline constexpr std::int32_t kSeesField = 1 << 29;
+// What a ray hits, as one number. From 0 on: the index of a sphere.
+inline constexpr std::int32_t kHitBackground = -1;
+inline constexpr std::int32_t kHitGround = -2;
+/// From here on: 16 times a box's index, plus its face (0 +x, 1 -x, 2 +y, ... 5 -z), plus 8 where the eye is inside.
+inline constexpr std::int32_t kHitBox = 1 << 28;
+/// From here on: an index in MetaballHits::hits.
+inline constexpr std::int32_t kHitMetaballs = 1 << 29;
 
 inline constexpr float kFarDepth = 3.0e38F;
 
-/// All that is solid, but for the metaballs.
-struct Solids {
+/// All geometry but the metaballs.
+struct SolidGeometry {
     CameraFrame frame;
     std::span<const ViewSphere> spheres;
     std::span<const Rect> pixels;      ///< that each sphere may touch
@@ -36,29 +37,31 @@ struct Solids {
     std::optional<float> ground;  ///< its height over the eye, m
 };
 
-/// One ray through each pixel of a tile, row by row, and what it sees so far.
+/// One ray through each pixel of a tile, row by row, and its nearest hit so far.
 struct TileRays {
-    alignas(64) std::array<float, kTilePixels> x;  ///< pixels of the picture
+    alignas(64) std::array<float, kTilePixels> x;  ///< positions on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
-    alignas(64) std::array<float, kTilePixels> depth;  ///< view depth; kFarDepth: nothing
-    alignas(64) std::array<std::int32_t, kTilePixels> seen;
+    alignas(64) std::array<float, kTilePixels> depth;  ///< view depth, m; kFarDepth: no hit
+    alignas(64) std::array<std::int32_t, kTilePixels> hitId;
 };
 
-/// What a tile may show besides spheres.
-struct Flats {
-    bool ground = true;
-    bool boxes = true;
+/// Which of the ground and the boxes a tile may show.
+struct FlatGeometry {
+    bool hasGround = true;
+    bool hasBoxes = true;
 };
 
-/// Begins a picture of these rays: what of the ground and the boxes each sees.
-/// Holds:  here and below a ray's result depends on its own position alone, bit for bit, not on the number of lanes.
-void lookAtFlats(const Solids& solids, Flats flats, TileRays& rays);
+// Of the functions below, a ray's result depends on its own position alone, bit for bit, not on the instruction set.
 
-/// Adds the spheres of this tile.  \pre  every ray goes through the tile.
-void lookAtSpheres(const Solids& solids, std::size_t tile, std::span<TileRays> samples);
+/// Starts the rays' hits with those of the ground and the boxes.
+void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays);
 
-/// Begins a picture of rays that all meet the ground, and adds the spheres: the same as with lookAtFlats(), but for the
-/// depth of the ground, which stays kFarDepth. What stands on the ground hides it, so that its depth is rarely needed.
-void lookAtSpheresOnGround(const Solids& solids, std::size_t tile, std::span<TileRays> samples);
+/// Adds the spheres of a tile. @pre every ray goes through the tile
+void findSphereHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples);
+
+/// Does the work of findFlatHits() and findSphereHits() for rays that all meet the ground and no box, but leaves the
+/// depth of hits on the ground at kFarDepth. What stands on the ground hides it, so that the ground's depth is rarely
+/// needed.
+void findSphereHitsOverGround(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples);
 
 }  // namespace render

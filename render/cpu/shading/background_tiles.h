@@ -1,42 +1,47 @@
-// Tiles of background, and of ground that nothing dims: one ray a pixel, because nothing in them has an outline. They
-// look the same from picture to picture while the camera rests, and are not colored again then. Used by the picture
-// pass.
+// Tiles that show nothing but background or ground, which is most of many pictures. Tiles are told apart once per
+// picture, and those of background and of ground that nothing occludes are colored here, with one ray per pixel,
+// because nothing in them has an outline. Called by the picture pass and picture_colors.cpp.
 #pragma once
 
-#include <span>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "render/cpu/lighting/light_visibility.h"
+#include "render/cpu/lighting/shading_points.h"
 #include "render/cpu/shading/shade.h"
-#include "render/cpu/shading/tile_class.h"
 #include "render/picture/camera_frame.h"
-#include "render/picture/view.h"
 
 namespace render {
 
-/// Everything that such a tile's pixels are computed from; positions relative to the eye.
-struct Backdrop {
-    CameraFrame frame;  ///< its eye at 0
-    Background background;
-    glm::vec3 ground{0.0F};  ///< its color, not faded yet; all of the ground's where there is one
-    float groundHeight = 0.0F;
-    glm::vec3 groundCenter{0.0F};
-    float fadeDistance = 1.0F;
-
-    bool operator==(const Backdrop&) const = default;
+/// What of the ground may be seen in a tile where nothing hides it.
+enum class GroundKind : std::uint8_t {
+    none,      ///< no ground
+    open,      ///< only ground, out of reach of all shadows and of the map of sky visibility
+    occluded,  ///< only ground
+    horizon    ///< ground in a part of the tile
 };
 
-class PlainTiles {
- public:
-    /// Colors those of these tiles that are plain, and were not the same in the last call with an equal backdrop.
-    /// classes: of the tiles, row by row, so many a row. pixels: of whole tiles, row by row; those of plain tiles as
-    /// the last call left them.
-    void color(const Backdrop& backdrop, std::span<const TileClass> classes, int columns, std::span<PixelColor> pixels);
-
- private:
-    Backdrop backdrop_;
-    std::vector<TileClass> classes_;  // in the last call
+struct GroundTile {
+    GroundKind kind = GroundKind::none;
+    float nearest = std::numeric_limits<float>::infinity();  ///< least view depth of the ground in the tile, m
 };
+
+/// Classifies the tiles of the picture, row by row. @param height  of the ground over the eye, m
+std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders);
+
+/// Where a tile's pixels are written.
+struct TileTarget {
+    glm::ivec2 corner{0};   ///< top left of the tile, pixels of the picture
+    PixelColor* first;      ///< that corner's pixel
+    std::size_t rowLength;  ///< of the picture, in whole tiles, pixels
+};
+
+/// Colors a tile of background, or of open ground in front of it.
+void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
+                         const TileTarget& target);
 
 }  // namespace render

@@ -1,7 +1,6 @@
-// Colors of the points that a picture shows: the shading model of view.h. Called by picture_colors.cpp.
+// Colors of shading points by the shading model of view.h. Called by picture_colors.cpp.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <glm/glm.hpp>
@@ -9,7 +8,7 @@
 #include "render/cpu/lighting/light_visibility.h"
 #include "render/cpu/lighting/shading_points.h"
 #include "render/picture/view.h"
-#include "render/prepare/light_space.h"
+#include "render/prepare/tiles.h"
 
 namespace render {
 
@@ -22,28 +21,26 @@ struct Shading {
     float exposure = 0.0F;
     Background background;
     glm::vec3 groundCenter{0.0F};  ///< relative to the eye
-    float fadeDistance = 1.0F;
+    float fadeDistance = 1.0F;     ///< m
+    glm::vec3 openGround{0.0F};    ///< color of ground that nothing occludes, before it fades into the background
 };
 
 Shading shadingOf(const View& view);
 
-/// Linear, from 0 to 1.
+/// Linear colors from 0 to 1 of up to a tile's worth of points.
 struct PointColors {
-    alignas(64) std::array<std::array<float, kTilePixels>, 3> rgb;
+    alignas(64) TileVec3 rgb;
 };
 
-/// reach: null where nothing dims these points.
-/// Holds:  a point's color depends on the point alone, bit for bit, not on the number of lanes.
-void shade(const Shading& shading, const Surfaces& surfaces, const SurfacePoints& points, const LightReach* reach,
-           PointColors& colors);
+/// A point's color depends on the point alone, bit for bit, not on the instruction set.
+/// @param visibility  null where nothing casts shadows or occludes the sky
+void shade(const Shading& shading, const ShadingGeometry& geometry, const ShadingPoints& points,
+           const LightVisibility* visibility, PointColors& colors);
 
-/// sRGB, a byte a channel, the lowest red.
+/// sRGB, 8 bits per channel, red in the lowest.
 using PixelColor = std::uint32_t;
 
-/// Shape:  pixels: kTilePixels of them; colors: all of them.
-void packColors(const PointColors& colors, PixelColor* pixels);
-
-/// The ground's color where nothing dims it, before it fades. A matt surface looks the same from everywhere.
-glm::vec3 unoccludedGround(const Shading& shading, glm::vec3 albedo);
+/// Encodes all kTilePixels colors in their order.
+void encodeColors(const PointColors& colors, PixelColor* pixels);
 
 }  // namespace render

@@ -1,4 +1,4 @@
-// What samples see: the same bits on every instruction set, edges of boxes.
+// Whole pictures with several samples per pixel: the same bits on every instruction set, and edges of boxes.
 #include "tests/catch.h"
 
 #include <hwy/highway.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr render::PictureSize kSize{201, 122};  // no whole number of tiles
 
-// A view with everything that is looked up: obstacles, lines, soft shadows, openness.
+/// A view with everything that kernels compute: obstacles, lines, soft shadows, sky visibility, reflections.
 render::View fullView(render::Style style, render::Projection projection) {
     render::View view = cloudWithObstacles(250);
     view.style = style;
@@ -28,7 +28,7 @@ render::View fullView(render::Style style, render::Projection projection) {
     return view;
 }
 
-// Calls visit(name) with each instruction set that this machine has.
+/// Calls visit(name) with each instruction set that this machine has, and then restores the best one.
 template <typename Visit>
 void onEachInstructionSet(const Visit& visit) {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -65,8 +65,8 @@ TEST_CASE("The faces of a box are shaded apart where they meet within a pixel") 
     view.boxObstacles.front() = {{-1.0F, 0.01F, -1.0F}, {1.0F, 1.6F, 1.0F}, {0.9F, 0.9F, 0.9F}};
     view.sphereObstacles.clear();
     view.light.shadows = false;
-    // Four samples of a pixel against sixteen: with one shading for the whole box its edges stayed as rough as in a
-    // draft.
+    // Four samples per pixel against sixteen. If a pixel were shaded once for the whole box, its edges would stay as
+    // rough as with one sample.
     const render::Image exact = fromOracle(view, kSize, 4);
     const double draft = compare(drawn(view, kSize, Quality::draft), exact, 0).mean;
     const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;

@@ -1,4 +1,4 @@
-// The way that leaves the ground's depth out against the one that does not.
+// findSphereHitsOverGround(), which leaves out the depth of the ground, against findFlatHits() and findSphereHits().
 #include "tests/catch.h"
 
 #include <algorithm>
@@ -40,25 +40,25 @@ struct Counts {
     int differing = 0, onSpheres = 0, onGround = 0;
 };
 
-/// Both ways, on the tiles that the ground fills.
-Counts compared(const render::Solids& solids) {
+/// Compares what both find on the tiles that the ground fills.
+Counts compareHits(const render::SolidGeometry& geometry) {
     Counts counts;
     Samples whole;
-    for (std::size_t tile = 0; tile + 1 < solids.tiles->begin.size(); ++tile) {
-        placeRays(*solids.tiles, tile, whole);
-        Samples quick = whole;
+    for (std::size_t tile = 0; tile + 1 < geometry.tiles->begin.size(); ++tile) {
+        placeRays(*geometry.tiles, tile, whole);
+        Samples shortcut = whole;
         std::ptrdiff_t filled = 0;
         for (render::TileRays& rays : whole) {
-            render::lookAtFlats(solids, {.ground = true, .boxes = false}, rays);
-            filled += std::ranges::count(rays.seen, render::kSeesGround);
+            render::findFlatHits(geometry, {.hasGround = true, .hasBoxes = false}, rays);
+            filled += std::ranges::count(rays.hitId, render::kHitGround);
         }
         if (filled < std::ptrdiff_t{4 * kTilePixels}) continue;
-        render::lookAtSpheres(solids, tile, whole);
-        render::lookAtSpheresOnGround(solids, tile, quick);
+        render::findSphereHits(geometry, tile, whole);
+        render::findSphereHitsOverGround(geometry, tile, shortcut);
         for (std::size_t s = 0; s < whole.size(); ++s) {
             for (std::size_t k = 0; k < kTilePixels; ++k) {
-                counts.differing += whole[s].seen[k] == quick[s].seen[k] ? 0 : 1;
-                (whole[s].seen[k] == render::kSeesGround ? counts.onGround : counts.onSpheres) += 1;
+                counts.differing += whole[s].hitId[k] == shortcut[s].hitId[k] ? 0 : 1;
+                (whole[s].hitId[k] == render::kHitGround ? counts.onGround : counts.onSpheres) += 1;
             }
         }
     }
@@ -84,7 +84,7 @@ TEST_CASE("Spheres on the ground, in it and under it hide it where its depth say
                 const std::vector<render::ViewSphere> spheres = spheresNear(frame, -seen.eye, lowest);
                 const std::vector<render::Rect> pixels = render::pixelBounds(frame, spheres);
                 const render::CellLists tiles = render::binToTiles(frame, spheres, pixels);
-                const Counts counts = compared({frame, spheres, pixels, &tiles, {}, -seen.eye});
+                const Counts counts = compareHits({frame, spheres, pixels, &tiles, {}, -seen.eye});
                 CAPTURE(seen.eye, lowest, static_cast<int>(projection));
                 CHECK(counts.differing == 0);
                 const bool isUpwards = seen.target > seen.eye;

@@ -1,8 +1,8 @@
-// What is kept from the picture before must be what would be drawn.
+// A renderer reuses memory from one picture to the next, which must not show; and the tiles that it colors without
+// samples.
 #include "tests/catch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -24,7 +24,7 @@ struct Change {
     std::function<void(render::View&)> make;
 };
 
-/// Each on top of those before.
+/// Changes of a view, each made on top of those before.
 std::vector<Change> changes() {
     return {{"nothing", [](render::View&) {}},
             {"particles have moved",
@@ -110,10 +110,10 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
             change.make(view);
             const render::Image alone = drawn(view, kSize, quality);
             CHECK((renderer.draw(view).rgb == alone.rgb));
-            // Another view's surfaces in between, which leave its tiles and its frame in the pass.
-            const std::vector<render::VisiblePoint> surfaces = renderer.visiblePoints(before);
+            // The visible points of another view leave its tiles and its frame in the picture pass.
+            const std::vector<render::VisiblePoint> points = renderer.visiblePoints(before);
             if (quality == Quality::draft)
-                CHECK(same(surfaces, render::Renderer(context, kSize, quality).visiblePoints(before)));
+                CHECK(same(points, render::Renderer(context, kSize, quality).visiblePoints(before)));
             CHECK((renderer.draw(view).rgb == alone.rgb));
         }
     }
@@ -134,51 +134,32 @@ TEST_CASE("A picture is the same in another's memory") {
     }
 }
 
-TEST_CASE("A plain tile is colored once while it shows the same before the same backdrop") {
-    using render::TileClass;
-    constexpr int kColumns = 3;
+TEST_CASE("Tiles of background and of open ground are colored where they stand") {
+    constexpr std::size_t kColumns = 3;
     constexpr render::PixelColor kMark = 0x00badbad;
-    constexpr TileClass kGround = TileClass::ground;
-    constexpr TileClass kPicture = TileClass::picture;
-    std::vector<TileClass> classes{TileClass::background, kGround, kPicture};
     std::vector<render::PixelColor> pixels(kColumns * render::kTilePixels, kMark);
-    render::Backdrop backdrop;
-    backdrop.frame.width = kColumns * render::kTileSize;
-    backdrop.frame.height = render::kTileSize;
-    backdrop.background = {glm::vec3(1.0F), glm::vec3(1.0F)};
-    backdrop.ground = {1.0F, 0.0F, 0.0F};
-    backdrop.groundHeight = -1.0F;
-    backdrop.fadeDistance = 1e6F;
-    render::PlainTiles plain;
-    // Which tiles are colored, all of it or none.
-    const auto colored = [&] {
-        std::ranges::fill(pixels, kMark);
-        plain.color(backdrop, classes, kColumns, pixels);
-        std::array<int, kColumns> counts{};
+    render::ShadingGeometry geometry;
+    geometry.frame.width = int{kColumns} * render::kTileSize;
+    geometry.frame.height = render::kTileSize;
+    geometry.ground = -1.0F;
+    render::Shading shading;
+    shading.background = {glm::vec3(1.0F), glm::vec3(1.0F)};
+    shading.openGround = {1.0F, 0.0F, 0.0F};
+    shading.fadeDistance = 1e6F;
+    for (const std::size_t tile : {std::size_t{0}, std::size_t{1}})
+        render::colorBackgroundTile(geometry, shading, tile == 1,
+                                    {{static_cast<int>(tile) * render::kTileSize, 0},
+                                     &pixels[tile * render::kTileSize],
+                                     kColumns * render::kTileSize});
+    const auto count = [&](std::size_t tile, render::PixelColor color) {
+        std::size_t found = 0;
         for (std::size_t k = 0; k < pixels.size(); ++k)
-            counts[k / render::kTileSize % kColumns] += pixels[k] == kMark ? 0 : 1;
-        std::vector<int> tiles;
-        for (int tile = 0; tile < kColumns; ++tile) {
-            const int count = counts[static_cast<std::size_t>(tile)];
-            CHECK((count == 0 || count == int{render::kTilePixels}));
-            if (count > 0) tiles.push_back(tile);
-        }
-        return tiles;
+            found += k / render::kTileSize % kColumns == tile && pixels[k] == color ? 1U : 0U;
+        return found;
     };
-    CHECK(colored() == std::vector{0, 1});
-    constexpr std::size_t kLastRow = (render::kTileSize - 1) * kColumns * render::kTileSize;
-    CHECK(pixels[kLastRow] == 0x00ffffff);
-    CHECK(pixels[kLastRow + render::kTileSize] == 0x000000ff);
-    CHECK(colored().empty());
-    classes = {kGround, kGround, kGround};
-    CHECK(colored() == std::vector{0, 2});
-    classes = {kPicture, kGround, kPicture};
-    CHECK(colored().empty());
-    classes = {kGround, kGround, kGround};
-    CHECK(colored() == std::vector{0, 2});
-    backdrop.fadeDistance = 2.0F;
-    CHECK(colored() == std::vector{0, 1, 2});
-    backdrop.frame.up.x = 0.1F;
-    CHECK(colored() == std::vector{0, 1, 2});
-    CHECK(colored().empty());
+    CHECK(count(0, 0x00ffffff) == render::kTilePixels);
+    // The frame looks along the ground, which is seen in the lower half of the picture; the rows above are not of
+    // interest.
+    CHECK(count(1, 0x000000ff) >= render::kTilePixels / 2);
+    CHECK(count(2, kMark) == render::kTilePixels);
 }

@@ -1,0 +1,64 @@
+// Balls from particles, and the tiles that they reach.
+#include "render/cpu/metaballs/metaball_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+namespace render {
+
+namespace {
+
+std::vector<std::size_t> particlesWithRadius(const View& view) {
+    std::vector<std::size_t> found;
+    found.reserve(view.particles.size());
+    for (std::size_t k = 0; k < view.particles.size(); ++k)
+        if (view.particles[k].radius > 0.0F) found.push_back(k);
+    return found;
+}
+
+}  // namespace
+
+MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::span<const SkinBall> balls) {
+    MetaballScene scene;
+    scene.frame = frame;
+    scene.particles = particlesWithRadius(view);
+    scene.balls.resize(scene.particles.size());
+    tbb::parallel_for(std::size_t{0}, scene.balls.size(), [&](std::size_t k) {
+        const SkinBall& ball = balls[scene.particles[k]];
+        const float reach = view.field.reach * view.particles[scene.particles[k]].radius;
+        const float peak = std::sqrt(ball.weight);
+        scene.balls[k] = {frame.toView(ball.center), reach, peak, std::sqrt(peak) / reach};
+    });
+    std::vector<ViewSphere> kernels(scene.balls.size());
+    float smallest = std::numeric_limits<float>::max();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < scene.balls.size(); ++k) {
+        kernels[k] = {scene.balls[k].center, scene.balls[k].reach};
+        smallest = std::min(smallest, scene.balls[k].reach);
+        sum += scene.balls[k].reach;
+    }
+    // Below a tenth of the mean (chosen) a ball may be missed by rays: one very small ball must not shorten the steps
+    // of them all.
+    const double mean = sum / static_cast<double>(std::max<std::size_t>(scene.balls.size(), 1));
+    scene.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / view.field.reach;
+    scene.step = 0.5F * scene.smallestRadius;
+    const float root = 1.0F - 1.0F / (view.field.reach * view.field.reach);
+    scene.threshold = root * root;
+    scene.tiles = binToTiles(frame, kernels, pixelBounds(frame, kernels));
+    return scene;
+}
+
+void setAttributes(const View& view, std::span<const SkyVisibility> particleSky, MetaballScene& scene) {
+    scene.hasSky = !particleSky.empty();
+    scene.attributes.resize(scene.particles.size());
+    tbb::parallel_for(std::size_t{0}, scene.attributes.size(), [&](std::size_t k) {
+        const std::size_t particle = scene.particles[k];
+        scene.attributes[k] = {view.particles[particle].color,
+                               particleSky.empty() ? kUnoccluded : particleSky[particle]};
+    });
+}
+
+}  // namespace render

@@ -1,0 +1,54 @@
+// The metaballs of one view as a camera, or the light, sees them: the balls of view.h's field in its coordinates,
+// listed for each tile that their kernels reach. Built by the picture pass and the depth map, read by everything that
+// casts rays.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/picture/camera_frame.h"
+#include "render/picture/view.h"
+#include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/skin.h"
+#include "render/prepare/tiles.h"
+
+namespace render {
+
+/// One ball of the field in view coordinates. Its kernel is (peak - d^2 slope^2)^2 up to the distance d = reach.
+struct Metaball {
+    glm::vec3 center{0.0F};
+    float reach = 1.0F;  ///< m
+    float peak = 1.0F;   ///< square root of the ball's weight
+    float slope = 1.0F;  ///< fourth root of the weight over the reach, 1/m
+};
+
+/// What a ball contributes to the surface around it, weighted by its kernel.
+struct BallAttributes {
+    glm::vec3 color{0.0F};
+    SkyVisibility sky = kUnoccluded;
+};
+
+struct MetaballScene {
+    CameraFrame frame;
+    std::vector<Metaball> balls;
+    std::vector<std::size_t> particles;      ///< index of the particle that each ball stands for
+    std::vector<BallAttributes> attributes;  ///< one per ball; while there are none, rays find depths only
+    bool hasSky = false;                     ///< rays interpolate the balls' sky visibilities, too
+    CellLists tiles;                         ///< the balls whose kernels reach each tile, front to back
+    float threshold = 0.5F;                  ///< value of the field at the surface
+    float step = 0.05F;                      ///< view depth between two samples of the field on a ray, m
+    float smallestRadius = 1.0F;             ///< of the particles, or a tenth of their mean where that is more, m
+};
+
+/// The balls of all particles whose radius is above zero, without attributes.
+/// @param balls  one per particle, as skinOf() makes them
+/// The step is half of the smallest radius: metaball_test.cpp finds that no hit is missed against the oracle's exact
+/// roots.
+MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::span<const SkinBall> balls);
+
+/// @param particleSky  of each particle; empty where no term of the shading needs it
+void setAttributes(const View& view, std::span<const SkyVisibility> particleSky, MetaballScene& scene);
+
+}  // namespace render

@@ -1,0 +1,154 @@
+// Primary hits of a tile's samples, and the pixels whose samples hit more than one thing.
+#include "render/cpu/tile_samples.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "render/cpu/metaballs/ray_layout.h"
+
+namespace render {
+
+namespace {
+
+/// A ray through each pixel of a tile, row by row. @param first  position of the first ray on the picture, pixels
+void placeRays(glm::vec2 first, TileRays& rays) {
+    for (std::size_t row = 0; row < kTileSize; ++row) {
+        for (std::size_t column = 0; column < kTileSize; ++column) {
+            rays.x[row * kTileSize + column] = first.x + static_cast<float>(static_cast<int>(column));
+            rays.y[row * kTileSize + column] = first.y + static_cast<float>(static_cast<int>(row));
+        }
+    }
+}
+
+bool hasItems(const CellLists& lists, std::size_t tile) {
+    return lists.begin[tile + 1] > lists.begin[tile];
+}
+
+/// Without branches, so that compilers vectorize loops over it. @param depth  0 where there is no surface
+void keepNearer(TileRays& rays, std::size_t k, float depth, std::int32_t hitId) {
+    const bool isNearer = (depth > 0.0F) & (depth < rays.depth[k]);
+    rays.depth[k] = isNearer ? depth : rays.depth[k];
+    rays.hitId[k] = isNearer ? hitId : rays.hitId[k];
+}
+
+}  // namespace
+
+bool TileContents::hasSpheres(std::size_t tile) const {
+    return hasItems(*geometry.tiles, tile);
+}
+
+bool TileContents::hasLines(std::size_t tile) const {
+    return hasItems(lines.tiles, tile);
+}
+
+bool TileContents::hasOnlyGround(std::size_t tile) const {
+    return !hasSpheres(tile) && boxes[tile] == 0 && !hasMetaballs(tile);
+}
+
+bool TileContents::isFilledByGround(std::size_t tile) const {
+    return ground[tile].kind == GroundKind::open || ground[tile].kind == GroundKind::occluded;
+}
+
+bool TileContents::isBackground(std::size_t tile) const {
+    return hasOnlyGround(tile) && ground[tile].kind == GroundKind::none;
+}
+
+bool TileContents::isGround(std::size_t tile) const {
+    return hasOnlyGround(tile) && isFilledByGround(tile);
+}
+
+TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile)
+    : contents_(contents), tile_(tile), samples_(rays_.data(), offsets.size()) {
+    const glm::vec2 corner = tileCorner(*contents.geometry.tiles, tile);
+    for (std::size_t s = 0; s < offsets.size(); ++s) placeRays(corner + 0.5F + offsets[s], samples_[s]);
+    findHits();
+}
+
+void TileSamples::findHits() {
+    const SolidGeometry& geometry = contents_.geometry;
+    const bool hasMetaballs = contents_.hasMetaballs(tile_);
+    const bool hasBoxes = contents_.boxes[tile_] != 0;
+    if (hasMetaballs) contents_.metaballs->prefetch(slot());
+    if (isFilledByMetaballs()) {
+        samples_ = samples_.first(1);
+        samples_[0].depth.fill(kFarDepth);
+        addMetaballs();
+        return;
+    }
+    // Lines need the depth of the ground.
+    if (contents_.isFilledByGround(tile_) && !hasBoxes && !hasMetaballs && !contents_.hasLines(tile_)) {
+        findSphereHitsOverGround(geometry, tile_, samples_);
+        return;
+    }
+    const FlatGeometry flats{contents_.ground[tile_].kind != GroundKind::none, hasBoxes};
+    for (TileRays& rays : samples_) findFlatHits(geometry, flats, rays);
+    if (hasMetaballs) addMetaballs();
+    if (contents_.hasSpheres(tile_)) findSphereHits(geometry, tile_, samples_);
+}
+
+void TileSamples::findEdges(TileEdges& edges) const {
+    edges.pixels.clear();
+    edges.hits.clear();
+    const std::array<std::int32_t, kTilePixels>& first = samples_[0].hitId;
+    std::array<std::int32_t, kTilePixels> differences{};
+    for (std::size_t s = 1; s < samples_.size(); ++s)
+        for (std::size_t k = 0; k < kTilePixels; ++k) differences[k] |= samples_[s].hitId[k] ^ first[k];
+    std::array<bool, kTilePixels> isEdge;
+    for (std::size_t k = 0; k < kTilePixels; ++k) isEdge[k] = differences[k] != 0;
+    for (const std::uint8_t pixel : pixelsWhere(isEdge)) addEdge(pixel, edges);
+}
+
+/// Whether the tile shows nothing but metaballs, without a silhouette: then one sample is as good as four.
+bool TileSamples::isFilledByMetaballs() const {
+    if (!contents_.hasMetaballs(tile_) || !contents_.metaballs->silhouettes[slot()].samples.empty()) return false;
+    if (contents_.hasSpheres(tile_) || contents_.boxes[tile_] != 0) return false;
+    float nearest = kFarDepth;
+    float farthest = 0.0F;
+    for (const float depth : contents_.metaballs->depthsOf(slot())) {
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    return nearest > 0.0F && farthest < contents_.ground[tile_].nearest;
+}
+
+/// All samples of a pixel see what the ray through its middle hits, apart from those of the tile's silhouettes.
+void TileSamples::addMetaballs() {
+    struct Found {
+        std::array<float, kTilePixels> depth;
+        std::array<std::int32_t, kTilePixels> hitId;
+    };
+    std::array<Found, 4> found;
+    const MetaballHits& metaballs = *contents_.metaballs;
+    const auto first = kHitMetaballs + static_cast<std::int32_t>(slot() * kTilePixels);
+    std::ranges::copy(metaballs.depthsOf(slot()), found[0].depth.begin());
+    for (std::size_t k = 0; k < kTilePixels; ++k) found[0].hitId[k] = first + static_cast<std::int32_t>(k);
+    for (std::size_t s = 1; s < samples_.size(); ++s) found[s] = found[0];
+    if (samples_.size() > 1) {
+        const SilhouetteHits& silhouettes = metaballs.silhouettes[slot()];
+        for (std::size_t k = 0; k < silhouettes.samples.size(); ++k) {
+            const auto [pixel, sample] = silhouettes.samples[k];
+            found[sample].depth[pixel] = silhouettes.hits[k].depth();
+            found[sample].hitId[pixel] = kHitMetaballs + static_cast<std::int32_t>(silhouettes.firstIndex + k);
+        }
+    }
+    for (std::size_t s = 0; s < samples_.size(); ++s)
+        for (std::size_t k = 0; k < kTilePixels; ++k) keepNearer(samples_[s], k, found[s].depth[k], found[s].hitId[k]);
+}
+
+void TileSamples::addEdge(std::uint8_t pixel, TileEdges& edges) const {
+    constexpr std::size_t kSamples = 4;
+    std::array<std::int32_t, kSamples> hitIds;
+    for (std::size_t s = 0; s < kSamples; ++s) hitIds[s] = rays_[s].hitId[pixel];
+    std::uint8_t count = 0;
+    // Which samples hit the same thing cannot be predicted, so equal ones are found without branches.
+    for (unsigned left = (1U << kSamples) - 1U; left != 0; ++count) {
+        const std::int32_t hitId = hitIds[static_cast<std::size_t>(std::countr_zero(left))];
+        unsigned mask = 0;
+        for (std::size_t s = 0; s < kSamples; ++s) mask |= unsigned{hitIds[s] == hitId} << s;
+        edges.hits.push_back({hitId, mask});
+        left &= ~mask;
+    }
+    edges.pixels.push_back({pixel, count});
+}
+
+}  // namespace render
