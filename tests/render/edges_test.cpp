@@ -1,4 +1,4 @@
-// Views at the edge of what a renderer is asked: nothing, one, very many, around the eye, odd sizes, bad numbers.
+// Extreme views: no particle, one, very many, particles around the eye, odd picture sizes, numbers that are not finite.
 #include "tests/catch.h"
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace {
 
 constexpr render::PictureSize kSize{97, 61};
 
-// 4 pixels of 5917: outlines, where single precision may decide otherwise. 2 steps: packed normals of metaballs.
+/// Up to 4 of 5917 pixels may differ, on outlines, where single precision may decide otherwise, and others by 2 steps,
+/// because the normals of metaballs are packed.
 void requireOracle(const render::View& view) {
     const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), 2);
     INFO(difference);
@@ -73,7 +74,7 @@ TEST_CASE("Pictures of odd sizes are cut from the same picture") {
         }
         const Difference difference = compare(drawn(view, size, Quality::draft), fromOracle(view, size, 1), 1);
         INFO(difference);
-        CHECK(difference.share * size.width * size.height <= 1.0);  // one outline pixel
+        CHECK(difference.share * size.width * size.height <= 1.0);  // one pixel on an outline
     }
 }
 
@@ -95,7 +96,7 @@ TEST_CASE("Every particle in every tile") {
     for (int k = 0; k < 3000; ++k)
         view.particles.push_back({{0.001F * float(k % 50), 1.0F, 0.0F}, 6.0F, {0.2F, 0.4F, 0.6F}});
     const render::Image image = drawn(view, {320, 180}, Quality::normal);
-    // Inside them all: depth 0 everywhere, so one color per direction of the normal and no background.
+    // The eye is inside of all of them: every pixel shows a particle at depth 0, and none the background.
     CHECK(compare(image, drawn(cloud(0), {320, 180}, Quality::normal), 2).share > 0.95);
 }
 

@@ -1,4 +1,4 @@
-// Lines: width in pixels, hidden by what is nearer, whatever the quality.
+// Lines have a width in pixels and are hidden by what is nearer, at any quality.
 #include "tests/catch.h"
 
 #include "tests/render/pictures.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr render::PictureSize kSize{64, 48};
 
-// A white horizontal line through the middle of a black picture, at z = 0, the eye at z = 10.
+/// A white horizontal line through the middle of a black picture, at z = 0, seen from z = 10. @param width  pixels
 render::View lineView(float width) {
     render::View view;
     view.camera.eye = {0.0F, 0.0F, 10.0F};
@@ -18,7 +18,7 @@ render::View lineView(float width) {
     return view;
 }
 
-// Linear light over one column of the picture, in pixels.
+/// The linear light of one column of the picture, in white pixels.
 double lightInColumn(const render::Image& image, int x) {
     double sum = 0.0;
     for (int y = 0; y < image.height; ++y) {
@@ -35,7 +35,8 @@ TEST_CASE("A line is as wide as it says, at any quality") {
         for (const float width : {0.5F, 1.0F, 1.5F, 3.0F}) {
             CAPTURE(width);
             const double light = lightInColumn(drawn(lineView(width), kSize, quality), 30);
-            CHECK(light == Approx(double(width)).margin(0.03));  // bytes: two gray pixels, 0.01 each of linear light
+            CHECK(light ==
+                  Approx(double(width)).margin(0.03));  // bytes: 0.01 of linear light in each of two gray pixels
         }
     }
 }
@@ -48,7 +49,8 @@ TEST_CASE("A line is hidden by what is nearer only") {
     for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
         view.style = style;
         const render::Image image = drawn(view, kSize, Quality::normal);
-        // 13.3 pixels a meter at z = 2 or so: columns 32 - 1.0 * 48 / (8 * 0.73) and 32 + 1.5 * 48 / (12 * 0.73).
+        // The particles are in the columns 32 - 1.0 * 48 / (8 * 0.73) and 32 + 1.5 * 48 / (12 * 0.73): 48 rows see 0.73
+        // m of height per meter of depth, and the particles are 8 m and 12 m away.
         CHECK(lightInColumn(image, 24) < 0.01);
         CHECK(lightInColumn(image, 40) > 1.9);
         CHECK(lightInColumn(image, 2) > 1.9);
@@ -71,7 +73,7 @@ TEST_CASE("The edges of a box show on its near side and not on its far side") {
             return v;
         }(),
         kSize, Quality::normal);
-    CHECK(compare(near, none, 40).share * 64 * 48 > 20.0);  // some 15 pixels long, two wide
+    CHECK(compare(near, none, 40).share * 64 * 48 > 20.0);  // the line is some 15 pixels long and two wide
     CHECK(compare(far, none, 8).largest <= 8);
 }
 
@@ -82,5 +84,6 @@ TEST_CASE("Lines through the eye's plane and off the picture do no harm") {
     view.edges.push_back({{500.0F, 5.0F, 0.0F}, {600.0F, 5.0F, 0.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
     CHECK(drawn(view, kSize, Quality::normal).rgb == plain.rgb);
     view.edges.push_back({{0.0F, -1.0F, 30.0F}, {0.0F, -1.0F, -30.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
-    CHECK(compare(drawn(view, kSize, Quality::normal), plain, 8).share > 0.01);  // it does cross the lower half
+    CHECK(compare(drawn(view, kSize, Quality::normal), plain, 8).share >
+          0.01);  // the line crosses the lower half of the picture
 }

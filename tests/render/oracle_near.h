@@ -10,8 +10,8 @@
 
 namespace oracle {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();      ///< one unit of rounding
-constexpr double kFloatEps = std::numeric_limits<float>::epsilon();  ///< the same of the float inputs
+constexpr double kEps = std::numeric_limits<double>::epsilon();      ///< relative rounding of double
+constexpr double kFloatEps = std::numeric_limits<float>::epsilon();  ///< relative rounding of the float inputs
 
 inline void checkNear(double value, double expected, double tolerance) {
     const double difference = value - expected;

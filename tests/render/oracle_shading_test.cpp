@@ -95,7 +95,8 @@ TEST_CASE("oracle: a lone metaball is the sphere of its radius") {
         ++hitCount;
         REQUIRE(std::abs(glm::dot(sphere.normal, ray.direction)) > 1e-4);  // so that half the chord h is above 5e-5 m
         checkNear(ball.distance, sphere.distance, 1e-9);  // error of d^2 is 8 eps R^2, R <= 2, over 2 h: 7e-11
-        REQUIRE(glm::distance(ball.normal, sphere.normal) < 1e-9);      // the same over the radius 0.5: 1.4e-10
+        REQUIRE(glm::distance(ball.normal, sphere.normal) <
+                1e-9);  // the error of the distance over the radius 0.5: 1.4e-10
         REQUIRE(glm::distance(ball.albedo, sphere.albedo) < 4 * kEps);  // (k c)/k: 2 roundings
     }
     CHECK(hitCount > 100);
@@ -120,7 +121,7 @@ TEST_CASE("oracle: in a smooth skin a small ball feels a large one from afar") {
     const double share = root * root;
     const std::vector<oracle::Ball> balls = oracle::ballsOf(view);
     const double pull = double(render::kSkinPull) * 0.7 * share / (1.0 + share);
-    constexpr double kSingle = 1e-7;  // radii and places of a view
+    constexpr double kSingle = 1e-7;  // relative rounding of the view's floats
     CHECK(std::abs(balls[0].center.x - pull) < kSingle);
     CHECK(std::abs(balls[1].center.x - (0.7 - pull)) < kSingle);
     for (const oracle::Ball& ball : balls) CHECK(std::abs(ball.weight - std::pow(1.0 + share, -0.75)) < kSingle);
@@ -164,7 +165,8 @@ TEST_CASE("oracle: slivers that a 0.06 m step misses are found") {
         const Ray ray{{0.0, 0.0, 10.0}, {0.0, 0.0, -1.0}};
         const double slope = 8.0 * root * half / reachSquared;
         REQUIRE(staysBelow(view, ray, 0.06, 20.0, oracle::fieldThreshold(view)));
-        checkNear(oracle::trace(view, ray).distance, 10.0 - half, 16 * kEps / slope + 16 * kEps);  // above, 2 balls
+        checkNear(oracle::trace(view, ray).distance, 10.0 - half,
+                  16 * kEps / slope + 16 * kEps);  // as above, for two balls
     }
 }
 
@@ -197,7 +199,7 @@ TEST_CASE("oracle: in a random crowd the hit is on the surface, faces downhill, 
     CHECK(hitCount < 90);
 }
 
-TEST_CASE("oracle: sRGB values known, the round trip of all bytes, and what is no color") {
+TEST_CASE("oracle: known sRGB values, the round trip of all bytes, and values outside of [0, 1]") {
     CHECK(oracle::encodeSrgb(0.0) == 0);
     CHECK(oracle::encodeSrgb(0.002) == 7);       // 255 * 12.92 * 0.002 = 6.59
     CHECK(oracle::encodeSrgb(0.0031308) == 10);  // 255 * 0.04045 = 10.31
@@ -226,16 +228,16 @@ TEST_CASE("oracle: ambient, diffuse and glint of one point by hand") {
         return oracle::shade(view, facingHit(kind), kFromFront, 0.0);
     };
     render::View view = litView(0.5F);
-    checkNear(colorOf(view, Hit::Kind::particle), glossy, tolerance);         // above
-    checkNear(colorOf(view, Hit::Kind::sphereObstacle), matt, tolerance);     // above
-    checkNear(colorOf(view, Hit::Kind::boxObstacle), matt, tolerance);        // above
-    checkNear(colorOf(litView(0.0F), Hit::Kind::particle), matt, tolerance);  // above
+    checkNear(colorOf(view, Hit::Kind::particle), glossy, tolerance);         // derived above
+    checkNear(colorOf(view, Hit::Kind::sphereObstacle), matt, tolerance);     // derived above
+    checkNear(colorOf(view, Hit::Kind::boxObstacle), matt, tolerance);        // derived above
+    checkNear(colorOf(litView(0.0F), Hit::Kind::particle), matt, tolerance);  // derived above
     view.sphereObstacles = {{{4.8F, 0.0F, 1.4F}, 0.5F, {}}};                  // 5 m toward the light
     checkNear(colorOf(view, Hit::Kind::particle), unlit, 4 * kEps);           // ambient alone, a few roundings
     view.light.shadows = false;
-    checkNear(colorOf(view, Hit::Kind::particle), glossy, tolerance);  // above
+    checkNear(colorOf(view, Hit::Kind::particle), glossy, tolerance);  // derived above
     view.light.toLight = {1.92F, 0.0F, 0.56F};                         // twice as long is the same light
-    checkNear(colorOf(view, Hit::Kind::particle), glossy, tolerance);  // above
+    checkNear(colorOf(view, Hit::Kind::particle), glossy, tolerance);  // derived above
     view.light.toLight = {0.96F, 0.0F, -0.28F};
     checkNear(colorOf(view, Hit::Kind::particle), unlit, 4 * kEps);  // ambient alone, a few roundings
 }
@@ -246,7 +248,7 @@ TEST_CASE("oracle: the ground fades into the background with the fourth power of
     view.light.color = glm::vec3{0.5F};
     view.ambient.sky = glm::vec3{0.25F};
     view.background = {glm::vec3{1.0F}, glm::vec3{0.0F}};
-    view.surface.specular = 0.5F;  // must not matter
+    view.surface.specular = 0.5F;  // has no effect: the ground is matt
     view.ground = render::Ground{};
     view.ground->color = glm::vec3{0.5F};
     view.ground->center = {0.0F, 3.0F, 0.0F};
@@ -257,7 +259,7 @@ TEST_CASE("oracle: the ground fades into the background with the fourth power of
     };
     checkNear(groundAt(4.0), 0.5 * 0.375 + 0.5 * 0.75, 16 * kEps);  // d = 5: half and half; a dozen roundings below 1
     const double far = std::sqrt(100.0 - 9.0);
-    checkNear(groundAt(far), (0.375 + 16.0 * 0.75) / 17.0, 16 * kEps);  // d = 10: fade 16; the same
+    checkNear(groundAt(far), (0.375 + 16.0 * 0.75) / 17.0, 16 * kEps);  // d = 10: fade 16; a dozen roundings below 1
     CHECK(groundAt(1e90) == 0.75);                                      // fade overflows to infinity: background alone
     view.ground->center = {0.0F, 0.0F, 4.0F};
     CHECK(groundAt(4.0) == 0.375);  // no fade at the center

@@ -1,4 +1,4 @@
-// What the renderer's tests share: views to draw, and how two pictures are compared.
+// Shared by the tests of the renderer: views to draw, and the comparison of two pictures.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Difference {
     int worstX = 0;
     int worstY = 0;
     double mean = 0.0;
-    double share = 0.0;  ///< of pixels that differ by more than the limit given
+    double share = 0.0;  ///< of the pixels that differ by more than a limit in some channel
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Difference& d) {
@@ -29,6 +29,7 @@ inline std::ostream& operator<<(std::ostream& out, const Difference& d) {
                << ", share " << d.share;
 }
 
+/// @param limit  up to how many steps two pixels count as equal
 inline Difference compare(const render::Image& a, const render::Image& b, int limit) {
     Difference result;
     result.sameSize = a.width == b.width && a.height == b.height && a.rgb.size() == b.rgb.size();
@@ -65,13 +66,13 @@ inline render::Image drawn(const render::View& view, render::PictureSize size, r
     return renderer.draw(view);
 }
 
-/// Particles of different sizes in a ball, over a ground, with light and sky of different colors.
+/// Particles of different sizes in a box of 3 x 2 x 3 m above the ground, with light and sky of different colors.
 inline render::View cloud(int count, unsigned seed = 7) {
     render::View view;
     std::mt19937 random(seed);
     const auto uniform = [&random] { return static_cast<float>(random()) / 4294967296.0F; };
     for (int k = 0; k < count; ++k) {
-        // In braces, where every compiler draws the numbers in this order.
+        // Within braces every compiler evaluates the random numbers from left to right.
         const glm::vec3 at{3.0F * uniform() - 1.5F, 2.0F * uniform() + 0.2F, 3.0F * uniform() - 1.5F};
         view.particles.push_back({at, 0.08F + 0.1F * uniform(), {uniform(), uniform(), uniform()}});
     }
@@ -87,8 +88,8 @@ inline render::View cloud(int count, unsigned seed = 7) {
     return view;
 }
 
-/// The cloud with a sphere and a box beside it. The box stands a little off the ground and off the middle of the
-/// picture, where two surfaces, or an edge and a column of pixel centers, would coincide.
+/// The cloud with a sphere and a box beside it. The box does not touch the ground, nor do its edges run through the
+/// middles of pixels, where rounding would decide what is seen.
 inline render::View cloudWithObstacles(int count) {
     render::View view = cloud(count);
     view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});

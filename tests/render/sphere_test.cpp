@@ -1,4 +1,4 @@
-// The sphere pass, obstacles, ground and background against the oracle.
+// Pictures of spheres, obstacles, ground and background against the oracle.
 #include "tests/catch.h"
 
 #include "tests/render/pictures.h"
@@ -8,9 +8,9 @@ using render::Quality;
 
 namespace {
 
-constexpr render::PictureSize kSize{121, 75};  // no whole number of tiles
+constexpr render::PictureSize kSize{121, 75};  // not a multiple of the tile size
 
-// Nine tenths of a step: rounding to bytes half a step either side, single precision far less.
+// Channels may differ by one step of 1/255: bytes are rounded, and single precision adds far less than a step.
 constexpr int kStep = 1;
 
 void requireAlike(const render::View& view, double share) {
@@ -18,7 +18,8 @@ void requireAlike(const render::View& view, double share) {
     INFO(difference);
     REQUIRE(difference.sameSize);
     CHECK(difference.share <= share);
-    // One channel in fifty a step off by rounding (counted: one in 600), and 60 steps for each pixel across an outline.
+    // One channel in fifty may be a step off by rounding (counted once: one in 600), and each pixel on an outline 60
+    // steps.
     CHECK(difference.mean < 0.02 + 60.0 * share);
 }
 
@@ -39,47 +40,47 @@ TEST_CASE("The comparison finds a wrong picture") {
 
 TEST_CASE("Spheres, perspective and orthographic, are those of the oracle") {
     render::View view = cloud(200);
-    // 2 pixels of 9075: rays so close to an outline that single precision decides otherwise (1e-6 of some 3000 outline
-    // pixels).
+    // 2 pixels of 9075: of some 3000 pixels on outlines, those whose ray passes an outline so closely that single precision
+    // decides otherwise.
     requireAlike(view, 2.0 / 9075.0);
     view.camera.projection = render::Projection::orthographic;
     view.camera.halfHeight = 2.0F;
-    requireAlike(view, 2.0 / 9075.0);  // the same
+    requireAlike(view, 2.0 / 9075.0);  // pixels on outlines, as above
 }
 
 TEST_CASE("Obstacles, ground and background are those of the oracle") {
-    requireAlike(cloudWithObstacles(60), 2.0 / 9075.0);  // outline pixels as above
+    requireAlike(cloudWithObstacles(60), 2.0 / 9075.0);  // pixels on outlines, as in the first test
     render::View view = cloudWithObstacles(0);
     view.surface.specular = 0.0F;
     requireAlike(view, 2.0 / 9075.0);
     view.ground.reset();
     requireAlike(view, 2.0 / 9075.0);
-    requireAlike(render::View{}, 0.0);  // nothing but black
+    requireAlike(render::View{}, 0.0);  // a black picture
 }
 
 TEST_CASE("Seen from below the ground hides what is above it") {
     render::View view = cloudWithObstacles(40);
     view.camera.eye.y = -1.0F;
-    requireAlike(view, 2.0 / 9075.0);  // outline pixels as above
+    requireAlike(view, 2.0 / 9075.0);  // pixels on outlines, as in the first test
 }
 
 TEST_CASE("Spheres far off the axis stay exact") {
     render::View view = cloud(40);
     view.camera.verticalFov = 2.2F;
     view.camera.eye = {0.3F, 1.5F, 2.0F};
-    requireAlike(view, 2.0 / 9075.0);  // outline pixels as above
+    requireAlike(view, 2.0 / 9075.0);  // pixels on outlines, as in the first test
 }
 
 TEST_CASE("Shadows are the oracle's up to their softened edge") {
     render::View view = cloudWithObstacles(120);
     view.light.shadows = true;
-    // The edge is a pixel wide where the oracle's is hard, so only pixels on shadows' outlines may differ: 0.02
-    // counted. Without any shadow 0.075 differ (next test), so 0.03 tells the two apart.
+    // A shadow's edge is a pixel wide here and sharp in the oracle, so only pixels on shadows' outlines differ (counted
+    // once: 0.02). Without any shadow 0.075 of the pixels differ (next test), so 0.03 tells the two apart.
     requireAlike(view, 0.03);
     view.camera.projection = render::Projection::orthographic;
     view.camera.halfHeight = 2.0F;
     requireAlike(view, 0.03);
-    view.light.toLight = {0.0F, 1.0F, 0.0F};  // along an axis: boxes have no sides toward the light
+    view.light.toLight = {0.0F, 1.0F, 0.0F};  // along an axis, parallel to the sides of boxes
     requireAlike(view, 0.03);
 }
 
@@ -98,7 +99,7 @@ TEST_CASE("Better quality is nearer to the exact picture") {
     const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;
     const double final = compare(drawn(view, kSize, Quality::final), exact, 0).mean;
     CAPTURE(draft, normal, final);
-    CHECK(normal < 0.6 * draft);   // four samples at outlines: half the error of one
-    CHECK(final < 0.75 * normal);  // nine: two thirds of the error of four
-    CHECK(final < 1.5);            // steps; what nine of 36 samples leave
+    CHECK(normal < 0.6 * draft);   // four samples at outlines have half the error of one
+    CHECK(final < 0.75 * normal);  // nine samples have two thirds of the error of four
+    CHECK(final < 1.5);            // steps; chosen for nine samples against 36
 }

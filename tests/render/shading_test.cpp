@@ -38,8 +38,8 @@ std::vector<Term> terms() {
             {"exposure", [](render::View& v) { v.exposure = 1.6F; }}};
 }
 
-/// A crowd, so that some of it is hidden from the sky, with obstacles.
-render::View crowded(Style style) {
+/// So many particles that some are occluded from the sky, with obstacles.
+render::View denseCloud(Style style) {
     render::View view = cloudWithObstacles(250);
     view.style = style;
     view.surroundings = {{0.9F, 0.8F, 1.0F}, {0.6F, 0.6F, 0.5F}, {0.2F, 0.3F, 0.1F}};
@@ -54,14 +54,15 @@ Difference differenceOf(const render::View& view, int limit) {
 
 TEST_CASE("Each term of the shading is the oracle's, and changes the picture") {
     for (const Style style : {Style::spheres, Style::metaballs}) {
-        const render::View plain = crowded(style);
+        const render::View plain = denseCloud(style);
         const render::Image without = drawn(plain, kSize, Quality::draft);
         for (const Term& term : terms()) {
             render::View view = plain;
             term.add(view);
             const Difference difference = differenceOf(view, 2);
             INFO(term.name << ", style " << int(style) << ": " << difference);
-            // 2 steps: packed normals and openness of metaballs; outlines, where single precision decides otherwise.
+            // 2 steps: packed normals and sky visibilities; 10 pixels: outlines, where single precision may decide
+            // otherwise.
             CHECK(difference.share <= 10.0 / kPixels);
             CHECK(difference.mean < 0.05);  // rounding
             CHECK(compare(without, drawn(view, kSize, Quality::draft), 2).share > 0.02);
@@ -71,18 +72,18 @@ TEST_CASE("Each term of the shading is the oracle's, and changes the picture") {
 
 TEST_CASE("All terms together are the oracle's, in parallel projection too") {
     for (const Style style : {Style::spheres, Style::metaballs}) {
-        render::View view = crowded(style);
+        render::View view = denseCloud(style);
         for (const Term& term : terms()) term.add(view);
         view.camera.projection = render::Projection::orthographic;
         view.camera.halfHeight = 2.0F;
         const Difference difference = differenceOf(view, 3);
         INFO("style " << int(style) << ": " << difference);
-        CHECK(difference.share <= 15.0 / kPixels);  // 3 steps: the packings of all terms; outlines
+        CHECK(difference.share <= 15.0 / kPixels);  // 3 steps: packed inputs of all terms; 15 pixels on outlines
     }
 }
 
 TEST_CASE("The shadow of the outermost spheres is soft to its end") {
-    // Nothing else casts, so that the edge lies outside of all spheres as the light sees them.
+    // No other sphere casts a shadow, so the soft edge reaches beyond the bounds of all spheres in the light's view.
     render::View view = cloud(1);
     view.style = Style::spheres;
     view.particles.front() = {{0.0F, 1.2F, 0.0F}, 0.5F, {0.9F, 0.5F, 0.2F}};
@@ -90,7 +91,7 @@ TEST_CASE("The shadow of the outermost spheres is soft to its end") {
     view.light.softness = 1.0F;
     const Difference difference = differenceOf(view, 2);
     INFO(difference);
-    CHECK(difference.share <= 2.0 / kPixels);  // outlines, where single precision decides otherwise
+    CHECK(difference.share <= 2.0 / kPixels);  // pixels on outlines, where single precision may decide otherwise
 }
 
 TEST_CASE("Soft shadows of spheres and boxes are the oracle's") {
@@ -100,23 +101,25 @@ TEST_CASE("Soft shadows of spheres and boxes are the oracle's") {
         view.light.softness = softness;
         const Difference difference = differenceOf(view, 2);
         INFO("softness " << softness << ": " << difference);
-        // Where a caster touches, its edge is a pixel wide here and sharp there; counted once: 0.0022.
+        // Where an occluder touches the surface, the edge is a pixel wide here and sharp in the oracle; counted once:
+        // 0.0022.
         CHECK(difference.share < 0.005);
-        CHECK(difference.mean < 0.05);  // rounding, and half the contrast of those
+        CHECK(difference.mean < 0.05);  // rounding, and half of the contrast in those pixels
     }
     render::View sharp = view;
     sharp.light.softness = 0.0F;
     CHECK(compare(drawn(view, kSize, Quality::draft), drawn(sharp, kSize, Quality::draft), 2).share > 0.03);
 }
 
-TEST_CASE("Soft shadows of metaballs are the oracle's up to their map's texels") {
+TEST_CASE("Soft shadows of metaballs are the oracle's up to the depth map's texels") {
     render::View view = cloud(150);
     view.style = Style::metaballs;
     view.light.shadows = true;
     view.light.softness = 1.0F;
     const Difference difference = differenceOf(view, 12);
     INFO(difference);
-    // The oracle takes nine rays for each edge, so that single samples are a ninth of the light (some 14 steps) off.
+    // The oracle casts nine rays across a soft edge, so that single samples are a ninth of the light (some 14 steps)
+    // off.
     CHECK(difference.share < 0.03);  // counted once: 0.021
     CHECK(difference.mean < 0.8);    // counted once: 0.66
     render::View sharp = view;
@@ -124,7 +127,7 @@ TEST_CASE("Soft shadows of metaballs are the oracle's up to their map's texels")
     CHECK(compare(drawn(view, kSize, Quality::draft), drawn(sharp, kSize, Quality::draft), 12).share > 0.02);
 }
 
-TEST_CASE("Better quality is nearer to the exact picture in the full look") {
+TEST_CASE("Better quality is nearer to the exact picture with all terms") {
     render::View view = cloud(150);
     view.style = Style::metaballs;
     view.light.shadows = true;
@@ -134,21 +137,22 @@ TEST_CASE("Better quality is nearer to the exact picture in the full look") {
     const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;
     const double final = compare(drawn(view, kSize, Quality::final), exact, 0).mean;
     CAPTURE(normal, final);
-    CHECK(normal < 1.5);  // steps
+    CHECK(normal < 1.5);  // steps of 1/255 on average, chosen
     CHECK(final < 0.8 * normal);
 }
 
-TEST_CASE("Tiles of plain ground and of background leave nothing out") {
-    // The same surfaces with a caster far away below the ground, which dims nothing but whose bounds are everywhere.
-    render::View view = crowded(Style::spheres);
+TEST_CASE("Tiles of open ground and of background leave nothing out") {
+    // The same surfaces with two spheres far away below the ground, which shade nothing but whose bounds are
+    // everywhere: no tile counts as open ground any more.
+    render::View view = denseCloud(Style::spheres);
     view.light.shadows = true;
     view.light.softness = 0.5F;
     view.ambient.occlusion = 0.8F;
     const render::Image plain = drawn(view, {400, 225}, Quality::normal);
     view.sphereObstacles.push_back({{-300.0F, -400.0F, -300.0F}, 1.0F, {}});
     view.sphereObstacles.push_back({{300.0F, -400.0F, 300.0F}, 1.0F, {}});
-    // Plain ground is found tile by tile, any other pixel by pixel: few of their last bits differ, and few of these
-    // round a step apart.
+    // Open ground is colored from one color of the whole ground, other ground point by point: few of the results differ
+    // in their last bits, and few of these are rounded to different bytes.
     const render::Image pixelwise = drawn(view, {400, 225}, Quality::normal);
     CHECK(compare(pixelwise, plain, 1).share == 0.0);
     CHECK(compare(pixelwise, plain, 0).share < 1e-4);
@@ -156,20 +160,20 @@ TEST_CASE("Tiles of plain ground and of background leave nothing out") {
 
 TEST_CASE("A strength of zero leaves the picture as it was") {
     for (const Style style : {Style::spheres, Style::metaballs}) {
-        render::View view = crowded(style);
+        render::View view = denseCloud(style);
         view.light.shadows = true;
         const render::Image before = drawn(view, kSize, Quality::normal);
-        view.surroundings.top = {5.0F, 0.0F, 0.0F};  // mirrors nothing
+        view.surroundings.top = {5.0F, 0.0F, 0.0F};  // no effect without reflection
         CHECK(drawn(view, kSize, Quality::normal).rgb == before.rgb);
     }
 }
 
-TEST_CASE("SkyVisibility: a lone particle sees the sky, one in a block does not, one on top sees it upwards") {
+TEST_CASE("Sky visibility: a lone particle sees the sky, one in a block does not, one on top sees it upwards") {
     const auto openOf = [](const std::vector<render::Sphere>& particles, glm::vec3 place) {
         const std::vector<render::Sphere> there{{place, 0.1F, {}}};
         return render::particleSkyVisibility(there, render::skyVisibilityGrid(particles)).front();
     };
-    // Its own volume, 0.52 of a cube, reaches a cube's width beyond its own cube at most.
+    // A particle's own volume, 0.52 of a cube, is spread and blurred to at most one cube beyond its own.
     for (const float value : openOf({{{0.3F, 1.0F, 0.2F}, 0.1F, {}}}, {0.3F, 1.0F, 0.2F})) CHECK(value > 0.8F);
     std::vector<render::Sphere> block;
     for (int k = 0; k < 12 * 12 * 12; ++k) block.push_back({0.2F * glm::vec3(k % 12, k / 12 % 12, k / 144), 0.1F, {}});
@@ -181,7 +185,7 @@ TEST_CASE("SkyVisibility: a lone particle sees the sky, one in a block does not,
     CHECK(openOf({}, {0.0F, 0.0F, 0.0F}) == render::kUnoccluded);
 }
 
-TEST_CASE("SkyVisibility is the same in the memory of another scene's") {
+TEST_CASE("Sky visibility is the same in the memory of another scene's") {
     std::vector<render::Sphere> block;
     for (int k = 0; k < 12 * 12 * 12; ++k) block.push_back({0.2F * glm::vec3(k % 12, k / 12 % 12, k / 144), 0.1F, {}});
     const std::span all(block);
@@ -195,7 +199,7 @@ TEST_CASE("SkyVisibility is the same in the memory of another scene's") {
     CHECK(render::skyVisibilityGrid({}, render::skyVisibilityGrid(block)).cells == glm::ivec3(0));
 }
 
-TEST_CASE("SkyVisibility does not depend on where the cubes lie by more than a little") {
+TEST_CASE("Sky visibility depends only a little on where the cubes lie") {
     std::vector<render::Sphere> block;
     for (int k = 0; k < 10 * 10 * 10; ++k) block.push_back({0.2F * glm::vec3(k % 10, k / 10 % 10, k / 100), 0.1F, {}});
     float least = 1.0F;
@@ -209,10 +213,10 @@ TEST_CASE("SkyVisibility does not depend on where the cubes lie by more than a l
         most = std::max(most, open[0]);
     }
     CAPTURE(least, most);
-    CHECK(most - least < 0.1F);  // chosen: a tenth of the ambient light, over a whole cube's width of motion
+    CHECK(most - least < 0.1F);  // chosen: a tenth of the ambient light, while the block moves by the width of a cube
 }
 
-TEST_CASE("Thread counts change neither openness nor skin") {
+TEST_CASE("Thread counts change neither sky visibility nor skin") {
     render::View view = cloud(3000);
     view.style = Style::metaballs;
     view.field.skin = render::Skin::smooth;
@@ -233,7 +237,7 @@ TEST_CASE("Thread counts change neither openness nor skin") {
 }
 
 TEST_CASE("A smooth skin is the oracle's") {
-    render::View view = crowded(Style::metaballs);
+    render::View view = denseCloud(Style::metaballs);
     view.field.skin = render::Skin::smooth;
     for (const float reach : {2.0F, 3.5F}) {
         view.field.reach = reach;
@@ -270,7 +274,7 @@ TEST_CASE("A smooth skin's balls are the sums over all particles in reach") {
             }
             const glm::dvec3 center = glm::dvec3(here.center) + double(render::kSkinPull) * pull / crowd;
             INFO("particle " << p << " of " << count);
-            // Some forty additions of numbers below 1 in single precision.
+            // Tolerance: some forty additions of numbers below 1 in single precision (6e-8 each).
             CHECK(glm::length(glm::dvec3(skin[p].center) - center) < 3e-6);
             CHECK(std::abs(double(skin[p].weight) - std::pow(crowd, -0.75)) < 3e-6);
         }
@@ -310,8 +314,9 @@ TEST_CASE("In a smooth skin a lone ball keeps its place and radius, and a flat p
     view.field.skin = render::Skin::plain;
     const double plain = meanSlant();
     CAPTURE(smooth, plain, height);
-    CHECK(smooth < 0.85 * plain);  // at the same reach; counted once: 0.74
-    // The top layer's middles lie at 0.72, the surface about a radius above them (counted once: 0.75 radii).
+    CHECK(smooth < 0.85 * plain);  // both at the same reach; counted once: 0.74
+    // The centers of the top layer lie at 0.72 m, the surface about a radius of 0.1 m above them (counted once: 0.75
+    // radii).
     CHECK(height > 0.77);
     CHECK(height < 0.87);
 }
