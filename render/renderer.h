@@ -24,9 +24,8 @@ class Renderer {
     Renderer& operator=(const Renderer&) = delete;
 
     /// @param old  an image that is no longer needed, whose memory is reused
-    /// @throws SystemError if OpenGL fails or a list of primitives per tile outgrows its limits; std::logic_error if
-    /// the
-    ///         view has numbers that are not finite
+    /// @throws SystemError  if OpenGL fails, or if the tiles' lists of spheres or lines become too long
+    /// @throws std::logic_error  if the view has numbers that are not finite
     Image draw(const View& view, Image old = {});
 
     /// What the pixels of the view's picture show, row by row from the top left, computed as for the picture.

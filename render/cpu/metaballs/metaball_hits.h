@@ -1,5 +1,5 @@
 // What the metaball rays of a picture hit: packed to 16 bytes per ray, tile by tile, with extra samples at silhouettes.
-// Written by metaball_frame.cpp and silhouette_rays.cpp, read by picture_samples.cpp and shading_points.cpp.
+// Written by metaball_frame.cpp and silhouette_rays.cpp, read by tile_samples.cpp and shading_points.cpp.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Primary hits: what rays through the pixels of a tile meet first of spheres, boxes and the ground, as many rays at a
-// time as a SIMD vector holds. Called by picture_samples.cpp. Only the identity and the depth of a hit are kept;
+// time as a SIMD vector holds. Called by tile_samples.cpp. Only the identity and the depth of a hit are kept;
 // shading_points.cpp computes its position and normal for the few samples that are shaded.
 #pragma once
 
