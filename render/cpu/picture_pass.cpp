@@ -16,12 +16,6 @@ bool needsSkyVisibility(const View& view) {
                                        surface.translucency > 0.0F || surface.absorption > 0.0F);
 }
 
-float meanRadiusOf(const View& view) {
-    double sum = 0.0;
-    for (const Sphere& particle : view.particles) sum += double(particle.radius);
-    return view.particles.empty() ? 0.0F : static_cast<float>(sum / static_cast<double>(view.particles.size()));
-}
-
 }  // namespace
 
 void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times) {
@@ -29,7 +23,7 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     light_ = lightBasis(view.light.toLight);
     shading_ = shadingOf(view);
     hasMetaballs_ = view.style == Style::metaballs && !view.particles.empty();
-    meanRadius_ = meanRadiusOf(view);
+    meanRadius_ = static_cast<float>(meanRadius(view.particles));
     depthMapTexels_ = depthMapTexels;
     // These run side by side: none needs another's results, and each has parts that keep only one thread busy.
     const auto placeBalls = [&] {

@@ -12,6 +12,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "render/prepare/drawn_spheres.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/prepare/ambient_occlusion.cpp"
 #include <hwy/foreach_target.h>
@@ -67,9 +69,7 @@ constexpr double kMostCells = 1e6;
 
 /// The side s of the cubes of view.h, before it is doubled.
 float cubeSide(std::span<const Sphere> particles) {
-    double sum = 0.0;
-    for (const Sphere& particle : particles) sum += double(particle.radius);
-    const double wanted = 2.0 * sum / static_cast<double>(particles.size());
+    const double wanted = 2.0 * meanRadius(particles);
     constexpr double kStep = 1.189207115002721;  // 2^(1/4)
     double side = 1.0;
     while (side < wanted) side *= kStep;

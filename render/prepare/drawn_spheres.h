@@ -34,4 +34,7 @@ DrawnSpheres drawnSpheres(const View& view);
 std::vector<SphereAttributes> sphereAttributes(const View& view, const DrawnSpheres& drawn,
                                                std::span<const SkyVisibility> skyVisibility);
 
+/// Mean radius of the particles, m; 0 without particles.
+double meanRadius(std::span<const Sphere> particles);
+
 }  // namespace render

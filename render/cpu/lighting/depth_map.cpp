@@ -12,6 +12,7 @@
 #include "render/cpu/metaballs/metaball_cast.h"
 #include "render/cpu/metaballs/metaball_scene.h"
 #include "render/cpu/metaballs/ray_layout.h"
+#include "render/prepare/drawn_spheres.h"
 
 namespace render {
 
@@ -223,18 +224,16 @@ DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const
                       const DepthMapSampling& sampling) {
     std::vector<ViewSphere> kernels;
     float smallest = std::numeric_limits<float>::max();
-    double sum = 0.0;
     for (std::size_t k = 0; k < balls.size(); ++k) {
         const float radius = view.particles[k].radius;
         if (radius <= 0.0F) continue;
         kernels.push_back({balls[k].center - view.camera.eye, view.field.reach * radius});
         smallest = std::min(smallest, radius);
-        sum += double(radius);
     }
     if (kernels.empty()) return {};
     const LightBounds bounds = lightBounds(basis, kernels);
     // A soft edge is filtered over three texels, each of half the softness (view.h).
-    const auto mean = static_cast<float>(sum / static_cast<double>(kernels.size()));
+    const auto mean = static_cast<float>(meanRadius(view.particles));
     const float softness = view.light.softness;
     const float texelSize = softness > 0.0F ? 0.5F * softness * mean : smallest / kTexelsPerRadius;
     DepthMap map = emptyMap(bounds, basis.toLightSpace(view.camera.eye), texelSize, sampling.maxTexels);
