@@ -9,7 +9,6 @@
 #include <tbb/parallel_for.h>
 
 #include "render/cpu/metaballs/ray_layout.h"
-#include "render/cpu/raster/line_coverage.h"
 
 namespace render {
 

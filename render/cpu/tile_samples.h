@@ -11,7 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "render/cpu/metaballs/metaball_hits.h"
-#include "render/cpu/raster/line_list.h"
+#include "render/cpu/raster/lines.h"
 #include "render/cpu/raster/primary_hits.h"
 #include "render/cpu/shading/background_tiles.h"
 

@@ -1,5 +1,9 @@
 // Edges are projected and clipped in double precision: one that passes close to the eye is very long on the picture.
-#include "render/cpu/raster/line_list.h"
+//
+// Most lines run along faces of boxes and over the ground. There the depth of the pixel's own ray does not tell whether
+// the line is hidden, because the line may pass beside the middle of the pixel: a ray through the line's nearest point
+// is cast.
+#include "render/cpu/raster/lines.h"
 
 #include <algorithm>
 #include <optional>
@@ -70,13 +74,17 @@ float reachOf(const ScreenLine& line) {
     return 0.5F * line.width + 1.5F;
 }
 
-/// Compares the distance of the tile's center from the segment with half the tile's diagonal.
+/// The point of a line that is closest to a pixel, as the parameter t of from + t (to - from).
+float closestParameter(const ScreenLine& line, glm::vec2 pixel) {
+    const glm::vec2 along = line.to - line.from;
+    return std::clamp(dot(pixel - line.from, along) / std::max(dot(along, along), 1.0e-12F), 0.0F, 1.0F);
+}
+
+/// Compares the distance of the tile's center from the line with half the tile's diagonal.
 bool touches(const ScreenLine& line, int column, int row) {
     const glm::vec2 center = (glm::vec2(column, row) + 0.5F) * static_cast<float>(kTileSize);
-    const glm::vec2 from = line.from;
-    const glm::vec2 along = line.to - from;
-    const float t = std::clamp(dot(center - from, along) / std::max(dot(along, along), 1e-12F), 0.0F, 1.0F);
-    return length(center - (from + t * along)) <= 0.7072F * static_cast<float>(kTileSize) + reachOf(line);
+    const glm::vec2 closest = line.from + closestParameter(line, center) * (line.to - line.from);
+    return distance(center, closest) <= 0.7072F * static_cast<float>(kTileSize) + reachOf(line);
 }
 
 void addTouchedTiles(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame,
@@ -97,6 +105,40 @@ void addTouchedTiles(const ScreenLine& line, std::uint32_t index, const CameraFr
     }
 }
 
+// What hides a line is nearer than this share of the line's depth. Chosen: nothing but the face that a line lies on
+// comes closer to it.
+constexpr float kNearer = 0.999F;
+
+struct LinePoint {
+    float coverage = 0.0F;  // share of the pixel that the line covers
+    float depth = 1.0F;     // view depth of the point of the line that is nearest to the pixel, m
+    glm::vec2 at{0.0F};     // where that point is, in pixels
+};
+
+LinePoint nearestOnLine(const ScreenLine& line, bool perspective, glm::vec2 pixel) {
+    const float t = closestParameter(line, pixel);
+    LinePoint point;
+    point.at = line.from + t * (line.to - line.from);
+    // In perspective 1/depth is linear on the picture, in parallel projection the depth itself.
+    point.depth = perspective ? 1.0F / glm::mix(1.0F / line.fromDepth, 1.0F / line.toDepth, t)
+                              : glm::mix(line.fromDepth, line.toDepth, t);
+    // A line thinner than a pixel covers no more than its width.
+    point.coverage = std::clamp(0.5F * line.width + 0.5F - distance(pixel, point.at), 0.0F, std::min(line.width, 1.0F));
+    return point;
+}
+
+bool isFlat(std::int32_t hitId) {
+    return hitId < 0 || (hitId >= kHitBox && hitId < kHitMetaballs);
+}
+
+/// Share of a pixel's samples that no sphere or metaball hides at this depth.
+float shareInFront(std::span<const TileRays> samples, std::size_t pixel, float depth) {
+    int shown = 0;
+    for (const TileRays& rays : samples)
+        shown += isFlat(rays.hitId[pixel]) || rays.depth[pixel] >= depth * kNearer ? 1 : 0;
+    return static_cast<float>(shown) / static_cast<float>(samples.size());
+}
+
 }  // namespace
 
 LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges) {
@@ -111,6 +153,31 @@ LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges) {
     list.tiles =
         binIntoCells(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
     return list;
+}
+
+LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, std::size_t tile,
+                          std::span<const TileRays> samples, glm::vec2 point) {
+    const glm::vec2 corner = tileCorner(lines.tiles, tile) + point;
+    LineCoverage over{};
+    for (std::size_t k = lines.tiles.begin[tile]; k < lines.tiles.begin[tile + 1]; ++k) {
+        const ScreenLine& line = lines.lines[lines.tiles.items[k]];
+        std::array<LinePoint, kTilePixels> points;
+        TileRays rays;
+        for (std::size_t pixel = 0; pixel < kTilePixels; ++pixel) {
+            const glm::vec2 at = corner + glm::vec2(pixel % kTileSize, pixel / kTileSize);
+            points[pixel] = nearestOnLine(line, geometry.frame.perspective, at);
+            rays.x[pixel] = points[pixel].at.x;
+            rays.y[pixel] = points[pixel].at.y;
+        }
+        findFlatHits(geometry, {}, rays);
+        for (std::size_t pixel = 0; pixel < kTilePixels; ++pixel) {
+            const LinePoint& nearest = points[pixel];
+            if (nearest.coverage <= 0.0F || rays.depth[pixel] < nearest.depth * kNearer) continue;
+            const float share = nearest.coverage * shareInFront(samples, pixel, nearest.depth);
+            over[pixel] = over[pixel] * (1.0F - share) + share * glm::vec4(line.color, 1.0F);
+        }
+    }
+    return over;
 }
 
 }  // namespace render

@@ -1,0 +1,45 @@
+// The edges of a view as straight lines on the picture: antialiased, of constant width in pixels, hidden by what is
+// nearer than they are. Projected by the picture pass, drawn over tiles by picture_colors.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/cpu/raster/primary_hits.h"
+#include "render/picture/camera_frame.h"
+#include "render/picture/view.h"
+#include "render/prepare/tiles.h"
+
+namespace render {
+
+/// A projected edge.
+struct ScreenLine {
+    glm::vec2 from{0.0F};  ///< position on the picture, pixels
+    glm::vec2 to{0.0F};
+    float fromDepth = 1.0F;  ///< view depth, m
+    float toDepth = 1.0F;
+    float width = 1.0F;  ///< pixels
+    glm::vec3 color{0.0F};
+};
+
+struct LineList {
+    std::vector<ScreenLine> lines;
+    CellLists tiles;  ///< lines that may touch each tile
+};
+
+/// Leaves out the parts of edges that are behind the eye or outside of the picture.
+LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges);
+
+/// What is laid over each pixel of a tile, row by row: the color times its share of the pixel, and in w the share.
+using LineCoverage = std::array<glm::vec4, kTilePixels>;
+
+/// @param samples  the primary hits of the tile
+/// @param point    where in each pixel the coverage is measured, from the pixel's corner
+LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, std::size_t tile,
+                          std::span<const TileRays> samples, glm::vec2 point);
+
+}  // namespace render
