@@ -1,82 +1,17 @@
-// Silhouettes are found from the depths of neighboring pixels, which also bound the depths of the extra rays. The
-// search runs on SIMD vectors; this file is compiled once per instruction set.
+// Silhouettes are found from the depths of neighboring pixels, which also bound the depths of the extra rays.
 #include "render/cpu/metaballs/silhouette_rays.h"
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/cpu/metaballs/silhouette_rays.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#include "render/prepare/simd_rays-inl.h"
-
-#ifndef RENDER_SILHOUETTE_TYPES
-#define RENDER_SILHOUETTE_TYPES
-namespace render {
-
-/// Depths of a tile's pixels and of their neighbors around the tile, row by row; the four corners are not used.
-struct BorderedDepths {
-    static constexpr std::ptrdiff_t kSide = kTileSize + 2;
-
-    std::array<float, kSide * kSide> values;
-
-    /// @param pixel  of the tile, column + 16 row
-    static std::size_t indexOf(std::uint8_t pixel) {
-        return static_cast<std::size_t>((pixel / kTileSize + 1) * kSide + pixel % kTileSize + 1);
-    }
-};
-
-/// One of the four neighbors of every pixel, and the samples of the pixel that lie toward it.
-struct NeighborSide {
-    std::ptrdiff_t step;       ///< to the neighbor, in BorderedDepths
-    std::uint32_t sampleMask;  ///< a bit per sample
-};
-
-}  // namespace render
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace render {
-namespace HWY_NAMESPACE {
-
-/// Of each pixel the samples toward those neighbors whose depth differs by more than `jump`.
-std::array<std::uint32_t, kTilePixels> samplesAtJumps(const BorderedDepths& depths, float jump,
-                                                      const std::array<NeighborSide, 4>& sides) {
-    const D d;
-    const hn::RebindToUnsigned<D> du;
-    std::array<std::uint32_t, kTilePixels> samples;
-    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
-        const float* at = &depths.values[BorderedDepths::indexOf(static_cast<std::uint8_t>(first))];
-        const V own = hn::LoadU(d, at);
-        auto found = hn::Zero(du);
-        for (const NeighborSide& side : sides) {
-            const M isJump = hn::Abs(hn::LoadU(d, at + side.step) - own) > splat(jump);
-            found = hn::Or(found, hn::IfThenElseZero(hn::RebindMask(du, isJump), hn::Set(du, side.sampleMask)));
-        }
-        hn::StoreU(found, du, &samples[first]);
-    }
-    return samples;
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace render
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "render/cpu/metaballs/ray_layout.h"
 
 namespace render {
-
-HWY_EXPORT(samplesAtJumps);
 
 namespace {
 
@@ -94,14 +29,15 @@ constexpr std::uint32_t samplesToward(glm::vec2 direction) {
     return bits;
 }
 
-/// The depths of a tile's pixels and of those around them; kNoSurface where there is none.
+/// The depths of a tile's pixels and of their neighbors around the tile, row by row; kNoSurface where there is none.
+/// The four corners are not used.
 class TileDepths {
  public:
     TileDepths(const MetaballHits& hits, const CellLists& tiles, std::size_t tile) : hits_(hits), tiles_(tiles) {
         const auto columns = static_cast<std::size_t>(tiles.columns);
         const int left = static_cast<int>(tile % columns);
         const int top = static_cast<int>(tile / columns);
-        depths_.values.fill(kNoSurface);
+        depths_.fill(kNoSurface);
         copy(left, top, {0, 0}, {kTileSize, kTileSize}, {1, 1});
         copy(left - 1, top, {kTileSize - 1, 0}, {1, kTileSize}, {0, 1});
         copy(left + 1, top, {0, 0}, {1, kTileSize}, {kTileSize + 1, 1});
@@ -112,18 +48,26 @@ class TileDepths {
     /// A bit for each of a pixel's samples toward a neighbor whose depth differs by more than `jump`. The depths of a
     /// hit and a miss always do.
     std::array<std::uint32_t, kTilePixels> samplesAtSilhouettes(float jump) const {
-        return HWY_DYNAMIC_DISPATCH(samplesAtJumps)(depths_, jump, kSides);
+        std::array<std::uint32_t, kTilePixels> samples{};
+        for (std::size_t row = 0; row < kTileSize; ++row) {
+            const float* own = &depths_[indexOf(static_cast<std::uint8_t>(row * kTileSize))];
+            std::uint32_t* found = &samples[row * kTileSize];
+            for (const auto& [step, sampleMask] : kSides)
+                for (std::ptrdiff_t k = 0; k < kTileSize; ++k)  // without branches: compilers vectorize this loop
+                    found[k] |= std::abs(own[k + step] - own[k]) > jump ? sampleMask : 0U;
+        }
+        return samples;
     }
 
     /// Whether a sample of this depth shows the surface that its pixel's middle shows.
     bool isSameSurface(std::uint8_t pixel, float depth, float jump) const {
-        return std::abs(markMiss(depth) - depths_.values[BorderedDepths::indexOf(pixel)]) <= jump;
+        return std::abs(markMiss(depth) - depths_[indexOf(pixel)]) <= jump;
     }
 
     /// From a radius before the nearest of the depths of a pixel and its neighbors and, where one of them shows
     /// nothing, to two radii behind the farthest: extra rays are to see what the rays around them see.
     DepthRange rangeAround(std::uint8_t pixel, float radius) const {
-        const float* at = &depths_.values[BorderedDepths::indexOf(pixel)];
+        const float* at = &depths_[indexOf(pixel)];
         DepthRange range{kNoDepthLimit, 0.0F};
         bool isOpen = false;
         for (const std::ptrdiff_t step : {std::ptrdiff_t{0}, std::ptrdiff_t{1}, std::ptrdiff_t{-1}, kSide, -kSide}) {
@@ -136,14 +80,22 @@ class TileDepths {
     }
 
  private:
-    static constexpr std::ptrdiff_t kSide = BorderedDepths::kSide;
+    static constexpr std::ptrdiff_t kSide = kTileSize + 2;
 
+    struct NeighborSide {
+        std::ptrdiff_t step;       // from a pixel to its neighbor
+        std::uint32_t sampleMask;  // the pixel's samples that lie toward it
+    };
     static constexpr std::array<NeighborSide, 4> kSides = {{{1, samplesToward({1.0F, 0.0F})},
                                                             {-1, samplesToward({-1.0F, 0.0F})},
                                                             {kSide, samplesToward({0.0F, 1.0F})},
                                                             {-kSide, samplesToward({0.0F, -1.0F})}}};
 
     static constexpr float kNoSurface = -1e30F;  // farther than any jump from every depth
+
+    static std::size_t indexOf(std::uint8_t pixel) {
+        return static_cast<std::size_t>((pixel / kTileSize + 1) * kSide + pixel % kTileSize + 1);
+    }
 
     static float markMiss(float depth) { return depth > 0.0F ? depth : kNoSurface; }
 
@@ -154,7 +106,7 @@ class TileDepths {
         if (slot < 0) return;
         const auto depths = hits_.depthsOf(static_cast<std::size_t>(slot));
         for (int y = 0; y < size.y; ++y) {
-            float* out = &depths_.values[static_cast<std::size_t>((to.y + y) * kSide + to.x)];
+            float* out = &depths_[static_cast<std::size_t>((to.y + y) * kSide + to.x)];
             const float* in = &depths[static_cast<std::size_t>((from.y + y) * kTileSize + from.x)];
             for (int x = 0; x < size.x; ++x) out[x] = markMiss(in[x]);
         }
@@ -162,7 +114,7 @@ class TileDepths {
 
     const MetaballHits& hits_;
     const CellLists& tiles_;
-    BorderedDepths depths_;
+    std::array<float, kSide * kSide> depths_;
 };
 
 /// Casts the extra rays of one tile, a block at a time.
@@ -237,5 +189,3 @@ void castSilhouettes(const MetaballScene& scene, MetaballHits& hits) {
 }
 
 }  // namespace render
-
-#endif
