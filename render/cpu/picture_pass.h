@@ -15,7 +15,7 @@
 #include "render/cpu/metaballs/metaball_scene.h"
 #include "render/cpu/picture_colors.h"
 #include "render/cpu/raster/lines.h"
-#include "render/cpu/shading/background_tiles.h"
+#include "render/cpu/shading/ground_tiles.h"
 #include "render/picture/camera_frame.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"

@@ -13,7 +13,7 @@
 #include "render/cpu/metaballs/metaball_hits.h"
 #include "render/cpu/raster/lines.h"
 #include "render/cpu/raster/primary_hits.h"
-#include "render/cpu/shading/background_tiles.h"
+#include "render/cpu/shading/ground_tiles.h"
 
 namespace render {
 
@@ -32,9 +32,6 @@ struct TileContents {
     /// Whether a tile shows nothing but background, or nothing but ground, apart from lines.
     bool isBackground(std::size_t tile) const;
     bool isGround(std::size_t tile) const;
-
-    /// Whether every ray through a tile meets the ground or something in front of it.
-    bool isFilledByGround(std::size_t tile) const;
 
  private:
     bool hasOnlyGround(std::size_t tile) const;

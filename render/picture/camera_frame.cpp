@@ -20,19 +20,26 @@ int clampedPixel(double at, int count) {
     return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)) + 1.0) - 1;
 }
 
-/// The pixels of a rectangle on the plane at view depth 1 (any depth in parallel projection), two pixels wider on each
-/// side.
-std::optional<Rect> pixelsOf(const CameraFrame& frame, Interval x, Interval y) {
-    constexpr double kMargin = 2.0;
+/// The pixels of a rectangle on the plane at view depth 1 (any depth in parallel projection), wider on each side by a
+/// margin in pixels.
+std::optional<Rect> pixelsOf(const CameraFrame& frame, Interval x, Interval y, double margin) {
     const double perX = 0.5 * frame.width / frame.halfWidth;
     const double perY = 0.5 * frame.height / frame.halfHeight;
-    const Rect rect{clampedPixel(0.5 * frame.width + x.low * perX - kMargin, frame.width),
-                    clampedPixel(0.5 * frame.height - y.high * perY - kMargin, frame.height),
-                    clampedPixel(0.5 * frame.width + x.high * perX + kMargin, frame.width),
-                    clampedPixel(0.5 * frame.height - y.low * perY + kMargin, frame.height)};
+    const Rect rect{clampedPixel(0.5 * frame.width + x.low * perX - margin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.high * perY - margin, frame.height),
+                    clampedPixel(0.5 * frame.width + x.high * perX + margin, frame.width),
+                    clampedPixel(0.5 * frame.height - y.low * perY + margin, frame.height)};
     if (rect.x0 >= frame.width || rect.y0 >= frame.height || rect.x1 < 0 || rect.y1 < 0) return std::nullopt;
     return Rect{std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, frame.width - 1),
                 std::min(rect.y1, frame.height - 1)};
+}
+
+/// Tangents from the eye to the circle with center (a, z) and radius r: a/z runs over
+/// (a z -+ r sqrt(a^2 + z^2 - r^2)) / (z^2 - r^2), for z > r.
+Interval tangents(double a, double z, double r) {
+    const double front = (z - r) * (z + r);
+    const double root = r * std::sqrt(a * a + front);
+    return {(a * z - root) / front, (a * z + root) / front};
 }
 
 glm::vec3 anyPerpendicular(glm::vec3 direction) {
@@ -76,7 +83,17 @@ std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minim
     if (behind == 8) return std::nullopt;
     // With corners on both sides of the eye's plane, the box may be seen anywhere.
     if (behind > 0 && frame.perspective) return Rect{0, 0, frame.width - 1, frame.height - 1};
-    return pixelsOf(frame, x, y);
+    return pixelsOf(frame, x, y, 2.0);
+}
+
+std::optional<Rect> pixelsTouchedBySphere(const CameraFrame& frame, glm::vec3 center, float radius) {
+    const glm::dvec3 at(center);
+    const double r = double(radius);
+    if (at.z + r <= 0.0) return std::nullopt;
+    if (!frame.perspective) return pixelsOf(frame, {at.x - r, at.x + r}, {at.y - r, at.y + r}, 1.0);
+    // Where a sphere all but touches the eye's plane, tangents are useless.
+    if (at.z <= 1.0001 * r) return Rect{0, 0, frame.width - 1, frame.height - 1};
+    return pixelsOf(frame, tangents(at.x, at.z, r), tangents(at.y, at.z, r), 1.0);
 }
 
 }  // namespace render

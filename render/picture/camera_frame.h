@@ -46,8 +46,6 @@ struct CameraFrame {
     }
     /// Width of a pixel, m: at view depth 1 in perspective, at any depth in parallel projection.
     float pixelWidth() const { return 2.0F * halfHeight / static_cast<float>(height); }
-
-    bool operator==(const CameraFrame&) const = default;
 };
 
 /// @param size  of the picture, pixels
@@ -56,5 +54,10 @@ CameraFrame cameraFrame(const Camera& camera, PictureSize size);
 /// The pixels of the picture that an axis-aligned box can touch: the bounds of its projected corners, two pixels wider
 /// on each side. Nothing when the box is behind the eye or outside of the picture.
 std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minimum, glm::vec3 maximum);
+
+/// The pixels of the picture that a sphere can touch, one pixel wider on each side. Nothing when the sphere is behind
+/// the eye or outside of the picture; every pixel when it reaches the eye's plane, or nearly.
+/// @param center  in view coordinates
+std::optional<Rect> pixelsTouchedBySphere(const CameraFrame& frame, glm::vec3 center, float radius);
 
 }  // namespace render

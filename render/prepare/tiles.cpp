@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "render/picture/system_error.h"
 
@@ -84,6 +86,16 @@ CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows) {
     for (const auto& [index, cells] : items)
         forCells(lists, cells, [&, index = index](std::size_t cell) { lists.items[end[cell]++] = index; });
     return lists;
+}
+
+std::vector<Rect> pixelBounds(const CameraFrame& frame, std::span<const ViewSphere> spheres) {
+    std::vector<Rect> pixels(spheres.size());
+    constexpr std::size_t kChunk = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, spheres.size(), kChunk), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k)
+            pixels[k] = pixelsTouchedBySphere(frame, spheres[k].center, spheres[k].radius).value_or(Rect{});
+    });
+    return pixels;
 }
 
 CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<const Rect> pixels) {

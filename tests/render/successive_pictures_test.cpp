@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/cpu/shading/background_tiles.h"
+#include "render/cpu/shading/shade.h"
 #include "tests/render/pictures.h"
 
 using pictures::drawn;

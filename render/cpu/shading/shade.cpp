@@ -179,6 +179,32 @@ glm::vec3 openGroundColor(const Shading& shading, glm::vec3 albedo) {
     return {hn::GetLane(color.x), hn::GetLane(color.y), hn::GetLane(color.z)};
 }
 
+Vec3 openGroundAt(const ShadingGeometry& geometry, const Shading& shading, const ImagePoint& at,
+                  const Vec3& background) {
+    const WorldRay ray = worldRay(geometry.frame, at);
+    const V depth = (splat(geometry.ground.value_or(0.0F)) - ray.origin.y) / ray.direction.y;
+    const Vec3 position = pointOnRay(ray.origin, depth, ray.direction);
+    return lerp(splat(shading.openGround), background,
+                groundFade(position, shading.groundCenter, shading.fadeDistance));
+}
+
+void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
+                         const TileTarget& target) {
+    const CameraFrame& frame = geometry.frame;
+    const Background& background = shading.background;
+    PixelColor* pixels = target.first;
+    for (int row = 0; row < kTileSize; ++row, pixels += target.rowLength) {
+        const V y = splat(static_cast<float>(target.corner.y + row) + 0.5F);
+        const V down = y * splat(1.0F / static_cast<float>(frame.height));
+        const Vec3 behind = lerp(background.top, background.bottom, down);
+        for (std::size_t column = 0; column < kTileSize; column += hn::Lanes(D())) {
+            const V x = hn::Iota(D(), static_cast<float>(target.corner.x) + 0.5F) + splat(static_cast<float>(column));
+            const Vec3 color = isGround ? openGroundAt(geometry, shading, imagePointAt(frame, x, y), behind) : behind;
+            storeSrgb(clampUnit(color), pixels + column);
+        }
+    }
+}
+
 void encodeColors(const PointColors& colors, PixelColor* pixels) {
     const V one = splat(1.0F);
     for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(D())) {
@@ -198,6 +224,7 @@ namespace render {
 
 HWY_EXPORT(shade);
 HWY_EXPORT(openGroundColor);
+HWY_EXPORT(colorBackgroundTile);
 HWY_EXPORT(encodeColors);
 
 Shading shadingOf(const View& view) {
@@ -213,6 +240,11 @@ Shading shadingOf(const View& view) {
 void shade(const Shading& shading, const ShadingGeometry& geometry, const ShadingPoints& points,
            const LightVisibility* visibility, PointColors& colors) {
     HWY_DYNAMIC_DISPATCH(shade)(shading, geometry, points, visibility, colors);
+}
+
+void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
+                         const TileTarget& target) {
+    HWY_DYNAMIC_DISPATCH(colorBackgroundTile)(geometry, shading, isGround, target);
 }
 
 void encodeColors(const PointColors& colors, PixelColor* pixels) {

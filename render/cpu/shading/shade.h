@@ -1,6 +1,7 @@
-// Colors of shading points by the shading model of view.h. Called by picture_colors.cpp.
+// Colors by the shading model of view.h: of shading points, and of tiles of background. Called by picture_colors.cpp.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/glm.hpp>
@@ -42,5 +43,16 @@ using PixelColor = std::uint32_t;
 
 /// Encodes all kTilePixels colors in their order.
 void encodeColors(const PointColors& colors, PixelColor* pixels);
+
+/// Where a tile's pixels are written.
+struct TileTarget {
+    glm::ivec2 corner{0};   ///< top left of the tile, pixels of the picture
+    PixelColor* first;      ///< that corner's pixel
+    std::size_t rowLength;  ///< of the picture, in whole tiles, pixels
+};
+
+/// Colors a tile of background, or of open ground in front of it.
+void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
+                         const TileTarget& target);
 
 }  // namespace render

@@ -1,60 +1,11 @@
-// Coloring runs on a row of pixels at a time with Highway; this file is compiled once per instruction set.
-#include "render/cpu/shading/background_tiles.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/cpu/shading/background_tiles.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#include "render/cpu/raster/simd_colors-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace render {
-namespace HWY_NAMESPACE {
-
-Vec3 openGroundAt(const ShadingGeometry& geometry, const Shading& shading, const ImagePoint& at,
-                  const Vec3& background) {
-    const WorldRay ray = worldRay(geometry.frame, at);
-    const V depth = (splat(geometry.ground.value_or(0.0F)) - ray.origin.y) / ray.direction.y;
-    const Vec3 position = pointOnRay(ray.origin, depth, ray.direction);
-    return lerp(splat(shading.openGround), background,
-                groundFade(position, shading.groundCenter, shading.fadeDistance));
-}
-
-void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
-                         const TileTarget& target) {
-    const CameraFrame& frame = geometry.frame;
-    const Background& background = shading.background;
-    PixelColor* pixels = target.first;
-    for (int row = 0; row < kTileSize; ++row, pixels += target.rowLength) {
-        const V y = splat(static_cast<float>(target.corner.y + row) + 0.5F);
-        const V down = y * splat(1.0F / static_cast<float>(frame.height));
-        const Vec3 behind = lerp(background.top, background.bottom, down);
-        for (std::size_t column = 0; column < kTileSize; column += hn::Lanes(D())) {
-            const V x = hn::Iota(D(), static_cast<float>(target.corner.x) + 0.5F) + splat(static_cast<float>(column));
-            const Vec3 color = isGround ? openGroundAt(geometry, shading, imagePointAt(frame, x, y), behind) : behind;
-            storeSrgb(clampUnit(color), pixels + column);
-        }
-    }
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace render
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
+// The ground is seen below a straight line of the picture, and the ground in a tile is the hull of what rays through
+// the tile's corners meet.
+#include "render/cpu/shading/ground_tiles.h"
 
 #include <algorithm>
 #include <array>
 
 namespace render {
-
-HWY_EXPORT(colorBackgroundTile);
-
-void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
-                         const TileTarget& target) {
-    HWY_DYNAMIC_DISPATCH(colorBackgroundTile)(geometry, shading, isGround, target);
-}
 
 namespace {
 
@@ -128,8 +79,6 @@ Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
     return {depth, origin + depth * direction};
 }
 
-/// The ground is seen below a straight line of the picture, and the ground in a tile is the hull of its corners'
-/// positions.
 class GroundClassifier {
  public:
     GroundClassifier(const Occluders& occluders, bool isPerspective)
@@ -191,5 +140,3 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
 }
 
 }  // namespace render
-
-#endif

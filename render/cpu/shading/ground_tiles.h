@@ -1,9 +1,7 @@
-// Tiles that show nothing but background or ground, which is most of many pictures. Tiles are told apart once per
-// picture, and those of background and of ground that nothing occludes are colored here, with one ray per pixel,
-// because nothing in them has an outline. Called by the picture pass and picture_colors.cpp.
+// What of the ground each tile of the picture may show. Most of many pictures is background, or ground that nothing
+// occludes: such tiles are colored without shadows and with one ray per pixel. Called by the picture pass.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -11,8 +9,6 @@
 #include <glm/glm.hpp>
 
 #include "render/cpu/lighting/light_visibility.h"
-#include "render/cpu/lighting/shading_points.h"
-#include "render/cpu/shading/shade.h"
 #include "render/picture/camera_frame.h"
 
 namespace render {
@@ -32,16 +28,5 @@ struct GroundTile {
 
 /// Classifies the tiles of the picture, row by row. @param height  of the ground over the eye, m
 std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders);
-
-/// Where a tile's pixels are written.
-struct TileTarget {
-    glm::ivec2 corner{0};   ///< top left of the tile, pixels of the picture
-    PixelColor* first;      ///< that corner's pixel
-    std::size_t rowLength;  ///< of the picture, in whole tiles, pixels
-};
-
-/// Colors a tile of background, or of open ground in front of it.
-void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
-                         const TileTarget& target);
 
 }  // namespace render
