@@ -45,16 +45,13 @@ bool TileContents::hasOnlyGround(std::size_t tile) const {
     return !hasSpheres(tile) && boxes[tile] == 0 && !hasMetaballs(tile);
 }
 
-bool TileContents::isFilledByGround(std::size_t tile) const {
-    return ground[tile].kind == GroundKind::open || ground[tile].kind == GroundKind::occluded;
-}
-
 bool TileContents::isBackground(std::size_t tile) const {
     return hasOnlyGround(tile) && ground[tile].kind == GroundKind::none;
 }
 
 bool TileContents::isGround(std::size_t tile) const {
-    return hasOnlyGround(tile) && isFilledByGround(tile);
+    const GroundKind kind = ground[tile].kind;
+    return hasOnlyGround(tile) && (kind == GroundKind::open || kind == GroundKind::occluded);
 }
 
 TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile)
@@ -73,11 +70,6 @@ void TileSamples::findHits() {
         samples_ = samples_.first(1);
         samples_[0].depth.fill(kFarDepth);
         addMetaballs();
-        return;
-    }
-    // Lines need the depth of the ground.
-    if (contents_.isFilledByGround(tile_) && !hasBoxes && !hasMetaballs && !contents_.hasLines(tile_)) {
-        findSphereHitsOverGround(geometry, tile_, samples_);
         return;
     }
     const FlatGeometry flats{contents_.ground[tile_].kind != GroundKind::none, hasBoxes};

@@ -188,26 +188,19 @@ Rect withinTile(const Rect& pixels, int left, int top) {
             std::min(pixels.y1 - top, kTileSize - 1)};
 }
 
-/// @return a height over the eye that none of the spheres that were tested reaches below, m
 template <bool kPerspective>
-float addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
+void addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
     const D d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
     SphereRays rays(geometry.frame, samples);
     const CellLists& tiles = *geometry.tiles;
     const glm::ivec2 corner(tileCorner(tiles, tile));
-    const glm::vec3 upwards(geometry.frame.right.y, geometry.frame.up.y, geometry.frame.forward.y);
-    float lowest = kFarDepth;
-    constexpr float kRounding = 1e-6F;  // of a center's height, as a share of its distance
     for (std::size_t k = tiles.begin[tile]; k < tiles.begin[tile + 1]; ++k) {
         const std::uint32_t index = tiles.items[k];
         const ViewSphere& sphere = geometry.spheres[index];
         const float front = sphere.center.z - sphere.radius;
         // Front to back: all later spheres of the list are behind what has been hit.
         if (front > rays.farthestOfTile()) break;
-        const glm::vec3 off = abs(sphere.center);
-        const float rounding = kRounding * (off.x + off.y + off.z);
-        lowest = std::min(lowest, dot(sphere.center, upwards) - sphere.radius - rounding);
         const Rect touched = withinTile(geometry.pixels[index], corner.x, corner.y);
         for (int row = touched.y0; row <= touched.y1; ++row) {
             for (int column = touched.x0 / lanes * lanes; column <= touched.x1; column += lanes) {
@@ -222,40 +215,10 @@ float addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<Tile
             }
         }
     }
-    return lowest;
-}
-
-float addSpheresOf(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
-    return geometry.frame.perspective ? addSpheres<true>(geometry, tile, samples)
-                                      : addSpheres<false>(geometry, tile, samples);
 }
 
 void findSphereHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
-    addSpheresOf(geometry, tile, samples);
-}
-
-/// Replaces the hits that lie behind the ground.
-void hideBehindGround(const SolidGeometry& geometry, float height, TileRays& rays) {
-    const D d;
-    const DI di;
-    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
-        const M isNearer = depthOfGround(rayAt(geometry, rays, first), height) <= hn::Load(d, &rays.depth[first]);
-        const VI id = hn::Load(di, &rays.hitId[first]);
-        hn::Store(hn::IfThenElse(hn::RebindMask(di, isNearer), splatInt(kHitGround), id), di, &rays.hitId[first]);
-    }
-}
-
-void findSphereHitsOverGround(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
-    for (TileRays& rays : samples) {
-        rays.depth.fill(kFarDepth);
-        rays.hitId.fill(kHitGround);
-    }
-    const float lowest = addSpheresOf(geometry, tile, samples);
-    const float ground = geometry.ground.value_or(0.0F);
-    // Seen from below, the ground hides what stands on it; in parallel projection rays begin on both sides of it.
-    const bool isFromAbove = geometry.frame.perspective ? ground < 0.0F : geometry.frame.forward.y < 0.0F;
-    if (isFromAbove && lowest > ground) return;
-    for (TileRays& rays : samples) hideBehindGround(geometry, ground, rays);
+    geometry.frame.perspective ? addSpheres<true>(geometry, tile, samples) : addSpheres<false>(geometry, tile, samples);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -268,7 +231,6 @@ namespace render {
 
 HWY_EXPORT(findFlatHits);
 HWY_EXPORT(findSphereHits);
-HWY_EXPORT(findSphereHitsOverGround);
 
 void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays) {
     HWY_DYNAMIC_DISPATCH(findFlatHits)(geometry, flats, rays);
@@ -276,10 +238,6 @@ void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& r
 
 void findSphereHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
     HWY_DYNAMIC_DISPATCH(findSphereHits)(geometry, tile, samples);
-}
-
-void findSphereHitsOverGround(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
-    HWY_DYNAMIC_DISPATCH(findSphereHitsOverGround)(geometry, tile, samples);
 }
 
 }  // namespace render

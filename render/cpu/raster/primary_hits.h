@@ -59,9 +59,4 @@ void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& r
 /// Adds the spheres of a tile. @pre every ray goes through the tile
 void findSphereHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples);
 
-/// Does the work of findFlatHits() and findSphereHits() for rays that all meet the ground and no box, but leaves the
-/// depth of hits on the ground at kFarDepth. What stands on the ground hides it, so that the ground's depth is rarely
-/// needed.
-void findSphereHitsOverGround(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples);
-
 }  // namespace render
