@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -19,11 +20,12 @@ int cellOf(float at, float origin, float cellSize, int count) {
     return std::clamp(static_cast<int>((at - origin) / cellSize), 0, count - 1);
 }
 
+/// The mean diameter, or more where there would be too many cells.
 float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {
     double sum = 0.0;
-    for (const ViewSphere& sphere : spheres) sum += sphere.radius;
-    const auto meanDiameter = static_cast<float>(2.0 * sum / static_cast<double>(spheres.size()));
-    return std::max({meanDiameter, extent.x / static_cast<float>(kMostCellsPerSide - 1),
+    for (const ViewSphere& sphere : spheres) sum += double(sphere.radius);
+    return std::max({static_cast<float>(2.0 * sum / static_cast<double>(spheres.size())),
+                     extent.x / static_cast<float>(kMostCellsPerSide - 1),
                      extent.y / static_cast<float>(kMostCellsPerSide - 1), 1e-6F});
 }
 
@@ -51,7 +53,6 @@ LightBounds lightBounds(const LightBasis& basis, std::span<const ViewSphere> sph
 
 LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness) {
     LightGrid grid;
-    grid.cells.resize(1);
     if (spheres.empty()) return grid;
 
     // How far the shadow of a sphere reaches, in radii: a sharp edge extends by at most a tenth, a soft one by half its
@@ -85,21 +86,17 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
                      cellOf(at.x + reach, low.x, grid.cellSize, grid.columns),
                      cellOf(at.y + reach, low.y, grid.cellSize, grid.rows)}};
     }
-    const CellLists lists = binIntoCells(items, grid.columns, grid.rows);
-    grid.cells.resize(lists.begin.size() - 1);
+    CellLists lists = binIntoCells(items, grid.columns, grid.rows);
+    grid.begin = std::move(lists.begin);
     LightSpheres& listed = grid.spheres;
     for (std::vector<float>* values : {&listed.u, &listed.v, &listed.height, &listed.radius})
         values->resize(lists.items.size() + kTileSize);
-    tbb::parallel_for(std::size_t{0}, grid.cells.size(), [&](std::size_t cell) {
-        grid.cells[cell] = {static_cast<std::int32_t>(lists.begin[cell]),
-                            static_cast<std::int32_t>(lists.begin[cell + 1])};
-        for (std::size_t k = lists.begin[cell]; k < lists.begin[cell + 1]; ++k) {
-            const std::uint32_t sphere = lists.items[k];
-            listed.u[k] = centers[sphere].x;
-            listed.v[k] = centers[sphere].y;
-            listed.height[k] = centers[sphere].z;
-            listed.radius[k] = spheres[sphere].radius;
-        }
+    tbb::parallel_for(std::size_t{0}, lists.items.size(), [&](std::size_t k) {
+        const std::uint32_t sphere = lists.items[k];
+        listed.u[k] = centers[sphere].x;
+        listed.v[k] = centers[sphere].y;
+        listed.height[k] = centers[sphere].z;
+        listed.radius[k] = spheres[sphere].radius;
     });
     return grid;
 }

@@ -31,20 +31,15 @@ struct LightSpheres {
     std::vector<float> u, v, height, radius;
 };
 
-/// A range of indices.
-struct ListRange {
-    std::int32_t begin = 0;
-    std::int32_t end = 0;
-};
-
 struct LightGrid {
     glm::vec2 origin{0.0F};  ///< u and v of the first cell's corner
     float cellSize = 1.0F;   ///< m
     int columns = 1;
     int rows = 1;
-    std::vector<ListRange> cells;  ///< into `spheres`, row by row
-    /// One list for each cell, those that reach highest toward the light first. After the last sphere there are as many
-    /// unused entries as a vector has lanes at most.
+    /// Cell c lists the spheres begin[c] ... begin[c + 1] - 1. Cells are row by row.
+    std::vector<std::uint32_t> begin{0, 0};
+    /// One list for each cell, those that reach highest toward the light first. At least as many unused entries as a
+    /// vector has lanes follow the last sphere.
     LightSpheres spheres;
 
     bool empty() const { return spheres.u.empty(); }

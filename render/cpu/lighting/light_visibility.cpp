@@ -93,9 +93,9 @@ V cellCoverage(const LightGrid& grid, std::size_t cell, const Receivers& at, M w
     const LightSpheres& spheres = grid.spheres;
     const ReceiverBounds bounds(at, where);
     const float bottom = hn::GetLane(bounds.bottom);
-    const auto end = static_cast<std::size_t>(grid.cells[cell].end);
+    const std::size_t end = grid.begin[cell + 1];
     V coverage = splat(0.0F);
-    for (auto first = static_cast<std::size_t>(grid.cells[cell].begin); first < end; first += hn::Lanes(d)) {
+    for (std::size_t first = grid.begin[cell]; first < end; first += hn::Lanes(d)) {
         // The list runs from the light on: none of the later spheres reaches above the receivers.
         if (spheres.height[first] + spheres.radius[first] < bottom) break;
         const std::size_t count = std::min(end - first, hn::Lanes(d));
