@@ -1,5 +1,6 @@
-// Four numbers from a place of each lane: loads of 128 bits and shuffles take less time than as many gathers.
-// Included once per instruction set, by Highway's rules; the guard below is theirs.
+// Loads of several consecutive numbers for each SIMD lane, each lane from an index of its own. One load of 128 bits per
+// lane and a transposition take less time than one gather instruction per number. Included once per instruction set by
+// Highway's rules, from which the guard below comes.
 #if defined(RENDER_SIMD_LOADS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RENDER_SIMD_LOADS_INL_H_
 #undef RENDER_SIMD_LOADS_INL_H_
@@ -19,33 +20,34 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
+/// Four numbers per lane.
 struct Float4 {
     V x, y, z, w;
 };
 
 #if HWY_TARGET != HWY_SCALAR
-/// What fills 128 bits from the places of every fourth lane, block by block.
+/// 128 bits each from the indices of the lanes 0, 4, 8, ..., one after another.
 template <class Tag, class Number>
-HWY_INLINE hn::Vec<Tag> loadEveryFourth(Tag tag, const Number* numbers, const std::int32_t* places) {
+HWY_INLINE hn::Vec<Tag> loadEveryFourth(Tag tag, const Number* numbers, const std::int32_t* indices) {
     constexpr std::size_t kBlocks = hn::MaxLanes(Tag()) * sizeof(Number) / 16;
     if constexpr (kBlocks <= 1) {
-        return hn::LoadU(tag, numbers + places[0]);
+        return hn::LoadU(tag, numbers + indices[0]);
     } else {
         const hn::Half<Tag> half;
-        return hn::Combine(tag, loadEveryFourth(half, numbers, places + 2 * kBlocks),
-                           loadEveryFourth(half, numbers, places));
+        return hn::Combine(tag, loadEveryFourth(half, numbers, indices + 2 * kBlocks),
+                           loadEveryFourth(half, numbers, indices));
     }
 }
 
-/// Shape:  128 bits from each place on, which are read.
+/// The numbers in the 128 bits from each index on: as four floats, or as twice as many shorter numbers, in pairs.
 template <class Number>
-HWY_INLINE Float4 gatherBlocks(const Number* numbers, VI places) {
+HWY_INLINE Float4 gatherBlocks(const Number* numbers, VI indices) {
     const DI di;
     const D d;
     alignas(64) std::array<std::int32_t, kTileSize> at;
-    hn::Store(places, di, at.data());
+    hn::Store(indices, di, at.data());
     const hn::Repartition<Number, D> tag;
-    const hn::Repartition<double, D> twos;
+    const hn::Repartition<double, D> twos;  // pairs of floats
     const auto from = [&](std::size_t lane) { return hn::BitCast(d, loadEveryFourth(tag, numbers, at.data() + lane)); };
     const auto lower = [&](V p, V q) { return hn::BitCast(twos, hn::InterleaveLower(d, p, q)); };
     const auto upper = [&](V p, V q) { return hn::BitCast(twos, hn::InterleaveUpper(d, p, q)); };
@@ -57,29 +59,31 @@ HWY_INLINE Float4 gatherBlocks(const Number* numbers, VI places) {
 }
 #endif
 
-/// Shape:  numbers from each place on, of which there are four and more.
-HWY_INLINE Float4 gather4(const float* numbers, VI places) {
+/// The four numbers from each index on.
+HWY_INLINE Float4 gather4(const float* numbers, VI indices) {
 #if HWY_TARGET == HWY_SCALAR
-    const float* four = numbers + hn::GetLane(places);
+    const float* four = numbers + hn::GetLane(indices);
     return {splat(four[0]), splat(four[1]), splat(four[2]), splat(four[3])};
 #else
-    return gatherBlocks(numbers, places);
+    return gatherBlocks(numbers, indices);
 #endif
 }
 
-/// Six small numbers from each place on, of which there are eight and more.
+/// Six integers per lane.
 struct Int6 {
     VI of[6];
 };
 
-HWY_INLINE Int6 gather6(const std::uint16_t* numbers, VI places) {
+/// The six numbers from each index on.
+/// @pre two more numbers follow them, which are read as well
+HWY_INLINE Int6 gather6(const std::uint16_t* numbers, VI indices) {
 #if HWY_TARGET == HWY_SCALAR
-    const std::uint16_t* six = numbers + hn::GetLane(places);
+    const std::uint16_t* six = numbers + hn::GetLane(indices);
     return {
         {splatInt(six[0]), splatInt(six[1]), splatInt(six[2]), splatInt(six[3]), splatInt(six[4]), splatInt(six[5])}};
 #else
     const DI di;
-    const Float4 pairs = gatherBlocks(numbers, places);
+    const Float4 pairs = gatherBlocks(numbers, indices);
     const hn::RebindToUnsigned<D> du;
     const auto first = [&](V pair) { return hn::And(hn::BitCast(di, pair), splatInt(0xffff)); };
     const auto second = [&](V pair) { return hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, pair))); };

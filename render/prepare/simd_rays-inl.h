@@ -1,4 +1,5 @@
-// Rays of a camera on lanes, shared by the kernels that are compiled once per instruction set.
+// Vector arithmetic on SIMD lanes and the rays of a camera, shared by the kernels that are compiled once per
+// instruction set. A lane is one ray, point or particle. Included by Highway's rules, from which the guard below comes.
 #if defined(RENDER_SIMD_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RENDER_SIMD_RAYS_INL_H_
 #undef RENDER_SIMD_RAYS_INL_H_
@@ -21,7 +22,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// No more lanes than a tile has columns.
+// Vectors of floats, of integers, and masks. At most as many lanes as a tile has columns.
 using D = hn::CappedTag<float, kTileSize>;
 using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;
@@ -62,7 +63,7 @@ HWY_INLINE Vec3 splat(glm::vec3 v) {
 }
 
 HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 HWY_INLINE Vec3 normalize(const Vec3& v) {
@@ -86,65 +87,57 @@ HWY_INLINE Vec3 select(M mask, const Vec3& yes, const Vec3& no) {
     return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 
-/// The place at this parameter of a line.
 HWY_INLINE Vec3 pointOnRay(const Vec3& origin, V t, const Vec3& direction) {
-    return {hn::Add(origin.x, hn::Mul(t, direction.x)), hn::Add(origin.y, hn::Mul(t, direction.y)),
-            hn::Add(origin.z, hn::Mul(t, direction.z))};
+    return origin + direction * t;
 }
 
 HWY_INLINE V clamp(V value, float low, float high) {
     return hn::Min(hn::Max(value, splat(low)), splat(high));
 }
 
-/// Of lanes of integers, for lanes of floats.
+/// A mask of integers as one of floats.
 HWY_INLINE M floatMask(hn::Mask<DI> mask) {
     return hn::RebindMask(D(), mask);
 }
 
-/// The least of these lanes, in each; no lanes: as much as a float holds.
+/// The minimum over the lanes of a mask, in every lane; the largest float if the mask has none.
 HWY_INLINE V minOfLanes(V values, M lanes) {
     return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, splat(std::numeric_limits<float>::max())));
 }
 
-/// A bit for each lane.
+/// One bit for each lane, the first lane the lowest.
 HWY_INLINE std::uint32_t maskBits(M mask) {
     std::array<std::uint8_t, 8> bytes{};
     hn::StoreMaskBits(D(), mask, bytes.data());
     return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
 }
 
-/// Where rays through these pixels cross the plane at view depth 1 (parallel projection: any plane).
+/// View coordinates x and y in which the rays through points of the picture cross the plane at view depth 1 (any depth
+/// in parallel projection), m.
 struct ImagePoint {
     V x, y;
 };
 
 HWY_INLINE ImagePoint imagePointAt(const CameraFrame& frame, V x, V y) {
     const V one = splat(1.0F);
-    return {hn::Mul(hn::Sub(hn::Mul(x, splat(2.0F / static_cast<float>(frame.width))), one), splat(frame.halfWidth)),
-            hn::Mul(hn::Sub(one, hn::Mul(y, splat(2.0F / static_cast<float>(frame.height)))), splat(frame.halfHeight))};
+    return {(x * splat(2.0F / static_cast<float>(frame.width)) - one) * splat(frame.halfWidth),
+            (one - y * splat(2.0F / static_cast<float>(frame.height))) * splat(frame.halfHeight)};
 }
 
-/// In world axes, relative to the eye; the direction's component along `forward` is 1.
-struct WorldRay {
+/// The component of a ray's direction along `forward` is 1, so that the parameter of the ray is the view depth.
+struct Ray {
     Vec3 origin, direction;
 };
 
-HWY_INLINE WorldRay worldRay(const CameraFrame& frame, const ImagePoint& at) {
-    const Vec3 right = splat(frame.right);
-    const Vec3 up = splat(frame.up);
-    const Vec3 off{hn::Add(hn::Mul(at.x, right.x), hn::Mul(at.y, up.x)),
-                   hn::Add(hn::Mul(at.x, right.y), hn::Mul(at.y, up.y)),
-                   hn::Add(hn::Mul(at.x, right.z), hn::Mul(at.y, up.z))};
+/// Rays in world axes, relative to the eye.
+HWY_INLINE Ray worldRay(const CameraFrame& frame, const ImagePoint& at) {
+    const Vec3 off = splat(frame.right) * at.x + splat(frame.up) * at.y;
     if (!frame.perspective) return {off, splat(frame.forward)};
-    return {splat(glm::vec3(0.0F)), pointOnRay(splat(frame.forward), splat(1.0F), off)};
+    return {splat(glm::vec3(0.0F)), splat(frame.forward) + off};
 }
 
-/// Rays in view coordinates; the direction's z is 1, so that a ray's parameter is the view depth.
-struct ViewRay {
-    Vec3 origin, direction;
-};
-
-HWY_INLINE ViewRay viewRay(const CameraFrame& frame, const ImagePoint& at) {
+/// Rays in view coordinates.
+HWY_INLINE Ray viewRay(const CameraFrame& frame, const ImagePoint& at) {
     const V zero = splat(0.0F);
     const V one = splat(1.0F);
     if (frame.perspective) return {{zero, zero, zero}, {at.x, at.y, one}};

@@ -111,7 +111,7 @@ HWY_INLINE float total(const BlockSum& sum) {
     for (std::size_t v = 0; v < kVectorsPerBlock; ++v) hn::Store(sum[v], D(), &sums[v * hn::Lanes(D())]);
     for (const std::size_t half : {std::size_t{8}, std::size_t{4}})
         for (std::size_t k = 0; k < half; k += hn::Lanes(d))
-            hn::Store(hn::Add(hn::Load(d, &sums[k]), hn::Load(d, &sums[k + half])), d, &sums[k]);
+            hn::Store(hn::Load(d, &sums[k]) + hn::Load(d, &sums[k + half]), d, &sums[k]);
     return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
@@ -126,15 +126,14 @@ DensitySum densitySum(const Neighborhood& neighborhood, glm::vec4 particle, floa
     for (std::size_t block = 0; block < neighborhood.size; block += kBlock) {
         for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
             const std::size_t k = block + v * hn::Lanes(d);
-            const Vec3 off{hn::Sub(hn::LoadU(d, &x[k]), here.x), hn::Sub(hn::LoadU(d, &y[k]), here.y),
-                           hn::Sub(hn::LoadU(d, &z[k]), here.z)};
-            const V support = hn::Mul(splat(0.5F * reach), hn::Add(splat(particle.w), hn::LoadU(d, &radius[k])));
-            const V root = hn::Max(zero, hn::Sub(one, hn::Div(dot(off, off), hn::Mul(support, support))));
-            const V weight = hn::Mul(root, root);
-            density[v] = hn::Add(density[v], weight);
-            offsetX[v] = hn::Add(offsetX[v], hn::Mul(weight, off.x));
-            offsetY[v] = hn::Add(offsetY[v], hn::Mul(weight, off.y));
-            offsetZ[v] = hn::Add(offsetZ[v], hn::Mul(weight, off.z));
+            const Vec3 off = Vec3{hn::LoadU(d, &x[k]), hn::LoadU(d, &y[k]), hn::LoadU(d, &z[k])} - here;
+            const V support = splat(0.5F * reach) * (splat(particle.w) + hn::LoadU(d, &radius[k]));
+            const V root = hn::Max(zero, one - dot(off, off) / (support * support));
+            const V weight = root * root;
+            density[v] = density[v] + weight;
+            offsetX[v] = offsetX[v] + weight * off.x;
+            offsetY[v] = offsetY[v] + weight * off.y;
+            offsetZ[v] = offsetZ[v] + weight * off.z;
         }
     }
     return {total(density), {total(offsetX), total(offsetY), total(offsetZ)}};

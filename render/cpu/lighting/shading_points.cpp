@@ -28,7 +28,7 @@ struct PointVector {
 
 /// A vector of rays and what they hit.
 struct HitRays {
-    WorldRay ray;
+    Ray ray;
     V inverseSquare;  // of the direction's length
     VI hitId;
 
@@ -77,7 +77,7 @@ Words loadRecords(std::span<const Record> records, VI index) {
 }
 
 void addSpheres(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
-    const WorldRay& ray = hits.ray;
+    const Ray& ray = hits.ray;
     const VI index = hits.indexOf(where, 0);
     const Float4 sphere = gather4(reinterpret_cast<const float*>(geometry.spheres.data()), hn::ShiftLeft<2>(index));
     const Vec3 toCenter = Vec3{sphere.x, sphere.y, sphere.z} - ray.origin;
@@ -108,7 +108,7 @@ V componentOf(const Vec3& v, VI axis) {
 
 void addBoxes(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
     static_assert(sizeof(BoxObstacle) == 9 * sizeof(float));
-    const WorldRay& ray = hits.ray;
+    const Ray& ray = hits.ray;
     const auto* records = reinterpret_cast<const float*>(geometry.boxes.data());
     const VI id = hits.indexOf(where, kHitBox);
     const VI side = hn::And(id, splatInt(7));

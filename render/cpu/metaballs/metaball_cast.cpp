@@ -218,7 +218,7 @@ class RayVector {
     const MetaballScene& scene_;
     float gridStart_;   // depth of sample 0 of the tile
     long firstSample_;  // of these rays
-    ViewRay ray_;
+    Ray ray_;
     NearBalls near_;
     std::size_t firstAtHit_ = 0;  // near_.first() when the first lane hit the surface
     V maxField_;

@@ -61,7 +61,7 @@ struct NearBallStorage {
 /// there.
 class NearBalls {
  public:
-    NearBalls(const MetaballScene& scene, TileBalls& tileBalls, NearBallStorage& storage, const ViewRay& ray,
+    NearBalls(const MetaballScene& scene, TileBalls& tileBalls, NearBallStorage& storage, const Ray& ray,
               const BallCulling& culling)
         : scene_(scene), tileBalls_(tileBalls), storage_(storage), culling_(culling), ray_(ray) {
         storage_.reserve(tileBalls.size());
@@ -169,7 +169,7 @@ class NearBalls {
     TileBalls& tileBalls_;
     NearBallStorage& storage_;
     BallCulling culling_;
-    ViewRay ray_;
+    Ray ray_;
     V length_;  // of the direction
     V inverseSquare_;
     std::size_t culled_ = 0;  // balls of the tile that have been tested

@@ -40,16 +40,16 @@ Vec3 loadHits(const std::array<CoarseHits::Values, 3>& values, std::size_t at) {
 struct Side {
     V depth;
     Vec3 normal;
-    ViewRay ray;
+    Ray ray;
 };
 
 /// Depth at which rays meet the tangent planes of hits.
-V tangentDepth(const ViewRay& ray, const Side& side) {
+V tangentDepth(const Ray& ray, const Side& side) {
     const Vec3 offset = pointOnRay(side.ray.origin, side.depth, side.ray.direction) - ray.origin;
     return dot(side.normal, offset) / dot(side.normal, ray.direction);
 }
 
-M isFacing(const ViewRay& ray, const Side& side) {
+M isFacing(const Ray& ray, const Side& side) {
     const V toward = hn::Neg(dot(side.normal, ray.direction));
     const V least = splat(kLeastFacing * kLeastFacing) * dot(ray.direction, ray.direction);
     return hn::And(toward > splat(0.0F), toward * toward > least);
@@ -60,7 +60,7 @@ struct DepthBetween {
     M isSmooth;
 };
 
-DepthBetween depthBetween(const CameraFrame& frame, const ViewRay& ray, const Side& a, const Side& b, float limit) {
+DepthBetween depthBetween(const CameraFrame& frame, const Ray& ray, const Side& a, const Side& b, float limit) {
     const V zero = splat(0.0F);
     const V half = splat(0.5F);
     const V fromA = tangentDepth(ray, a);
@@ -152,7 +152,7 @@ class Interpolation {
 
     /// The rays in the middle of four cast ones, the first of which is `first`, by the mean of both diagonals.
     HitVector betweenFour(std::size_t k, std::size_t first, V& isSmooth) const {
-        const ViewRay ray = rayAt(k, glm::vec2(1.0F));
+        const Ray ray = rayAt(k, glm::vec2(1.0F));
         const std::size_t below = first + CoarseHits::kSide;
         const auto between = [&](std::size_t a, glm::vec2 offsetA, std::size_t b, glm::vec2 offsetB) {
             return depthBetween(scene_.frame, ray, side(k, a, offsetA), side(k, b, offsetB), limits_.depth);
@@ -179,7 +179,7 @@ class Interpolation {
     }
 
     /// Rays at an offset from the cast rays k, k + 1, ..., in pixels.
-    ViewRay rayAt(std::size_t k, glm::vec2 offset) const {
+    Ray rayAt(std::size_t k, glm::vec2 offset) const {
         const V lane = hn::Iota(D(), static_cast<float>(k % kCoarseSide));
         const V wraps = hn::IfThenElseZero(lane >= splat(static_cast<float>(kCoarseSide)), splat(1.0F));
         const V column = lane - wraps * splat(static_cast<float>(kCoarseSide));

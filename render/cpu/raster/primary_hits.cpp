@@ -29,13 +29,13 @@ struct NearestHits {
     }
 };
 
-WorldRay rayAt(const SolidGeometry& geometry, const TileRays& rays, std::size_t first) {
+Ray rayAt(const SolidGeometry& geometry, const TileRays& rays, std::size_t first) {
     const D d;
     return worldRay(geometry.frame,
                     imagePointAt(geometry.frame, hn::Load(d, &rays.x[first]), hn::Load(d, &rays.y[first])));
 }
 
-V depthOfGround(const WorldRay& ray, float height) {
+V depthOfGround(const Ray& ray, float height) {
     const V depth = (splat(height) - ray.origin.y) / ray.direction.y;
     const M isHit = hn::And(depth > splat(0.0F), depth < splat(kFarDepth));
     return hn::IfThenElse(isHit, depth, splat(kFarDepth));
@@ -77,7 +77,7 @@ VI ofAxis(V wanted, V x, V y, VI ofX, VI ofY, VI ofZ) {
                           hn::IfThenElse(hn::RebindMask(di, y == wanted), ofY, ofZ));
 }
 
-void addBox(const WorldRay& ray, const BoxObstacle& box, glm::vec3 eye, std::int32_t id, NearestHits& hits) {
+void addBox(const Ray& ray, const BoxObstacle& box, glm::vec3 eye, std::int32_t id, NearestHits& hits) {
     const glm::vec3 low = box.minimum - eye;
     const glm::vec3 high = box.maximum - eye;
     const Slab x = slabOf(ray.origin.x, ray.direction.x, low.x, high.x, 0);
@@ -100,7 +100,7 @@ void addBox(const WorldRay& ray, const BoxObstacle& box, glm::vec3 eye, std::int
 void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays) {
     const D d;
     for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
-        const WorldRay ray = rayAt(geometry, rays, first);
+        const Ray ray = rayAt(geometry, rays, first);
         NearestHits hits{splat(kFarDepth), splatInt(kHitBackground)};
         if (flats.hasGround && geometry.ground) hits.add(depthOfGround(ray, *geometry.ground), splatInt(kHitGround));
         if (flats.hasBoxes) {

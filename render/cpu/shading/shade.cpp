@@ -181,7 +181,7 @@ glm::vec3 openGroundColor(const Shading& shading, glm::vec3 albedo) {
 
 Vec3 openGroundAt(const ShadingGeometry& geometry, const Shading& shading, const ImagePoint& at,
                   const Vec3& background) {
-    const WorldRay ray = worldRay(geometry.frame, at);
+    const Ray ray = worldRay(geometry.frame, at);
     const V depth = (splat(geometry.ground.value_or(0.0F)) - ray.origin.y) / ray.direction.y;
     const Vec3 position = pointOnRay(ray.origin, depth, ray.direction);
     return lerp(splat(shading.openGround), background,
