@@ -1,5 +1,5 @@
-# A Debian package of everything that has an install rule, by the build target "package" (tools/package.sh). Included last by
-# the project's CMakeLists.txt, because CPack takes the variables as they are then.
+# A Debian package of everything that has an install rule: the build target "package", which tools/package.sh builds. The
+# project's CMakeLists.txt includes this file last, because include(CPack) reads its variables at once.
 include(GNUInstallDirs)
 foreach(text README.md LICENSE THIRD_PARTY.md CHANGELOG.md)
     if(EXISTS ${PROJECT_SOURCE_DIR}/${text})
@@ -14,12 +14,12 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
-# dpkg-shlibdeps finds the libraries' packages. ffmpeg is a program that globular runs, for films; gnuplot draws the plots of
-# the studies; EGL, which is not the default, draws with Mesa's drivers.
+# dpkg-shlibdeps finds the packages of the libraries. ffmpeg is a program that globular runs, for videos; gnuplot draws the
+# plots of the studies; EGL, which is not the default, draws with Mesa's drivers.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS ffmpeg)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, libgl1-mesa-dri")
-# As Debian wants them, whatever the umask of whoever builds.
+# Readable by all users, as Debian requires, whatever the umask of the build is.
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
