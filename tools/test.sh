@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds with warnings as errors, and runs the tests: every suite under AddressSanitizer and
-# UndefinedBehaviorSanitizer; what optimization, timing or memory may change also as users build the program; the engine's
-# and the render loop's under ThreadSanitizer; the fuzzers, half a minute each. With the name of a CMake preset (release, debug, asan-ubsan or tsan):
-# all tests of it. The last lines name the tests that this machine could not run, with the reason that each gave.
+# Installs the packages that are missing, builds with warnings as errors, and runs the tests: all suites under
+# AddressSanitizer and UndefinedBehaviorSanitizer; as users build the program, those whose results may depend on optimization,
+# time or memory; those of the engine and of the render loop's pipeline under ThreadSanitizer; the fuzzers, half a minute each.
+# With the name of a CMake preset (release, debug, asan-ubsan or tsan) it runs all tests of that preset instead. The last lines
+# name the tests that this machine could not run, and why.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,7 +13,8 @@ build() { # preset, targets...
     nice cmake --build --preset "$1" ${2:+--target "${@:2}"}
 }
 
-# Reads the logs of the runs that this script started; a skipped test prints "skipped: " and its reason.
+# Prints which tests were skipped, from the logs of the runs that this script started. A skipped test prints "skipped: ", its
+# name and the reason.
 report_skipped() {
     local log reason
     for log in build/*/Testing/Temporary/LastTest.log; do
