@@ -91,132 +91,106 @@ std::vector<std::string> rowNames(std::size_t count) {
     return names;
 }
 
-/// Measures row after row and keeps them.
-class Bench {
- public:
-    Bench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener)
-        : settings_(settings), listener_(listener) {}
+BenchRow forcesRow(const Subject& subject, Precision precision, const BenchSettings& settings) {
+    engine::ForceEvaluator evaluator(lawOf(subject.setup), engine::ForceMethod::grid, precision);
+    const engine::Particles& particles = subject.setup.initial;
+    std::vector<Vec3> forces;
+    const Work work = [&] { evaluator.evaluatePairs(particles, particles.velocity, forces); };
+    work();  // builds the list
+    BenchRow row = subject.row;
+    row.name = "forces";
+    row.precision = precision;
+    if (precision == Precision::singles) row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat);
+    row.seconds = measured(work, settings);
+    row.stateHash = hashOf(forces);
+    return row;
+}
 
-    void measureMachine() {
-        if (settings_.wants("multiply-add", "")) addMultiplyAdds();
-        if (settings_.wants("copy", "")) addCopy();
+BenchRow listRow(const Subject& subject, const BenchSettings& settings) {
+    const engine::Particles& particles = subject.setup.initial;
+    const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
+    engine::NeighborList list;
+    const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kDefaultSkin * cutoff); };
+    work();  // allocates memory
+    BenchRow row = subject.row;
+    row.name = "list";
+    row.seconds = measured(work, settings);
+    std::uint64_t hash = engine::fnv1a("");
+    for (const engine::RowBlock& block : list.rows.blocks)
+        for (std::size_t at = 0; at < block.start.back() * engine::kClusterSize; ++at)
+            hash = engine::fnv1a(static_cast<std::uint64_t>(block.entries[at]), hash);
+    row.stateHash = engine::hexadecimal(hash);
+    return row;
+}
+
+/// Takes a fixed number of steps from the lattice, so that the hashes of their ends can be compared.
+BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precision, const BenchSettings& settings) {
+    constexpr int kSteps = 20;
+    constexpr double kStep = 0.001;  // s, chosen: stable with all steppers
+    engine::Setup setup = subject.setup;
+    setup.stepper = stepper;
+    setup.precision = precision;
+    setup.step = kStep;
+    BenchRow row = subject.row;
+    row.name = stepName(stepper);
+    row.precision = precision;
+    std::vector<double> rounds;
+    for (int round = 0; round < settings.rounds; ++round) {
+        engine::Simulation simulation = engine::start(setup);
+        engine::advance(simulation, kStep);  // builds the list
+        rounds.push_back(secondsOf([&] { engine::advance(simulation, (kSteps + 1) * kStep); }) / kSteps);
+        row.stateHash = engine::stateHash(simulation.particles);
     }
+    row.seconds = median(std::move(rounds));
+    return row;
+}
 
-    void measure(const Packing& packing, std::size_t count) {
-        const std::string material = packing.name;
-        const auto wants = [&](const std::string& name) { return settings_.wants(name, material); };
-        if (std::ranges::none_of(rowNames(count), wants)) return;
-        const Subject subject = subjectOf(packing, count);
-        for (const Precision precision : {Precision::doubles, Precision::singles})
-            if (wants("forces")) addForces(subject, precision);
-        if (wants("list")) addList(subject);
-        if (count > kMostStepped) return;
-        for (const StepperKind stepper : engine::kSteppers)
-            if (stepper != StepperKind::automatic && wants(stepName(stepper)))
-                addSteps(subject, stepper, Precision::doubles);
-        for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet})
-            if (wants(stepName(stepper))) addSteps(subject, stepper, Precision::singles);
-    }
+BenchRow multiplyAddRow(const BenchSettings& settings) {
+    constexpr std::size_t kRounds = 1U << 22;  // chosen: some milliseconds
+    const std::size_t threads = engine::threadCount();
+    float sink = 0.0F;
+    double operations = 0.0;
+    BenchRow row;
+    row.name = "multiply-add";
+    row.precision = Precision::singles;
+    row.seconds = measured([&] { operations = multiplyAdd(threads, kRounds, sink); }, settings);
+    row.rate = operations / row.seconds;
+    row.stateHash = engine::hexadecimal(std::bit_cast<std::uint32_t>(sink));
+    return row;
+}
 
-    std::vector<BenchRow> rows;
+BenchRow copyRow(const BenchSettings& settings) {
+    constexpr std::size_t kNumbers = 1U << 24;  // 128 MiB for each of the two arrays, far beyond any cache
+    constexpr std::size_t kParts = 64;
+    const std::vector<double> from(kNumbers, 1.0);
+    std::vector<double> to(kNumbers, 0.0);
+    const auto copyPart = [&](std::size_t part) {
+        const auto first = static_cast<std::ptrdiff_t>(part * (kNumbers / kParts));
+        std::copy_n(from.begin() + first, kNumbers / kParts, to.begin() + first);
+    };
+    BenchRow row;
+    row.name = "copy";
+    row.seconds = measured([&] { engine::inParallel(kParts, 1, copyPart); }, settings);
+    row.rate = 2.0 * sizeof(double) * static_cast<double>(kNumbers) / row.seconds;
+    return row;
+}
 
- private:
-    void add(BenchRow row) {
-        listener_(row);
-        rows.push_back(std::move(row));
-    }
-
-    void addForces(const Subject& subject, Precision precision) {
-        engine::ForceEvaluator evaluator(lawOf(subject.setup), engine::ForceMethod::grid, precision);
-        const engine::Particles& particles = subject.setup.initial;
-        std::vector<Vec3> forces;
-        BenchRow row = subject.row;
-        row.name = "forces";
-        row.precision = precision;
-        if (precision == Precision::singles)
-            row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat);
-        const Work pass = [&] { evaluator.evaluatePairs(particles, particles.velocity, forces); };
-        pass();  // builds the list
-        row.seconds = measured(pass, settings_);
-        row.stateHash = hashOf(forces);
-        add(row);
-    }
-
-    void addList(const Subject& subject) {
-        const engine::Particles& particles = subject.setup.initial;
-        const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
-        engine::NeighborList list;
-        BenchRow row = subject.row;
-        row.name = "list";
-        const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kDefaultSkin * cutoff); };
-        work();
-        row.seconds = measured(work, settings_);
-        std::uint64_t hash = engine::fnv1a("");
-        for (const engine::RowBlock& block : list.rows.blocks)
-            for (std::size_t at = 0; at < block.start.back() * engine::kClusterSize; ++at)
-                hash = engine::fnv1a(static_cast<std::uint64_t>(block.entries[at]), hash);
-        row.stateHash = engine::hexadecimal(hash);
-        add(row);
-    }
-
-    /// A fixed number of steps from the lattice, so that the hashes of their ends can be compared.
-    void addSteps(const Subject& subject, StepperKind stepper, Precision precision) {
-        constexpr int kSteps = 20;
-        constexpr double kStep = 0.001;  // s, chosen: stable with all steppers
-        engine::Setup setup = subject.setup;
-        setup.stepper = stepper;
-        setup.precision = precision;
-        setup.step = kStep;
-        BenchRow row = subject.row;
-        row.name = stepName(stepper);
-        row.precision = precision;
-        std::vector<double> rounds;
-        for (int round = 0; round < settings_.rounds; ++round) {
-            engine::Simulation simulation = engine::start(setup);
-            engine::advance(simulation, kStep);  // builds the list
-            rounds.push_back(secondsOf([&] { engine::advance(simulation, (kSteps + 1) * kStep); }, 1) / kSteps);
-            row.stateHash = engine::stateHash(simulation.particles);
-        }
-        row.seconds = median(std::move(rounds));
-        add(row);
-    }
-
-    void addMultiplyAdds() {
-        constexpr std::size_t kRounds = 1U << 22;
-        const std::size_t threads = engine::threadCount();
-        BenchRow row;
-        row.name = "multiply-add";
-        row.precision = Precision::singles;
-        float sink = 0.0F;
-        double operations = 0.0;
-        row.seconds = measured([&] { operations = multiplyAdd(threads, kRounds, sink); }, settings_);
-        row.rate = operations / row.seconds;
-        row.stateHash = engine::hexadecimal(std::bit_cast<std::uint32_t>(sink));
-        add(row);
-    }
-
-    void addCopy() {
-        constexpr std::size_t kNumbers = 1U << 24;  // 128 MiB each: far beyond any cache
-        std::vector<double> from(kNumbers, 1.0);
-        std::vector<double> to(kNumbers, 0.0);
-        BenchRow row;
-        row.name = "copy";
-        row.seconds = measured(
-            [&] {
-                engine::inParallel(64, 1, [&](std::size_t part) {
-                    const std::size_t share = kNumbers / 64;
-                    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(part * share), share,
-                                to.begin() + static_cast<std::ptrdiff_t>(part * share));
-                });
-            },
-            settings_);
-        row.rate = 2.0 * sizeof(double) * static_cast<double>(kNumbers) / row.seconds;
-        add(row);
-    }
-
-    BenchSettings settings_;
-    std::function<void(const BenchRow&)> listener_;
-};
+/// Calls add(row) with every wanted row of a lattice.
+void measureLattice(const Packing& packing, std::size_t count, const BenchSettings& settings,
+                    const std::function<void(const BenchRow&)>& add) {
+    const auto wants = [&](const std::string& name) { return settings.wants(name, packing.name); };
+    if (std::ranges::none_of(rowNames(count), wants)) return;
+    const Subject subject = subjectOf(packing, count);
+    for (const Precision precision : {Precision::doubles, Precision::singles})
+        if (wants("forces")) add(forcesRow(subject, precision, settings));
+    if (wants("list")) add(listRow(subject, settings));
+    if (count > kMostStepped) return;
+    for (const StepperKind stepper : engine::kSteppers)
+        if (stepper != StepperKind::automatic && wants(stepName(stepper)))
+            add(stepsRow(subject, stepper, Precision::doubles, settings));
+    for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::velocityVerlet})
+        if (wants(stepName(stepper))) add(stepsRow(subject, stepper, Precision::singles, settings));
+}
 
 }  // namespace
 
@@ -240,11 +214,16 @@ std::string benchRowsText() {
 }
 
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {
-    Bench bench(settings, listener);
-    bench.measureMachine();
+    std::vector<BenchRow> rows;
+    const auto add = [&](const BenchRow& row) {
+        listener(row);
+        rows.push_back(row);
+    };
+    if (settings.wants("multiply-add", "")) add(multiplyAddRow(settings));
+    if (settings.wants("copy", "")) add(copyRow(settings));
     for (const std::size_t count : settings.counts)
-        for (const Packing& packing : kPackings) bench.measure(packing, count);
-    return std::move(bench.rows);
+        for (const Packing& packing : kPackings) measureLattice(packing, count, settings, add);
+    return rows;
 }
 
 }  // namespace studies
