@@ -12,6 +12,22 @@
 #include "render/picture/system_error.h"
 
 namespace studies {
+
+// Outside of the unnamed namespace, because they are in the types of a class with external linkage.
+inline void deleteBuffer(const render::Gl& gl, GLuint name) {
+    gl.DeleteBuffers(1, &name);
+}
+inline void deleteVertexArray(const render::Gl& gl, GLuint name) {
+    gl.DeleteVertexArrays(1, &name);
+}
+inline void deleteProgram(const render::Gl& gl, GLuint name) {
+    gl.DeleteProgram(name);
+}
+
+using BufferName = render::GlName<deleteBuffer>;
+using VertexArrayName = render::GlName<deleteVertexArray>;
+using ProgramName = render::GlName<deleteProgram>;
+
 namespace {
 
 // The shaders work in view coordinates: x right, y up, z forward. The quad passes through the sphere's center across
@@ -66,20 +82,6 @@ void main() {
 struct PictureBlock {
     glm::vec4 right, up, forward, eye, toLight;
 };
-
-void deleteBuffer(const render::Gl& gl, GLuint name) {
-    gl.DeleteBuffers(1, &name);
-}
-void deleteVertexArray(const render::Gl& gl, GLuint name) {
-    gl.DeleteVertexArrays(1, &name);
-}
-void deleteProgram(const render::Gl& gl, GLuint name) {
-    gl.DeleteProgram(name);
-}
-
-using BufferName = render::GlName<deleteBuffer>;
-using VertexArrayName = render::GlName<deleteVertexArray>;
-using ProgramName = render::GlName<deleteProgram>;
 
 /// A name from one of OpenGL's functions glGenBuffers, glGenTextures and the like, which have the same signature.
 GLuint newName(PFNGLGENBUFFERSPROC generate) {

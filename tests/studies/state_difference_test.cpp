@@ -16,7 +16,7 @@ engine::Particles row(int count) {
     return particles;
 }
 
-constexpr double kRounding = 1e-14;  // of a few sums of at most ten numbers below ten
+constexpr double kSumRounding = 1e-14;  // of a few sums of at most ten numbers below ten
 
 }  // namespace
 
@@ -25,9 +25,9 @@ TEST_CASE("The center and the radius of gyration are weighted by mass", "[studie
     engine::append(pair, {.position = Vec3(0, 0, 0), .mass = 3.0});
     engine::append(pair, {.position = Vec3(4, 0, 0), .mass = 1.0});
     const auto statistics = studies::bulkStatistics(pair);
-    CHECK((statistics.center - Vec3(1, 0, 0)).norm() <= kRounding);
+    CHECK((statistics.center - Vec3(1, 0, 0)).norm() <= kSumRounding);
     // (3 * 1^2 + 1 * 3^2) / 4 = 3
-    CHECK(std::abs(statistics.gyration - std::sqrt(3.0)) <= kRounding);
+    CHECK(std::abs(statistics.gyration - std::sqrt(3.0)) <= kSumRounding);
 }
 
 TEST_CASE("R90 and z90 hold nine of ten particles, and all of fewer than ten", "[studies]") {
@@ -36,12 +36,12 @@ TEST_CASE("R90 and z90 hold nine of ten particles, and all of fewer than ten", "
     const auto statistics = studies::bulkStatistics(ten);
     // The center is (4.5, 4.5, 0) and the distances are sqrt(2) times 0.5, 0.5, 1.5, 1.5, ..., 4.5, 4.5. The ninth of
     // them is one of the two largest.
-    CHECK(std::abs(statistics.r90 - 4.5 * std::sqrt(2.0)) <= kRounding);
+    CHECK(std::abs(statistics.r90 - 4.5 * std::sqrt(2.0)) <= kSumRounding);
     CHECK(statistics.z90 == 8.0);
     // Of two distances, both 0.5, the second one counts.
-    CHECK(std::abs(studies::bulkStatistics(row(2)).r90 - 0.5) <= kRounding);
+    CHECK(std::abs(studies::bulkStatistics(row(2)).r90 - 0.5) <= kSumRounding);
     // Twenty on a line: the center is 9.5, the distances are 0.5, 0.5, 1.5, 1.5, ..., 9.5, 9.5, and the 18th counts.
-    CHECK(std::abs(studies::bulkStatistics(row(20)).r90 - 8.5) <= kRounding);
+    CHECK(std::abs(studies::bulkStatistics(row(20)).r90 - 8.5) <= kSumRounding);
 }
 
 TEST_CASE("The statistics of no particles are zero", "[studies]") {
@@ -73,11 +73,11 @@ TEST_CASE("Position errors are measured in each particle's own radius", "[studie
     moved.position[1].z() += 0.45;
     const auto error = studies::positionError(moved, reference, 2);
     CHECK(error.compared == 2);
-    CHECK(error.largest == Approx(3.0).epsilon(kRounding));
-    CHECK(error.rms == Approx(std::sqrt(5.0)).epsilon(kRounding));  // (1 + 9) / 2
+    CHECK(error.largest == Approx(3.0).epsilon(kSumRounding));
+    CHECK(error.rms == Approx(std::sqrt(5.0)).epsilon(kSumRounding));  // (1 + 9) / 2
     engine::Particles larger = reference;
     larger.radius[1] = 0.45;
-    CHECK(studies::positionError(moved, larger, 2).rms == Approx(1.0).epsilon(kRounding));
+    CHECK(studies::positionError(moved, larger, 2).rms == Approx(1.0).epsilon(kSumRounding));
 }
 
 TEST_CASE("Particles born at different times are not compared", "[studies]") {
