@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "engine/stepping/steppers.h"
@@ -12,8 +11,6 @@
 
 namespace studies {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Radii. Chosen: small beside any error, large beside the rounding of a position (1e-16 m at radii of 0.1 m).
 constexpr double kTwinDistance = 1e-9;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "engine/core/random.h"
@@ -61,7 +60,6 @@ bool sameBirths(const engine::Particles& a, const engine::Particles& b) {
 
 PositionError positionError(const engine::Particles& particles, const engine::Particles& reference,
                             std::size_t common) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     PositionError error;
     const bool isSame = sameBirths(particles, reference);
     error.compared = isSame ? particles.count() : common;

@@ -4,10 +4,14 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "engine/state/particles.h"
 
 namespace studies {
+
+/// The error of states that cannot be compared, and the value of an observable after a failure.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Where a set of particles is, how wide and how high.
 struct BulkStatistics {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "engine/run/diagnostics.h"
@@ -18,8 +17,6 @@ namespace {
 
 using engine::Particles;
 using engine::Vec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Whether the observable is defined without particles at the end.
 bool isDefinedWithoutParticles(scenes::Observable observable) {

@@ -5,17 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/stepping/steppers.h"
 #include "scenes/text/input_error.h"
+#include "studies/common/state_difference.h"
 #include "studies/common/timing.h"
 #include "studies/stability/observables.h"
 
 namespace studies {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The published program clamps the distance D of two equal particles at one radius, half of their rest length.
 constexpr double kPaperCore = 0.5;
