@@ -15,6 +15,7 @@
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
 #include "tools/system/process.h"
+#include "tools/system/text.h"
 
 namespace {
 
@@ -22,14 +23,18 @@ constexpr int kOutsideFailed = 1;
 constexpr int kInputWrong = 2;
 constexpr int kUnstable = 3;
 
-/// Makes glibc keep freed memory. Every frame and every neighbor list asks for the memory that the last one has freed. By
-/// default glibc returns blocks of 128 KiB and more to the system, which fills the pages with zeros again when they are
-/// next used. That took up to a quarter of the time of a frame.
+/// Makes glibc keep freed memory. Every frame and every neighbor list asks for the memory that the last one has freed.
+/// By default glibc returns blocks of 128 KiB and more to the system, which fills the pages with zeros again when they
+/// are next used. That took up to a quarter of the time of a frame.
 void keepFreedMemory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest value that glibc accepts
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
+}
+
+std::string licenses() {
+    return std::string(tools::embeddedText("LICENSE")) + "\n" + std::string(tools::embeddedText("THIRD_PARTY.md"));
 }
 
 int report(const std::string& problems, int exitCode) {
@@ -69,10 +74,11 @@ int run(const tools::CommandLine& line, int argc, char** argv) {
 int main(int argc, char** argv) {
     keepFreedMemory();
     tools::prepareStandardStreams();
-    const tools::CommandLine line("globular",
-                                  "globular: a scene file to an animation of globular dynamics, without a display",
-                                  "globular " GLOBULAR_VERSION);
+    const std::string version = "globular " GLOBULAR_VERSION;
+    const tools::CommandLine line("globular", "turns a scene file into an animation of globular dynamics");
     const tools::Command program = line.program();
+    program.printingFlag("--version", "print the version", [&] { return version; });
+    program.printingFlag("--licenses", "print the licenses of globular and of what is built into it", licenses);
     program.example("globular render liquid -o out/liquid --video out/liquid.mp4");
     tools::addRenderCommand(program);
     tools::addStripCommand(program);
@@ -86,5 +92,6 @@ int main(int argc, char** argv) {
     tools::addSchemaCommand(program);
     tools::addStudyCommand(program);
     tools::addBenchCommand(program);
+    tools::addGenerateCommand(program, version);
     return run(line, argc, argv);
 }

@@ -39,7 +39,7 @@ std::string callOf(const CLI::App& app) {
 
 std::vector<std::string> commandNames(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
         names.push_back(command->get_name());
     return names;
 }
@@ -153,9 +153,18 @@ void Command::needsCommand() const {
     app_->require_subcommand(1);
 }
 
-CommandLine::CommandLine(const std::string& name, const std::string& help, const std::string& version)
+void Command::hide() const {
+    app_->group("");
+}
+
+void Command::printingFlag(const std::string& name, const std::string& help, std::function<std::string()> text) const {
+    // CLI11 prints the text of this exception and nothing else.
+    app_->add_flag_callback(
+        name, [text] { throw CLI::CallForVersion(text(), CLI::ExitCodes::Success); }, help);
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& help)
     : app_(std::make_unique<CLI::App>(help, name)) {
-    app_->set_version_flag("--version", version);
     app_->require_subcommand(0, 1);
 }
 
@@ -170,7 +179,7 @@ void CommandLine::run(int argc, char** argv) const {
         app_->parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
-            app_->exit(error);  // prints the help or the version
+            app_->exit(error);  // prints the help or the text of a printing flag
             return;
         }
         const CLI::App& command = calledCommand(*app_);

@@ -58,6 +58,18 @@ class Command {
     void run(std::function<void()> action) const;
     /// Makes it an error to call the command without one of its subcommands.
     void needsCommand() const;
+    /// Leaves the command out of the help, the man page and the completion.
+    void hide() const;
+
+    /// Adds a flag that prints a text and ends the program.
+    void printingFlag(const std::string& name, const std::string& help, std::function<std::string()> text) const;
+
+    /// The man page of the program, in roff's man macros. This and the completion are in command_docs.cpp.
+    /// @pre the command is CommandLine::program()
+    std::string manPage(const std::string& version) const;
+    /// A script for bash that completes commands, flags, their values and scenes.
+    /// @pre the command is CommandLine::program()
+    std::string bashCompletion() const;
 
  private:
     CLI::App* app_;
@@ -72,11 +84,11 @@ class UsageError : public std::runtime_error {
 /// The program itself.
 class CommandLine {
  public:
-    CommandLine(const std::string& name, const std::string& help, const std::string& version);
+    CommandLine(const std::string& name, const std::string& help);
     ~CommandLine();
 
     Command program() const;
-    /// Runs the command that was called, or prints the help or the version.
+    /// Runs the command that was called, or prints what --help or a printing flag asks for.
     /// @throws UsageError if there is no command or a flag is wrong, and whatever the command throws
     void run(int argc, char** argv) const;
 

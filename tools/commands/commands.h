@@ -19,6 +19,8 @@ void addScenesCommand(const Command& program);
 void addSchemaCommand(const Command& program);
 void addStudyCommand(const Command& program);
 void addBenchCommand(const Command& program);
+/// @param version  "globular 0.3.0", for the man page
+void addGenerateCommand(const Command& program, const std::string& version);
 
 /// Adds the flags that several commands share, to be read into the options.
 void addTo(const Command& command, RunOptions& options);

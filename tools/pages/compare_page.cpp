@@ -114,9 +114,9 @@ std::string ComparePage::html(const PageHeading& heading) const {
     data["runs"] = runs_;
     data["pictures"] = Json::array();
     for (const Entry* entry : sorted) data["pictures"].push_back(entry->json);
-    return filled(pageSource("compare.html"), {{"STYLE", std::string(pageSource("compare.css"))},
-                                               {"SCRIPT", std::string(pageSource("compare.js"))},
-                                               {"DATA", inScript(data)}});
+    return filled(embeddedText("compare.html"), {{"STYLE", std::string(embeddedText("compare.css"))},
+                                                 {"SCRIPT", std::string(embeddedText("compare.js"))},
+                                                 {"DATA", inScript(data)}});
 }
 
 }  // namespace tools

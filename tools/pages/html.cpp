@@ -68,7 +68,7 @@ std::string htmlPage(const std::string& title, const std::string& body) {
 <h1>{0}</h1>
 {2}</body></html>
 )",
-                       title, pageSource("page.css"), body);
+                       title, embeddedText("page.css"), body);
 }
 
 }  // namespace tools

@@ -3,15 +3,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/system/text.h"
 
 namespace tools {
-
-/// The text of a file of tools/pages, embedded by the build (tools/CMakeLists.txt).
-std::string_view pageSource(std::string_view name);
 
 /// The text with the characters that have a meaning in HTML replaced.
 std::string escaped(const std::string& text);

@@ -10,6 +10,9 @@
 
 namespace tools {
 
+/// The text of a file that the build embeds in the program (tools/CMakeLists.txt), by its name without folder.
+std::string_view embeddedText(std::string_view name);
+
 /// The number that the whole text spells, in any locale; nothing if the text is anything else.
 template <class Number = int>
 std::optional<Number> parseNumber(std::string_view text) {
