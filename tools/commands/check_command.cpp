@@ -1,18 +1,16 @@
-// globular check: validates a scene and says what would run, what it would need, and how long it would take.
+// globular check: validates a scene and predicts what would run, how much memory it would need, and how long it would
+// take.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/run/run_memory.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/steppers.h"
-#include "scenes/view/frame_steps.h"
 #include "tools/commands/commands.h"
-#include "tools/run/options.h"
+#include "tools/run/forecast.h"
 #include "tools/run/threads.h"
 #include "tools/system/json.h"
 
@@ -24,80 +22,7 @@ struct CheckOptions {
     SceneOptions scene;
 };
 
-/// Births that the schedules allow up to the last frame, if none has to wait.
-std::uint64_t plannedBirths(const scenes::Scene& scene) {
-    constexpr double kOnTime = 1e-9;  // as for the births themselves, s
-    std::uint64_t sum = 0;
-    for (const engine::Emitter& emitter : scene.setup.emitters) {
-        const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
-        // Due at `until` is too late, due at the last frame is not.
-        const double end = std::min(lastFrame + kOnTime, emitter.until - 2.0 * kOnTime);
-        if (end < emitter.start) continue;
-        const double events = std::floor((end - emitter.start) / emitter.interval) + 1.0;
-        const double schedules = emitter.pick == engine::Pick::all ? static_cast<double>(emitter.sites.size()) : 1.0;
-        sum += static_cast<std::uint64_t>(std::min(static_cast<double>(emitter.limit), events * schedules));
-    }
-    return sum;
-}
-
-/// The particles at the start and one of each emitter: every kind that the run will have.
-engine::Particles everyKind(const scenes::Scene& scene) {
-    engine::Particles particles = scene.setup.initial;
-    for (const engine::Emitter& emitter : scene.setup.emitters) {
-        const engine::Material& material = scene.setup.materials[emitter.material];
-        engine::append(particles, {.radius = material.radius, .mass = material.mass, .material = emitter.material});
-    }
-    return particles;
-}
-
-/// Bytes a particle takes at most while a frame is in flight: of the run as it goes, and as spheres to draw. Of a run
-/// that has any.
-std::size_t bytesPerParticle(const engine::Simulation& simulation) {
-    constexpr std::size_t kFramesInFlight = 4;
-    return engine::peakBytes(simulation) / simulation.particles.count() + kFramesInFlight * sizeof(render::Sphere);
-}
-
-/// How the beginning of the run went.
-struct Preview {
-    engine::Simulation simulation;
-    std::string unstable;  ///< why the run does not come further; empty: it does
-    int frames = 0;        ///< that were simulated
-    double seconds = 0.0;  ///< of wall clock, births and looks included
-    double particleFrames = 0.0;
-    std::size_t mostParticles = 0;     ///< at the end of a frame
-    std::size_t bytesPerParticle = 0;  ///< then
-};
-
-void noteMemory(Preview& preview) {
-    const std::size_t count = preview.simulation.particles.count();
-    if (count == 0 || count < preview.mostParticles) return;
-    preview.mostParticles = count;
-    preview.bytesPerParticle = bytesPerParticle(preview.simulation);
-}
-
-/// Simulates until a share of the work of a short run is done: what is predicted is what happened so far.
-Preview simulateBeginning(const scenes::Scene& scene) {
-    constexpr double kSecondsEnough = 2.0;  // chosen: as long as one likes to wait for a check
-    Preview preview;
-    preview.simulation = engine::start(scene.setup);
-    noteMemory(preview);
-    const auto start = std::chrono::steady_clock::now();
-    while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
-        try {
-            scenes::advanceToFrame(scene, preview.simulation, preview.frames + 1);
-        } catch (const engine::InstabilityError& error) {
-            preview.unstable = error.what();
-            break;
-        }
-        ++preview.frames;
-        preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
-        noteMemory(preview);
-    }
-    return preview;
-}
-
-/// Steps, stepper, error and time, extrapolated from the beginning.
+/// Steps, stepper, error and time, extrapolated from the beginning of the run.
 Json predictionJson(const scenes::Scene& scene, double meanParticles) {
     const Preview preview = simulateBeginning(scene);
     const engine::Simulation& simulation = preview.simulation;
@@ -134,7 +59,7 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
             {"particle", bound->particle}};
 }
 
-/// As a scene's keys have them.
+/// A material by the names of the keys of a scene.
 Json materialJson(const engine::Material& material) {
     return {{"name", material.name},         {"b1", material.repulsion},      {"bd", material.damping},
             {"cr", material.repulsionReach}, {"cd", material.dampingReach},   {"radius", material.radius},
@@ -147,7 +72,8 @@ Json checkJson(const scenes::Scene& scene) {
     const std::uint64_t births = plannedBirths(scene);
     const std::uint64_t most = scene.setup.initial.count() + births;
     const int frames = scenes::frameCount(scene);
-    // Births come evenly, so that half of them are there on average; in a bounded world fewer, nobody knows how many.
+    // Births come evenly, so that on average half of them have happened. A bounded world has fewer particles, by an
+    // unknown number.
     const double meanParticles = static_cast<double>(scene.setup.initial.count()) + 0.5 * static_cast<double>(births);
 
     Json json;

@@ -1,0 +1,76 @@
+// Counts the births on the emitters' schedules and runs the first frames.
+#include "tools/run/forecast.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "engine/run/run_memory.h"
+#include "render/picture/view.h"
+#include "scenes/view/frame_steps.h"
+
+namespace tools {
+namespace {
+
+/// See Preview::bytesPerParticle.
+/// @pre the simulation has particles
+std::size_t bytesPerParticle(const engine::Simulation& simulation) {
+    constexpr std::size_t kFramesInFlight = 4;
+    return engine::peakBytes(simulation) / simulation.particles.count() + kFramesInFlight * sizeof(render::Sphere);
+}
+
+void recordMemory(Preview& preview) {
+    const std::size_t count = preview.simulation.particles.count();
+    if (count == 0 || count < preview.mostParticles) return;
+    preview.mostParticles = count;
+    preview.bytesPerParticle = bytesPerParticle(preview.simulation);
+}
+
+}  // namespace
+
+std::uint64_t plannedBirths(const scenes::Scene& scene) {
+    constexpr double kOnTime = 1e-9;  // seconds; the tolerance of the births themselves
+    std::uint64_t sum = 0;
+    for (const engine::Emitter& emitter : scene.setup.emitters) {
+        const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
+        // A birth that is due at `until` is too late; one that is due at the last frame is not.
+        const double end = std::min(lastFrame + kOnTime, emitter.until - 2.0 * kOnTime);
+        if (end < emitter.start) continue;
+        const double events = std::floor((end - emitter.start) / emitter.interval) + 1.0;
+        const double schedules = emitter.pick == engine::Pick::all ? static_cast<double>(emitter.sites.size()) : 1.0;
+        sum += static_cast<std::uint64_t>(std::min(static_cast<double>(emitter.limit), events * schedules));
+    }
+    return sum;
+}
+
+engine::Particles everyKind(const scenes::Scene& scene) {
+    engine::Particles particles = scene.setup.initial;
+    for (const engine::Emitter& emitter : scene.setup.emitters) {
+        const engine::Material& material = scene.setup.materials[emitter.material];
+        engine::append(particles, {.radius = material.radius, .mass = material.mass, .material = emitter.material});
+    }
+    return particles;
+}
+
+Preview simulateBeginning(const scenes::Scene& scene) {
+    constexpr double kSecondsEnough = 2.0;  // chosen: as long as a user is willing to wait for a check
+    Preview preview;
+    preview.simulation = engine::start(scene.setup);
+    recordMemory(preview);
+    const auto start = std::chrono::steady_clock::now();
+    while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
+        try {
+            scenes::advanceToFrame(scene, preview.simulation, preview.frames + 1);
+        } catch (const engine::InstabilityError& error) {
+            preview.unstable = error.what();
+            break;
+        }
+        ++preview.frames;
+        preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
+        recordMemory(preview);
+    }
+    return preview;
+}
+
+}  // namespace tools

@@ -1,0 +1,35 @@
+// What a run of a scene would do, found out without running it to the end. Used by `check`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "engine/state/simulation.h"
+#include "scenes/model/scene.h"
+
+namespace tools {
+
+/// How many particles the emitters are scheduled to emit up to the last frame, if none of them has to wait for room.
+std::uint64_t plannedBirths(const scenes::Scene& scene);
+
+/// The particles at the start and one of each emitter: every kind of particle that the run will have.
+engine::Particles everyKind(const scenes::Scene& scene);
+
+/// How the beginning of a run went.
+struct Preview {
+    engine::Simulation simulation;  ///< at the last frame that was simulated
+    std::string unstable;           ///< why the simulation became unstable; empty if it did not
+    int frames = 0;                 ///< how many frames were simulated
+    double seconds = 0.0;           ///< wall-clock time that they took, with births and error estimates
+    double particleFrames = 0.0;    ///< sum over the frames of the number of particles
+    std::size_t mostParticles = 0;  ///< at the end of any frame
+    /// The most memory that a particle takes while frames are in flight, in bytes, measured when there were most
+    /// particles; 0 if there were none.
+    std::size_t bytesPerParticle = 0;
+};
+
+/// Simulates the first frames of a scene, for about two seconds.
+Preview simulateBeginning(const scenes::Scene& scene);
+
+}  // namespace tools
