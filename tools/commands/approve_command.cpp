@@ -1,4 +1,4 @@
-// globular approve: actual pictures become goldens.
+// globular approve: makes actual pictures the goldens, and prints which.
 #include <fmt/format.h>
 
 #include <memory>

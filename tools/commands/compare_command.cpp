@@ -1,5 +1,5 @@
-// globular compare: pictures within limits of what they were, or which rule says that they are not. Exit code 0: all
-// are; 1: one is not; 2: trouble, nothing could be said of at least one.
+// globular compare: compares pictures with their goldens and names the rule that a difference breaks. The exit code is
+// 0 if all pictures are within the limits, 1 if one is not, and 2 if at least one could not be compared.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// globular render: simulate and draw a scene to PNG frames, a run.json and a video.
+// globular render: simulates and draws a scene, and writes PNG frames, run.json and a video.
 #include <fmt/format.h>
 
 #include <filesystem>

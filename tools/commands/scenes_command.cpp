@@ -1,4 +1,4 @@
-// globular scenes: the built-in scenes by name.
+// globular scenes: lists the built-in scenes.
 #include <fmt/format.h>
 
 #include <algorithm>

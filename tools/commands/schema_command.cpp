@@ -1,4 +1,4 @@
-// globular schema: every key that a scene file may hold.
+// globular schema: lists every key that a scene file may have.
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,4 +1,4 @@
-// globular simulate: particle states only, one PLY file a frame.
+// globular simulate: simulates a scene without drawing it, and writes the particles of each frame as a PLY file.
 #include <fmt/format.h>
 
 #include <filesystem>

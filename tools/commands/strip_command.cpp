@@ -1,4 +1,4 @@
-// globular strip: a scene at several times, side by side in one picture.
+// globular strip: draws a scene at several times, side by side in one picture.
 #include <fmt/format.h>
 
 #include <filesystem>

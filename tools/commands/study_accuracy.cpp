@@ -1,4 +1,5 @@
-// globular study accuracy: every stepper over a range of steps against a reference; tables, plots and a page.
+// globular study accuracy: runs every stepper at a range of steps and measures its error against a reference. Writes
+// tables, plots and a page.
 #include <fmt/format.h>
 
 #include <algorithm>

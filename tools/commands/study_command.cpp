@@ -1,4 +1,4 @@
-// globular study: measurements of the program itself, one subcommand for each question.
+// globular study: measures the program itself, with one subcommand for each question.
 #include "tools/commands/study_command.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// globular study pictures: what frames cost, stage by stage, and how far they are from the exact picture.
+// globular study pictures: measures what frames cost, stage by stage, and how far they are from the exact picture.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// globular study scaling: time per step against the number of particles, beside the paper's Table 2 and beside a peer.
+// globular study scaling: measures the time of a step against the number of particles, beside the paper's Table 2 and
+// another program.
 #include <fmt/format.h>
 #include <unistd.h>
 

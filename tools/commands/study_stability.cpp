@@ -1,4 +1,5 @@
-// globular study stability: the hard cases of scenes/library/hard, each with the paper's stepper and with ours.
+// globular study stability: runs the hard cases of scenes/library/hard with the paper's stepper and with the scene's
+// own, and fails unless all come out as they must.
 #include <fmt/format.h>
 
 #include <algorithm>

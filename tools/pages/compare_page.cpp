@@ -1,4 +1,4 @@
-// Results to JSON with data URIs, put into the page.
+// Turns results into JSON with the pictures as data URIs, and puts it into the page's template.
 #include "tools/pages/compare_page.h"
 
 #include <algorithm>
@@ -11,22 +11,22 @@
 namespace tools {
 namespace {
 
-std::string inlined(const std::vector<std::uint8_t>& png) {
+std::string inlinePng(const std::vector<std::uint8_t>& png) {
     return dataUri("image/png", png);
 }
 
-/// What can be seen of a result, by the names that the page's script knows.
+/// The pictures of a result by the names that the page's script uses.
 Json imagesOf(const PictureResult& result) {
     Json images = Json::object();
-    if (result.actual.image) images["actual"] = inlined(result.actual.bytes);
+    if (result.actual.image) images["actual"] = inlinePng(result.actual.bytes);
     if (result.expected.image && result.status != PictureStatus::identical)
-        images["expected"] = inlined(result.expected.bytes);
+        images["expected"] = inlinePng(result.expected.bytes);
     if (!result.comparison || result.comparison->rule == render::CompareRule::size ||
         result.comparison->metrics.differing == 0)
         return images;
     images["difference"] =
-        inlined(render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
-    images["heat"] = inlined(render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
+        inlinePng(render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
+    images["heat"] = inlinePng(render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
     return images;
 }
 
@@ -36,8 +36,8 @@ std::size_t byteCount(const Json& images) {
     return bytes;
 }
 
-/// JSON within a script element: nothing in it may look like the end of the element.
-std::string inScript(const Json& json) {
+/// JSON for a script element. Without the character < nothing in it can end the element.
+std::string scriptJson(const Json& json) {
     std::string text;
     for (const char c : compactText(json)) {
         if (c == '<')
@@ -49,7 +49,7 @@ std::string inScript(const Json& json) {
 }
 
 /// The template with each @NAME@ replaced.
-std::string filled(std::string_view page, const std::map<std::string, std::string>& values) {
+std::string fillTemplate(std::string_view page, const std::map<std::string, std::string>& values) {
     std::string text;
     while (!page.empty()) {
         const std::size_t open = page.find('@');
@@ -83,8 +83,8 @@ Json headingJson(const PageHeading& heading) {
 void ComparePage::add(const PictureResult& result, const std::string& approval) {
     Json json = resultJson(result);
     json["approve"] = approval;
-    noteRun(result.actual, json["actual"]);
-    noteRun(result.expected, json["expected"]);
+    addRun(result.actual, json["actual"]);
+    addRun(result.expected, json["expected"]);
     inlinePictures(result, json);
     entries_.push_back({result.status, std::move(json)});
 }
@@ -97,7 +97,7 @@ void ComparePage::inlinePictures(const PictureResult& result, Json& json) {
     json["images"] = std::move(images);
 }
 
-void ComparePage::noteRun(const PictureSide& side, Json& json) {
+void ComparePage::addRun(const PictureSide& side, Json& json) {
     if (side.path.empty()) return;
     const std::filesystem::path path = side.path.parent_path() / "run.json";
     auto known = runs_.find(path.string());
@@ -114,9 +114,9 @@ std::string ComparePage::html(const PageHeading& heading) const {
     data["runs"] = runs_;
     data["pictures"] = Json::array();
     for (const Entry* entry : sorted) data["pictures"].push_back(entry->json);
-    return filled(embeddedText("compare.html"), {{"STYLE", std::string(embeddedText("compare.css"))},
-                                                 {"SCRIPT", std::string(embeddedText("compare.js"))},
-                                                 {"DATA", inScript(data)}});
+    return fillTemplate(embeddedText("compare.html"), {{"STYLE", std::string(embeddedText("compare.css"))},
+                                                       {"SCRIPT", std::string(embeddedText("compare.js"))},
+                                                       {"DATA", scriptJson(data)}});
 }
 
 }  // namespace tools

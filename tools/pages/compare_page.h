@@ -1,5 +1,5 @@
-// The page of `compare --report`: one file, pictures inlined, no network. Its HTML, CSS and script are in tools/pages;
-// here is the data that they show.
+// The page of `compare --report`: one file with all pictures in it that fetches nothing. Its HTML, CSS and script are
+// in tools/pages; this code collects the data that they show.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace tools {
 
-/// What the page says of the comparison as a whole.
+/// What the page shows about the whole comparison.
 struct PageHeading {
     std::string actual, expected;  ///< as given on the command line
     std::string profile;
@@ -21,15 +21,15 @@ struct PageHeading {
     std::string approval;  ///< the command that accepts everything that fails; empty: nothing to accept
 };
 
-/// Collects results with their pictures; html() is the page, failures first. A browser cannot show thousands of
-/// pictures: those that passed are inlined up to kPassedBytes, those that failed up to kFailedBytes of base64, the rest
-/// have numbers only.
+/// Collects results with their pictures and writes the page, failures first. Because a browser cannot show thousands of
+/// pictures, those that passed are included up to kPassedBytes of base64 and those that failed up to kFailedBytes. The
+/// others are shown by their numbers only. Both limits are chosen.
 class ComparePage {
  public:
     static constexpr std::size_t kPassedBytes = std::size_t{48} << 20;
     static constexpr std::size_t kFailedBytes = std::size_t{128} << 20;
 
-    /// approval: the command that accepts this picture, or empty.
+    /// @param approval  the command that accepts this picture, or empty
     void add(const PictureResult& result, const std::string& approval);
     std::string html(const PageHeading& heading) const;
 
@@ -39,10 +39,10 @@ class ComparePage {
         Json json;
     };
     void inlinePictures(const PictureResult& result, Json& json);
-    void noteRun(const PictureSide& side, Json& json);
+    void addRun(const PictureSide& side, Json& json);
 
     std::vector<Entry> entries_;
-    std::map<std::string, nlohmann::json> runs_;  ///< each run.json beside a picture
+    std::map<std::string, nlohmann::json> runs_;  ///< the run.json files beside the pictures, by path
     std::size_t passedBytes_ = 0;
     std::size_t failedBytes_ = 0;
 };

@@ -17,7 +17,7 @@ struct FigureEntry {
     std::string stripPath;                                        ///< PNG, several times side by side
     std::string videoPath;                                        ///< MP4
     double stillTime = 0.0;                                       ///< seconds
-    std::vector<double> stripTimes;                               ///< s
+    std::vector<double> stripTimes;                               ///< seconds
     std::vector<std::pair<std::string, std::string>> parameters;  ///< key and value as in the scene file
     std::string command;                                          ///< renders the scene again
     std::string stateHash;

@@ -1,4 +1,4 @@
-// One test case a picture: failures are differences, errors are pictures that cannot be read.
+// One test case for each picture. Failures are differences, errors are pictures that cannot be read.
 #include "tools/pages/junit.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace tools {
 namespace {
 
-/// XML 1.0 has no way to write control characters: they become question marks.
+/// A text as an attribute. Control characters become question marks, because XML 1.0 cannot express them.
 std::string attribute(const std::string& bytes) {
     std::string text = utf8(bytes);
     for (char& c : text)

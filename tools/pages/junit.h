@@ -1,4 +1,4 @@
-// JUnit's XML, which CI systems show as tests.
+// The results of `compare` in JUnit's XML format, which CI systems show as tests.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tools {
 
-/// Collects results; text() is the file.
+/// Collects results; text() is the content of the file.
 class JunitReport {
  public:
     void add(const PictureResult& result);
