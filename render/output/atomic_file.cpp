@@ -80,7 +80,7 @@ AtomicFile::AtomicFile(const fs::path& path) : target_(resolved(path)) {
     struct stat old = {};
     if (::stat(target_.c_str(), &old) == 0) mode_ = old.st_mode & 0777;
     // Not mkostemp(): its files have the mode 0600, and the umask cannot be read without changing it for all threads.
-    // Until it is whole, nobody can read the file who may not read the one it replaces.
+    // Until it is whole, the file can be read by no more users than the one that it replaces.
     const mode_t mode = mode_ ? (*mode_ | 0600) : 0666;
     while (descriptor_ < 0) {
         const std::string name = fmt::format(".{}.{}{}", stemOf(target_.filename().string()), randomLetters(), kSuffix);

@@ -16,7 +16,7 @@ namespace render {
 
 /// A temporary file in the folder of its target, named `.TARGET.RANDOM.partial`. Every object has a file of its own, so
 /// that two runs may write the same target: both succeed, and the file is that of the last one to finish, never a mix.
-/// A link or file that somebody else has put into the folder is never opened.
+/// The file is created anew under a random name: a link or file that lies in the folder already is never opened.
 class AtomicFile {
  public:
     /// Creates the temporary file, empty. Where `path` is a symbolic link, its target is the file that is replaced.

@@ -1,5 +1,5 @@
-// The balls whose field is the metaballs' surface: the particles themselves, or what view.h's smooth skin makes of
-// them. Called by the picture pass once a frame.
+// The balls whose field is the surface of metaballs: the particles themselves, or for a smooth skin what view.h
+// (MetaballField) makes of them. Called by the picture pass once per frame.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,14 @@
 
 namespace render {
 
-/// A ball in the world, as heavy as its particle's surroundings are empty.
+/// A ball of the field, in world coordinates. Its radius is that of its particle.
 struct SkinBall {
     glm::vec3 center{0.0F};
     float weight = 1.0F;  ///< of its kernel in the field
 };
 
-/// One ball a particle.
-/// Holds:  a particle without another in reach stays where it is, with weight 1; the result depends on the view alone,
-///         bit for bit, not on the number of threads.
+/// One ball for each particle. Where no other particle is in reach, the ball stays at its particle, with weight 1. The
+/// result depends on the view alone, bit for bit, not on the number of threads or the instruction set.
 std::vector<SkinBall> skinOf(const View& view);
 
 }  // namespace render

@@ -74,15 +74,15 @@ tools::RenderJob jobOf(const scenes::Scene& scene, const ScratchFolder& folder, 
     job.scene = &scene;
     job.frames = kFrames;
     job.folder = tools::FolderOptions{.path = (folder.path / "frames").string(), .checkpointSeconds = 0.0};
-    job.videoPath = (folder.path / "film.mp4").string();
+    job.videoPath = (folder.path / "video.mp4").string();
     job.threads = threads;
     job.verbosity = tools::Verbosity::quiet;
     return job;
 }
 
-/// The bytes of a run's frames and of its film, by name.
+/// The bytes of a run's frames and of its video, by name.
 std::map<std::string, Bytes> picturesIn(const ScratchFolder& folder) {
-    std::map<std::string, Bytes> pictures = {{"film.mp4", tools::readFile(folder.path / "film.mp4")}};
+    std::map<std::string, Bytes> pictures = {{"video.mp4", tools::readFile(folder.path / "video.mp4")}};
     for (const auto& file : fs::directory_iterator(folder.path / "frames"))
         if (file.path().extension() == ".png") pictures[file.path().filename().string()] = tools::readFile(file.path());
     return pictures;
@@ -101,7 +101,7 @@ TEST_CASE("A run on several threads leaves the files of a run on one", "[pipelin
     CHECK(one.simulation.particles.count() > 1024);
     CHECK(several.report.stateHash == one.report.stateHash);
     const auto expected = picturesIn(alone);
-    REQUIRE(expected.size() == 7);  // six frames and the film
+    REQUIRE(expected.size() == 7);  // six frames and the video
     CHECK(picturesIn(together) == expected);
 
     // Frames that are kept are read again while others are drawn.

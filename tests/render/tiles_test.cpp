@@ -107,13 +107,13 @@ TEST_CASE("The pixels that spheres may touch are their projection and a margin o
         }
         const std::vector<render::Rect> touched = render::pixelBounds(frame, spheres);
         REQUIRE(touched.size() == spheres.size());
-        int seen = 0;
+        int visible = 0;
         int hidden = 0;
         for (std::size_t k = 0; k < spheres.size(); ++k) {
             const auto [center, radius] = spheres[k];
             const render::Rect& at = touched[k];
             const bool isHidden = at.x1 < at.x0 || at.y1 < at.y0;
-            (isHidden ? hidden : seen) += 1;
+            (isHidden ? hidden : visible) += 1;
             if (center.z + radius <= 0.0F) {
                 CHECK(isHidden);
                 continue;
@@ -143,7 +143,7 @@ TEST_CASE("The pixels that spheres may touch are their projection and a margin o
             CHECK(holds(at.x0, at.x1, {middleX + left, middleX + right}, frame.width));
             CHECK(holds(at.y0, at.y1, {middleY - up, middleY - down}, frame.height));
         }
-        CHECK(seen > 300);
+        CHECK(visible > 300);
         CHECK(hidden > 50);
     }
 }

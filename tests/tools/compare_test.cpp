@@ -226,17 +226,17 @@ TEST_CASE("compare: JUnit's XML counts failures and errors, and stays XML", "[co
 TEST_CASE("compare: frames of two videos", "[compare]") {
     Two two;
     for (int k = 0; k < 3; ++k) two.actual("frame-0000" + std::to_string(k) + ".png", noisy(balls(), 2 * k));
-    const auto film = [&](const std::string& folder, const std::string& name) {
+    const auto video = [&](const std::string& folder, const std::string& name) {
         return run("video " + (two / folder).string() + " --quiet -o " + (two / name).string()).code;
     };
-    REQUIRE(film("actual", "a.mp4") == 0);
-    REQUIRE(film("actual", "same.mp4") == 0);
+    REQUIRE(video("actual", "a.mp4") == 0);
+    REQUIRE(video("actual", "same.mp4") == 0);
     fs::create_directories(two / "50%d");
     fs::copy(two / "a.mp4", two / "take:1.mp4");
     const std::string within = "cd " + (two / "").string() + " && TMPDIR=" + (two / "50%d").string();
     CHECK(run("compare take:1.mp4 a.mp4 --quiet", within).code == 0);
     two.actual("frame-00002.png", shifted(balls()));
-    REQUIRE(film("actual", "other.mp4") == 0);
+    REQUIRE(video("actual", "other.mp4") == 0);
     const std::string compare = "compare --json ";
     const auto same = run(compare + (two / "same.mp4").string() + " " + (two / "a.mp4").string() + " --profile strict");
     CHECK(same.code == 0);
@@ -245,19 +245,19 @@ TEST_CASE("compare: frames of two videos", "[compare]") {
         run(compare + (two / "other.mp4").string() + " " + (two / "a.mp4").string() + " --profile loose");
     CHECK(other.code == 1);
     CHECK(other.out.find("\"name\":\"frame-00002.png\",\"status\":\"different\"") != std::string::npos);
-    // A film against the frames it was made of. Flat colors keep their places through 4:2:0; luma has 219 steps and
+    // A video against the frames it was made of. Flat colors keep their places through 4:2:0; luma has 219 steps and
     // chroma 224 for 255, whose rounding reaches a channel as at most 0.5 (1.17 + 2 * 1.14) < 2 steps, twice. Another
     // matrix would cost twenty.
     int number = 0;
     for (const std::array<std::uint8_t, 3>& color :
          {std::array<std::uint8_t, 3>{200, 60, 40}, {30, 180, 90}, {20, 60, 220}})
         two.expected("frame-0000" + std::to_string(number++) + ".png", flat(160, 90, color));
-    REQUIRE(film("expected", "flat.mp4") == 0);
+    REQUIRE(video("expected", "flat.mp4") == 0);
     const auto own = run(compare + (two / "flat.mp4").string() + " " + (two / "expected").string() +
                          " --max-difference 4 --max-share 100 --max-mean 4");
     INFO(own.out);
     CHECK(own.code == 0);
-    tools::writeFile(two / "broken.mp4", std::string("no film"));
+    tools::writeFile(two / "broken.mp4", std::string("no video"));
     const auto broken = run(compare + (two / "broken.mp4").string() + " " + (two / "a.mp4").string());
     CHECK(broken.code == 2);
     CHECK(broken.err.find("error: ffmpeg cannot decode") == 0);
@@ -304,9 +304,9 @@ TEST_CASE("compare: what is no verdict is trouble", "[compare]") {
     CHECK(run("compare " + (two / "actual").string() + " " + (two / "expected").string() + " >/dev/full 2>/dev/null")
               .code == 2);
     for (int k = 0; k < 20; ++k)
-        two.actual("film/frame-" + std::string(k < 10 ? "0000" : "000") + std::to_string(k) + ".png",
+        two.actual("video/frame-" + std::string(k < 10 ? "0000" : "000") + std::to_string(k) + ".png",
                    noisy(balls(), k));
-    REQUIRE(run("video " + (two / "actual/film").string() + " --quiet -o " + (two / "a.mp4").string()).code == 0);
+    REQUIRE(run("video " + (two / "actual/video").string() + " --quiet -o " + (two / "a.mp4").string()).code == 0);
     fs::copy(two / "a.mp4", two / "short.mp4");
     fs::resize_file(two / "short.mp4", fs::file_size(two / "a.mp4") / 2);
     const auto cut = run("compare " + (two / "short.mp4").string() + " " + (two / "a.mp4").string());

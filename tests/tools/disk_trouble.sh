@@ -49,7 +49,7 @@ check_resume() { # what happened
     for file in "$work"/whole/*.png; do
         cmp -s "$file" "$work/disk/a/${file##*/}" || fail "$1: ${file##*/} differs"
     done
-    cmp -s "$work/whole.mp4" "$work/disk/a.mp4" || fail "$1: the film differs"
+    cmp -s "$work/whole.mp4" "$work/disk/a.mp4" || fail "$1: the video differs"
 }
 
 needed=$(du -sk "$work" | cut -f1)
@@ -64,12 +64,12 @@ for percent in 10 30 60 80; do
     umount "$work/disk"
 done
 
-# The end of a film is most of a short one: it is there that the disk runs full.
+# The end of a video is most of a short one: it is there that the disk runs full.
 mount -t tmpfs -o size=$(($(stat -c %s "$work/whole.mp4") / 2)) tmpfs "$work/disk"
 code=0
 "$program" video "$work/whole" -o "$work/disk/a.mp4" --quiet 2>"$work/log" || code=$?
-check_trouble 'disk too small for a film' "$code" 'No space left on device'
-[ ! -e "$work/disk/a.mp4" ] || fail "a film that is not whole was left"
+check_trouble 'disk too small for a video' "$code" 'No space left on device'
+[ ! -e "$work/disk/a.mp4" ] || fail "a video that is not whole was left"
 umount "$work/disk"
 
 mount -t tmpfs -o size=50m tmpfs "$work/disk"
@@ -89,7 +89,7 @@ check_trouble 'read-only disk' "$code" 'Read-only file system'
 mount -o remount,rw "$work/disk"
 check_resume 'read-only disk'
 
-# Midway: nothing but the film is open for writing between two frames, so this run makes none.
+# Midway: nothing but the video is open for writing between two frames, so this run makes none.
 rm -rf "$work/disk/a" "$work/disk/a.mp4"
 run -o "$work/disk/a" 2>"$work/log" &
 child=$!

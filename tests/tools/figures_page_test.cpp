@@ -12,7 +12,7 @@ TEST_CASE("The page holds still, strip and video of every figure, and the times 
     entry.title = "Figure 3 <solid>";
     entry.stillPath = (folder / "still.png").string();
     entry.stripPath = (folder / "strip.png").string();
-    entry.videoPath = (folder / "film.mp4").string();
+    entry.videoPath = (folder / "video.mp4").string();
     entry.stillTime = 78.0;
     entry.stripTimes = {9.8, 39.0, 78.0};
     for (const std::string& path : {entry.stillPath, entry.stripPath, entry.videoPath})

@@ -90,7 +90,7 @@ TEST_CASE("Runs of different scenes and commands do not share a default folder",
         CHECK(fs::exists(folder / "out" / name / "particles-00000.ply"));
 }
 
-TEST_CASE("globular video makes the same film of the frames, and refuses a gap", "[tools]") {
+TEST_CASE("globular video makes the same video of the frames, and refuses a gap", "[tools]") {
     const program::Folder folder;
     REQUIRE(run(fountainRun(folder / "a", "")).code == 0);
     for (const char* foreign : {"frame--0001.png", "frame-99999999999.png", "frame-00001.jpg"})
