@@ -62,6 +62,28 @@ HWY_INLINE Vec3 splat(glm::vec3 v) {
     return {splat(v.x), splat(v.y), splat(v.z)};
 }
 
+// The pointers of these four are aligned for vectors.
+HWY_INLINE V load(const float* values) {
+    return hn::Load(D(), values);
+}
+
+HWY_INLINE VI loadInt(const std::int32_t* values) {
+    return hn::Load(DI(), values);
+}
+
+HWY_INLINE void store(V value, float* to) {
+    hn::Store(value, D(), to);
+}
+
+HWY_INLINE void storeInt(VI value, std::int32_t* to) {
+    hn::Store(value, DI(), to);
+}
+
+/// Whether the mask is false in all lanes.
+HWY_INLINE bool none(M mask) {
+    return hn::AllFalse(D(), mask);
+}
+
 HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -72,15 +94,13 @@ HWY_INLINE Vec3 normalize(const Vec3& v) {
 
 /// The vectors of a tile's entries first, first + 1, ..., one per lane.
 HWY_INLINE Vec3 loadVec3(const TileVec3& values, std::size_t first) {
-    const D d;
-    return {hn::Load(d, &values[0][first]), hn::Load(d, &values[1][first]), hn::Load(d, &values[2][first])};
+    return {load(&values[0][first]), load(&values[1][first]), load(&values[2][first])};
 }
 
 HWY_INLINE void storeVec3(const Vec3& v, TileVec3& values, std::size_t first) {
-    const D d;
-    hn::Store(v.x, d, &values[0][first]);
-    hn::Store(v.y, d, &values[1][first]);
-    hn::Store(v.z, d, &values[2][first]);
+    store(v.x, &values[0][first]);
+    store(v.y, &values[1][first]);
+    store(v.z, &values[2][first]);
 }
 
 HWY_INLINE Vec3 select(M mask, const Vec3& yes, const Vec3& no) {

@@ -106,7 +106,7 @@ V cellCoverage(const LightGrid& grid, std::size_t cell, const Receivers& at, M w
             const V offV = at.v - splat(spheres.v[k]);
             const V square = offU * offU + offV * offV;
             coverage = coverage + sphereCoverage(spheres.height[k], spheres.radius[k], at, square, softness);
-            if (hn::AllFalse(d, hn::And(where, coverage < splat(1.0F)))) return coverage;
+            if (none(hn::And(where, coverage < splat(1.0F)))) return coverage;
         }
     }
     return coverage;
@@ -133,10 +133,10 @@ V spheresCoverage(const LightGrid& grid, const Receivers& at, float softness) {
     const M inGrid = hn::And(at.isFacing, isWithin(column, row, 0.0F, grid.columns, grid.rows));
     const VI cell = cellIndex(column, row, grid.columns, inGrid);
     alignas(64) std::array<std::int32_t, kTileSize> cells;
-    hn::Store(cell, DI(), cells.data());
+    storeInt(cell, cells.data());
     V coverage = splat(0.0F);
     // Cell by cell: neighboring points mostly lie in the same one.
-    for (M left = inGrid; !hn::AllFalse(d, left);) {
+    for (M left = inGrid; !none(left);) {
         const std::int32_t one = cells[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
         const M where = hn::And(left, floatMask(cell == splatInt(one)));
         const V found = cellCoverage(grid, static_cast<std::size_t>(one), at, where, softness);
@@ -246,10 +246,10 @@ V metaballCoverage(const DepthMap& map, const Occluders& occluders, const Receiv
     const M inMap = isWithin(column, row, 2.0F, map.columns - 2, map.rows - 2);
     const VI texel = cellIndex(column, row, map.columns, inMap);
     const M isBelowSome = hn::And(inMap, steps < hn::GatherIndex(d, map.highest.data(), texel));
-    if (hn::AllFalse(d, isBelowSome)) return splat(0.0F);
+    if (none(isBelowSome)) return splat(0.0F);
     const M isBetween = hn::And(isBelowSome, steps >= hn::GatherIndex(d, map.lowest.data(), texel));
     const V coverage = hn::IfThenElseZero(isBelowSome, splat(1.0F));
-    if (hn::AllFalse(d, isBetween)) return coverage;
+    if (none(isBetween)) return coverage;
     // Positions counted in heights, from the first of a row.
     const V fineU = u + u - splat(0.5F);
     const V fineV = v + v - splat(0.5F);
@@ -279,7 +279,7 @@ V groundSkyVisibility(const SkyVisibilityMap& map, glm::vec3 eye, const Vec3& po
     const V column = hn::Floor(x);
     const V row = hn::Floor(z);
     const M inMap = isWithin(column, row, 0.0F, map.columns - 1, map.rows - 1);
-    if (hn::AllFalse(d, inMap)) return splat(1.0F);
+    if (none(inMap)) return splat(1.0F);
     const VI first = cellIndex(column, row, map.columns, inMap);
     const auto at = [&](int offset) { return hn::GatherIndex(d, map.values.data(), first + splatInt(offset)); };
     const V partX = x - column;
@@ -292,7 +292,7 @@ V obstacleSkyVisibility(const SkyVisibilityGrid& grid, glm::vec3 eye, const Vec3
     const Vec3 at = gridPosition(grid, eye, position);
     // Only the sides that some normal points to are looked up.
     const auto visibility = [&](std::size_t side, M isToward) {
-        return hn::AllFalse(D(), isToward) ? zero : skyVisibilityInGrid(grid, side, at);
+        return none(isToward) ? zero : skyVisibilityInGrid(grid, side, at);
     };
     const Vec3 plus{visibility(0, normal.x > zero), visibility(2, normal.y > zero), visibility(4, normal.z > zero)};
     const Vec3 minus{visibility(1, normal.x < zero), visibility(3, normal.y < zero), visibility(5, normal.z < zero)};
@@ -301,14 +301,13 @@ V obstacleSkyVisibility(const SkyVisibilityGrid& grid, glm::vec3 eye, const Vec3
 
 V skyVisibilityAt(const Occluders& occluders, const ShadingGeometry& geometry, VI hitId, const Vec3& position,
                   const Vec3& normal) {
-    const D d;
     V sky = splat(1.0F);
     const M isGround = floatMask(hitId == splatInt(kHitGround));
-    if (!hn::AllFalse(d, isGround))
+    if (!none(isGround))
         sky = hn::IfThenElse(isGround, groundSkyVisibility(*occluders.groundSky, occluders.eye, position), sky);
     const M isObstacle =
         floatMask(hn::And(hitId > splatInt(geometry.firstObstacle - 1), hitId < splatInt(kHitMetaballs)));
-    if (!hn::AllFalse(d, isObstacle))
+    if (!none(isObstacle))
         sky = hn::IfThenElse(isObstacle, obstacleSkyVisibility(*occluders.sky, occluders.eye, position, normal), sky);
     return sky;
 }
@@ -321,18 +320,18 @@ void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& g
     for (std::size_t first = 0; first < points.count; first += hn::Lanes(d)) {
         const Vec3 position = loadVec3(points.position, first);
         const Vec3 normal = loadVec3(points.normal, first);
-        const V pixelWidth = geometry.frame.perspective ? width * hn::Load(d, &points.depth[first]) : width;
+        const V pixelWidth = geometry.frame.perspective ? width * load(&points.depth[first]) : width;
         const M isFacing = dot(normal, splat(light.toLight)) > splat(0.0F);
         V lit = splat(0.0F);
-        if (!hn::AllFalse(d, isFacing))
+        if (!none(isFacing))
             lit = lightVisibilityAt(occluders,
                                     {dot(position, splat(light.u)), dot(position, splat(light.v)),
                                      dot(position, splat(light.toLight)), position, normal, pixelWidth, isFacing});
-        const VI hitId = hn::Load(DI(), &points.hitId[first]);
+        const VI hitId = loadInt(&points.hitId[first]);
         const V sky =
             occluders.sky != nullptr ? skyVisibilityAt(occluders, geometry, hitId, position, normal) : splat(1.0F);
-        hn::Store(lit, d, &visibility.light[first]);
-        hn::Store(sky, d, &visibility.sky[first]);
+        store(lit, &visibility.light[first]);
+        store(sky, &visibility.sky[first]);
     }
 }
 

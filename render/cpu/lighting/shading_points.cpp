@@ -155,11 +155,9 @@ void addGround(const ShadingGeometry& geometry, const HitRays& hits, M where, Po
 }
 
 void evaluateVector(const ShadingGeometry& geometry, std::size_t first, ShadingPoints& points) {
-    const D d;
     HitRays hits;
-    hits.hitId = hn::Load(DI(), &points.hitId[first]);
-    hits.ray = worldRay(geometry.frame,
-                        imagePointAt(geometry.frame, hn::Load(d, &points.x[first]), hn::Load(d, &points.y[first])));
+    hits.hitId = loadInt(&points.hitId[first]);
+    hits.ray = worldRay(geometry.frame, imagePointAt(geometry.frame, load(&points.x[first]), load(&points.y[first])));
     hits.inverseSquare = splat(1.0F) / dot(hits.ray.direction, hits.ray.direction);
     const Vec3 one = splat(glm::vec3(1.0F));
     PointVector found{splat(0.0F), splat(-geometry.toLight), one, one};
@@ -167,11 +165,11 @@ void evaluateVector(const ShadingGeometry& geometry, std::size_t first, ShadingP
     const M isBox = hn::AndNot(isMetaball, floatMask(hits.hitId > splatInt(kHitBox - 1)));
     const M isSphere = hn::AndNot(isMetaball, hn::AndNot(isBox, floatMask(hits.hitId > splatInt(-1))));
     const M isGround = floatMask(hits.hitId == splatInt(kHitGround));
-    if (!hn::AllFalse(d, isGround)) addGround(geometry, hits, isGround, found);
-    if (!hn::AllFalse(d, isSphere)) addSpheres(geometry, hits, isSphere, found);
-    if (!hn::AllFalse(d, isBox)) addBoxes(geometry, hits, isBox, found);
-    if (!hn::AllFalse(d, isMetaball)) addMetaballs(geometry, hits, isMetaball, found);
-    hn::Store(found.depth, d, &points.depth[first]);
+    if (!none(isGround)) addGround(geometry, hits, isGround, found);
+    if (!none(isSphere)) addSpheres(geometry, hits, isSphere, found);
+    if (!none(isBox)) addBoxes(geometry, hits, isBox, found);
+    if (!none(isMetaball)) addMetaballs(geometry, hits, isMetaball, found);
+    store(found.depth, &points.depth[first]);
     storeVec3(pointOnRay(hits.ray.origin, found.depth, hits.ray.direction), points.position, first);
     storeVec3(found.normal, points.normal, first);
     storeVec3(found.albedo, points.albedo, first);

@@ -45,7 +45,6 @@ class RayVector {
     /// Advances until every active ray has hit the surface, has left the balls behind or is at its end.
     /// @return the view depth of each hit, negative without one
     V cast(M active, V minDepth, V maxDepth) {
-        const D d;
         const V threshold = splat(scene_.threshold);
         long k = firstSample_;
         float depth = depthOf(k);
@@ -57,7 +56,7 @@ class RayVector {
         FieldSample low = here;
         FieldSample high = here;
         active = hn::AndNot(isFound, active);
-        while (!hn::AllFalse(d, active)) {
+        while (!none(active)) {
             if (near_.isEmptyHere()) {
                 const float next = near_.nextNearDepth();
                 if (next == std::numeric_limits<float>::infinity()) break;
@@ -72,7 +71,7 @@ class RayVector {
             M isHit = hn::And(hn::And(active, minDepth <= there.depth), there.field >= threshold);
             const M isSuspect = hn::AndNot(isHit, hn::And(hasBegun, mayPeakBetween(here, there, ahead - depth)));
             FieldSample reached = there;
-            if (!hn::AllFalse(d, isSuspect)) {
+            if (!none(isSuspect)) {
                 const FieldSample peak = near_.sampleAt(peakBetween(depth, ahead));
                 const M isSliver = hn::And(isSuspect, peak.field >= threshold);
                 reached = select(isSliver, peak, reached);
@@ -80,7 +79,7 @@ class RayVector {
             }
             maxField_ = hn::Max(maxField_, hn::IfThenElseZero(hasBegun, there.field));
             // Without a branch, which would be mispredicted too often.
-            firstAtHit_ = hn::AllFalse(d, isFound) ? near_.first() : firstAtHit_;
+            firstAtHit_ = none(isFound) ? near_.first() : firstAtHit_;
             // A ray that begins between the samples begins within the surface.
             low = select(isHit, select(hasBegun, here, there), low);
             high = select(isHit, reached, high);
@@ -210,7 +209,7 @@ class RayVector {
             const V left = hn::IfThenElse(isBracketed, hn::Abs(next - depth), high - low);
             isRough = hn::And(isRough, left > splat(kSmallStep * scene_.step));
             depth = next;
-            if (hn::AllFalse(d, isRough)) break;
+            if (none(isRough)) break;
         }
         return depth;
     }
@@ -233,12 +232,12 @@ void castBlock(const MetaballScene& scene, std::size_t tile, RayBlock& block) {
     balls.begin(scene, tile);
     for (std::size_t first = 0; first < block.count; first += lanes) {
         const M active = hn::FirstN(d, std::min(lanes, block.count - first));
-        const V minDepth = hn::Load(d, &block.minDepth[first]);
-        const ImagePoint at = imagePointAt(scene.frame, hn::Load(d, &block.x[first]), hn::Load(d, &block.y[first]));
+        const V minDepth = load(&block.minDepth[first]);
+        const ImagePoint at = imagePointAt(scene.frame, load(&block.x[first]), load(&block.y[first]));
         RayVector rays(scene, balls, storage, at, active, minDepth);
-        const V depth = rays.cast(active, minDepth, hn::Load(d, &block.maxDepth[first]));
-        hn::Store(depth, d, &block.depth[first]);
-        hn::Store(rays.maxField(), d, &block.maxField[first]);
+        const V depth = rays.cast(active, minDepth, load(&block.maxDepth[first]));
+        store(depth, &block.depth[first]);
+        store(rays.maxField(), &block.maxField[first]);
         if (!scene.attributes.empty() && !hn::AllTrue(d, depth < splat(0.0F)))
             rays.writeAttributes(depth, first, block);
     }

@@ -49,7 +49,7 @@ VI packSky(const Vec3& sky) {
 void packHits(const MetaballScene& scene, const RayBlock& block, PackedHit* packed) {
     const DI di;
     for (std::size_t first = 0; first < block.count; first += hn::Lanes(di)) {
-        const V depth = hn::Load(D(), &block.depth[first]);
+        const V depth = load(&block.depth[first]);
         const auto isHit = hn::RebindMask(di, depth >= splat(0.0F));
         // A hit at the eye itself still has to differ from no hit.
         const VI depthBits = hn::BitCast(di, hn::Max(depth, splat(1e-30F)));

@@ -123,9 +123,9 @@ class NearBalls {
     Term termOf(std::size_t ball, V depth) const {
         const D d;
         const float* terms = &storage_.terms[3 * ball * hn::Lanes(d)];
-        const V s = hn::Load(d, terms + 2 * hn::Lanes(d));
-        const V u = depth * s - hn::Load(d, terms + hn::Lanes(d));
-        return {hn::Load(d, terms) - u * u, u * s};
+        const V s = load(terms + 2 * hn::Lanes(d));
+        const V u = depth * s - load(terms + hn::Lanes(d));
+        return {load(terms) - u * u, u * s};
     }
 
     /// Admits the next vector of the tile's balls, as far as some ray meets them.
@@ -144,14 +144,14 @@ class NearBalls {
         const V w = splat(ball.peak) - dot(off, off) * splat(ball.slope * ball.slope);
         const V s = length_ * splat(ball.slope);
         float* terms = &storage_.terms[3 * count_ * hn::Lanes(d)];
-        hn::Store(w, d, terms);
-        hn::Store(closest * s, d, terms + hn::Lanes(d));
-        hn::Store(s, d, terms + 2 * hn::Lanes(d));
+        store(w, terms);
+        store(closest * s, terms + hn::Lanes(d));
+        store(s, terms + 2 * hn::Lanes(d));
         storage_.nearDepth[count_] = ball.center.z - ball.reach;
         storage_.farDepth[count_] = ball.center.z + ball.reach;
         storage_.index[count_] = index;
         // Without a branch: most are met, and the others are overwritten.
-        count_ += hn::AllFalse(d, w > splat(0.0F)) ? 0U : 1U;
+        count_ += none(w > splat(0.0F)) ? 0U : 1U;
     }
 
     /// The first of the depths from `first` to `end` that is not less than a depth.

@@ -30,9 +30,7 @@ struct NearestHits {
 };
 
 Ray rayAt(const SolidGeometry& geometry, const TileRays& rays, std::size_t first) {
-    const D d;
-    return worldRay(geometry.frame,
-                    imagePointAt(geometry.frame, hn::Load(d, &rays.x[first]), hn::Load(d, &rays.y[first])));
+    return worldRay(geometry.frame, imagePointAt(geometry.frame, load(&rays.x[first]), load(&rays.y[first])));
 }
 
 V depthOfGround(const Ray& ray, float height) {
@@ -110,8 +108,8 @@ void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& r
                 id += 16;
             }
         }
-        hn::Store(hits.depth, d, &rays.depth[first]);
-        hn::Store(hits.id, DI(), &rays.hitId[first]);
+        store(hits.depth, &rays.depth[first]);
+        storeInt(hits.id, &rays.hitId[first]);
     }
 }
 
@@ -126,22 +124,21 @@ struct SphereRays {
         for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
             V most = splat(0.0F);
             for (std::size_t s = 0; s < samples.size(); ++s) {
-                const ImagePoint at =
-                    imagePointAt(frame, hn::Load(d, &samples[s].x[first]), hn::Load(d, &samples[s].y[first]));
-                hn::Store(at.x, d, &x[s][first]);
-                hn::Store(at.y, d, &y[s][first]);
-                hn::Store(one / (at.x * at.x + at.y * at.y + one), d, &inverseSquare[s][first]);
-                most = hn::Max(most, hn::Load(d, &samples[s].depth[first]));
+                const ImagePoint at = imagePointAt(frame, load(&samples[s].x[first]), load(&samples[s].y[first]));
+                store(at.x, &x[s][first]);
+                store(at.y, &y[s][first]);
+                store(one / (at.x * at.x + at.y * at.y + one), &inverseSquare[s][first]);
+                most = hn::Max(most, load(&samples[s].depth[first]));
             }
-            hn::Store(most, d, &farthest[first]);
+            store(most, &farthest[first]);
         }
     }
 
     float farthestOfTile() const {
         const D d;
-        V most = hn::Load(d, farthest.data());
+        V most = load(farthest.data());
         for (std::size_t first = hn::Lanes(d); first < kTilePixels; first += hn::Lanes(d))
-            most = hn::Max(most, hn::Load(d, &farthest[first]));
+            most = hn::Max(most, load(&farthest[first]));
         return hn::GetLane(hn::MaxOfLanes(d, most));
     }
 };
@@ -151,14 +148,13 @@ struct SphereRays {
 template <bool kPerspective>
 void addSphere(const ViewSphere& sphere, std::int32_t id, const SphereRays& rays, std::size_t s, std::size_t first,
                TileRays& sample) {
-    const D d;
-    const V x = hn::Load(d, &rays.x[s][first]);
-    const V y = hn::Load(d, &rays.y[s][first]);
+    const V x = load(&rays.x[s][first]);
+    const V y = load(&rays.y[s][first]);
     const Vec3 center = splat(sphere.center);
     V closest = center.z;
     V square;
     if constexpr (kPerspective) {
-        const V inverse = hn::Load(d, &rays.inverseSquare[s][first]);
+        const V inverse = load(&rays.inverseSquare[s][first]);
         closest = (center.x * x + center.y * y + center.z) * inverse;
         const Vec3 off{center.x - closest * x, center.y - closest * y, center.z - closest};
         square = dot(off, off);
@@ -170,16 +166,16 @@ void addSphere(const ViewSphere& sphere, std::int32_t id, const SphereRays& rays
     const V zero = splat(0.0F);
     const V inside = splat(sphere.radius * sphere.radius) - square;
     M isHit = inside > zero;
-    if (hn::AllFalse(d, isHit)) return;
+    if (none(isHit)) return;
     V halfSquare = hn::Max(inside, zero);
-    if constexpr (kPerspective) halfSquare = halfSquare * hn::Load(d, &rays.inverseSquare[s][first]);
+    if constexpr (kPerspective) halfSquare = halfSquare * load(&rays.inverseSquare[s][first]);
     const V halfChord = hn::Sqrt(halfSquare);
     isHit = hn::And(isHit, closest + halfChord >= zero);
     const V depth = hn::Max(closest - halfChord, zero);
-    NearestHits hits{hn::Load(d, &sample.depth[first]), hn::Load(DI(), &sample.hitId[first])};
+    NearestHits hits{load(&sample.depth[first]), loadInt(&sample.hitId[first])};
     hits.add(hn::IfThenElse(isHit, depth, splat(kFarDepth)), splatInt(id));
-    hn::Store(hits.depth, d, &sample.depth[first]);
-    hn::Store(hits.id, DI(), &sample.hitId[first]);
+    store(hits.depth, &sample.depth[first]);
+    storeInt(hits.id, &sample.hitId[first]);
 }
 
 /// The part of a rectangle of pixels that lies in a tile, from the tile's corner.
@@ -205,13 +201,13 @@ void addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<TileR
         for (int row = touched.y0; row <= touched.y1; ++row) {
             for (int column = touched.x0 / lanes * lanes; column <= touched.x1; column += lanes) {
                 const auto first = static_cast<std::size_t>(row * kTileSize + column);
-                if (hn::AllTrue(d, hn::Load(d, &rays.farthest[first]) < splat(front))) continue;
+                if (hn::AllTrue(d, load(&rays.farthest[first]) < splat(front))) continue;
                 V most = splat(0.0F);
                 for (std::size_t s = 0; s < samples.size(); ++s) {
                     addSphere<kPerspective>(sphere, static_cast<std::int32_t>(index), rays, s, first, samples[s]);
-                    most = hn::Max(most, hn::Load(d, &samples[s].depth[first]));
+                    most = hn::Max(most, load(&samples[s].depth[first]));
                 }
-                hn::Store(most, d, &rays.farthest[first]);
+                store(most, &rays.farthest[first]);
             }
         }
     }

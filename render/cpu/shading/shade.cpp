@@ -114,7 +114,7 @@ Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
     const Surface& surface = shading.surface;
     Vec3 color = bodyColor(shading, at);
     // Obstacles and ground are matt.
-    if (!hn::AllFalse(D(), at.isParticle > splat(0.0F))) {
+    if (!none(at.isParticle > splat(0.0F))) {
         if (surface.specular > 0.0F || surface.metal > 0.0F) {
             const M isFacing = dot(at.normal, splat(shading.light.toLight)) > splat(0.0F);
             const V share = hn::IfThenElseZero(isFacing, at.isParticle * at.lightVisibility);
@@ -128,17 +128,16 @@ Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
 
 ShadingInputs loadInputs(const ShadingGeometry& geometry, const ShadingPoints& points,
                          const LightVisibility* visibility, VI hitId, std::size_t first) {
-    const D d;
     const V one = splat(1.0F);
     const CameraFrame& frame = geometry.frame;
     const M isMetaball = floatMask(hitId > splatInt(kHitMetaballs - 1));
     const M isParticleSphere = floatMask(hn::And(hitId > splatInt(-1), hitId < splatInt(geometry.firstObstacle)));
     const M isParticle = hn::Or(isMetaball, isParticleSphere);
     const Vec3 direction =
-        worldRay(frame, imagePointAt(frame, hn::Load(d, &points.x[first]), hn::Load(d, &points.y[first]))).direction;
+        worldRay(frame, imagePointAt(frame, load(&points.x[first]), load(&points.y[first]))).direction;
     const Vec3 toEye = direction * (splat(-1.0F) / hn::Sqrt(dot(direction, direction)));
-    const V light = visibility != nullptr ? hn::Load(d, &visibility->light[first]) : one;
-    const V sky = visibility != nullptr ? hn::Load(d, &visibility->sky[first]) : one;
+    const V light = visibility != nullptr ? load(&visibility->light[first]) : one;
+    const V sky = visibility != nullptr ? load(&visibility->sky[first]) : one;
     const Vec3 particleSky = geometry.hasSky ? loadVec3(points.sky, first) : Vec3{one, one, one};
     return {loadVec3(points.normal, first),
             loadVec3(points.albedo, first),
@@ -156,12 +155,12 @@ void shade(const Shading& shading, const ShadingGeometry& geometry, const Shadin
     const Background& background = shading.background;
     const float height = static_cast<float>(geometry.frame.height);
     for (std::size_t first = 0; first < points.count; first += hn::Lanes(d)) {
-        const VI hitId = hn::Load(DI(), &points.hitId[first]);
+        const VI hitId = loadInt(&points.hitId[first]);
         Vec3 color = surfaceColor(shading, loadInputs(geometry, points, visibility, hitId, first));
         const M isGround = floatMask(hitId == splatInt(kHitGround));
         const M isBackground = floatMask(hitId == splatInt(kHitBackground));
-        if (!hn::AllFalse(d, hn::Or(isGround, isBackground))) {
-            const V down = hn::Load(d, &points.y[first]) * splat(1.0F / height);
+        if (!none(hn::Or(isGround, isBackground))) {
+            const V down = load(&points.y[first]) * splat(1.0F / height);
             const V fade = hn::IfThenElseZero(
                 isGround, groundFade(loadVec3(points.position, first), shading.groundCenter, shading.fadeDistance));
             const V share = hn::IfThenElse(isBackground, splat(1.0F), fade);
