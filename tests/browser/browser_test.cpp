@@ -1,5 +1,5 @@
-// The report of `compare` in a real browser, opened as a file: what it shows, what keys and mouse do, and that it
-// fetches nothing.
+// Opens the report of `compare` as a file in a real browser and checks what it shows, what keys and mouse do, and that
+// it fetches nothing.
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -31,7 +31,7 @@ std::string domOf(const fs::path& page, const fs::path& folder) {
     return program::textOf(folder / "dom");
 }
 
-/// What tests/browser/drive.js saw.
+/// What tests/browser/drive.js found on the page.
 Json drive(const fs::path& report, const fs::path& folder) {
     std::string page = program::textOf(report);
     const std::size_t head = page.find("<title>");
@@ -46,7 +46,7 @@ Json drive(const fs::path& report, const fs::path& folder) {
     return Json::parse(dom.substr(begin + open.size(), dom.find("</pre>", begin) - begin - open.size()));
 }
 
-/// One picture of each kind.
+/// Writes one picture for each status.
 void makeFolders(const program::Folder& folder) {
     const auto both = [&](const std::string& name, const render::Image& actual) {
         writePicture(folder / ("actual/" + name), actual);

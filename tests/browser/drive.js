@@ -1,4 +1,4 @@
-// Put into a copy of the report by browser_test.cpp: uses the page as a reader does and leaves what it saw as JSON.
+// browser_test.cpp puts this into a copy of the report. It uses the page as a reader does and leaves what it found as JSON.
 const problems = [];
 addEventListener("error", (event) => problems.push(event.message));
 addEventListener("unhandledrejection", (event) => problems.push(String(event.reason)));
@@ -10,7 +10,7 @@ addEventListener("load", async () => {
   const key = (name) => document.body.dispatchEvent(new KeyboardEvent("keydown", {key: name, bubbles: true}));
   const names = () => all("#list .name").map((name) => name.textContent);
   const kinds = () => all("#stage figure").map((figure) => figure.dataset.kind);
-  // The browser is run on virtual time, which waits for loads and timers but not for decoders or the clipboard.
+  // The browser runs on virtual time, which waits for loads and timers but not for decoders or the clipboard.
   const decoded = async () => (await Promise.all(all("#stage img").map(async (img) => {
     if (!img.complete) await new Promise((resolve) => { img.onload = img.onerror = resolve; });
     return img.naturalWidth;
@@ -20,7 +20,7 @@ addEventListener("load", async () => {
   Object.defineProperty(navigator, "clipboard", {value: {writeText}});
   const seen = {title: document.title, protocol: location.protocol, names: names(), first: $("#name").textContent};
 
-  // What is to be seen of each picture, one after the other.
+  // Records what each picture shows, one after the other.
   seen.kinds = {};
   for (const name of seen.names) {
     if ($("#name").textContent !== name) seen.kinds[name] = "not shown";
@@ -76,7 +76,7 @@ addEventListener("load", async () => {
   $("#filter").value = "";
   $("#filter").dispatchEvent(new Event("input"));
 
-  // Everything that can be clicked takes the focus; nothing came from outside the file.
+  // Everything that can be clicked must take the focus, and nothing may have been fetched.
   seen.unreachable = all("button:not(:disabled), select, input").filter((control) => {
     if (control.closest("[hidden]") || control.offsetParent === null) return false;
     control.focus();
@@ -86,7 +86,7 @@ addEventListener("load", async () => {
   seen.problems = problems;
   const outcome = document.createElement("pre");
   outcome.id = "outcome";
-  // No character that the DOM's text form would escape, and ASCII only.
+  // Only ASCII, without the characters that the DOM escapes as text.
   outcome.textContent = JSON.stringify(seen).replace(/[<>&\u0080-\uffff]/g, (c) => "\\u" + c.charCodeAt(0).toString(16).padStart(4, "0"));
   document.body.append(outcome);
 });

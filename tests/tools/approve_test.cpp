@@ -1,4 +1,5 @@
-// globular approve: actuals become goldens with sidecars, and another renderer's do not by accident.
+// Tests globular approve: actual pictures become goldens with sidecars, and a golden by another OpenGL renderer is not
+// replaced by accident.
 #include <nlohmann/json.hpp>
 
 #include "tests/catch.h"
@@ -18,7 +19,7 @@ nlohmann::json jsonOf(const fs::path& path) {
 
 }  // namespace
 
-TEST_CASE("approve: what compare refuses becomes the golden, with a sidecar", "[approve]") {
+TEST_CASE("approve: a picture that differs becomes the golden, with a sidecar", "[approve]") {
     const program::Folder folder;
     const std::string sides = (folder / "actual").string() + " " + (folder / "golden").string();
     writePicture(folder / "actual/liquid/frame-00003.png", balls());
@@ -44,7 +45,7 @@ TEST_CASE("approve: what compare refuses becomes the golden, with a sidecar", "[
     CHECK(sidecar["png"] == tools::checksumOf(tools::readFile(folder / "actual/liquid/frame-00009.png")));
     CHECK(run("approve " + sides).out.find("nothing to approve") == 0);
 
-    // The sidecar now answers for the golden.
+    // From now on the golden's provenance comes from the sidecar.
     writePicture(folder / "actual/liquid/frame-00009.png", blank(balls()));
     writeManifest(folder / "actual/liquid", "00000000000000bb");
     const auto changed = run("compare " + sides);
@@ -72,14 +73,14 @@ TEST_CASE("approve: refuses another GL renderer without --force, and then writes
     CHECK_FALSE(fs::exists(folder / "golden/frame-00000.png"));
     fs::remove(folder / "actual/manifest.json");
     CHECK(run(approve).err.find("drawn by an unknown GL renderer") != std::string::npos);
-    CHECK(run(approve + " frame-00000.png").code == 0);  // where nothing stands, nothing is in the way
+    CHECK(run(approve + " frame-00000.png").code == 0);  // there is no golden that another renderer drew
     writeManifest(folder / "actual", "00000000000000aa", {.renderer = "another GPU"});
     CHECK(run(approve + " --force").code == 0);
     CHECK(jsonOf(folder / "golden/frame-00001.json")["gl_renderer"] == "another GPU");
     CHECK(textOf(folder / "golden/frame-00001.png") != before);
 }
 
-TEST_CASE("approve: single files, names that are not there, files that are no sidecars", "[approve]") {
+TEST_CASE("approve: single files, names that do not exist, files that are not sidecars", "[approve]") {
     const program::Folder folder;
     writePicture(folder / "actual/a.png", balls());
     const std::string one = "approve " + (folder / "actual/a.png").string() + " " + (folder / "golden/b.png").string();

@@ -1,4 +1,5 @@
-// What goes wrong in the user's hands: one clear line each, and the exit code that says whose fault it was.
+// Tests what the program reports when something goes wrong: one clear line for each problem, and the exit code that
+// tells whose fault it was.
 #include <unistd.h>
 
 #include <array>
@@ -77,7 +78,7 @@ TEST_CASE("A wrong word of the command line is named, with the nearest one that 
         CHECK(run(arguments).code == 2);
 }
 
-TEST_CASE("The outside world's failures exit with 1 and one line", "[tools]") {
+TEST_CASE("Failures of files and other programs exit with 1 and one line", "[tools]") {
     const program::Folder folder;
     std::ofstream(folder / "file") << "not a folder";
     const std::string output = " -o " + (folder / "frames").string();
@@ -96,7 +97,7 @@ TEST_CASE("The outside world's failures exit with 1 and one line", "[tools]") {
     CHECK(program::lineCount(noFfmpeg.err) == 1);
     CHECK(noFfmpeg.err.find("ffmpeg") != std::string::npos);
 
-    // Before anything is drawn, and before old frames are removed.
+    // This is noticed before anything is drawn and before old frames are removed.
     const auto isFolder = run("render " + scene + output + " --video " + (folder / "").string());
     INFO(isFolder.err);
     CHECK(isFolder.code == 1);
@@ -123,13 +124,13 @@ TEST_CASE("An unstable run exits with 3 and keeps the frames before", "[tools]")
     CHECK(outcome.err.find("physics.step") != std::string::npos);
     CHECK(std::filesystem::exists(folder / "frames/frame-00000.png"));
     CHECK(program::textOf(folder / "frames/run.json").find("unstable") != std::string::npos);
-    // The hash is that of the last frame, which the manifest has, too.
+    // The hash is that of the last frame, so the manifest has it as well.
     const auto json = nlohmann::json::parse(program::textOf(folder / "frames/run.json"));
     const std::string hash = json["state_hash"];
     CHECK(program::textOf(folder / "frames/manifest.json").find(hash) != std::string::npos);
 }
 
-TEST_CASE("What becomes unstable soon is checked all the same", "[tools]") {
+TEST_CASE("check describes a scene that becomes unstable at once", "[tools]") {
     const auto outcome =
         run("check powder --set material[0].b1=1e12 --set physics.stepper=symplectic-euler --set physics.step=0.01");
     INFO(outcome.out << outcome.err);
@@ -174,7 +175,7 @@ TEST_CASE("The message of an unstable run names the keys that have an effect", "
     CHECK(outside.err.find("physics.") == std::string::npos);
 }
 
-TEST_CASE("Exit codes do not depend on whether anybody listens", "[tools]") {
+TEST_CASE("Exit codes do not depend on whether the output can be written", "[tools]") {
     const auto codeOf = [](const std::string& line) { return program::shell(line).code; };
     const std::string program = GLOBULAR_PROGRAM;
     for (const char* deaf : {" 2>/dev/full", " 2>&-", " >&- 2>&-"}) {
@@ -183,14 +184,15 @@ TEST_CASE("Exit codes do not depend on whether anybody listens", "[tools]") {
     }
     CHECK(codeOf(program + " scenes >/dev/full 2>/dev/null") == 1);
     CHECK(codeOf(program + " scenes >&- 2>/dev/null") == 1);
-    // Who reads no further ends no run, only what it says.
+    // A reader of the output that goes away does not end a run.
     const program::Folder folder;
     const std::string frames = " --size 64x36 --frames 0-2 -o " + (folder / "frames").string();
     std::array<int, 2> ends{};
     REQUIRE(::pipe(ends.data()) == 0);
     ::close(ends[0]);
-    REQUIRE(::dup2(ends[1], 9) == 9);  // shells take one digit
-    // Not in a shell's child, of whose death by a signal the shell would make the same code.
+    REQUIRE(::dup2(ends[1], 9) == 9);  // the shell accepts only one digit
+    // The program replaces the shell by exec, because a shell would report the same code for a child that a signal
+    // killed.
     CHECK(codeOf("exec " + program + " render powder" + frames + " >&9 2>&9") == 141);
     CHECK(std::filesystem::exists(folder / "frames/run.json"));
     const auto unread = program::shell("exec " + program + " schema >&9");
@@ -202,7 +204,7 @@ TEST_CASE("Exit codes do not depend on whether anybody listens", "[tools]") {
     CHECK(codeOf(program + " bench --filter copy --rounds 1 >/dev/full 2>/dev/null") == 1);
 }
 
-TEST_CASE("Scenes that would never end, or break the reader, are refused", "[tools]") {
+TEST_CASE("Scenes that would never end or overload the reader are refused", "[tools]") {
     const program::Folder folder;
     const std::string scene = "title = \"t\"\nduration = 1\n[[body]]\nshape = \"ball\"\nradius = 0.3\n";
     std::string deep;

@@ -1,4 +1,4 @@
-// What a user reads about the program outside its help: licenses, the man page, and what bash completes.
+// Tests what a user reads about the program outside its help: licenses, the man page, and what bash completes.
 #include <cstdlib>
 
 #include "tests/catch.h"
@@ -9,7 +9,7 @@ using program::textOf;
 
 namespace {
 
-/// What the completion offers for a line whose last word is being typed.
+/// What the completion offers for the last word of a command line.
 std::string completed(const program::Folder& folder, const std::string& words) {
     const auto outcome =
         program::shell("bash -c 'source " + (folder / "globular.bash").string() +
@@ -60,6 +60,6 @@ TEST_CASE("bash completes commands, flags, values and scenes", "[docs]") {
     CHECK(completed(folder, "render --quality ''") == "draft normal final\n");
     CHECK(completed(folder, "render hon") == "honey\n");
     CHECK(completed(folder, "render hard/hon") == "hard/honey\n");
-    CHECK(completed(folder, "render liquid --video ''") == "\n");  // left to the names of files
+    CHECK(completed(folder, "render liquid --video ''") == "\n");  // bash then completes file names
     CHECK(completed(folder, "scenes hon") == "\n");
 }

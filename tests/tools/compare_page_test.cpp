@@ -1,5 +1,5 @@
-// The report of compare without a browser: one file that refers to nothing else, and data that cannot break out of its
-// element.
+// Tests the report of compare without a browser: it is one file that refers to no other, and its data cannot end the
+// script element that holds them.
 #include "tools/pages/compare_page.h"
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ using namespace test_pictures;
 
 namespace {
 
-/// The page's data, as its script reads it.
+/// The data of the page as its script reads them.
 nlohmann::json dataOf(const std::string& page) {
     const std::string open = "<script type=\"application/json\" id=\"data\">";
     const std::size_t begin = page.find(open) + open.size();

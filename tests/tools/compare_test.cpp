@@ -1,4 +1,5 @@
-// globular compare: exit codes, reasons, machine-readable results, and whether the simulation or the renderer changed.
+// Tests globular compare: exit codes, reasons, machine-readable results, and whether the simulation or the renderer
+// changed.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,8 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A folder with actual and expected pictures, and `compare` on it.
-class Two {
+/// A folder with actual and expected pictures that can be compared.
+class Sides {
  public:
     void actual(const std::string& name, const render::Image& image) {
         writePicture(folder_ / ("actual/" + name), image);
@@ -31,7 +32,7 @@ class Two {
     program::Outcome compare(const std::string& more = "") const {
         return run("compare " + (folder_ / "actual").string() + " " + (folder_ / "expected").string() + " " + more);
     }
-    /// The object of each picture by its name, and the last one under "done".
+    /// The JSON object of each picture by its name, and the summary as "done".
     std::map<std::string, Json> results(const std::string& more = "") const {
         std::istringstream lines(compare("--json " + more).out);
         std::map<std::string, Json> results;
@@ -49,76 +50,80 @@ class Two {
 }  // namespace
 
 TEST_CASE("compare: 0 within limits, 1 different, 2 trouble", "[compare]") {
-    Two two;
-    two.both("frame-00000.png", balls());
-    CHECK(two.compare("--profile strict").code == 0);
-    two.both("deeper/frame-00001.png", balls());
-    two.actual("frame-00002.png", onePixel(balls(), 30, 40, 10));
-    two.expected("frame-00002.png", balls());
-    const auto vendor = two.compare();
+    Sides sides;
+    sides.both("frame-00000.png", balls());
+    CHECK(sides.compare("--profile strict").code == 0);
+    sides.both("deeper/frame-00001.png", balls());
+    sides.actual("frame-00002.png", onePixel(balls(), 30, 40, 10));
+    sides.expected("frame-00002.png", balls());
+    const auto vendor = sides.compare();
     CHECK(vendor.code == 0);
     CHECK(vendor.out.find("3 pictures: 2 identical, 1 within limits (vendor), 0 different") != std::string::npos);
-    const auto strict = two.compare("--profile strict");
+    const auto strict = sides.compare("--profile strict");
     CHECK(strict.code == 1);
     CHECK(strict.err == "");
     CHECK(strict.out.find("frame-00002.png: different (largest)") != std::string::npos);
     CHECK(strict.out.find("off by 10 at (30, 40), allowed are 0") != std::string::npos);
-    CHECK(two.compare("--profile strict --quiet").out == "");
+    CHECK(sides.compare("--profile strict --quiet").out == "");
 
-    CHECK(two.compare("--profile exact").code == 2);
-    CHECK(run("compare " + (two / "nothing").string() + " " + (two / "expected").string()).code == 2);
-    const auto mixed = run("compare " + (two / "actual/frame-00000.png").string() + " " + (two / "expected").string());
+    CHECK(sides.compare("--profile exact").code == 2);
+    CHECK(run("compare " + (sides / "nothing").string() + " " + (sides / "expected").string()).code == 2);
+    const auto mixed =
+        run("compare " + (sides / "actual/frame-00000.png").string() + " " + (sides / "expected").string());
     CHECK(mixed.code == 2);
     CHECK(mixed.err.find("error: one side is a single picture") == 0);
-    fs::create_directories(two / "empty");
-    const auto empty = run("compare " + (two / "empty").string() + " " + (two / "empty").string());
+    fs::create_directories(sides / "empty");
+    const auto empty = run("compare " + (sides / "empty").string() + " " + (sides / "empty").string());
     CHECK(empty.code == 2);
     CHECK(empty.err.find("there are no PNG files") != std::string::npos);
 }
 
 TEST_CASE("compare: two files, whatever their names", "[compare]") {
-    Two two;
-    two.actual("a.png", darker(balls(), 0.5));
-    two.expected("b.png", balls());
-    const auto outcome = run("compare " + (two / "actual/a.png").string() + " " + (two / "expected/b.png").string());
+    Sides sides;
+    sides.actual("a.png", darker(balls(), 0.5));
+    sides.expected("b.png", balls());
+    const auto outcome =
+        run("compare " + (sides / "actual/a.png").string() + " " + (sides / "expected/b.png").string());
     CHECK(outcome.code == 1);
     CHECK(outcome.out.find("b.png: different (largest)") == 0);
-    CHECK(run("compare " + (two / "actual/a.png").string() + " " + (two / "actual/a.png").string()).code == 0);
-    const auto missing = run("compare " + (two / "actual/a.png").string() + " " + (two / "expected/none.png").string());
+    CHECK(run("compare " + (sides / "actual/a.png").string() + " " + (sides / "actual/a.png").string()).code == 0);
+    const auto missing =
+        run("compare " + (sides / "actual/a.png").string() + " " + (sides / "expected/none.png").string());
     CHECK(missing.code == 1);
     CHECK(missing.out.find("there is no golden") != std::string::npos);
 }
 
 TEST_CASE("compare: extensions may be in capitals", "[compare]") {
-    Two two;
-    two.both("one/A.PNG", balls());
-    CHECK(two.compare().out.find("1 pictures: 1 identical") == 0);
-    const std::string picture = (two / "actual/one/A.PNG").string();
-    CHECK(run("compare " + picture + " " + (two / "expected/none.PNG").string()).out.find("there is no golden") !=
+    Sides sides;
+    sides.both("one/A.PNG", balls());
+    CHECK(sides.compare().out.find("1 pictures: 1 identical") == 0);
+    const std::string picture = (sides / "actual/one/A.PNG").string();
+    CHECK(run("compare " + picture + " " + (sides / "expected/none.PNG").string()).out.find("there is no golden") !=
           std::string::npos);
 }
 
-TEST_CASE("compare: missing, extra, unreadable and differently sized pictures are reasons of their own", "[compare]") {
-    Two two;
-    two.both("frame-00000.png", balls());
-    two.actual("extra.png", balls());
-    const auto extra = two.compare();
+TEST_CASE("compare: missing, extra, unreadable and differently sized pictures have statuses of their own",
+          "[compare]") {
+    Sides sides;
+    sides.both("frame-00000.png", balls());
+    sides.actual("extra.png", balls());
+    const auto extra = sides.compare();
     CHECK(extra.code == 1);
     CHECK(extra.out.find("extra.png: extra\n") == 0);
-    fs::remove(two / "actual/extra.png");
-    two.expected("missing.png", balls());
-    CHECK(two.compare().code == 1);
-    two.actual("size.png", balls(90, 160));
-    two.expected("size.png", balls());
-    CHECK(two.compare().code == 1);
-    two.actual("extra.png", balls());
-    two.both("broken.png", balls());
-    auto bytes = tools::readFile(two / "actual/broken.png");
+    fs::remove(sides / "actual/extra.png");
+    sides.expected("missing.png", balls());
+    CHECK(sides.compare().code == 1);
+    sides.actual("size.png", balls(90, 160));
+    sides.expected("size.png", balls());
+    CHECK(sides.compare().code == 1);
+    sides.actual("extra.png", balls());
+    sides.both("broken.png", balls());
+    auto bytes = tools::readFile(sides / "actual/broken.png");
     bytes.resize(bytes.size() / 2);
-    tools::writeFile(two / "actual/broken.png", bytes);
-    CHECK(two.compare().code == 2);
+    tools::writeFile(sides / "actual/broken.png", bytes);
+    CHECK(sides.compare().code == 2);
 
-    auto results = two.results();
+    auto results = sides.results();
     REQUIRE(results.size() == 6);
     CHECK(results["frame-00000.png"]["status"] == "identical");
     CHECK(results["extra.png"]["status"] == "extra");
@@ -130,147 +135,148 @@ TEST_CASE("compare: missing, extra, unreadable and differently sized pictures ar
     for (const char* count : {"identical", "different", "missing", "extra", "unreadable"})
         CHECK(results["done"][count] == 1);
     const std::string approval = results["done"]["approve"];
-    CHECK(approval ==
-          "globular approve " + (two / "actual").string() + " " + (two / "expected").string() + " extra.png size.png");
+    CHECK(approval == "globular approve " + (sides / "actual").string() + " " + (sides / "expected").string() +
+                          " extra.png size.png");
 }
 
 TEST_CASE("compare: each threshold can be set, and a mask given", "[compare]") {
-    Two two;
-    two.actual("a.png", noisy(balls(), 4));
-    two.expected("a.png", balls());
-    CHECK(two.results()["a.png"]["rule"] == "share");
-    CHECK(two.results("--threshold 4")["a.png"]["rule"] == "mean");
-    CHECK(two.results("--max-share 100")["a.png"]["rule"] == "mean");
-    CHECK(two.results("--max-share 100 --max-mean 3")["a.png"]["rule"] == "within-limits");
-    CHECK(two.results("--max-share 100 --max-mean 3 --min-ssim 0.9999")["a.png"]["rule"] == "ssim");
-    CHECK(two.results("--max-difference 3")["a.png"]["rule"] == "largest");
-    CHECK(two.compare("--max-share 101").code == 2);
+    Sides sides;
+    sides.actual("a.png", noisy(balls(), 4));
+    sides.expected("a.png", balls());
+    CHECK(sides.results()["a.png"]["rule"] == "share");
+    CHECK(sides.results("--threshold 4")["a.png"]["rule"] == "mean");
+    CHECK(sides.results("--max-share 100")["a.png"]["rule"] == "mean");
+    CHECK(sides.results("--max-share 100 --max-mean 3")["a.png"]["rule"] == "within-limits");
+    CHECK(sides.results("--max-share 100 --max-mean 3 --min-ssim 0.9999")["a.png"]["rule"] == "ssim");
+    CHECK(sides.results("--max-difference 3")["a.png"]["rule"] == "largest");
+    CHECK(sides.compare("--max-share 101").code == 2);
 
-    two.actual("a.png", onePixel(balls(), 30, 40, 99));
+    sides.actual("a.png", onePixel(balls(), 30, 40, 99));
     render::Image mask = flat(160, 90, {255, 255, 255});
-    const std::string file = (two / "mask.png").string();
+    const std::string file = (sides / "mask.png").string();
     writePicture(file, mask);
-    CHECK(two.compare("--mask " + file).code == 1);
+    CHECK(sides.compare("--mask " + file).code == 1);
     std::fill_n(mask.rgb.begin() + 3 * (40 * 160 + 30), 3, std::uint8_t{0});
     writePicture(file, mask);
-    CHECK(two.compare("--profile strict --mask " + file).code == 0);
+    CHECK(sides.compare("--profile strict --mask " + file).code == 0);
     writePicture(file, balls(32, 32));
-    const auto wrong = two.compare("--mask " + file);
+    const auto wrong = sides.compare("--mask " + file);
     CHECK(wrong.code == 2);
     CHECK(wrong.err.find("error: the mask is 32x32") == 0);
     writePicture(file, blank(mask));
-    CHECK(two.compare("--mask " + file).code == 2);
+    CHECK(sides.compare("--mask " + file).code == 2);
 }
 
 TEST_CASE("compare: the state's hash tells whether the simulation or the renderer changed", "[compare]") {
-    Two two;
-    two.actual("frame-00007.png", darker(balls(), 0.5));
-    two.expected("frame-00007.png", balls());
-    const auto result = [&] { return two.results()["frame-00007.png"]; };
+    Sides sides;
+    sides.actual("frame-00007.png", darker(balls(), 0.5));
+    sides.expected("frame-00007.png", balls());
+    const auto result = [&] { return sides.results()["frame-00007.png"]; };
     CHECK(result()["changed"] == "unknown");
-    writeManifest(two / "actual", "1111111111111111");
+    writeManifest(sides / "actual", "1111111111111111");
     CHECK(result()["changed"] == "unknown");
     CHECK(result()["explanation"].get<std::string>().find("the expected picture's state is not recorded") !=
           std::string::npos);
-    writeManifest(two / "expected", "1111111111111111", {.renderer = "another"});
+    writeManifest(sides / "expected", "1111111111111111", {.renderer = "another"});
     CHECK(result()["changed"] == "renderer");
     CHECK(result()["explanation"].get<std::string>().find("GL renderer llvmpipe (test) instead of another") !=
           std::string::npos);
-    writeManifest(two / "expected", "2222222222222222");
+    writeManifest(sides / "expected", "2222222222222222");
     CHECK(result()["changed"] == "simulation");
     CHECK(result()["actual"]["state_hash"] == "1111111111111111");
     CHECK(result()["expected"]["state_hash"] == "2222222222222222");
 
-    // A manifest about other bytes says nothing about these.
-    two.actual("frame-00007.png", darker(balls(), 0.6));
+    // A manifest that describes other bytes does not count for these.
+    sides.actual("frame-00007.png", darker(balls(), 0.6));
     CHECK(result()["changed"] == "unknown");
     CHECK(result()["explanation"].get<std::string>().find("manifest.json is about another picture") !=
           std::string::npos);
 
-    // The same picture of another state passes, and says so.
-    two.actual("frame-00007.png", balls());
-    writeManifest(two / "actual", "1111111111111111");
+    // The same picture of another state passes, with an explanation.
+    sides.actual("frame-00007.png", balls());
+    writeManifest(sides / "actual", "1111111111111111");
     CHECK(result()["status"] == "identical");
     CHECK(result()["changed"] == "simulation");
-    const auto said = two.compare();
+    const auto said = sides.compare();
     CHECK(said.code == 0);
     CHECK(said.out.find("the simulation changed: state 1111111111111111 instead of 2222222222222222") !=
           std::string::npos);
 
-    tools::writeFile(two / "actual/manifest.json", std::string("{\"frames\": {\"00007\": 3}"));
-    tools::writeFile(two / "actual/run.json",
+    tools::writeFile(sides / "actual/manifest.json", std::string("{\"frames\": {\"00007\": 3}"));
+    tools::writeFile(sides / "actual/run.json",
                      std::string("{\"scene_hash\": \"abc\", \"gl_renderer\": null, \"version\": 3}"));
     CHECK(result()["actual"]["scene_hash"] == "abc");
     CHECK_FALSE(result()["actual"].contains("gl_renderer"));
 }
 
 TEST_CASE("compare: JUnit's XML counts failures and errors, and stays XML", "[compare]") {
-    Two two;
-    two.both("frame-00000.png", balls());
-    two.actual("a<b>&\".png", blank(balls()));
-    two.expected("a<b>&\".png", balls());
-    two.both("no \xff UTF-8.png", balls());
-    two.both("broken.png", balls());
-    tools::writeFile(two / "actual/broken.png", std::string("no PNG"));
-    CHECK(two.compare("--junit " + (two / "junit.xml").string()).code == 2);
-    const std::string xml = program::textOf(two / "junit.xml");
+    Sides sides;
+    sides.both("frame-00000.png", balls());
+    sides.actual("a<b>&\".png", blank(balls()));
+    sides.expected("a<b>&\".png", balls());
+    sides.both("no \xff UTF-8.png", balls());
+    sides.both("broken.png", balls());
+    tools::writeFile(sides / "actual/broken.png", std::string("no PNG"));
+    CHECK(sides.compare("--junit " + (sides / "junit.xml").string()).code == 2);
+    const std::string xml = program::textOf(sides / "junit.xml");
     CHECK(xml.find("<?xml") == 0);
     CHECK(xml.find("tests=\"4\" failures=\"1\" errors=\"1\"") != std::string::npos);
     CHECK(xml.find("name=\"no \xEF\xBF\xBD UTF-8.png\"/>") != std::string::npos);
     CHECK(xml.find("name=\"frame-00000.png\"/>") != std::string::npos);
     CHECK(xml.find("name=\"a&lt;b&gt;&amp;&quot;.png\">\n    <failure type=\"largest\"") != std::string::npos);
     CHECK(xml.find("<error type=\"unreadable\"") != std::string::npos);
-    CHECK(two.compare("--junit " + (two / "no/folder.xml").string()).code == 2);
+    CHECK(sides.compare("--junit " + (sides / "no/folder.xml").string()).code == 2);
 }
 
 TEST_CASE("compare: frames of two videos", "[compare]") {
-    Two two;
-    for (int k = 0; k < 3; ++k) two.actual("frame-0000" + std::to_string(k) + ".png", noisy(balls(), 2 * k));
+    Sides sides;
+    for (int k = 0; k < 3; ++k) sides.actual("frame-0000" + std::to_string(k) + ".png", noisy(balls(), 2 * k));
     const auto video = [&](const std::string& folder, const std::string& name) {
-        return run("video " + (two / folder).string() + " --quiet -o " + (two / name).string()).code;
+        return run("video " + (sides / folder).string() + " --quiet -o " + (sides / name).string()).code;
     };
     REQUIRE(video("actual", "a.mp4") == 0);
     REQUIRE(video("actual", "same.mp4") == 0);
-    fs::create_directories(two / "50%d");
-    fs::copy(two / "a.mp4", two / "take:1.mp4");
-    const std::string within = "cd " + (two / "").string() + " && TMPDIR=" + (two / "50%d").string();
+    fs::create_directories(sides / "50%d");
+    fs::copy(sides / "a.mp4", sides / "take:1.mp4");
+    const std::string within = "cd " + (sides / "").string() + " && TMPDIR=" + (sides / "50%d").string();
     CHECK(run("compare take:1.mp4 a.mp4 --quiet", within).code == 0);
-    two.actual("frame-00002.png", shifted(balls()));
+    sides.actual("frame-00002.png", shifted(balls()));
     REQUIRE(video("actual", "other.mp4") == 0);
     const std::string compare = "compare --json ";
-    const auto same = run(compare + (two / "same.mp4").string() + " " + (two / "a.mp4").string() + " --profile strict");
+    const auto same =
+        run(compare + (sides / "same.mp4").string() + " " + (sides / "a.mp4").string() + " --profile strict");
     CHECK(same.code == 0);
     CHECK(same.out.find("\"pictures\":3,\"identical\":3") != std::string::npos);
     const auto other =
-        run(compare + (two / "other.mp4").string() + " " + (two / "a.mp4").string() + " --profile loose");
+        run(compare + (sides / "other.mp4").string() + " " + (sides / "a.mp4").string() + " --profile loose");
     CHECK(other.code == 1);
     CHECK(other.out.find("\"name\":\"frame-00002.png\",\"status\":\"different\"") != std::string::npos);
-    // A video against the frames it was made of. Flat colors keep their places through 4:2:0; luma has 219 steps and
-    // chroma 224 for 255, whose rounding reaches a channel as at most 0.5 (1.17 + 2 * 1.14) < 2 steps, twice. Another
-    // matrix would cost twenty.
+    // A video against the frames that it was made of. Flat colors are not changed by 4:2:0 subsampling. Luma has 219
+    // and chroma 224 levels for the 255 of a channel, so that each rounding changes a channel by at most 0.5 (1.17 + 2
+    // x 1.14) < 2 levels, and there are two roundings. A wrong color matrix would change it by about 20.
     int number = 0;
     for (const std::array<std::uint8_t, 3>& color :
          {std::array<std::uint8_t, 3>{200, 60, 40}, {30, 180, 90}, {20, 60, 220}})
-        two.expected("frame-0000" + std::to_string(number++) + ".png", flat(160, 90, color));
+        sides.expected("frame-0000" + std::to_string(number++) + ".png", flat(160, 90, color));
     REQUIRE(video("expected", "flat.mp4") == 0);
-    const auto own = run(compare + (two / "flat.mp4").string() + " " + (two / "expected").string() +
+    const auto own = run(compare + (sides / "flat.mp4").string() + " " + (sides / "expected").string() +
                          " --max-difference 4 --max-share 100 --max-mean 4");
     INFO(own.out);
     CHECK(own.code == 0);
-    tools::writeFile(two / "broken.mp4", std::string("no video"));
-    const auto broken = run(compare + (two / "broken.mp4").string() + " " + (two / "a.mp4").string());
+    tools::writeFile(sides / "broken.mp4", std::string("no video"));
+    const auto broken = run(compare + (sides / "broken.mp4").string() + " " + (sides / "a.mp4").string());
     CHECK(broken.code == 2);
     CHECK(broken.err.find("error: ffmpeg cannot decode") == 0);
 }
 
-TEST_CASE("compare: runs of the program say themselves what changed", "[compare]") {
-    Two two;
+TEST_CASE("compare: the manifests of two runs tell what changed", "[compare]") {
+    Sides sides;
     const auto draw = [&](const char* folder, const std::string& more) {
         return program::run("render fountain --size 96x54 --frames 9 --quality draft --quiet --overwrite -o " +
-                            (two / folder).string() + more)
+                            (sides / folder).string() + more)
             .code;
     };
-    const auto changed = [&] { return two.results()["frame-00009.png"]["changed"]; };
+    const auto changed = [&] { return sides.results()["frame-00009.png"]["changed"]; };
     REQUIRE(draw("expected", "") == 0);
     REQUIRE(draw("actual", " --set look.specular=0.5") == 0);
     CHECK(changed() == "renderer");
@@ -278,38 +284,38 @@ TEST_CASE("compare: runs of the program say themselves what changed", "[compare]
     CHECK(changed() == "simulation");
 }
 
-TEST_CASE("compare: pictures that say more than eight opaque bits a channel are not read as if they did not",
-          "[compare]") {
-    Two two;
+TEST_CASE("compare: pictures with transparency or 16 bits a channel are refused", "[compare]") {
+    Sides sides;
     const auto made = [&](const std::string& source, const std::string& format, const std::string& name) {
         const std::string command = "ffmpeg -loglevel error -nostdin -f lavfi -i " + source + " -frames:v 1 -pix_fmt " +
-                                    format + " " + (two / name).string();
+                                    format + " " + (sides / name).string();
         REQUIRE(program::shell(command).code == 0);
-        return run("compare " + (two / name).string() + " " + (two / name).string());
+        return run("compare " + (sides / name).string() + " " + (sides / name).string());
     };
     CHECK(made("color=red@0.5:s=16x16,format=rgba", "rgba", "half.png").out.find("transparent") != std::string::npos);
     CHECK(made("color=red:s=16x16", "rgb48be", "deep.png").out.find("16 bits") != std::string::npos);
     CHECK(made("color=red:s=16x16,format=rgba", "rgba", "opaque.png").code == 0);
-    tools::writeFile(two / "text.png", std::string("no picture at all"));
-    CHECK(run("compare " + (two / "text.png").string() + " " + (two / "text.png").string())
+    tools::writeFile(sides / "text.png", std::string("no picture at all"));
+    CHECK(run("compare " + (sides / "text.png").string() + " " + (sides / "text.png").string())
               .out.find("it is not a PNG file") != std::string::npos);
 }
 
-TEST_CASE("compare: what is no verdict is trouble", "[compare]") {
-    Two two;
-    two.both("a.png", noisy(balls(), 1));
-    CHECK(two.compare("--max-mean nan").code == 2);
-    CHECK(two.compare("--min-ssim nan").code == 2);
-    CHECK(two.compare("--max-share -1").code == 2);
-    CHECK(run("compare " + (two / "actual").string() + " " + (two / "expected").string() + " >/dev/full 2>/dev/null")
-              .code == 2);
+TEST_CASE("compare: exit code 2 if nothing can be concluded", "[compare]") {
+    Sides sides;
+    sides.both("a.png", noisy(balls(), 1));
+    CHECK(sides.compare("--max-mean nan").code == 2);
+    CHECK(sides.compare("--min-ssim nan").code == 2);
+    CHECK(sides.compare("--max-share -1").code == 2);
+    CHECK(
+        run("compare " + (sides / "actual").string() + " " + (sides / "expected").string() + " >/dev/full 2>/dev/null")
+            .code == 2);
     for (int k = 0; k < 20; ++k)
-        two.actual("video/frame-" + std::string(k < 10 ? "0000" : "000") + std::to_string(k) + ".png",
-                   noisy(balls(), k));
-    REQUIRE(run("video " + (two / "actual/video").string() + " --quiet -o " + (two / "a.mp4").string()).code == 0);
-    fs::copy(two / "a.mp4", two / "short.mp4");
-    fs::resize_file(two / "short.mp4", fs::file_size(two / "a.mp4") / 2);
-    const auto cut = run("compare " + (two / "short.mp4").string() + " " + (two / "a.mp4").string());
+        sides.actual("film/frame-" + std::string(k < 10 ? "0000" : "000") + std::to_string(k) + ".png",
+                     noisy(balls(), k));
+    REQUIRE(run("video " + (sides / "actual/film").string() + " --quiet -o " + (sides / "a.mp4").string()).code == 0);
+    fs::copy(sides / "a.mp4", sides / "short.mp4");
+    fs::resize_file(sides / "short.mp4", fs::file_size(sides / "a.mp4") / 2);
+    const auto cut = run("compare " + (sides / "short.mp4").string() + " " + (sides / "a.mp4").string());
     INFO(cut.out << cut.err);
     CHECK(cut.code == 2);
     CHECK(cut.err.find("short.mp4") != std::string::npos);

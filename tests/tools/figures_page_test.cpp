@@ -1,4 +1,4 @@
-// The page of the figures: everything that was drawn is in it, with the times at which it was.
+// Tests the page of the figures: it contains everything that was drawn, and the times of the pictures.
 #include "tools/pages/figures_page.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"

@@ -1,4 +1,4 @@
-// Files are written whole or not at all; base64 is the standard's.
+// Tests the writing of files, base64, lines for a shell, tables and frame ranges.
 #include <sys/stat.h>
 
 #include <atomic>
@@ -25,7 +25,7 @@ long entryCount(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("A file is there whole, and nothing else is left behind", "[tools]") {
+TEST_CASE("A file is written whole, and no temporary file is left", "[tools]") {
     const program::Folder folder;
     tools::writeFile(folder / "a.txt", std::string("first"));
     tools::writeFile(folder / "a.txt", std::string("second"));
@@ -117,7 +117,7 @@ TEST_CASE("Names may have up to 255 bytes", "[tools]") {
 TEST_CASE("What a link leads to is replaced, a device or a pipe is not", "[tools]") {
     const program::Folder folder;
     tools::createFolder(folder / "else");
-    fs::create_symlink("else/target.txt", folder / "link");  // which is not there yet
+    fs::create_symlink("else/target.txt", folder / "link");  // does not exist yet
     for (const char* text : {"first", "second"}) {
         tools::writeFile(folder / "link", std::string(text));
         CHECK(fs::is_symlink(folder / "link"));
@@ -147,7 +147,7 @@ TEST_CASE("Base64 as in RFC 4648, section 10", "[tools]") {
     CHECK(tools::base64({0xFF, 0xFE, 0xFD}) == "//79");
 }
 
-TEST_CASE("A line to copy gives a shell the words back", "[tools]") {
+TEST_CASE("A shell reads the words of a quoted line back", "[tools]") {
     const std::vector<std::string> words = {"plain-1.png",           "",         "two words", "it's",
                                             "$HOME `ls` \"x\" \\ *", "a;b&c|d>e"};
     std::vector<std::string> command = {"printf", "<%s>"};
@@ -156,6 +156,19 @@ TEST_CASE("A line to copy gives a shell the words back", "[tools]") {
     REQUIRE(printed.code == 0);
     CHECK(printed.out == "<plain-1.png><><two words><it's><$HOME `ls` \"x\" \\ *><a;b&c|d>e>");
     CHECK(tools::shellLine({"globular", "approve", "out/a", "golden/a"}) == "globular approve out/a golden/a");
+}
+
+TEST_CASE("Tables are aligned, and CSV files are read into tables", "[tools]") {
+    const tools::Table table{{"name", "count"}, {{"a", "1000000"}, {"longer", "2"}}};
+    CHECK(tools::textTable(table) ==
+          "name      count\n"
+          "a       1000000\n"
+          "longer        2\n");
+    const tools::Table read = tools::parseCsv("scene,step_s,text\nliquid,0.1,\"a, \"\"b\"\"\"\nsolid,,x\n", 1);
+    CHECK(read.head == tools::Cells{"step s", "text"});
+    REQUIRE(read.rows.size() == 2);
+    CHECK(read.rows[0] == tools::Cells{"0.1", "a, \"b\""});
+    CHECK(read.rows[1] == tools::Cells{"", "x"});
 }
 
 TEST_CASE("Frame ranges", "[tools]") {

@@ -1,4 +1,4 @@
-// Folders of pictures as runs and approvals leave them, written by hand.
+// Writes folders of pictures as runs leave them, for the tests of compare and approve.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 #include "render/output/png.h"
 #include "tests/render/test_pictures.h"
-#include "tools/run/manifest.h"
 #include "tools/compare/picture_provenance.h"
+#include "tools/run/manifest.h"
 #include "tools/system/output_file.h"
 
 namespace golden_files {
@@ -20,14 +20,14 @@ inline void writePicture(const fs::path& path, const render::Image& image) {
     tools::writeFile(path, render::encodePng(image));
 }
 
-/// What the manifest of a run says besides its frames.
+/// What a manifest records about the run itself.
 struct RunFacts {
     std::string scene = "5ce4e00000000000";
     std::string renderer = "llvmpipe (test)";
     std::string version = "0.2.0";
 };
 
-/// manifest.json for the frames in a folder, all of which show the same state.
+/// Writes manifest.json for the frames in a folder, all of which show the same particle state.
 inline void writeManifest(const fs::path& folder, const std::string& state, const RunFacts& run = {}) {
     tools::Manifest manifest;
     manifest.identity = {{"scene_hash", run.scene},

@@ -1,4 +1,4 @@
-// What a run of the program holds in memory.
+// Tests how much memory a run of the program takes.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Most memory that a run of the program has held, in kB.
+/// The peak memory of a run of the program, in kB.
 long peakOf(const std::string& arguments) {
     const std::string command = "exec " GLOBULAR_PROGRAM " " + arguments;
     const pid_t child = ::fork();
@@ -39,7 +39,8 @@ TEST_CASE("A long run takes no more memory than a short one", "[tools]") {
     const long brief = frames(100);
     const long lengthy = frames(700);
     INFO(brief << " kB, " << lengthy << " kB");
-    // 600 pictures of 43 kB would be 25 MB; a frame's line of the manifest is a kilobyte at most.
+    // If the 600 additional pictures of 43 kB stayed in memory, that would be 25 MB. A frame's record in the manifest
+    // takes at most 1 kB.
     CHECK(lengthy - brief < 4000);
 }
 

@@ -1,4 +1,4 @@
-// Runs the program as a user would and keeps what it says.
+// Runs the program as a user would and keeps its output.
 #pragma once
 
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ inline std::string textOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// A fresh folder that goes away with the object.
+/// A new temporary folder that is removed with the object.
 class Folder {
  public:
     Folder() {
@@ -43,11 +43,11 @@ class Folder {
     fs::path path_;
 };
 
-/// Exit code of a program that a sanitizer stopped; the program has no such code of its own.
+/// The exit code of a program that a sanitizer stopped. The program itself never ends with it.
 inline constexpr int kSanitizerExit = 99;
 
-/// What a line typed in a shell ends with and says. What the sanitizers say of its programs, from findings to a warning
-/// that a tool of theirs is missing, is not in `err`: it goes to this suite's own standard error.
+/// Runs a line in a shell. Reports of the sanitizers, such as findings or a warning that one of their tools is missing,
+/// are not in `err`; they go to the standard error of the test suite.
 inline Outcome shell(const std::string& line) {
     const Folder folder;
     const std::string reports = (folder / "sanitizer").string();
@@ -62,7 +62,9 @@ inline Outcome shell(const std::string& line) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
 }
 
-/// arguments: as typed in a shell. environment: assignments put before the program's name.
+/// Runs the program.
+/// @param arguments  as typed in a shell
+/// @param environment  assignments to put before the program's name
 inline Outcome run(const std::string& arguments, const std::string& environment = "") {
     return shell(environment + " " GLOBULAR_PROGRAM " " + arguments);
 }

@@ -1,4 +1,5 @@
-// Whole runs of the program: the files it promises, the same bytes every time, video and frames that agree.
+// Tests whole runs of the program: they write the promised files, repeat them byte for byte, and video and frames
+// agree.
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -51,7 +52,7 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
                             "error_estimate", "energy", "linear_momentum", "angular_momentum", "state_hash"})
         CHECK(json.contains(key));
     CHECK(json["frames"] == 10);
-    CHECK(json["steps"]["count"] >= 9);  // at least one for each interval
+    CHECK(json["steps"]["count"] >= 9);  // at least one between two frames
     CHECK(json["particles"] > 100);
     const auto single = nlohmann::json::parse(textOf(folder / "c/run.json"));
     CHECK(single["threads"] == 1);
@@ -130,7 +131,7 @@ TEST_CASE("The cost of error estimates with a fixed step is reported", "[tools]"
     CHECK(run("simulate --help").out.find("error is estimated at up to 8 frames") != std::string::npos);
 }
 
-TEST_CASE("globular strip puts the frames of its moments side by side", "[tools]") {
+TEST_CASE("globular strip puts the frames of its times side by side", "[tools]") {
     const program::Folder folder;
     const std::string scene = "figure-2 --size 120x80 --quiet ";
     REQUIRE(run("strip " + scene + "--times 0.2,0.4,0.81 -o " + (folder / "strip.png").string()).code == 0);
@@ -150,7 +151,7 @@ TEST_CASE("globular strip puts the frames of its moments side by side", "[tools]
     }
 }
 
-TEST_CASE("The moments of a strip are checked like the scene's own", "[tools]") {
+TEST_CASE("The times of a strip are checked like the scene's own", "[tools]") {
     const program::Folder folder;
     const std::string strip = "strip figure-2 --size 64x48 -o " + (folder / "strip.png").string();
     const auto late = run(strip + " --times 0.2,99");
@@ -161,14 +162,14 @@ TEST_CASE("The moments of a strip are checked like the scene's own", "[tools]") 
     CHECK(run(strip + " --times soon").code == 2);
     CHECK(!fs::exists(folder / "strip.png"));
     const std::string lines = run(strip + " --times 0.08,0.2 --json").out;
-    REQUIRE(program::lineCount(lines) == 3);  // one a panel, and the result
+    REQUIRE(program::lineCount(lines) == 3);  // one for each panel, and the result
     const auto last = nlohmann::json::parse(lines.substr(lines.rfind('\n', lines.size() - 2) + 1));
     CHECK(last["times"] == nlohmann::json::array({0.08, 0.2}));
 }
 
 TEST_CASE("Panels carry their scales once and no time stamp of their own", "[tools]") {
     const program::Folder folder;
-    // Nothing moves and nothing is lit: panels differ by their overlays alone.
+    // Nothing moves, so that the panels differ only in their overlays.
     std::ofstream(folder / "still.toml")
         << "title = \"still\"\nduration = 1\n[physics]\ngravity = [0, 0, 0]\n[[body]]\nshape = \"points\"\n"
            "positions = [[0, 50, 0]]\n[look]\nsize = [320, 240]\ncolor_by = \"speed\"\n"
@@ -178,8 +179,8 @@ TEST_CASE("Panels carry their scales once and no time stamp of their own", "[too
                 .code == 0);
     const render::Image strip = render::decodePng(tools::readFile(folder / "strip.png"), "strip.png");
     const int gap = (strip.width - 3 * 320) / 2;
-    // How many pixels of a panel's half, beside the time stamp's rows or below them, are not those of the panel
-    // between.
+    // Counts the pixels that differ from the middle panel, in the left or right half of a panel, in the rows of the
+    // time stamp or below them.
     const auto different = [&](int panel, bool right, bool lower) {
         int count = 0;
         for (int y = lower ? 60 : 0; y < (lower ? 240 : 60); ++y)

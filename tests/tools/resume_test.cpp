@@ -1,5 +1,5 @@
-// A run that ends early, however it does, loses nothing: what is there stays valid, and --resume completes it to the
-// bytes of a run that was never disturbed.
+// Tests runs that end early: the files that are there stay valid, and --resume completes the run to the bytes of one
+// that was never disturbed.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A small run with births, obstacles, shadows and a video; a checkpoint at every frame.
+/// A small run with births, obstacles, shadows, a video, and a checkpoint at every frame.
 std::string fountain(const fs::path& folder, const std::string& more = "") {
     return "render fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " + folder.string() + " --video " +
            folder.string() + ".mp4 " + more;
 }
 
-/// The bytes of all finished files of a run but run.json, which has times in it, and the manifest.
+/// The bytes of the frames and the video of a run. run.json is left out because it has times in it.
 std::map<std::string, std::string> filesOf(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -39,7 +39,7 @@ nlohmann::json runOf(const fs::path& folder) {
     return nlohmann::json::parse(textOf(folder / "run.json"));
 }
 
-/// run.json without what a run that went on may differ in.
+/// run.json without the fields in which a resumed run may differ.
 nlohmann::json resultOf(const fs::path& folder) {
     nlohmann::json json = runOf(folder);
     for (const char* key : {"seconds", "resumed_from"}) json.erase(key);
@@ -60,7 +60,7 @@ void damage(const fs::path& path) {
     stream.put('!').put('?');
 }
 
-/// What a shell does until then.
+/// Shell commands that wait.
 std::string after(int milliseconds) {
     return "sleep " + std::to_string(milliseconds / 1000.0);
 }
@@ -68,7 +68,7 @@ std::string onceThat(const std::string& condition) {
     return "while ! " + condition + " && kill -0 $child; do sleep 0.01; done";
 }
 
-/// Starts a run in the background, and sends it a signal when it is time; its exit code.
+/// Starts a run in the background and sends it a signal after the shell commands `when`. Returns its exit code.
 int interrupted(const std::string& arguments, const std::string& signal, const std::string& when, const fs::path& log) {
     const std::string command = "sh -c '" GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() + " & child=$!; " +
                                 when + "; kill -" + signal + " $child 2>/dev/null; wait $child'";
@@ -77,7 +77,7 @@ int interrupted(const std::string& arguments, const std::string& signal, const s
 
 }  // namespace
 
-TEST_CASE("A signal ends a run after the frame in hand, with a video that plays and a way to go on", "[resume]") {
+TEST_CASE("A signal ends a run after the current frame, with a video that plays and a way to resume", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "whole")).code == 0);
     const std::string arguments = "render fountain --size 96x54 --quiet --checkpoint 100 -o " +
@@ -119,7 +119,7 @@ TEST_CASE("A resumed run completes a killed one to the same bytes", "[resume]") 
     }
 }
 
-TEST_CASE("States are gone on with like frames", "[resume]") {
+TEST_CASE("A run that writes particle states is resumed as well", "[resume]") {
     const Folder folder;
     const auto states = [](const fs::path& to, const std::string& more) {
         return "simulate powder --frames 2-30 --quiet --checkpoint 0 -o " + to.string() + " " + more;
@@ -131,14 +131,14 @@ TEST_CASE("States are gone on with like frames", "[resume]") {
     CHECK(resultOf(folder / "a") == resultOf(folder / "whole"));
 }
 
-TEST_CASE("What is missing or damaged is said, and made again from before it", "[resume]") {
+TEST_CASE("Missing and damaged files are reported and made again", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "a")).code == 0);
     const auto whole = filesOf(folder / "a");
     const auto checkpoints = checkpointsIn(folder / "a");
-    REQUIRE(checkpoints.size() == 2);  // the last two and no more
+    REQUIRE(checkpoints.size() == 2);  // only the last two are kept
 
-    // Nothing is wrong: nothing is simulated or drawn.
+    // If no file is missing, nothing is simulated or drawn.
     REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
     CHECK(runOf(folder / "a")["resumed_from"] == 19);
     CHECK(runOf(folder / "a")["seconds"]["drawing"] == 0.0);
@@ -173,7 +173,7 @@ TEST_CASE("What is missing or damaged is said, and made again from before it", "
     CHECK(filesOf(folder / "a") == whole);
 }
 
-TEST_CASE("A damaged manifest stops a run, which says so", "[resume]") {
+TEST_CASE("A damaged manifest is an error", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "a")).code == 0);
     fs::resize_file(folder / "a/manifest.json", 200);
@@ -205,7 +205,7 @@ TEST_CASE("Frames of different runs are never mixed", "[resume]") {
     const auto outcome = run(size);
     CHECK(outcome.code == 1);
     CHECK(outcome.err.find("size: [96,54] there, [64,36] here") != std::string::npos);
-    // What is overwritten is gone as a whole, also frames that the new run does not have.
+    // --overwrite removes all frames of the old run, including those that the new run does not have.
     REQUIRE(run("render powder --size 64x36 --frames 0-1 --quiet --overwrite -o " + (folder / "a").string()).code == 0);
     CHECK(filesOf(folder / "a").size() == 2);
     CHECK(run(base + " --resume --overwrite").code == 2);
@@ -224,7 +224,7 @@ TEST_CASE("A short run leaves the newest checkpoint of a longer one", "[resume]"
     CHECK(runOf(folder / "a")["resumed_from"] == 19);
 }
 
-TEST_CASE("Only --resume goes on", "[resume]") {
+TEST_CASE("Without --resume a run starts from the beginning", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "a")).code == 0);
     REQUIRE(run(fountain(folder / "a")).code == 0);
@@ -245,7 +245,7 @@ TEST_CASE("Frames are kept without any checkpoint", "[resume]") {
     CHECK(fs::last_write_time(folder / "a/frame-00000.png") == before);
 }
 
-TEST_CASE("What is overwritten is every file of a run, of pictures or of states", "[resume]") {
+TEST_CASE("--overwrite removes every file of a run, pictures and states", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "a")).code == 0);
     std::ofstream(folder / "a/notes.txt") << "mine";
@@ -258,7 +258,7 @@ TEST_CASE("What is overwritten is every file of a run, of pictures or of states"
     CHECK(run(fountain(folder / "a")).code == 1);
 }
 
-TEST_CASE("Frames without a manifest are nobody's", "[resume]") {
+TEST_CASE("Frames without a manifest are not touched", "[resume]") {
     const Folder folder;
     fs::create_directory(folder / "a");
     std::ofstream(folder / "a/frame-00003.png") << "a picture";
@@ -311,11 +311,11 @@ TEST_CASE("Files that a killed run was writing are removed", "[resume]") {
     CHECK(fs::exists(folder / "a/.letter.abc123.partial"));
 }
 
-TEST_CASE("An encoder that dies midway costs the video and no frame", "[resume]") {
+TEST_CASE("An encoder that fails midway costs the video but no frame", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "whole")).code == 0);
     fs::create_directory(folder / "bin");
-    // The program asks what it can do first; then it takes some frames.
+    // The first call asks which encoders there are; the second takes some frames and fails.
     std::ofstream(folder / "bin/ffmpeg")
         << "#!/bin/sh\n[ \"$5\" = encoder=libx264 ] && { echo Encoder libx264; exit 0; }\n"
            "head -c 100000 >/dev/null\necho 'the encoder fell over' >&2\nexit 7\n";

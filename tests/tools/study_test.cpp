@@ -1,4 +1,4 @@
-// The study as a user runs it, on a scene of two particles.
+// Tests the studies as a user runs them, in their smallest form.
 #include <fstream>
 
 #include "tests/catch.h"
@@ -30,7 +30,7 @@ TEST_CASE("A study writes tables, plots and a page that stands alone", "[tools]"
     CHECK(outcome.out.find("pair: reference ") != std::string::npos);
     for (const char* name : {"accuracy.csv", "orders.csv", "auto.csv", "references.csv"})
         CHECK(program::lineCount(program::textOf(folder / "study" / name)) >= 2);
-    // The error that the scene asks for, between the study's own.
+    // The error that the scene asks for is among those of the study.
     CHECK(program::textOf(folder / "study" / "auto.csv").find("\npair,0.05,") != std::string::npos);
     for (const char* name : {"pair-seconds.svg", "pair-evaluations.svg"}) {
         const std::string svg = program::textOf(folder / "study" / name);
@@ -87,7 +87,8 @@ TEST_CASE("The study of scaling writes tables, a plot and a page, and says when 
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out.find("install LAMMPS: Debian's package lammps") != std::string::npos);
     const std::string table = program::textOf(folder / "scaling" / "scaling.csv");
-    CHECK(program::lineCount(table) == 1 + 4 + 3 * 3);  // a head, a row of Table 2 a figure, three blocks a material
+    CHECK(program::lineCount(table) ==
+          1 + 4 + 3 * 3);  // the head, a row of Table 2 for each figure, three cubes for each material
     CHECK(table.find("paper/figure-1,100,") != std::string::npos);
     CHECK(table.find("powder,32000,") != std::string::npos);
     CHECK(program::textOf(folder / "scaling" / "exponents.csv").find("solid,list,10000,32000,") != std::string::npos);
@@ -96,7 +97,7 @@ TEST_CASE("The study of scaling writes tables, a plot and a page, and says when 
     CHECK(run("study scaling --peer gromacs").code == 2);
 }
 
-TEST_CASE("A study of pictures that is interrupted leaves the rows that it has told of", "[tools]") {
+TEST_CASE("A study of pictures that is interrupted leaves the rows that it has reported", "[tools]") {
     const program::Folder folder;
     const std::string table = (folder / "pictures" / "pictures.csv").string();
     const std::string study = "exec " GLOBULAR_PROGRAM
@@ -106,7 +107,7 @@ TEST_CASE("A study of pictures that is interrupted leaves the rows that it has t
         program::shell("sh -c 'echo $$; " + study + "' | (read study; read row; cat " + table + "; kill $study)");
     INFO(outcome.out);
     REQUIRE(outcome.code == 0);
-    CHECK(program::lineCount(outcome.out) >= 2);  // a head, and the row just told of
+    CHECK(program::lineCount(outcome.out) >= 2);  // the head and the row that was reported
     CHECK(program::lineCount(outcome.out) < 1 + 2 * 2 * 3);
     CHECK(outcome.out.find("spheres,100,256,144,draft,") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "pictures" / "index.html"));
@@ -119,7 +120,7 @@ TEST_CASE("The study of pictures writes its table, plots and a page, and leaves 
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(program::lineCount(program::textOf(folder / "pictures" / "pictures.csv")) ==
-          1 + 2 * 2 * 3);  // a head; two styles, two numbers, three qualities
+          1 + 2 * 2 * 3);  // the head; two styles, two numbers of particles, three qualities
     for (const char* name : {"times.svg", "errors.svg"})
         CHECK(program::textOf(folder / "pictures" / name).rfind("<?xml", 0) == 0);
     CHECK(program::textOf(folder / "pictures" / "index.html").find(command) != std::string::npos);
