@@ -18,6 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
+// The formulas of the law, compiled for this instruction set.
 #include "engine/law/pair_formulas-inl.h"
 
 /// contactForce() for as many particles as D has lanes, with the operations of obstacle_surfaces.h in the same order.

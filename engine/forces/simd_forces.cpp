@@ -19,6 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
+// The formulas of the law, compiled for this instruction set.
 #include "engine/law/pair_formulas-inl.h"
 
 /// What a kernel is compiled for.

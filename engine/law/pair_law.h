@@ -1,6 +1,7 @@
 // The force between two particles: equations 2, 5 and 6 of Cote 2024, with the pair energy, the stiffness and the
-// friction that go with it. Start reading here. This file has the constants of a pair; the formulas themselves are in
-// pair_formulas-inl.h, once for every path: plain numbers and SIMD vectors, particles and obstacles.
+// friction that go with it. Start reading here. The force and the friction are in pair_formulas-inl.h, which serves
+// every path: plain numbers and SIMD vectors, particles and obstacles. This file has what is computed with plain
+// numbers alone: the constants of a pair, its energy and its stiffness.
 //
 // Symbols. P = x_p - x_i is the separation of particles p and i, D its length, V = v_p - v_i their relative velocity.
 // D0 = r_p + r_i is the rest length, R = c_r D0 where repulsion and attraction end, S = c_d D0 where damping ends.
@@ -68,6 +69,7 @@ Number squareRoot(Number number) {
     return std::sqrt(number);
 }
 
+// Inside this namespace on purpose; the first lines of the file say why.
 #include "engine/law/pair_formulas-inl.h"
 
 /// Constants of a pair of the given material (see mixed() for unlike ones).

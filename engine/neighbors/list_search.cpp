@@ -65,14 +65,14 @@ std::size_t pack(hn::Vec<decltype(kIndices)> indices, std::uint16_t chosen, std:
     return static_cast<std::size_t>(std::popcount(chosen));
 }
 
-/// The search around one particle, the origin, and those beside it.
+/// The search for the neighbors of some particles that are close together.
 struct Search {
     const Candidates& candidates;
     const Neighborhood& around;
     double perReach;      ///< 1/m
     std::uint32_t count;  ///< number of candidates
     SearchScratch& scratch;
-    Vec3 origin;
+    Vec3 origin;  ///< position of the first of the particles, m
 
     Vec3 positionOf(std::uint32_t sortedIndex) const {
         return {candidates.x[sortedIndex], candidates.y[sortedIndex], candidates.z[sortedIndex]};
@@ -87,7 +87,7 @@ struct Search {
     void loadCandidates(const Vec3& newOrigin) {
         origin = newOrigin;
         const auto atOnce = static_cast<std::uint32_t>(hn::Lanes(kDoubles));
-        const auto counting = hn::Iota(kPositions, 0);  // hoisted: it goes through memory
+        const auto counting = hn::Iota(kPositions, 0);  // hoisted, because it goes through memory
         std::uint32_t used = 0;
         for (int r = 0; r < around.count; ++r) {
             const CellRange range = around.ranges[static_cast<std::size_t>(r)];
@@ -100,7 +100,7 @@ struct Search {
             }
             used += range.end - range.begin;
         }
-        // A vector that is near to nothing, since whole vectors are read below.
+        // One more vector of candidates, infinitely far away, since whole vectors are read below.
         hn::StoreU(hn::Set(kTag, std::numeric_limits<float>::infinity()), kTag, &scratch.x[used]);
     }
 
