@@ -1,4 +1,4 @@
-// [[body]]: the particles that are there at the start.
+// Builds the particles that exist from the start: [[body]].
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 using engine::Vec3;
 
-/// A body while it is built.
+/// A body that is being built.
 struct Body {
     Section& section;
     std::size_t index = 0;
@@ -25,7 +25,8 @@ struct Body {
     const Materials& materials;
 };
 
-/// Lattice points the packing visits in a box of the given half extent; see engine/state/bodies.cpp for the lattice.
+/// Number of lattice points that the packing visits in a box of the given half extent (m). engine/state/bodies.cpp
+/// describes the lattice.
 double latticeCount(const Vec3& halfExtent, double spacing) {
     double count = 0.5;
     for (int axis = 0; axis < 3; ++axis)
@@ -33,9 +34,9 @@ double latticeCount(const Vec3& halfExtent, double spacing) {
     return count;
 }
 
-/// Particles that a packed body will visit at most.
-double countBound(const Section& section) {
-    const std::string& shape = section.text("shape");
+/// Upper bound of the number of particles in a packed body.
+double maxParticleCount(const Section& section) {
+    const std::string& shape = section.string("shape");
     if (shape == "ball") return latticeCount(Vec3::Constant(section.number("radius")), section.number("spacing"));
     if (shape == "box")
         return latticeCount(0.5 * (section.vector("maximum") - section.vector("minimum")), section.number("spacing"));
@@ -48,24 +49,24 @@ void checkBox(Section& section, BuildContext& context) {
     const Vec3 extent = section.vector("maximum") - section.vector("minimum");
     for (int axis = 0; axis < 3; ++axis)
         if (!(extent[axis] >= 0.0))
-            report(
-                section, "maximum",
-                fmt::format("maximum[{}] is {}, must be at least the minimum {} (meters)", axis,
-                            numberText(section.vector("maximum")[axis]), numberText(section.vector("minimum")[axis])),
-                context);
+            report(section, "maximum",
+                   fmt::format("maximum[{}] is {}, must be at least the minimum {} (meters)", axis,
+                               formatNumber(section.vector("maximum")[axis]),
+                               formatNumber(section.vector("minimum")[axis])),
+                   context);
 }
 
 void checkPoints(Section& section, BuildContext& context) {
     if (!section.has("positions") || !section.has("velocities")) return;
-    const std::size_t wanted = section.vectors("positions").size();
+    const std::size_t expected = section.vectors("positions").size();
     const std::size_t found = section.vectors("velocities").size();
-    if (found != wanted)
+    if (found != expected)
         report(section, "velocities",
-               fmt::format("velocities has {} entries, must have {} like positions", found, wanted), context);
+               fmt::format("velocities has {} entries, must have {} like positions", found, expected), context);
 }
 
 void checkCount(Section& section, BuildContext& context) {
-    expect(section, "shape", countBound(section), "the body would have", context);
+    addExpectedParticles(section, "shape", maxParticleCount(section), "the body would have", context);
 }
 
 engine::Packing packingOf(const Body& body, const BuildContext& context) {
@@ -79,7 +80,7 @@ engine::Packing packingOf(const Body& body, const BuildContext& context) {
 std::vector<Vec3> packedPositions(const Body& body, const BuildContext& context) {
     const Section& section = body.section;
     const engine::Packing packing = packingOf(body, context);
-    const std::string& shape = section.text("shape");
+    const std::string& shape = section.string("shape");
     if (shape == "ball") return engine::ballPositions(section.vector("center"), section.number("radius"), packing);
     if (shape == "box") return engine::boxPositions(section.vector("minimum"), section.vector("maximum"), packing);
     const Vec3& counts = section.vector("counts");
@@ -87,11 +88,11 @@ std::vector<Vec3> packedPositions(const Body& body, const BuildContext& context)
     return engine::gridPositions(section.vector("center"), {count(0), count(1), count(2)}, packing);
 }
 
-/// The material's particles, with what the body changes of them.
-engine::NewParticle templateOf(const Body& body) {
+/// A particle of the body's material, with the velocity, radius and mass that the body gives.
+engine::NewParticle prototypeOf(const Body& body) {
     const engine::Material& material = body.materials.list[body.material];
-    body.section.deriveNumber("particle_radius", material.radius);
-    body.section.deriveNumber("particle_mass", material.mass);
+    body.section.derive("particle_radius", TypedValue::ofNumber(material.radius));
+    body.section.derive("particle_mass", TypedValue::ofNumber(material.mass));
     engine::NewParticle particle;
     particle.velocity = body.section.vector("velocity");
     particle.radius = body.section.number("particle_radius");
@@ -101,7 +102,7 @@ engine::NewParticle templateOf(const Body& body) {
 }
 
 void appendPacked(const Body& body, const BuildContext& context, engine::Particles& particles) {
-    engine::NewParticle particle = templateOf(body);
+    engine::NewParticle particle = prototypeOf(body);
     for (const Vec3& position : packedPositions(body, context)) {
         particle.position = position;
         append(particles, particle);
@@ -109,7 +110,7 @@ void appendPacked(const Body& body, const BuildContext& context, engine::Particl
 }
 
 void appendPoints(const Body& body, engine::Particles& particles) {
-    engine::NewParticle particle = templateOf(body);
+    engine::NewParticle particle = prototypeOf(body);
     const std::vector<Vec3>& positions = body.section.vectors("positions");
     for (std::size_t index = 0; index < positions.size(); ++index) {
         particle.position = positions[index];
@@ -119,12 +120,12 @@ void appendPoints(const Body& body, engine::Particles& particles) {
     }
 }
 
-/// What the file says of a particle counts, unless the body says otherwise; what it leaves out comes from the material.
+/// Appends a particle of a file. The keys of the body take precedence over the file, and the file over the material.
 void appendFileParticle(const Body& body, const ParticleFile& file, std::size_t index, engine::Particles& particles) {
     const Section& section = body.section;
-    const bool ownMaterial = file.hasMaterial && !section.has("material");
+    const bool usesFileMaterial = file.hasMaterial && !section.has("material");
     engine::NewParticle particle;
-    particle.material = ownMaterial ? file.particles.material[index] : body.material;
+    particle.material = usesFileMaterial ? file.particles.material[index] : body.material;
     const engine::Material& material = body.materials.list[particle.material];
     particle.position = file.particles.position[index];
     particle.velocity = file.particles.velocity[index] + section.vector("velocity");
@@ -139,9 +140,9 @@ void appendFileParticle(const Body& body, const ParticleFile& file, std::size_t 
 
 void appendFile(const Body& body, BuildContext& context, engine::Particles& particles) {
     Section& section = body.section;
-    const std::string path = (std::filesystem::path(context.folder) / section.text("file")).string();
+    const std::string path = (std::filesystem::path(context.folder) / section.string("file")).string();
     try {
-        const std::string bytes = readFile(path, kLargestParticleFile);
+        const std::string bytes = readFile(path, kMaxParticleFileBytes);
         context.contentHash = engine::fnv1a(bytes, context.contentHash);
         const ParticleFile file = decodeParticles(bytes, path);
         for (std::size_t index = 0; index < file.particles.count(); ++index) {
@@ -156,32 +157,33 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
             appendFileParticle(body, file, index, particles);
         }
     } catch (const InputError& error) {
-        section.markUnsound();
-        context.problems.add(section.at("file"), error);
+        section.markInvalid();
+        context.problems.add(section.position("file"), error);
     }
 }
 
 void buildBody(const Body& body, BuildContext& context, engine::Particles& particles) {
     Section& section = body.section;
     if (!section.has("shape")) return;
-    const std::string& shape = section.text("shape");
-    const bool packed = shape == "box" || shape == "ball" || shape == "grid";
-    if (packed)
-        section.deriveNumber("spacing",
-                             2.0 * (section.has("particle_radius") ? section.number("particle_radius")
-                                                                   : body.materials.list[body.material].radius));
+    const std::string& shape = section.string("shape");
+    const bool isPacked = shape == "box" || shape == "ball" || shape == "grid";
+    if (isPacked)
+        section.derive("spacing", TypedValue::ofNumber(2.0 * (section.has("particle_radius")
+                                                                  ? section.number("particle_radius")
+                                                                  : body.materials.list[body.material].radius)));
     checkBox(section, context);
     checkPoints(section, context);
-    if (packed && section.isSound()) checkCount(section, context);
-    if (!section.isSound()) return;
-    const std::size_t before = particles.count();
+    if (isPacked && section.isValid()) checkCount(section, context);
+    if (!section.isValid()) return;
+    const std::size_t countBefore = particles.count();
     if (shape == "file")
         appendFile(body, context, particles);
     else if (shape == "points")
         appendPoints(body, particles);
     else
         return appendPacked(body, context, particles);
-    expect(section, "shape", static_cast<double>(particles.count() - before), "the body has", context);
+    addExpectedParticles(section, "shape", static_cast<double>(particles.count() - countBefore), "the body has",
+                         context);
 }
 
 }  // namespace

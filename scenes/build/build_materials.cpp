@@ -1,4 +1,4 @@
-// [material]: a row of Table 1 or a substance, with what the scene changes of it.
+// Builds materials: a preset, with the values that the scene gives instead of the preset's: [material].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct PresetColor {
     std::string_view preset, hex;
 };
 
-/// Told apart at a glance on a light and a dark background; chosen for looks.
+/// Chosen: easy to tell apart on light and dark backgrounds.
 constexpr std::array<PresetColor, 11> kPresetColors = {{{"liquid", "#3f86c8"},
                                                         {"solid", "#c8794a"},
                                                         {"powder", "#d8b878"},
@@ -36,22 +36,22 @@ engine::Vec3 presetColor(const std::string& preset) {
 
 /// Gives the keys that the scene leaves out the values of the preset.
 void completeMaterial(Section& section) {
-    const engine::Material preset = *engine::materialPreset(section.text("preset"));
-    section.deriveText("name", preset.name);
-    section.deriveNumber("radius", preset.radius);
-    section.deriveNumber("mass", preset.mass);
-    section.deriveNumber("b1", preset.repulsion);
-    section.deriveNumber("bd", preset.damping);
-    section.deriveNumber("cr", preset.repulsionReach);
-    section.deriveNumber("cd", preset.dampingReach);
-    section.deriveNumber("friction", preset.friction);
-    section.deriveNumber("core", preset.coreFraction);
-    section.deriveVector("color", presetColor(preset.name));
+    const engine::Material preset = *engine::materialPreset(section.string("preset"));
+    section.derive("name", TypedValue::ofString(preset.name));
+    section.derive("radius", TypedValue::ofNumber(preset.radius));
+    section.derive("mass", TypedValue::ofNumber(preset.mass));
+    section.derive("b1", TypedValue::ofNumber(preset.repulsion));
+    section.derive("bd", TypedValue::ofNumber(preset.damping));
+    section.derive("cr", TypedValue::ofNumber(preset.repulsionReach));
+    section.derive("cd", TypedValue::ofNumber(preset.dampingReach));
+    section.derive("friction", TypedValue::ofNumber(preset.friction));
+    section.derive("core", TypedValue::ofNumber(preset.coreFraction));
+    section.derive("color", TypedValue::ofVector(presetColor(preset.name)));
 }
 
 engine::Material materialFrom(const Section& section) {
     engine::Material material;
-    material.name = section.text("name");
+    material.name = section.string("name");
     material.radius = section.number("radius");
     material.mass = section.number("mass");
     material.repulsion = section.number("b1");
@@ -63,10 +63,10 @@ engine::Material materialFrom(const Section& section) {
     return material;
 }
 
-void checkName(Section& section, const Materials& earlier, BuildContext& context) {
-    for (const engine::Material& material : earlier.list)
-        if (material.name == section.text("name"))
-            report(section, "name", fmt::format("there are two materials with the name {}", inQuotes(material.name)),
+void checkName(Section& section, const Materials& previous, BuildContext& context) {
+    for (const engine::Material& material : previous.list)
+        if (material.name == section.string("name"))
+            report(section, "name", fmt::format("there are two materials with the name {}", tomlString(material.name)),
                    context);
 }
 
@@ -75,15 +75,15 @@ void checkName(Section& section, const Materials& earlier, BuildContext& context
 Materials buildMaterials(std::vector<Section>& sections, BuildContext& context) {
     Materials materials;
     for (Section& section : sections) {
-        // A material that is not sound still has a name, so that those who use it are not blamed.
+        // An invalid material keeps its name, so that no body that uses it is reported for an undefined material.
         engine::Material material;
         engine::Vec3 color = engine::Vec3::Zero();
         completeMaterial(section);
         if (section.has("name")) {
             checkName(section, materials, context);
-            material.name = section.text("name");
+            material.name = section.string("name");
         }
-        if (section.isSound()) {
+        if (section.isValid()) {
             material = materialFrom(section);
             color = section.vector("color");
         }

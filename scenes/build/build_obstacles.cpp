@@ -1,4 +1,4 @@
-// [[obstacle]]: what particles bounce off, and what of it is drawn.
+// Builds obstacles, and how they are drawn: [[obstacle]].
 #include <fmt/format.h>
 
 #include "scenes/build/builders.h"
@@ -8,29 +8,28 @@ namespace {
 
 using engine::Vec3;
 
-/// Gray that shows light and shade; linear.
+/// Chosen: a gray that shows light and shade; linear RGB.
 const Vec3 kObstacleColor(0.5, 0.5, 0.5);
 
-/// Two corners, or a middle and edge lengths; each pair gives the other.
+/// Derives center and size of a box from its corners, or its corners from center and size.
 void completeCorners(Section& section, BuildContext& context) {
-    const bool corners = section.isGiven("minimum") || section.isGiven("maximum");
-    const bool middle = section.isGiven("center") || section.isGiven("size");
-    if (corners && middle)
+    const bool hasCorners = section.isGiven("minimum") || section.isGiven("maximum");
+    const bool hasCenter = section.isGiven("center") || section.isGiven("size");
+    if (hasCorners && hasCenter)
         return report(section, section.isGiven("size") ? "size" : "center",
                       "give either minimum and maximum, or center and size", context);
-    for (const char* name : {middle ? "center" : "minimum", middle ? "size" : "maximum"})
+    for (const char* name : {hasCenter ? "center" : "minimum", hasCenter ? "size" : "maximum"})
         if (!section.isGiven(name)) reportMissing(section, name, context);
-    if (!section.isSound()) return;
-    if (middle) {
-        section.deriveVector("minimum", section.vector("center") - 0.5 * section.vector("size"));
-        section.deriveVector("maximum", section.vector("center") + 0.5 * section.vector("size"));
+    if (!section.isValid()) return;
+    if (hasCenter) {
+        section.derive("minimum", TypedValue::ofVector(section.vector("center") - 0.5 * section.vector("size")));
+        section.derive("maximum", TypedValue::ofVector(section.vector("center") + 0.5 * section.vector("size")));
     } else {
-        section.deriveVector("center", 0.5 * (section.vector("minimum") + section.vector("maximum")));
-        section.deriveVector("size", section.vector("maximum") - section.vector("minimum"));
+        section.derive("center", TypedValue::ofVector(0.5 * (section.vector("minimum") + section.vector("maximum"))));
+        section.derive("size", TypedValue::ofVector(section.vector("maximum") - section.vector("minimum")));
     }
 }
 
-/// The plane's normal with unit length, also in the list of values.
 engine::Plane planeFrom(Section& section, BuildContext& context) {
     engine::Plane plane;
     plane.point = section.vector("point");
@@ -40,21 +39,21 @@ engine::Plane planeFrom(Section& section, BuildContext& context) {
     return plane;
 }
 
-engine::Obstacle colliderFrom(Section& section, BuildContext& context) {
-    const std::string& shape = section.text("shape");
+engine::Obstacle obstacleFrom(Section& section, BuildContext& context) {
+    const std::string& shape = section.string("shape");
     if (shape == "plane") return planeFrom(section, context);
     if (shape == "box") return engine::Box{section.vector("minimum"), section.vector("maximum")};
     if (shape == "container") return engine::Container{section.vector("minimum"), section.vector("maximum")};
-    return engine::Sphere{section.vector("center"), section.number("radius"), section.text("repulsor") == "literal"};
+    return engine::Sphere{section.vector("center"), section.number("radius"), section.string("repulsor") == "literal"};
 }
 
-ObstacleLook lookOf(Section& section, const Section& look) {
-    const std::string& shape = section.text("shape");
-    if (shape == "plane") return {.visible = false};
+ObstacleLook appearanceOf(Section& section, const Section& look) {
+    const std::string& shape = section.string("shape");
+    if (shape == "plane") return {.isVisible = false};
     const bool isContainer = shape == "container";
-    if (shape != "sphere") section.deriveFlag("edges", isContainer);
-    section.deriveVector("color", isContainer ? look.vector("edge_color") : kObstacleColor);
-    return {section.flag("visible"), shape != "sphere" && section.flag("edges"), section.vector("color")};
+    if (shape != "sphere") section.derive("edges", TypedValue::ofBoolean(isContainer));
+    section.derive("color", TypedValue::ofVector(isContainer ? look.vector("edge_color") : kObstacleColor));
+    return {section.boolean("visible"), shape != "sphere" && section.boolean("edges"), section.vector("color")};
 }
 
 }  // namespace
@@ -63,15 +62,15 @@ Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, Bu
     Obstacles obstacles;
     for (Section& section : sections) {
         if (!section.has("shape")) continue;
-        const std::string& shape = section.text("shape");
+        const std::string& shape = section.string("shape");
         if (shape == "box" || shape == "container") {
             completeCorners(section, context);
             checkCorners(section, context);
         }
         if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
-        if (!section.isSound()) continue;
-        obstacles.shapes.push_back(colliderFrom(section, context));
-        obstacles.looks.push_back(lookOf(section, look));
+        if (!section.isValid()) continue;
+        obstacles.shapes.push_back(obstacleFrom(section, context));
+        obstacles.looks.push_back(appearanceOf(section, look));
     }
     return obstacles;
 }

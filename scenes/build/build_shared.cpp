@@ -1,30 +1,29 @@
-// What several builders need.
+// Reports and checks that several builders share.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "scenes/build/builders.h"
-#include "scenes/schema/read_table.h"
 #include "scenes/text/edit_distance.h"
 
 namespace scenes {
 
 void report(Section& section, std::string_view name, const std::string& message, BuildContext& context) {
-    section.markUnsound();
-    context.problems.add(section.at(name), message);
+    section.markInvalid();
+    context.problems.add(section.position(name), message);
 }
 
 void reportMissing(Section& section, std::string_view name, BuildContext& context) {
-    section.markUnsound();
-    if (!context.damaged)
-        context.problems.add(section.at(), missingText(section, *findKey(section.table().name, name)));
+    section.markInvalid();
+    if (!context.hasOmissions)
+        context.problems.add(section.position(), missingText(section, *findKey(section.table().name, name)));
 }
 
-bool reportBoth(Section& section, std::string_view one, std::string_view other, BuildContext& context) {
+bool reportConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context) {
     if (!section.isGiven(one) || !section.isGiven(other)) return false;
-    const Position first = section.at(one);
-    const Position second = section.at(other);
-    // The later of the two is the one too many.
+    const SourcePosition first = section.position(one);
+    const SourcePosition second = section.position(other);
+    // The problem is reported at the later of the two.
     const bool swapped = second.overrideIndex != first.overrideIndex ? second.overrideIndex < first.overrideIndex
                          : second.line != first.line                 ? second.line < first.line
                                                                      : second.column < first.column;
@@ -32,16 +31,17 @@ bool reportBoth(Section& section, std::string_view one, std::string_view other, 
     return true;
 }
 
-bool expect(Section& section, std::string_view name, double particles, std::string_view what, BuildContext& context) {
-    context.expected += particles;
+void addExpectedParticles(Section& section, std::string_view name, double particles, std::string_view what,
+                          BuildContext& context) {
+    context.expectedParticles += particles;
     const double most = context.limits.particles;
-    if (context.expected <= most) return true;
-    const std::string together =
-        context.expected > particles ? fmt::format(", {:.2g} with those before", context.expected) : "";
+    if (context.expectedParticles <= most) return;
+    const std::string together = context.expectedParticles > particles
+                                     ? fmt::format(", {:.2g} with those before", context.expectedParticles)
+                                     : "";
     report(section, name,
            fmt::format("{} about {:.2g} particles{}, {}", what, particles, together, allowedText("particles", most)),
            context);
-    return false;
 }
 
 std::string allowedText(std::string_view limit, double most) {
@@ -52,33 +52,33 @@ void checkCorners(Section& section, BuildContext& context) {
     if (!section.has("minimum") || !section.has("maximum")) return;
     for (int axis = 0; axis < 3; ++axis)
         if (!(section.vector("minimum")[axis] < section.vector("maximum")[axis]))
-            report(
-                section, "maximum",
-                fmt::format("maximum[{}] is {}, must be above the minimum {} (meters)", axis,
-                            numberText(section.vector("maximum")[axis]), numberText(section.vector("minimum")[axis])),
-                context);
+            report(section, "maximum",
+                   fmt::format("maximum[{}] is {}, must be above the minimum {} (meters)", axis,
+                               formatNumber(section.vector("maximum")[axis]),
+                               formatNumber(section.vector("minimum")[axis])),
+                   context);
 }
 
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context) {
     if (!section.has("material")) return 0;
-    const std::string& wanted = section.text("material");
+    const std::string& wanted = section.string("material");
     std::vector<std::string> names;
     for (std::uint32_t index = 0; index < materials.list.size(); ++index) {
-        // A material whose name could not be read may be the one that is meant.
+        // A material whose name could not be read may be the one that is referred to.
         if (materials.list[index].name == wanted || materials.list[index].name.empty()) return index;
         names.push_back(materials.list[index].name);
     }
     const std::string nearest = nearestName(wanted, names);
     const std::string hint = nearest.empty() ? fmt::format(" (defined: {})", fmt::join(names, ", "))
-                                             : fmt::format(", did you mean {}?", inQuotes(nearest));
-    report(section, "material", fmt::format("material {} is not defined{}", inQuotes(wanted), hint), context);
+                                             : fmt::format(", did you mean {}?", tomlString(nearest));
+    report(section, "material", fmt::format("material {} is not defined{}", tomlString(wanted), hint), context);
     return std::nullopt;
 }
 
 std::optional<engine::Vec3> unitVector(const engine::Vec3& vector) {
     const double largest = vector.cwiseAbs().maxCoeff();
     if (largest == 0.0) return std::nullopt;
-    // Scaled first, so that no square overflows or vanishes.
+    // Scaled first, so that no square overflows or underflows.
     const engine::Vec3 scaled = vector / largest;
     return scaled / std::sqrt(engine::squaredLength(scaled));
 }

@@ -1,4 +1,4 @@
-// [study]: what is measured of a hard case.
+// Builds the description of a stability study: [study].
 #include <fmt/format.h>
 
 #include "engine/stepping/steppers.h"
@@ -9,7 +9,7 @@ namespace {
 
 Observable observableOf(const Section& section) {
     for (const ObservableInfo& info : observables())
-        if (info.name == section.text("observable")) return info.observable;
+        if (info.name == section.string("observable")) return info.observable;
     return Observable::positionError;
 }
 
@@ -17,7 +17,7 @@ void checkReference(Section& section, const Study& study, BuildContext& context)
     const ObservableInfo& info = infoOf(study.observable);
     if (info.needsReference && !section.isGiven("reference_step"))
         report(section, "observable",
-               fmt::format("reference_step is missing, observable {} needs it (seconds)", inQuotes(info.name)),
+               fmt::format("reference_step is missing, observable {} needs it (seconds)", tomlString(info.name)),
                context);
 }
 
@@ -33,18 +33,18 @@ void checkLimits(Section& section, const Study& study, BuildContext& context) {
 
 Study buildStudy(Section& section, BuildContext& context) {
     Study study;
-    if (!section.isSound()) return study;
+    if (!section.isValid()) return study;
     study.number = static_cast<int>(section.integer("number"));
     study.observable = observableOf(section);
     study.limit = section.number("limit");
     if (section.has("at_least")) study.atLeast = section.number("at_least");
-    study.paperMustFail = section.flag("paper_must_fail");
+    study.paperMustFail = section.boolean("paper_must_fail");
     study.paperStep = section.number("paper_step");
     if (section.has("reference_step")) study.referenceStep = section.number("reference_step");
     for (const engine::StepperKind stepper : engine::kSteppers)
-        if (engine::nameOf(stepper) == section.text("reference_stepper")) study.referenceStepper = stepper;
-    study.vary = section.texts("vary");
-    if (section.has("quick")) study.quick = section.texts("quick");
+        if (engine::nameOf(stepper) == section.string("reference_stepper")) study.referenceStepper = stepper;
+    study.vary = section.strings("vary");
+    if (section.has("quick")) study.quick = section.strings("quick");
     checkReference(section, study, context);
     checkLimits(section, study, context);
     return study;

@@ -1,5 +1,6 @@
-// Checked sections to the parts of a scene, one builder for each table. Each reports what the schema alone cannot tell
-// (keys that contradict each other, names that are not defined, files) and builds a part only from a sound section.
+// Builders: one for each kind of table, which turns a validated section into a part of the scene. Each reports what the
+// schema alone cannot tell (keys that contradict each other, undefined names, files that cannot be read), and builds
+// its part only if the section is valid. Called by read_scene.cpp.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/advance.h"
-#include "scenes/model/camera_path.h"
-#include "scenes/model/limits.h"
-#include "scenes/model/look.h"
+#include "scenes/build/read_scene.h"
 #include "scenes/schema/read_sections.h"
-#include "scenes/schema/study.h"
 
 namespace scenes {
 
-/// Materials by index, with what the engine does not need to know.
+/// Materials by index, with the colors that the engine does not need.
 struct Materials {
     std::vector<engine::Material> list;
     std::vector<engine::Vec3> colors;  ///< linear RGB
@@ -25,13 +22,13 @@ struct Materials {
 /// What the builders share.
 struct BuildContext {
     ProblemList& problems;
-    std::string folder;     ///< that file names are relative to
+    std::string folder;     ///< the folder that file names are relative to
     double duration = 1.0;  ///< s
     std::uint64_t seed = 1;
-    bool damaged = false;       ///< something of the file could not be read, perhaps what is missing
-    std::uint64_t contentHash;  ///< of the files that the scene names
+    bool hasOmissions = false;  ///< part of the file could not be read, so what seems to be missing may be in it
+    std::uint64_t contentHash;  ///< of the files that the scene refers to
     Limits limits = {};
-    double expected = 0.0;  ///< particles of the bodies and births seen so far
+    double expectedParticles = 0.0;  ///< of the bodies and emitters so far
 };
 
 Materials buildMaterials(std::vector<Section>& sections, BuildContext& context);
@@ -50,31 +47,33 @@ Look buildLook(Section& section, BuildContext& context);
 Overlay buildOverlay(Section& section, const Section& look, const CameraPath& camera, BuildContext& context);
 Study buildStudy(Section& section, BuildContext& context);
 
-// What several builders need.
+// What several builders need (build_shared.cpp).
 
-/// Records a problem at a key of a section, and that the section is unsound.
+/// Records a problem with a key of a section, and marks the section as invalid.
 void report(Section& section, std::string_view name, const std::string& message, BuildContext& context);
 
-/// Records that a section needs a key.
+/// Records that a key is missing from a section, and marks the section as invalid.
 void reportMissing(Section& section, std::string_view name, BuildContext& context);
 
-/// Records that two keys that exclude each other were both written. True if they were.
-bool reportBoth(Section& section, std::string_view one, std::string_view other, BuildContext& context);
+/// Records a problem if two keys that exclude each other were both written. Returns whether they were.
+bool reportConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context);
 
-/// Counts particles that a body or an emitter would make in `expected`, and records a problem at the key where that are
-/// too many. False then. Shape: what as in "the body would have".
-bool expect(Section& section, std::string_view name, double particles, std::string_view what, BuildContext& context);
+/// Adds to the number of particles that the scene will have, and records a problem with a key if it becomes too large.
+/// @param what  "the body would have", for the message
+void addExpectedParticles(Section& section, std::string_view name, double particles, std::string_view what,
+                          BuildContext& context);
 
 /// "at most 2e+06 are allowed; --limit particles=N allows more"
 std::string allowedText(std::string_view limit, double most);
 
-/// Records a problem where maximum is not above minimum along every axis; one that is not there is not looked at.
+/// Records a problem if maximum is not above minimum along every axis. Does nothing unless the section has both.
 void checkCorners(Section& section, BuildContext& context);
 
-/// Index of the material that a section names, the first if it names none; nothing if there is no such material.
+/// Index of the material that a section refers to, 0 if it refers to none; nothing, with the problem recorded, if it is
+/// not defined.
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context);
 
-/// The same direction with length 1; nothing for the zero vector.
+/// The vector scaled to length 1; nothing for the zero vector.
 std::optional<engine::Vec3> unitVector(const engine::Vec3& vector);
 
 }  // namespace scenes

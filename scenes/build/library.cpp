@@ -1,4 +1,4 @@
-// Finds scene files by folder scan; nothing is cached, there are few.
+// Finds scene files by scanning folders. Nothing is cached, because there are few.
 #include "scenes/build/library.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Name to path.
+/// Paths by name.
 using Names = std::map<std::string, std::string>;
 
 void addRoot(const fs::path& root, Names& names) {
@@ -41,13 +41,13 @@ std::string lastPart(const std::string& name) {
     return name.substr(name.find_last_of('/') + 1);
 }
 
-/// Only the title; whether the rest is right is found when the scene is loaded.
+/// The title of a scene file. The rest of the file is not validated.
 std::string titleOf(const std::string& path) {
     try {
         ProblemList problems(path, {});
-        const Document document = parseDocument(readFile(path, kLargestSceneFile), problems);
+        const Document document = parseDocument(readFile(path, kMaxSceneFileBytes), problems);
         const Entry* title = findEntry(document.root, "title");
-        return title != nullptr && title->value.kind == Kind::text ? title->value.text : std::string{};
+        return title != nullptr && title->value.kind == ValueKind::string ? title->value.string : std::string{};
     } catch (const InputError&) {
         return {};
     }
@@ -64,7 +64,7 @@ std::string titleOf(const std::string& path) {
         {{name, 0, 0,
           nearest.empty()
               ? "there is no such file and no built-in scene of that name (`globular scenes` lists them)"
-              : fmt::format("there is no such file or built-in scene, did you mean {}?", inQuotes(nearest))}});
+              : fmt::format("there is no such file or built-in scene, did you mean {}?", tomlString(nearest))}});
 }
 
 }  // namespace
@@ -87,7 +87,8 @@ std::string resolveScene(const std::string& nameOrPath, const std::vector<std::s
         if (lastPart(full) == nameOrPath) matches.push_back(full);
     if (matches.empty()) failUnknown(nameOrPath, names);
     if (matches.size() > 1)
-        throw InputError({{nameOrPath, 0, 0, fmt::format("may be any of {}", fmt::join(matches, ", "))}});
+        throw InputError(
+            {{nameOrPath, 0, 0, fmt::format("is ambiguous, it may be any of {}", fmt::join(matches, ", "))}});
     return names.at(matches[0]);
 }
 

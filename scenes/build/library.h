@@ -1,4 +1,5 @@
-// The built-in scenes: files below a list of root folders, known by name. Used by every command that takes a SCENE.
+// The built-in scenes: scene files below a list of root folders, each known by its name. Used by every command that
+// takes a SCENE.
 #pragma once
 
 #include <string>
@@ -7,17 +8,18 @@
 namespace scenes {
 
 struct LibraryEntry {
-    std::string name;   ///< path below its root without .toml: "liquid", "paper/figure-2"
+    std::string name;   ///< path relative to its root, without .toml: "liquid", "paper/figure-2"
     std::string title;  ///< empty if the file cannot be read
     std::string path;
 };
 
-/// All built-in scenes, sorted by name. Of two with the same name that of the earlier root counts; roots that do not
-/// exist hold none.
+/// All built-in scenes, sorted by name. If several roots have a scene of the same name, that of the first root is used.
+/// Roots that do not exist are skipped.
 std::vector<LibraryEntry> listScenes(const std::vector<std::string>& roots);
 
-/// The file a SCENE stands for: a file that exists or anything that ends in .toml is a path; else it is a built-in
-/// name, in full ("paper/figure-2") or the last part of it ("figure-2"). Throws: InputError with the nearest names.
+/// The file that a SCENE argument refers to. An existing file, or anything that ends in .toml, is a path; everything
+/// else is the name of a built-in scene, in full ("paper/figure-2") or its last part ("figure-2").
+/// @throws InputError with the nearest name, if there is no such scene
 std::string resolveScene(const std::string& nameOrPath, const std::vector<std::string>& roots);
 
 }  // namespace scenes

@@ -1,6 +1,6 @@
-// The way from text to scene: parse, override, check against the schema, build the parts, and report all that went
-// wrong.
-#include "scenes/model/scene.h"
+// Text to scene in five steps: parse, apply the overrides, validate against the schema, build the parts of the scene,
+// and throw if there were problems.
+#include "scenes/build/read_scene.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include "engine/stepping/steppers.h"
 #include "scenes/build/builders.h"
 #include "scenes/schema/document.h"
-#include "scenes/schema/overrides.h"
 #include "scenes/schema/read_sections.h"
 #include "scenes/text/read_file.h"
 
@@ -20,8 +19,8 @@ namespace scenes {
 namespace {
 
 void readTop(const Section& top, Scene& scene) {
-    scene.title = top.text("title");
-    scene.description = top.text("description");
+    scene.title = top.string("title");
+    scene.description = top.string("description");
     scene.duration = top.number("duration");
     scene.fps = static_cast<int>(top.integer("fps"));
     scene.seed = static_cast<std::uint64_t>(top.integer("seed"));
@@ -32,11 +31,11 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     setup.drag = physics.number("drag");
     setup.step = physics.number("step");
     for (const engine::StepperKind stepper : engine::kSteppers)
-        if (engine::nameOf(stepper) == physics.text("stepper")) setup.stepper = stepper;
+        if (engine::nameOf(stepper) == physics.string("stepper")) setup.stepper = stepper;
     setup.error = physics.number("error");
     setup.solverTolerance = physics.number("solver_tolerance");
-    setup.precision = physics.text("precision") == "float" ? engine::Precision::singles : engine::Precision::doubles;
-    setup.forces = physics.text("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
+    setup.precision = physics.string("precision") == "float" ? engine::Precision::singles : engine::Precision::doubles;
+    setup.forces = physics.string("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
 }
 
 std::optional<engine::BoundingBox> buildWorld(Section& section, BuildContext& context) {
@@ -48,24 +47,24 @@ std::optional<engine::BoundingBox> buildWorld(Section& section, BuildContext& co
     return world;
 }
 
-/// Who begins outside would be gone before it is seen.
+/// Reports the first particle or point of emission outside the world: it would be removed before it is ever drawn.
 void checkWorld(const Section& section, const engine::Setup& setup, BuildContext& context) {
-    if (!setup.world || !section.isSound()) return;
+    if (!setup.world || !section.isValid()) return;
     const auto isInside = [&](const engine::Vec3& position, const char* what) {
         if (setup.world->contains(position)) return true;
-        context.problems.add(section.at(),
-                             fmt::format("{} at [{}, {}, {}] is outside the world", what, numberText(position.x()),
-                                         numberText(position.y()), numberText(position.z())));
+        context.problems.add(section.position(),
+                             fmt::format("{} at [{}, {}, {}] is outside the world", what, formatNumber(position.x()),
+                                         formatNumber(position.y()), formatNumber(position.z())));
         return false;
     };
     for (const engine::Vec3& position : setup.initial.position)
         if (!isInside(position, "a body's particle")) return;
     for (const engine::Emitter& emitter : setup.emitters)
         for (const engine::Vec3& site : emitter.sites)
-            if (!isInside(site, "an emitter's point of birth")) return;
+            if (!isInside(site, "an emitter's point of emission")) return;
 }
 
-/// Each after the one before, and none after the end.
+/// Checks that the times of the strip increase and do not exceed the duration, and returns them.
 std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
     Section& still = sections.still;
     const double end = context.duration;
@@ -74,12 +73,12 @@ std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
     for (std::size_t k = 0; k < times.size(); ++k) {
         if (k > 0 && times[k] <= times[k - 1])
             report(still, "strip",
-                   fmt::format("strip[{}] is {}, must be after the moment before, {} (seconds)", k,
-                               numberText(times[k]), numberText(times[k - 1])),
+                   fmt::format("strip[{}] is {}, must be after the time before, {} (seconds)", k,
+                               formatNumber(times[k]), formatNumber(times[k - 1])),
                    context);
         if (times[k] > end && sections.top.has("duration"))
             report(still, "strip",
-                   fmt::format("strip[{}] is {}, must be at most the duration, {} (seconds)", k, numberText(times[k]),
+                   fmt::format("strip[{}] is {}, must be at most the duration, {} (seconds)", k, formatNumber(times[k]),
                                sections.top.canonical("duration")),
                    context);
     }
@@ -88,7 +87,7 @@ std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
 
 void readStill(Sections& sections, BuildContext& context, Scene& scene) {
     Section& still = sections.still;
-    still.deriveNumber("time", 0.5 * context.duration);
+    still.derive("time", TypedValue::ofNumber(0.5 * context.duration));
     if (still.has("time") && sections.top.has("duration") && still.number("time") > context.duration)
         report(still, "time",
                fmt::format("time is {}, must be at most the duration, {} (seconds)", still.canonical("time"),
@@ -98,16 +97,16 @@ void readStill(Sections& sections, BuildContext& context, Scene& scene) {
     scene.stripTimes = stripTimes(sections, context);
 }
 
-/// Something has to move.
+/// Checks that there is at least one particle to simulate.
 void checkPopulation(const Sections& sections, const engine::Setup& setup, BuildContext& context) {
-    if (sections.doubtful || !sections.emitters.empty()) return;
+    if (sections.mayBeIncomplete || !sections.emitters.empty()) return;
     if (sections.bodies.empty())
         context.problems.add({}, "there is nothing to simulate: give a [[body]] or an [[emitter]]");
     else if (setup.initial.count() == 0 && context.problems.empty())
         context.problems.add({}, "there is nothing to simulate: the bodies have no particles");
 }
 
-/// Frames and pictures have to be possible to hold.
+/// Checks the number of frames and the size of a picture against the limits.
 void checkSize(Sections& sections, BuildContext& context) {
     Section& top = sections.top;
     if (top.has("duration") && top.has("fps")) {
@@ -131,21 +130,20 @@ std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
     std::vector<EffectiveValue> values;
     for (const Section* section : sections.all()) {
         for (const Key* key : keysOf(section->table().name)) {
-            const std::string_view name = nameOf(*key);
+            const std::string_view name = key->name;
             if (!section->has(name)) continue;
-            values.push_back(
-                {section->prefix().empty() ? std::string(name) : fmt::format("{}.{}", section->prefix(), name),
-                 section->canonical(name), std::string(key->unit), section->origin(name)});
+            values.push_back({section->path().empty() ? std::string(name) : fmt::format("{}.{}", section->path(), name),
+                              section->canonical(name), std::string(key->unit), section->origin(name)});
         }
     }
     return values;
 }
 
-/// Equal for scenes that mean the same, however they are written.
+/// The hash that identifies a scene. It is equal for scenes that are equivalent, however they are written.
 std::string hashOf(const std::vector<EffectiveValue>& values, std::uint64_t contentHash) {
     std::uint64_t hash = contentHash;
     for (const EffectiveValue& value : values)
-        hash = engine::fnv1a(fmt::format("{} = {}\n", value.path, value.text), hash);
+        hash = engine::fnv1a(fmt::format("{} = {}\n", value.path, value.toml), hash);
     return engine::hexadecimal(hash);
 }
 
@@ -153,12 +151,13 @@ BuildContext contextOf(const Sections& sections, const std::string& fileName, Pr
     BuildContext context{.problems = problems,
                          .folder = std::filesystem::path(fileName).parent_path().string(),
                          .contentHash = engine::fnv1a({})};
-    // A duration that does not fit is reported; what is built with this one is thrown away.
+    // Without a valid duration the scene is an error, and what is built with the default of the context is discarded.
     if (sections.top.has("duration")) context.duration = sections.top.number("duration");
     context.seed = static_cast<std::uint64_t>(sections.top.integer("seed"));
     return context;
 }
 
+/// Builds all parts of a scene. They are complete only if no problem was recorded.
 void build(Sections& sections, BuildContext& context, Scene& scene) {
     Materials materials = buildMaterials(sections.materials, context);
     scene.setup.world = buildWorld(sections.world, context);
@@ -179,33 +178,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.obstacleLooks = std::move(obstacles.looks);
 }
 
-/// The frame of the animation that is nearest to a time.
-int frameNear(const Scene& scene, double time) {
-    return std::clamp(static_cast<int>(std::lround(time * scene.fps)), 0, frameCount(scene) - 1);
-}
-
 }  // namespace
-
-int frameCount(const Scene& scene) {
-    return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps)));
-}
-
-int stillFrame(const Scene& scene) {
-    return frameNear(scene, scene.stillTime);
-}
-
-std::vector<int> stripFrames(const Scene& scene) {
-    std::vector<int> frames;
-    for (const double time : scene.stripTimes) {
-        const int frame = frameNear(scene, time);
-        if (frames.empty() || frames.back() < frame) frames.push_back(frame);
-    }
-    return frames;
-}
-
-double frameTime(const Scene& scene, int frame) {
-    return static_cast<double>(frame) / scene.fps;
-}
 
 Scene readScene(std::string_view text, const std::string& fileName, const Overrides& overrides, const Limits& limits) {
     ProblemList problems(fileName, overrides);
@@ -213,7 +186,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
     applyOverrides(document.root, overrides, problems);
     Sections sections = readSections(document, problems);
     BuildContext context = contextOf(sections, fileName, problems);
-    context.damaged = document.damaged;
+    context.hasOmissions = document.hasOmissions;
     context.limits = limits;
     Scene scene;
     build(sections, context, scene);
@@ -231,7 +204,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
 }
 
 Scene loadScene(const std::string& path, const Overrides& overrides, const Limits& limits) {
-    return readScene(readFile(path, kLargestSceneFile), path, overrides, limits);
+    return readScene(readFile(path, kMaxSceneFileBytes), path, overrides, limits);
 }
 
 }  // namespace scenes

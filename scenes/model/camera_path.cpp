@@ -1,5 +1,5 @@
-// Monotone piecewise cubics (PCHIP). A natural spline would be smoother still, in its second derivative, but swings
-// past its keys: a camera would dip into the ground or drift away from a place where two keys hold it.
+// Monotone piecewise cubic interpolation (PCHIP). A natural spline would be smoother in its second derivative, but
+// overshoots its keys: a camera would dip into the ground, or drift where two equal keys are meant to hold it still.
 #include "scenes/model/camera_path.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 using engine::Vec3;
 
-/// Everything of a placement that moves.
+/// All the numbers of a placement that are interpolated.
 using Numbers = std::array<double, 11>;
 
 Numbers numbersOf(const CameraPlacement& camera) {
@@ -28,27 +28,27 @@ CameraPlacement placementOf(const Numbers& numbers, render::Projection projectio
             .halfHeight = numbers[10]};
 }
 
-/// Rates of change at a key: zero at the ends of the path, where the camera holds still, and where a number turns
-/// round; else the harmonic mean of the rates on both sides, weighted by how far each reaches. It is at most three
-/// times the smaller of them, which keeps the cubics on both sides monotone.
-Numbers ratesAt(const CameraPath& path, std::size_t key) {
-    Numbers rates{};
-    if (key == 0 || key + 1 == path.keys.size()) return rates;
+/// Derivatives at a key (1/s): zero at the ends of the path, where the camera is at rest, and where a number has an
+/// extremum; otherwise the harmonic mean of the slopes on both sides, weighted by their lengths. It is at most three
+/// times the smaller slope, which keeps the cubics on both sides monotone.
+Numbers slopesAt(const CameraPath& path, std::size_t key) {
+    Numbers slopes{};
+    if (key == 0 || key + 1 == path.keys.size()) return slopes;
     const double before = path.keys[key].time - path.keys[key - 1].time;
     const double after = path.keys[key + 1].time - path.keys[key].time;
     const Numbers from = numbersOf(path.keys[key - 1].placement);
     const Numbers here = numbersOf(path.keys[key].placement);
     const Numbers to = numbersOf(path.keys[key + 1].placement);
-    for (std::size_t k = 0; k < rates.size(); ++k) {
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
         const double left = (here[k] - from[k]) / before;
         const double right = (to[k] - here[k]) / after;
         const double leftWeight = before + 2.0 * after;
         const double rightWeight = after + 2.0 * before;
-        // Compared with zero one by one: the product of two small rates may vanish.
+        // Each slope is compared with zero by itself, because the product of two small slopes may underflow.
         if ((left > 0.0 && right > 0.0) || (left < 0.0 && right < 0.0))
-            rates[k] = (leftWeight + rightWeight) / (leftWeight / left + rightWeight / right);
+            slopes[k] = (leftWeight + rightWeight) / (leftWeight / left + rightWeight / right);
     }
-    return rates;
+    return slopes;
 }
 
 }  // namespace
@@ -63,13 +63,13 @@ CameraPlacement cameraAt(const CameraPath& path, double time) {
     const double u = (time - path.keys[index - 1].time) / length;
     const Numbers from = numbersOf(path.keys[index - 1].placement);
     const Numbers to = numbersOf(next->placement);
-    const Numbers leaving = ratesAt(path, index - 1);
-    const Numbers arriving = ratesAt(path, index);
+    const Numbers slopesFrom = slopesAt(path, index - 1);
+    const Numbers slopesTo = slopesAt(path, index);
     Numbers now{};
-    // Hermite's cubic, written so that a number that does not change stays as it is to the last bit.
+    // The Hermite cubic, written so that a number that does not change keeps its bits.
     for (std::size_t k = 0; k < now.size(); ++k)
         now[k] = from[k] + (to[k] - from[k]) * (u * u * (3.0 - 2.0 * u)) +
-                 length * u * (1.0 - u) * ((1.0 - u) * leaving[k] - u * arriving[k]);
+                 length * u * (1.0 - u) * ((1.0 - u) * slopesFrom[k] - u * slopesTo[k]);
     return placementOf(now, next->placement.projection);
 }
 

@@ -1,17 +1,191 @@
-// Bytes of particles, written and read a byte at a time, so that the machine's own byte order does not matter.
+// Writes and reads PLY bytes one at a time, so that the byte order of the machine does not matter. The reader is
+// strict: whatever it does not know is an error, because a particle in the wrong place is harder to notice than a
+// message.
 #include "scenes/model/particle_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
 
-#include "scenes/model/ply_header.h"
 #include "scenes/text/input_error.h"
 
 namespace scenes {
 namespace {
+
+enum class PlyType { float32, float64, uint8, uint16, uint32 };
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::float64;
+};
+
+/// What the header says of the rows that follow it.
+struct PlyHeader {
+    std::uint64_t rowCount = 0;
+    std::vector<PlyProperty> properties;  ///< of each row, in order
+    std::size_t size = 0;                 ///< bytes of the header
+
+    bool has(std::string_view name) const {
+        return std::any_of(properties.begin(), properties.end(),
+                           [&](const PlyProperty& property) { return property.name == name; });
+    }
+};
+
+std::size_t byteSizeOf(PlyType type) {
+    switch (type) {
+        case PlyType::uint8:
+            return 1;
+        case PlyType::uint16:
+            return 2;
+        case PlyType::float32:
+        case PlyType::uint32:
+            return 4;
+        case PlyType::float64:
+            break;
+    }
+    return 8;
+}
+
+/// Chosen: ten times the longest header that is written or understood here.
+constexpr std::size_t kMaxHeaderBytes = 65536;
+
+const std::vector<std::pair<std::string_view, PlyType>> kTypes = {
+    {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
+    {"float64", PlyType::float64}, {"uchar", PlyType::uint8},     {"uint8", PlyType::uint8},
+    {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"uint", PlyType::uint32},
+    {"uint32", PlyType::uint32}};
+
+const std::vector<std::string_view> kRealProperties = {"x", "y", "z", "vx", "vy", "vz", "radius", "mass"};
+const std::vector<std::string_view> kIndexProperties = {"material", "id"};
+
+bool contains(const std::vector<std::string_view>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The state of reading a header.
+struct HeaderReader {
+    std::string_view bytes;
+    const std::string& fileName;
+    PlyHeader header = {};
+    int line = 0;
+    bool hasFormat = false;
+    bool hasElement = false;
+};
+
+[[noreturn]] void fail(const HeaderReader& reader, const std::string& message) {
+    throw InputError({{reader.fileName, reader.line, reader.line > 0 ? 1 : 0, message}});
+}
+
+std::string nextLine(HeaderReader& reader) {
+    ++reader.line;
+    const std::string_view rest = reader.bytes.substr(reader.header.size);
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos || reader.header.size + end > kMaxHeaderBytes)
+        fail(reader, "the header has no end_header");
+    reader.header.size += end + 1;
+    std::string line(rest.substr(0, end));
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return line;
+}
+
+std::vector<std::string> wordsOf(const std::string& line) {
+    std::vector<std::string> words;
+    for (std::size_t at = line.find_first_not_of(' '); at != std::string::npos; at = line.find_first_not_of(' ', at)) {
+        const std::size_t end = std::min(line.find(' ', at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = end;
+    }
+    return words;
+}
+
+void readElement(HeaderReader& reader, const std::vector<std::string>& words) {
+    if (words.size() != 3 || words[1] != "vertex" || reader.hasElement)
+        fail(reader, "must have the one element \"vertex\" and its count");
+    const std::string& digits = words[2];
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), reader.header.rowCount);
+    if (result.ec != std::errc{} || result.ptr != digits.data() + digits.size())
+        fail(reader, fmt::format("the count of vertices is \"{}\", must be a whole number", digits));
+    reader.hasElement = true;
+}
+
+void readProperty(HeaderReader& reader, const std::vector<std::string>& words) {
+    if (!reader.hasElement) fail(reader, "property before its element");
+    if (words.size() != 3) fail(reader, "a property must be a type and a name; lists are not supported");
+    const auto type =
+        std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& known) { return known.first == words[1]; });
+    const std::string& name = words[2];
+    if (!contains(kRealProperties, name) && !contains(kIndexProperties, name))
+        fail(reader, fmt::format("unknown property \"{}\" (known: {}, {})", name, fmt::join(kRealProperties, ", "),
+                                 fmt::join(kIndexProperties, ", ")));
+    if (reader.header.has(name)) fail(reader, fmt::format("property \"{}\" is given twice", name));
+    const bool isReal = type != kTypes.end() && (type->second == PlyType::float32 || type->second == PlyType::float64);
+    if (type == kTypes.end() || isReal != contains(kRealProperties, name))
+        fail(reader, fmt::format("property \"{}\" has type {}, must be {}", name, words[1],
+                                 contains(kRealProperties, name) ? "float or double" : "uchar, ushort or uint"));
+    reader.header.properties.push_back({name, type->second});
+}
+
+void readStatement(HeaderReader& reader, const std::vector<std::string>& words) {
+    if (words[0] == "format") {
+        if (words != std::vector<std::string>{"format", "binary_little_endian", "1.0"})
+            fail(reader, "the format must be \"binary_little_endian 1.0\"");
+        reader.hasFormat = true;
+    } else if (words[0] == "element") {
+        readElement(reader, words);
+    } else if (words[0] == "property") {
+        readProperty(reader, words);
+    } else if (words[0] != "comment" && words[0] != "obj_info") {
+        fail(reader, fmt::format("unknown header line \"{}\"", words[0].substr(0, 40)));
+    }
+}
+
+void checkComplete(HeaderReader& reader) {
+    reader.line = 0;
+    const PlyHeader& header = reader.header;
+    if (!reader.hasFormat) fail(reader, "the header has no format line");
+    if (!reader.hasElement) fail(reader, "the header has no element \"vertex\"");
+    for (const char* name : {"x", "y", "z"})
+        if (!header.has(name)) fail(reader, fmt::format("property \"{}\" is missing", name));
+    if (header.has("vx") != header.has("vy") || header.has("vx") != header.has("vz"))
+        fail(reader, "velocities need all of vx, vy and vz");
+}
+
+/// Checks that the rows fill the file exactly. Divides rather than multiplies, so that no row count overflows.
+void checkLength(HeaderReader& reader) {
+    std::size_t stride = 0;
+    for (const PlyProperty& property : reader.header.properties) stride += byteSizeOf(property.type);
+    const std::size_t rest = reader.bytes.size() - reader.header.size;
+    if (reader.header.rowCount > rest / stride)
+        fail(reader, fmt::format("truncated: {} particles of {} bytes are announced, {} bytes follow",
+                                 reader.header.rowCount, stride, rest));
+    if (rest != reader.header.rowCount * stride)
+        fail(reader, fmt::format("{} bytes follow the last particle", rest - reader.header.rowCount * stride));
+}
+
+/// Reads the header of a file whose rows fill the rest of the bytes exactly.
+PlyHeader readPlyHeader(std::string_view bytes, const std::string& fileName) {
+    HeaderReader reader{bytes, fileName};
+    if (bytes.substr(0, 3) != "ply" || nextLine(reader) != "ply") {
+        reader.line = 0;
+        fail(reader, "is not a PLY file");
+    }
+    while (true) {
+        const std::vector<std::string> words = wordsOf(nextLine(reader));
+        if (words.empty()) continue;
+        if (words[0] == "end_header") break;
+        readStatement(reader, words);
+    }
+    checkComplete(reader);
+    checkLength(reader);
+    return reader.header;
+}
 
 void putBytes(std::string& bytes, std::uint64_t bits, std::size_t count) {
     for (std::size_t byte = 0; byte < count; ++byte)
@@ -34,14 +208,14 @@ std::uint64_t bitsAt(std::string_view bytes, std::size_t at, std::size_t count) 
 }
 
 double numberAt(std::string_view bytes, std::size_t at, PlyType type) {
-    const std::size_t size = sizeOf(type);
+    const std::size_t size = byteSizeOf(type);
     const std::uint64_t bits = bitsAt(bytes, at, size);
     if (type == PlyType::float64) return std::bit_cast<double>(bits);
     if (type == PlyType::float32) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
     return static_cast<double>(bits);
 }
 
-/// The property "id" is not among them: ids follow the order of the rows.
+/// Stores one value of a row. The property "id" is ignored: ids follow the order of the rows.
 void setProperty(engine::NewParticle& particle, const std::string& name, double value) {
     if (name == "x" || name == "y" || name == "z")
         particle.position[name[0] - 'x'] = value;
@@ -55,8 +229,8 @@ void setProperty(engine::NewParticle& particle, const std::string& name, double 
         particle.material = static_cast<std::uint32_t>(value);
 }
 
-/// Empty if a value is possible.
-std::string whatIsWrong(const std::string& name, double value) {
+/// What a value would have to be; empty if it is valid.
+std::string violatedRule(const std::string& name, double value) {
     if (!std::isfinite(value)) return "must be finite";
     if ((name == "radius" || name == "mass") && !(value > 0.0)) return "must be > 0";
     return {};
@@ -89,15 +263,15 @@ ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName
     file.hasMass = header.has("mass");
     file.hasMaterial = header.has("material");
     std::size_t at = header.size;
-    for (std::uint64_t index = 0; index < header.count; ++index) {
+    for (std::uint64_t index = 0; index < header.rowCount; ++index) {
         engine::NewParticle particle;
         particle.radius = particle.mass = 0.0;
         for (const PlyProperty& property : header.properties) {
             const double value = numberAt(bytes, at, property.type);
-            at += sizeOf(property.type);
-            if (const std::string wrong = whatIsWrong(property.name, value); !wrong.empty())
+            at += byteSizeOf(property.type);
+            if (const std::string rule = violatedRule(property.name, value); !rule.empty())
                 throw InputError(
-                    {{fileName, 0, 0, fmt::format("particle {}: {} is {}, {}", index, property.name, value, wrong)}});
+                    {{fileName, 0, 0, fmt::format("particle {}: {} is {}, {}", index, property.name, value, rule)}});
             setProperty(particle, property.name, value);
         }
         append(file.particles, particle);

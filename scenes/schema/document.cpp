@@ -1,5 +1,6 @@
-// toml++ stops at the first syntax error. So: record it, mend or leave out the statement it is in, and parse again.
-// Lines keep their numbers, so later problems are reported where they stand.
+// Parses TOML with toml++, which stops at the first syntax error. To report every error of a file at once, an error is
+// recorded, the statement that it is in is repaired or left out, and the text is parsed again. Lines keep their
+// numbers, so that later problems are reported at their positions.
 #include "scenes/schema/document.h"
 
 #include <fmt/format.h>
@@ -9,80 +10,81 @@
 #include <utility>
 
 #include "scenes/schema/schema.h"
-#include "scenes/text/statements.h"
+#include "scenes/text/toml_statements.h"
 
 namespace scenes {
 namespace {
 
-/// Bounds the time spent on a file that is no scene at all; a statement is mended at most twice.
-constexpr int kMostParses = 200;
+/// Chosen: bounds the time spent on a file that is not a scene at all. A statement is repaired at most twice.
+constexpr int kMaxParses = 200;
 
-/// Parts of a key, and tables within tables: as many as the parser takes of values within values.
-constexpr int kDeepest = 256;
+/// Largest number of parts of a dotted key, and depth of nested tables: as deep as toml++ allows nested values.
+constexpr int kMaxDepth = 256;
 
-/// Stands in for a value that could not be read.
-constexpr std::string_view kBroken =
+/// Takes the place of a value that could not be parsed. No scene contains the control character.
+constexpr std::string_view kInvalidMarker =
     "\x7F"
-    "broken";
+    "invalid";
 
-Position positionOf(const toml::source_region& region) {
+SourcePosition positionOf(const toml::source_region& region) {
     return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-bool isBefore(const Position& a, const Position& b) {
+bool isBefore(const SourcePosition& a, const SourcePosition& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
 }
 
 Value valueOf(const toml::node& node, int depth);
 
-/// None beyond the deepest: no key of a scene is there, so that its beginning is reported as unknown.
+/// The entries of a table in the order written; none below kMaxDepth. No key of a scene is that deep, so that the key
+/// at the top of such nesting is reported as unknown.
 std::vector<Entry> entriesOf(const toml::table& table, int depth = 0) {
     std::vector<Entry> entries;
-    if (depth > kDeepest) return entries;
+    if (depth > kMaxDepth) return entries;
     for (auto&& [key, node] : table)
         entries.push_back({std::string(key.str()), positionOf(key.source()), valueOf(node, depth + 1)});
     std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return isBefore(a.at, b.at); });
+                     [](const Entry& a, const Entry& b) { return isBefore(a.position, b.position); });
     return entries;
 }
 
 Value valueOf(const toml::node& node, int depth = 0) {
     Value value;
-    value.at = positionOf(node.source());
+    value.position = positionOf(node.source());
     if (const auto* table = node.as_table()) {
-        value.kind = Kind::table;
+        value.kind = ValueKind::table;
         value.entries = entriesOf(*table, depth);
     } else if (const auto* array = node.as_array()) {
-        value.kind = Kind::array;
+        value.kind = ValueKind::array;
         for (const toml::node& item : *array) value.items.push_back(valueOf(item, depth + 1));
     } else if (const auto* text = node.as_string()) {
-        value.text = text->get();
-        value.kind = value.text == kBroken ? Kind::broken : Kind::text;
+        value.string = text->get();
+        value.kind = value.string == kInvalidMarker ? ValueKind::invalid : ValueKind::string;
     } else if (const auto* integer = node.as_integer()) {
-        value.kind = Kind::integer;
+        value.kind = ValueKind::integer;
         value.integer = integer->get();
-        value.real = static_cast<double>(value.integer);
+        value.number = static_cast<double>(value.integer);
     } else if (const auto* real = node.as_floating_point()) {
-        value.kind = Kind::real;
-        value.real = real->get();
+        value.kind = ValueKind::floatingPoint;
+        value.number = real->get();
     } else if (const auto* boolean = node.as_boolean()) {
-        value.kind = Kind::boolean;
+        value.kind = ValueKind::boolean;
         value.boolean = boolean->get();
     } else {
-        value.kind = Kind::date;
+        value.kind = ValueKind::dateTime;
     }
     return value;
 }
 
-/// A text under repair.
-struct Repair {
+/// A text that is being repaired.
+struct RepairableText {
     std::vector<std::string> lines;
     std::vector<Statement> statements;
-    std::vector<int> attempts;  ///< at each statement
-    bool damaged = false;
+    std::vector<int> repairCounts;  ///< how often each statement was repaired
+    bool hasOmissions = false;
 
-    explicit Repair(std::string_view text)
-        : lines(splitLines(text)), statements(splitStatements(lines)), attempts(statements.size(), 0) {}
+    explicit RepairableText(std::string_view text)
+        : lines(splitLines(text)), statements(splitStatements(lines)), repairCounts(statements.size(), 0) {}
 
     std::string text() const {
         std::string joined;
@@ -91,131 +93,132 @@ struct Repair {
     }
 };
 
-void blank(Repair& repair, std::size_t firstLine, std::size_t lastLine) {
-    for (std::size_t line = firstLine; line <= lastLine; ++line) repair.lines[line].clear();
+void blank(RepairableText& source, std::size_t firstLine, std::size_t lastLine) {
+    for (std::size_t line = firstLine; line <= lastLine; ++line) source.lines[line].clear();
 }
 
-/// The statement an error on a line (from 1) is in. An unclosed value runs into its successor, where the parser notices
-/// it.
-std::size_t culprit(const Repair& repair, std::size_t line) {
+/// Index of the statement that caused a parse error on a line (from 1). The parser notices an unclosed value only in
+/// the statement after it.
+std::size_t statementAt(const RepairableText& source, std::size_t line) {
     std::size_t index = 0;
-    while (index + 1 < repair.statements.size() && repair.statements[index + 1].firstLine + 1 <= line) ++index;
-    const bool runsOn = index > 0 && !repair.statements[index - 1].closed && repair.attempts[index - 1] == 0;
+    while (index + 1 < source.statements.size() && source.statements[index + 1].firstLine + 1 <= line) ++index;
+    const bool runsOn = index > 0 && !source.statements[index - 1].isClosed && source.repairCounts[index - 1] == 0;
     return runsOn ? index - 1 : index;
 }
 
 /// The last line of the section that a header opens.
-std::size_t sectionEnd(const Repair& repair, std::size_t header) {
-    for (std::size_t next = header + 1; next < repair.statements.size(); ++next)
-        if (repair.statements[next].form == Form::header) return repair.statements[next].firstLine - 1;
-    return repair.lines.size() - 1;
+std::size_t sectionEnd(const RepairableText& source, std::size_t header) {
+    for (std::size_t next = header + 1; next < source.statements.size(); ++next)
+        if (source.statements[next].kind == StatementKind::tableHeader) return source.statements[next].firstLine - 1;
+    return source.lines.size() - 1;
 }
 
-/// Index of the statement that a duplicate repeats; its own index if it cannot be told.
-std::size_t original(const Repair& repair, std::size_t index) {
-    const Statement& statement = repair.statements[index];
+/// Index of the statement that a duplicate repeats; its own index if none is found.
+std::size_t firstDefinition(const RepairableText& source, std::size_t index) {
+    const Statement& statement = source.statements[index];
     for (std::size_t earlier = index; earlier-- > 0;) {
-        const Statement& candidate = repair.statements[earlier];
-        if (statement.form == Form::pair && candidate.form == Form::header) break;
-        if (candidate.form == statement.form && candidate.name == statement.name) return earlier;
+        const Statement& candidate = source.statements[earlier];
+        if (statement.kind == StatementKind::keyValue && candidate.kind == StatementKind::tableHeader) break;
+        if (candidate.kind == statement.kind && candidate.name == statement.name) return earlier;
     }
     return index;
 }
 
-std::string duplicateMessage(const Repair& repair, std::size_t index) {
-    const Statement& statement = repair.statements[index];
-    const std::size_t first = original(repair, index);
-    std::string message =
-        fmt::format("{} \"{}\" is given twice", statement.form == Form::header ? "table" : "key", statement.name);
-    if (first != index) message += fmt::format(", first in line {}", repair.statements[first].firstLine + 1);
+std::string duplicateMessage(const RepairableText& source, std::size_t index) {
+    const Statement& statement = source.statements[index];
+    const std::size_t first = firstDefinition(source, index);
+    std::string message = fmt::format("{} \"{}\" is given twice",
+                                      statement.kind == StatementKind::tableHeader ? "table" : "key", statement.name);
+    if (first != index) message += fmt::format(", first in line {}", source.statements[first].firstLine + 1);
     const TableInfo* table = findTable(statement.name);
-    if (statement.form == Form::header && table != nullptr && table->list)
+    if (statement.kind == StatementKind::tableHeader && table != nullptr && table->allowsList)
         message += fmt::format(" (several of them are written [[{}]])", statement.name);
     return message;
 }
 
-/// The parser's words without their preamble.
-std::string plainWords(std::string_view description) {
+/// The description of a parse error without its preamble.
+std::string parserMessage(std::string_view description) {
     for (const std::string_view preamble : {"Error while parsing ", "Encountered "})
         if (description.substr(0, preamble.size()) == preamble) description.remove_prefix(preamble.size());
     return "syntax error: " + std::string(description);
 }
 
-/// Whether a statement repeats an earlier one; not whether there is a repetition within its value.
-bool isDuplicate(const Repair& repair, std::size_t index, const toml::parse_error& error) {
+/// Whether a statement repeats an earlier one. A key that is repeated within an inline table does not count.
+bool isDuplicate(const RepairableText& source, std::size_t index, const toml::parse_error& error) {
     if (error.description().find("cannot redefine") == std::string_view::npos) return false;
-    return repair.statements[index].form == Form::header || original(repair, index) != index;
+    return source.statements[index].kind == StatementKind::tableHeader || firstDefinition(source, index) != index;
 }
 
-void report(const Repair& repair, std::size_t index, const toml::parse_error& error, ProblemList& problems) {
-    const Statement& statement = repair.statements[index];
-    const Position start{static_cast<int>(statement.firstLine) + 1, statement.column};
-    if (isDuplicate(repair, index, error))
-        problems.add(start, duplicateMessage(repair, index));
-    else if (!statement.closed)
+void report(const RepairableText& source, std::size_t index, const toml::parse_error& error, ProblemList& problems) {
+    const Statement& statement = source.statements[index];
+    const SourcePosition start{static_cast<int>(statement.firstLine) + 1, statement.column};
+    if (isDuplicate(source, index, error))
+        problems.add(start, duplicateMessage(source, index));
+    else if (!statement.isClosed)
         problems.add(start, fmt::format("the value of \"{}\" is never closed", statement.name));
     else
-        problems.add(positionOf(error.source()), plainWords(error.description()));
+        problems.add(positionOf(error.source()), parserMessage(error.description()));
 }
 
-/// A header in the form that its table has; a repeated or nameless one is left out with its whole section, so that its
-/// keys are not mistaken for those of the section before.
-void mendHeader(Repair& repair, std::size_t index, bool duplicate) {
-    const Statement& statement = repair.statements[index];
+/// Rewrites a header in the form that the schema gives its table. A duplicate, or one whose name cannot be read, is
+/// left out with all keys below it, so that these are not mistaken for keys of the table before.
+void repairHeader(RepairableText& source, std::size_t index, bool duplicate) {
+    const Statement& statement = source.statements[index];
     const TableInfo* table = findTable(statement.name);
-    if (table == nullptr || duplicate || repair.attempts[index] > 1) {
-        blank(repair, statement.firstLine, sectionEnd(repair, index));
-        repair.damaged = repair.damaged || !duplicate;
+    if (table == nullptr || duplicate || source.repairCounts[index] > 1) {
+        blank(source, statement.firstLine, sectionEnd(source, index));
+        source.hasOmissions = source.hasOmissions || !duplicate;
         return;
     }
-    const bool doubled = table->list && (statement.doubleBracket || !table->single);
-    repair.lines[statement.firstLine] =
-        doubled ? fmt::format("[[{}]]", statement.name) : fmt::format("[{}]", statement.name);
+    const bool isList = table->allowsList && (statement.hasDoubleBrackets || !table->allowsSingle);
+    source.lines[statement.firstLine] =
+        isList ? fmt::format("[[{}]]", statement.name) : fmt::format("[{}]", statement.name);
 }
 
-void mend(Repair& repair, std::size_t index, bool duplicate) {
-    const Statement& statement = repair.statements[index];
-    const bool again = repair.attempts[index]++ > 0;
-    if (statement.form == Form::header) return mendHeader(repair, index, duplicate);
-    blank(repair, statement.firstLine, statement.lastLine);
-    if (statement.form == Form::pair && !duplicate && !again)
-        repair.lines[statement.firstLine] = fmt::format("{} = \"\\u007F{}\"", statement.name, kBroken.substr(1));
+/// Replaces a value that cannot be parsed by a marker. A duplicate, or a statement that is still in error, is left out.
+void repair(RepairableText& source, std::size_t index, bool duplicate) {
+    const Statement& statement = source.statements[index];
+    const bool wasRepaired = source.repairCounts[index]++ > 0;
+    if (statement.kind == StatementKind::tableHeader) return repairHeader(source, index, duplicate);
+    blank(source, statement.firstLine, statement.lastLine);
+    if (statement.kind == StatementKind::keyValue && !duplicate && !wasRepaired)
+        source.lines[statement.firstLine] = fmt::format("{} = \"\\u007F{}\"", statement.name, kInvalidMarker.substr(1));
     else if (!duplicate)
-        repair.damaged = true;
+        source.hasOmissions = true;
 }
 
-/// The parser has no limit for the parts of a key, but the stack has one.
-void leaveOutDeepKeys(Repair& repair, ProblemList& problems) {
-    for (const Statement& statement : repair.statements) {
-        if (std::ranges::count(statement.name, '.') < kDeepest) continue;
+/// Leaves out keys of so many parts that the parser, which has no limit for them, would overflow the stack.
+void removeDeepKeys(RepairableText& source, ProblemList& problems) {
+    for (const Statement& statement : source.statements) {
+        if (std::ranges::count(statement.name, '.') < kMaxDepth) continue;
         problems.add({static_cast<int>(statement.firstLine) + 1, statement.column},
-                     fmt::format("a key of more than {} parts", kDeepest));
-        blank(repair, statement.firstLine, statement.lastLine);
-        repair.damaged = true;
+                     fmt::format("the key has more than {} parts", kMaxDepth));
+        blank(source, statement.firstLine, statement.lastLine);
+        source.hasOmissions = true;
     }
 }
 
 }  // namespace
 
 Document parseDocument(std::string_view text, ProblemList& problems) {
-    Repair repair(text);
-    leaveOutDeepKeys(repair, problems);
-    for (int parse = 0; parse < kMostParses; ++parse) {
+    RepairableText source(text);
+    removeDeepKeys(source, problems);
+    for (int parse = 0; parse < kMaxParses; ++parse) {
         try {
-            const toml::table root = toml::parse(repair.text());
+            const toml::table root = toml::parse(source.text());
             Document document;
             document.root.entries = entriesOf(root);
-            document.damaged = repair.damaged;
+            document.hasOmissions = source.hasOmissions;
             return document;
         } catch (const toml::parse_error& error) {
-            if (repair.statements.empty()) {
-                problems.add(positionOf(error.source()), plainWords(error.description()));
+            if (source.statements.empty()) {
+                problems.add(positionOf(error.source()), parserMessage(error.description()));
                 break;
             }
-            const std::size_t index = culprit(repair, error.source().begin.line);
-            if (repair.attempts[index] == 0) report(repair, index, error, problems);
-            if (repair.attempts[index] > 1) break;
-            mend(repair, index, isDuplicate(repair, index, error));
+            const std::size_t index = statementAt(source, error.source().begin.line);
+            if (source.repairCounts[index] == 0) report(source, index, error, problems);
+            if (source.repairCounts[index] > 1) break;
+            repair(source, index, isDuplicate(source, index, error));
         }
     }
     problems.throwIfAny();
@@ -224,19 +227,19 @@ Document parseDocument(std::string_view text, ProblemList& problems) {
 
 Value parseOverrideValue(const std::string& text, int overrideIndex) {
     Value value;
-    value.kind = Kind::text;
-    value.text = text;
+    value.kind = ValueKind::string;
+    value.string = text;
     try {
         const toml::table parsed = toml::parse("v = " + text);
         if (const toml::node* node = parsed.get("v"); node != nullptr && parsed.size() == 1) value = valueOf(*node);
     } catch (const toml::parse_error&) {
-        // A bare word.
+        // It is an unquoted string.
     }
     const auto relocate = [&](const auto& self, Value& part) -> void {
-        part.at = {0, 0, overrideIndex};
+        part.position = {0, 0, overrideIndex};
         for (Value& item : part.items) self(self, item);
         for (Entry& entry : part.entries) {
-            entry.at = part.at;
+            entry.position = part.position;
             self(self, entry.value);
         }
     };

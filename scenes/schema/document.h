@@ -1,26 +1,29 @@
-// Scene text to located values, with every syntax error of the text found. Called by the scene reader and by the
-// overrides.
+// Parses the text of a scene into TOML values, with every syntax error of the text found, and applies overrides.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
-#include "scenes/text/located.h"
 #include "scenes/text/problem_list.h"
+#include "scenes/text/value.h"
 
 namespace scenes {
 
 struct Document {
-    Value root;            ///< a table
-    bool damaged = false;  ///< statements were left out, so a missing key may be one of them
+    Value root;                 ///< a table
+    bool hasOmissions = false;  ///< statements had to be left out, so a key that is missing may be in one of them
 };
 
-/// The values of a TOML text. Syntax errors and duplicate keys are recorded, one for each statement, and the statement
-/// is left out: its key reads as Kind::broken.
+/// Parses a TOML text. Syntax errors and duplicate keys are recorded, one for each statement, and the statement is left
+/// out: its key gets a value of kind ValueKind::invalid.
 Document parseDocument(std::string_view text, ProblemList& problems);
 
-/// A value written by an override, in TOML; anything that is no TOML value is taken as a string.
+/// Parses the value of an override. Text that is not a TOML value is taken as a string, so that
+/// physics.stepper=symplectic-euler needs no quotes.
 Value parseOverrideValue(const std::string& text, int overrideIndex);
+
+/// Writes each override into the scene's root table, before the scene is validated, so that overrides go through the
+/// same checks as the file. Keys are written title, physics.step, body[0].radius or body.0.radius.
+void applyOverrides(Value& root, const Overrides& overrides, ProblemList& problems);
 
 }  // namespace scenes

@@ -1,115 +1,277 @@
-// Tables of a scene file, found by name. What is inside a table is read_table.cpp's business.
+// Finds the tables of a scene by name, and reads each in three passes: the keys that are written, then defaults, then
+// what is missing.
 #include "scenes/schema/read_sections.h"
 
 #include <fmt/format.h>
 
-#include "scenes/schema/read_table.h"
+#include <algorithm>
+#include <map>
+
 #include "scenes/text/edit_distance.h"
 
 namespace scenes {
 namespace {
 
-struct Reader {
-    const Document& document;
-    ProblemList& problems;
-    bool doubtful = false;
+/// What a table is read from.
+struct TableSource {
+    const TableInfo& info;
+    std::string path;                   ///< "body[0]"
+    const Value& value;                 ///< a table; an empty one if the scene has none
+    bool hasOmissions = false;          ///< part of the file could not be read: missing keys are not reported
+    const Section* previous = nullptr;  ///< the item before this one, where the table inherits from it
 };
 
-Section readOne(const Reader& reader, const TableInfo& info, std::string prefix, const Value& value,
-                const Section* before = nullptr) {
-    return readTable({info, std::move(prefix), value, reader.document.damaged, before}, reader.problems);
+/// The constant default of a key; nullptr if it has none. Defaults are validated like any value, and a row of the
+/// schema whose default violates its own range is a bug, which throws.
+const TypedValue* defaultOf(const Key& key) {
+    static const std::map<const Key*, TypedValue> kDefaults = [] {
+        std::map<const Key*, TypedValue> defaults;
+        ProblemList problems("schema", {});
+        for (const Key& row : schema()) {
+            if (row.defaultValue.empty()) continue;
+            if (auto typed = validateValue(row, parseOverrideValue(std::string(row.defaultValue), -1), problems))
+                defaults.emplace(&row, std::move(*typed));
+        }
+        problems.throwIfAny();
+        return defaults;
+    }();
+    const auto found = kDefaults.find(&key);
+    return found == kDefaults.end() ? nullptr : &found->second;
 }
 
-Section absent(const Reader& reader, const TableInfo& info) {
+/// The state of reading one table.
+struct TableReader {
+    const TableSource& source;
+    ProblemList& problems;
+    Section section;
+    std::string variant = {};  ///< value of the table's discriminator key; empty if unknown
+    SourcePosition variantPosition = {};
+};
+
+std::string fullName(const TableInfo& info, std::string_view key) {
+    return info.name.empty() ? std::string(key) : fmt::format("{}.{}", info.name, key);
+}
+
+/// Whether a value is a table or a list of tables.
+bool isTableOrList(const Value& value) {
+    return value.kind == ValueKind::table ||
+           (value.kind == ValueKind::array && !value.items.empty() && value.items[0].kind == ValueKind::table);
+}
+
+/// The path of a key of this name in any table; empty if there is none.
+std::string pathInAnyTable(std::string_view name) {
+    for (const Key& key : schema())
+        if (key.name == name) return pathOf(key);
+    return {};
+}
+
+void reportUnknown(TableReader& reader, const Entry& entry) {
+    const TableInfo& info = reader.source.info;
+    std::vector<std::string> names;
+    for (const Key* key : keysOf(info.name)) names.emplace_back(key->name);
+    std::string hint = nearestName(entry.key, names);
+    if (!hint.empty()) {
+        // The suggested key is what was meant, so it is not reported as missing, too.
+        reader.section.putInvalid(hint, entry.position);
+        hint = fmt::format(", did you mean {}?", tomlString(hint));
+    } else if (const std::string path = pathInAnyTable(entry.key); !path.empty()) {
+        hint = path == entry.key ? ": it belongs above the first table"
+                                 : fmt::format(", did you mean {}?", tomlString(path));
+    }
+    reader.problems.add(entry.position, fmt::format("unknown key {}{}", tomlString(fullName(info, entry.key)), hint));
+    reader.section.markInvalid();
+}
+
+/// The value that a key takes from the previous item of the list, where the table inherits; nullptr if none. A key
+/// without a constant default, such as the time of a camera, is not inherited.
+const TypedValue* inheritedBy(const TableReader& reader, const Key& key) {
+    const Section* previous = reader.source.previous;
+    const std::string_view name = key.name;
+    return previous != nullptr && !key.defaultValue.empty() && previous->has(name) ? &previous->typed(name) : nullptr;
+}
+
+bool applies(const TableReader& reader, const Key& key) {
+    return key.appliesTo.empty() ||
+           std::find(key.appliesTo.begin(), key.appliesTo.end(), reader.variant) != key.appliesTo.end();
+}
+
+void reportInapplicable(TableReader& reader, const Entry& entry, const Key& key) {
+    // Where an override changes the shape, the file's keys of the former shape are ignored.
+    if (reader.variantPosition.overrideIndex >= 0 && entry.position.overrideIndex < 0) return;
+    reader.problems.add(entry.position, fmt::format("{} does not apply to {} {}, only to {}", entry.key,
+                                                    reader.source.info.discriminator, tomlString(reader.variant),
+                                                    fmt::join(key.appliesTo, ", ")));
+    reader.section.markInvalid();
+}
+
+void readEntry(TableReader& reader, const Entry& entry) {
+    const Key* key = findKey(reader.source.info.name, entry.key);
+    if (key == nullptr) return reportUnknown(reader, entry);
+    if (!reader.variant.empty() && !applies(reader, *key)) return reportInapplicable(reader, entry, *key);
+    if (auto typed = validateValue(*key, entry.value, reader.problems))
+        reader.section.put(entry.key, std::move(*typed), entry.value.position, ValueOrigin::given);
+    else
+        reader.section.putInvalid(entry.key, entry.value.position);
+}
+
+/// Finds the value of the table's discriminator key, on which it depends which other keys apply. Problems of the
+/// discriminator itself are reported by readEntry.
+void findVariant(TableReader& reader) {
+    const std::string_view name = reader.source.info.discriminator;
+    if (name.empty()) return;
+    const Key& key = *findKey(reader.source.info.name, name);
+    ProblemList ignored("", {});
+    if (const Entry* entry = findEntry(reader.source.value, name)) {
+        reader.variantPosition = entry->position;
+        if (const auto typed = validateValue(key, entry->value, ignored)) reader.variant = typed->string;
+    } else if (const TypedValue* inherited = inheritedBy(reader, key)) {
+        reader.variant = inherited->string;
+    } else if (const TypedValue* constant = defaultOf(key)) {
+        reader.variant = constant->string;
+    }
+}
+
+void reportMissing(TableReader& reader, const Key& key) {
+    reader.section.markInvalid();
+    if (!reader.source.hasOmissions) reader.problems.add(reader.section.position(), missingText(reader.section, key));
+}
+
+void completeKey(TableReader& reader, const Key& key) {
+    const std::string_view name = key.name;
+    if (reader.section.has(name) || !applies(reader, key)) return;
+    if (const TypedValue* inherited = inheritedBy(reader, key))
+        reader.section.put(name, *inherited, reader.section.position(), ValueOrigin::derived);
+    else if (const TypedValue* constant = defaultOf(key))
+        reader.section.put(name, *constant, reader.section.position(), ValueOrigin::schemaDefault);
+    else if (key.isRequired && !reader.section.isGiven(name))
+        reportMissing(reader, key);
+}
+
+/// The validated table, with inherited values and the schema's defaults.
+Section readTable(const TableSource& source, ProblemList& problems) {
+    TableReader reader{source, problems, Section(source.info, source.path, source.value.position)};
+    findVariant(reader);
+    for (const Entry& entry : source.value.entries) {
+        // The tables of a scene are entries of its root, too; readSections reads them.
+        const bool isTop = source.info.name.empty();
+        const bool isTable = isTableOrList(entry.value);
+        if (isTop && (isTableName(entry.key) || (isTable && findKey("", entry.key) == nullptr))) continue;
+        readEntry(reader, entry);
+    }
+    for (const Key* key : keysOf(source.info.name)) completeKey(reader, *key);
+    return std::move(reader.section);
+}
+
+/// The state of reading all tables.
+struct SectionsReader {
+    const Document& document;
+    ProblemList& problems;
+    bool mayBeIncomplete = false;
+};
+
+Section readOne(const SectionsReader& reader, const TableInfo& info, std::string path, const Value& value,
+                const Section* previous = nullptr) {
+    return readTable({info, std::move(path), value, reader.document.hasOmissions, previous}, reader.problems);
+}
+
+/// A table that is not written.
+Section defaultSection(const SectionsReader& reader, const TableInfo& info) {
     return readOne(reader, info, std::string(info.name), Value{});
 }
 
-/// A table that is written once. If it is written as a list its first item is read all the same, to find what is wrong
-/// there.
-Section readSingle(Reader& reader, const char* name) {
+/// A table that is written at most once. If it is written as a list, its first item is read nevertheless, in order to
+/// report the problems in it.
+Section readSingle(SectionsReader& reader, const char* name) {
     const TableInfo& info = *findTable(name);
     const Entry* entry = findEntry(reader.document.root, name);
-    if (entry == nullptr) return absent(reader, info);
-    if (entry->value.kind == Kind::table) return readOne(reader, info, name, entry->value);
-    reader.doubtful = true;
-    if (entry->value.kind == Kind::broken) return absent(reader, info);
-    reader.problems.add(entry->value.at,
+    if (entry == nullptr) return defaultSection(reader, info);
+    if (entry->value.kind == ValueKind::table) return readOne(reader, info, name, entry->value);
+    reader.mayBeIncomplete = true;
+    if (entry->value.kind == ValueKind::invalid) return defaultSection(reader, info);
+    reader.problems.add(entry->value.position,
                         fmt::format("{} is {}, must be one table: [{}]", name, describe(entry->value), name));
-    const bool hasTable =
-        entry->value.kind == Kind::array && !entry->value.items.empty() && entry->value.items[0].kind == Kind::table;
-    return hasTable ? readOne(reader, info, name, entry->value.items[0]) : absent(reader, info);
+    const bool hasTable = entry->value.kind == ValueKind::array && !entry->value.items.empty() &&
+                          entry->value.items[0].kind == ValueKind::table;
+    return hasTable ? readOne(reader, info, name, entry->value.items[0]) : defaultSection(reader, info);
 }
 
-/// A table that a scene may do without.
-std::optional<Section> readOptional(Reader& reader, const char* name) {
+/// A table without defaults.
+std::optional<Section> readOptional(SectionsReader& reader, const char* name) {
     if (findEntry(reader.document.root, name) == nullptr) return std::nullopt;
     return readSingle(reader, name);
 }
 
-void readItems(Reader& reader, const TableInfo& info, const Value& list, std::vector<Section>& sections) {
+void readItems(SectionsReader& reader, const TableInfo& info, const Value& list, std::vector<Section>& sections) {
     for (std::size_t index = 0; index < list.items.size(); ++index) {
         const Value& item = list.items[index];
-        std::string prefix = fmt::format("{}[{}]", info.name, index);
-        if (item.kind == Kind::table) {
-            const Section* before = info.inherits && !sections.empty() ? &sections.back() : nullptr;
-            sections.push_back(readOne(reader, info, std::move(prefix), item, before));
+        std::string path = fmt::format("{}[{}]", info.name, index);
+        if (item.kind == ValueKind::table) {
+            const Section* previous = info.inheritsPrevious && !sections.empty() ? &sections.back() : nullptr;
+            sections.push_back(readOne(reader, info, std::move(path), item, previous));
         } else {
-            reader.doubtful = true;
-            reader.problems.add(item.at, fmt::format("{} is {}, must be a table", prefix, describe(item)));
+            reader.mayBeIncomplete = true;
+            reader.problems.add(item.position, fmt::format("{} is {}, must be a table", path, describe(item)));
         }
     }
 }
 
-std::vector<Section> readList(Reader& reader, const char* name) {
+std::vector<Section> readList(SectionsReader& reader, const char* name) {
     const TableInfo& info = *findTable(name);
     std::vector<Section> sections;
     const Entry* entry = findEntry(reader.document.root, name);
     if (entry == nullptr) return sections;
     const Value& value = entry->value;
-    if (value.kind == Kind::array) {
+    if (value.kind == ValueKind::array) {
         readItems(reader, info, value, sections);
         return sections;
     }
-    if (value.kind != Kind::table || !info.single) {
-        reader.doubtful = true;
-        if (value.kind != Kind::broken)
-            reader.problems.add(value.at,
+    if (value.kind != ValueKind::table || !info.allowsSingle) {
+        reader.mayBeIncomplete = true;
+        if (value.kind != ValueKind::invalid)
+            reader.problems.add(value.position,
                                 fmt::format("{} is {}, must be a list of tables: [[{}]]", name, describe(value), name));
     }
-    if (value.kind == Kind::table) sections.push_back(readOne(reader, info, name, value));
+    if (value.kind == ValueKind::table) sections.push_back(readOne(reader, info, name, value));
     return sections;
 }
 
-void reportUnknownTables(Reader& reader) {
+void reportUnknownTables(SectionsReader& reader) {
     std::vector<std::string> names;
     for (const TableInfo& table : tables()) names.emplace_back(table.name);
     for (const Entry& entry : reader.document.root.entries) {
-        const bool isTable =
-            entry.value.kind == Kind::table ||
-            (entry.value.kind == Kind::array && !entry.value.items.empty() && entry.value.items[0].kind == Kind::table);
-        if (!isTable || isSection(entry.key) || findKey("", entry.key) != nullptr) continue;
-        reader.doubtful = true;
+        const bool isTable = isTableOrList(entry.value);
+        if (!isTable || isTableName(entry.key) || findKey("", entry.key) != nullptr) continue;
+        reader.mayBeIncomplete = true;
         const std::string nearest = nearestName(entry.key, names);
-        // The header itself, not the name in it, is where a table begins.
-        reader.problems.add(entry.value.at,
-                            fmt::format("unknown table {}{}", inQuotes(entry.key),
-                                        nearest.empty() ? "" : fmt::format(", did you mean {}?", inQuotes(nearest))));
+        // The position of the value is that of the table's header.
+        reader.problems.add(entry.value.position,
+                            fmt::format("unknown table {}{}", tomlString(entry.key),
+                                        nearest.empty() ? "" : fmt::format(", did you mean {}?", tomlString(nearest))));
     }
 }
 
 }  // namespace
 
+std::string missingText(const Section& section, const Key& key) {
+    const TableInfo& info = section.table();
+    std::string subject(info.subject);
+    if (!key.appliesTo.empty())
+        subject += fmt::format(" of {} {}", info.discriminator, section.canonical(info.discriminator));
+    const std::string unit = key.unit.empty() ? "" : fmt::format(" ({})", unitWords(key.unit));
+    return fmt::format("{} is missing, {} needs it{}", key.name, subject, unit);
+}
+
 std::vector<const Section*> Sections::all() const {
     std::vector<const Section*> list = {&top, &physics, &world};
-    for (const std::vector<Section>* group : {&materials, &bodies, &emitters, &obstacles, &cameras})
-        for (const Section& section : *group) list.push_back(&section);
+    for (const std::vector<Section>* sections : {&materials, &bodies, &emitters, &obstacles, &cameras})
+        for (const Section& section : *sections) list.push_back(&section);
     for (const Section* section : {&look, &overlay, &still}) list.push_back(section);
     if (study) list.push_back(&*study);
     return list;
 }
 
 Sections readSections(const Document& document, ProblemList& problems) {
-    Reader reader{document, problems, document.damaged};
+    SectionsReader reader{document, problems, document.hasOmissions};
     reportUnknownTables(reader);
     Sections sections{
         .top = readOne(reader, *findTable(""), "", document.root),
@@ -125,10 +287,10 @@ Sections readSections(const Document& document, ProblemList& problems) {
         .cameras = readList(reader, "camera"),
         .study = readOptional(reader, "study"),
     };
-    // Without a [material] everything is made of the first preset.
-    if (sections.materials.empty()) sections.materials.push_back(absent(reader, *findTable("material")));
-    if (sections.cameras.empty()) sections.cameras.push_back(absent(reader, *findTable("camera")));
-    sections.doubtful = reader.doubtful;
+    // A scene without a [material] uses the default preset.
+    if (sections.materials.empty()) sections.materials.push_back(defaultSection(reader, *findTable("material")));
+    if (sections.cameras.empty()) sections.cameras.push_back(defaultSection(reader, *findTable("camera")));
+    sections.mayBeIncomplete = reader.mayBeIncomplete;
     return sections;
 }
 

@@ -1,66 +1,82 @@
-// Look-ups in the schema and the words that messages use for it.
+// The tables of a scene file, look-ups in the schema, and the words that messages use for its types and units.
 #include "scenes/schema/schema.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "scenes/schema/schema_rows.h"
-#include "scenes/text/located.h"
+#include "scenes/schema/keys.h"
+#include "scenes/text/value.h"
 
 namespace scenes {
 
 const std::vector<TableInfo>& tables() {
     static const std::vector<TableInfo> kTables = {
-        {.name = "", .article = "a scene", .help = "keys above the first table"},
-        {.name = "physics", .article = "[physics]", .help = "what acts on every particle, and how time advances"},
-        {.name = "world", .article = "[world]", .help = "bounds beyond which a particle leaves the run, once a frame"},
+        {.name = "", .subject = "a scene", .help = "keys above the first table"},
+        {.name = "physics", .subject = "[physics]", .help = "what acts on every particle, and how time is integrated"},
+        {.name = "world", .subject = "[world]", .help = "bounds beyond which particles are removed, once per frame"},
         {.name = "material",
-         .list = true,
-         .article = "a material",
-         .help = "what particles are made of; [[material]] for several"},
+         .subject = "a material",
+         .help = "what particles are made of; [[material]] for several",
+         .allowsList = true},
         {.name = "body",
-         .single = false,
-         .list = true,
-         .discriminator = "shape",
-         .article = "a body",
-         .help = "particles that are there at the start"},
+         .subject = "a body",
+         .help = "particles that exist from the start",
+         .allowsSingle = false,
+         .allowsList = true,
+         .discriminator = "shape"},
         {.name = "emitter",
-         .single = false,
-         .list = true,
-         .discriminator = "shape",
-         .article = "an emitter",
-         .help = "where particles are born"},
+         .subject = "an emitter",
+         .help = "a source of particles",
+         .allowsSingle = false,
+         .allowsList = true,
+         .discriminator = "shape"},
         {.name = "obstacle",
-         .single = false,
-         .list = true,
-         .discriminator = "shape",
-         .article = "an obstacle",
-         .help = "what particles bounce off"},
+         .subject = "an obstacle",
+         .help = "what particles bounce off",
+         .allowsSingle = false,
+         .allowsList = true,
+         .discriminator = "shape"},
         {.name = "camera",
-         .list = true,
-         .inherits = true,
-         .discriminator = "projection",
-         .article = "a camera on a path",
-         .help = "from where it is seen; [[camera]] for a path, each keeping what it leaves out from the one before"},
-        {.name = "look", .discriminator = "color_by", .article = "[look]", .help = "how it is drawn"},
-        {.name = "overlay", .article = "[overlay]", .help = "what is drawn over the finished picture, for figures"},
-        {.name = "still", .article = "[still]", .help = "the single picture of the scene"},
+         .subject = "a camera on a path",
+         .help = "the point of view; [[camera]] for a path, where each inherits from the one before what it leaves out",
+         .allowsList = true,
+         .inheritsPrevious = true,
+         .discriminator = "projection"},
+        {.name = "look", .subject = "[look]", .help = "how the scene is drawn", .discriminator = "color_by"},
+        {.name = "overlay", .subject = "[overlay]", .help = "text and scales drawn over the picture, for figures"},
+        {.name = "still", .subject = "[still]", .help = "the picture, or strip of pictures, that represents the scene"},
         {.name = "study",
-         .article = "[study]",
-         .help = "a hard case of `globular study stability`: what is measured of it and how far that may go"},
+         .subject = "[study]",
+         .help = "a case of `globular study stability`: what is measured, and the limits that it has to stay within"},
     };
     return kTables;
 }
 
 const std::vector<Key>& schema() {
-    static const std::vector<Key> kRows = [] {
-        std::vector<Key> rows = worldRows();
-        for (const std::vector<Key>& part : {contentRows(), pictureRows(), studyRows()})
-            rows.insert(rows.end(), part.begin(), part.end());
-        return rows;
+    static const std::vector<Key> kKeys = [] {
+        std::vector<Key> all;
+        const auto add = [&](std::string_view table, std::vector<Key> keys) {
+            for (Key& row : keys) {
+                row.table = table;
+                all.push_back(std::move(row));
+            }
+        };
+        add("", topKeys());
+        add("physics", physicsKeys());
+        add("world", worldKeys());
+        add("material", materialKeys());
+        add("body", bodyKeys());
+        add("emitter", emitterKeys());
+        add("obstacle", obstacleKeys());
+        add("camera", cameraKeys());
+        add("look", lookKeys());
+        add("overlay", overlayKeys());
+        add("still", stillKeys());
+        add("study", studyKeys());
+        return all;
     }();
-    return kRows;
+    return kKeys;
 }
 
 const TableInfo* findTable(std::string_view name) {
@@ -71,36 +87,32 @@ const TableInfo* findTable(std::string_view name) {
 
 const Key* findKey(std::string_view table, std::string_view name) {
     for (const Key& key : schema())
-        if (tableOf(key) == table && nameOf(key) == name) return &key;
+        if (key.table == table && key.name == name) return &key;
     return nullptr;
-}
-
-std::string_view tableOf(const Key& key) {
-    const std::size_t end = key.path.find_first_of("[.");
-    return end == std::string_view::npos ? std::string_view{} : key.path.substr(0, end);
-}
-
-std::string_view nameOf(const Key& key) {
-    const std::size_t dot = key.path.find('.');
-    return dot == std::string_view::npos ? key.path : key.path.substr(dot + 1);
 }
 
 std::vector<const Key*> keysOf(std::string_view table) {
     std::vector<const Key*> keys;
     for (const Key& key : schema())
-        if (tableOf(key) == table) keys.push_back(&key);
+        if (key.table == table) keys.push_back(&key);
     return keys;
+}
+
+std::string pathOf(const Key& key) {
+    if (key.table.empty()) return std::string(key.name);
+    return fmt::format("{}{}.{}", key.table, findTable(key.table)->allowsList ? "[]" : "", key.name);
 }
 
 std::string rangeText(const Range& range) {
     const bool hasLow = std::isfinite(range.low);
     const bool hasHigh = std::isfinite(range.high);
-    if (hasLow && hasHigh && !range.lowOpen && !range.highOpen)
-        return fmt::format("{} to {}", numberText(range.low), numberText(range.high));
+    if (hasLow && hasHigh && !range.isLowExcluded && !range.isHighExcluded)
+        return fmt::format("{} to {}", formatNumber(range.low), formatNumber(range.high));
     std::string text;
-    if (hasLow) text = fmt::format("{} {}", range.lowOpen ? ">" : ">=", numberText(range.low));
+    if (hasLow) text = fmt::format("{} {}", range.isLowExcluded ? ">" : ">=", formatNumber(range.low));
     if (hasHigh)
-        text += fmt::format("{}{} {}", hasLow ? " and " : "", range.highOpen ? "<" : "<=", numberText(range.high));
+        text +=
+            fmt::format("{}{} {}", hasLow ? " and " : "", range.isHighExcluded ? "<" : "<=", formatNumber(range.high));
     return text;
 }
 
@@ -114,9 +126,9 @@ std::string expectedText(const Key& key) {
             return "a whole number";
         case Type::boolean:
             return "true or false";
-        case Type::text:
+        case Type::string:
             return "a string";
-        case Type::textList:
+        case Type::stringList:
             return "a list of strings";
         case Type::vec3:
             return "three numbers [x, y, z]";
@@ -138,7 +150,7 @@ std::string expectedText(const Key& key) {
     std::string text;
     for (std::size_t index = 0; index < key.choices.size(); ++index) {
         if (index > 0) text += index + 1 == key.choices.size() ? " or " : ", ";
-        text += inQuotes(key.choices[index]);
+        text += tomlString(key.choices[index]);
     }
     return text;
 }

@@ -1,11 +1,12 @@
-// The table of every key that a scene file may hold, each once. Parsing, range checks, defaults, messages and
-// `globular schema` are all driven by it; a new key starts with a row here and is then read by the builder of its
-// table.
+// The schema: every table and key that a scene file may contain, each described once. Parsing, validation, defaults,
+// messages, `globular schema` and docs/scenes.md all come from it. To add a key, add a row to one of the keys_*.cpp
+// files and read it in the builder of its table in build/.
 #pragma once
 
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace scenes {
@@ -15,8 +16,8 @@ enum class Type {
     numberList,
     integer,
     boolean,
-    text,
-    textList,
+    string,
+    stringList,
     choice,
     vec3,  ///< [x, y, z]
     vec3List,
@@ -31,81 +32,91 @@ enum class Type {
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
-    bool lowOpen = false;  ///< low itself is not allowed
-    bool highOpen = false;
+    bool isLowExcluded = false;
+    bool isHighExcluded = false;
 };
 
-/// One row. Texts are static.
+/// A key of a table. All texts are static. The functions return a changed copy, so that a key is written as
+/// `key("fps", Type::integer, "1/s", "frames per second").within({1, 240}).defaultsTo("30")`.
 struct Key {
-    std::string_view path{};  ///< "title", "physics.gravity", "body[].shape"
+    std::string_view table{};  ///< empty for keys above the first table
+    std::string_view name{};
     Type type = Type::number;
-    std::string_view unit{};      ///< symbol, e.g. "m/s"; empty for none
-    std::string_view fallback{};  ///< default, in TOML; empty for none
-    std::string_view derived{};   ///< default in words, where it depends on other keys
-    bool required = false;        ///< in every table it applies to
+    std::string_view unit{};  ///< symbol, e.g. "m/s"; empty for none
+    std::string_view help{};  ///< one line
     Range range{};
     std::vector<std::string_view> choices{};
+    std::string_view defaultValue{};            ///< constant default as TOML text; empty for none
+    std::string_view derivedDefault{};          ///< in words, a default that depends on other keys; empty for none
+    bool isRequired = false;                    ///< in every table that it applies to
     std::vector<std::string_view> appliesTo{};  ///< values of the table's discriminator; empty: all
-    std::string_view help{};                    ///< one line
+
+    Key within(const Range& allowed) && {
+        range = allowed;
+        return std::move(*this);
+    }
+    Key oneOf(std::vector<std::string_view> allowed) && {
+        choices = std::move(allowed);
+        return std::move(*this);
+    }
+    Key defaultsTo(std::string_view toml) && {
+        defaultValue = toml;
+        return std::move(*this);
+    }
+    Key derivedAs(std::string_view words) && {
+        derivedDefault = words;
+        return std::move(*this);
+    }
+    Key required() && {
+        isRequired = true;
+        return std::move(*this);
+    }
+    Key onlyFor(std::vector<std::string_view> variants) && {
+        appliesTo = std::move(variants);
+        return std::move(*this);
+    }
 };
 
-/// The tables of a scene file; the one without a name holds the keys at the top.
+/// A table of a scene file; the one without a name stands for the keys above the first table.
 struct TableInfo {
     std::string_view name{};
-    bool single = true;                ///< may be written [name]
-    bool list = false;                 ///< may be written [[name]]
-    bool inherits = false;             ///< an item takes what it leaves out from the one before, not from the defaults
-    std::string_view discriminator{};  ///< the key that decides which others apply
-    std::string_view article{};        ///< "a body", for messages
+    std::string_view subject{};  ///< in messages: "a body"
     std::string_view help{};
+    bool allowsSingle = true;          ///< may be written [name]
+    bool allowsList = false;           ///< may be written [[name]]
+    bool inheritsPrevious = false;     ///< an item inherits what it leaves out from the item before it
+    std::string_view discriminator{};  ///< the key that determines which of the others apply
 };
 
 const std::vector<TableInfo>& tables();
 
-/// All keys in the order of tables().
+/// All keys, in the order of tables().
 const std::vector<Key>& schema();
 
-/// nullptr if there is no such table.
+/// The table of a name; nullptr if there is none.
 const TableInfo* findTable(std::string_view name);
 
-/// Whether a table of a scene has this name; the one at the top has none.
-inline bool isSection(std::string_view name) {
+/// Whether [name] or [[name]] is a table of a scene file.
+inline bool isTableName(std::string_view name) {
     return !name.empty() && findTable(name) != nullptr;
 }
 
-/// nullptr if the table has no such key.
+/// The key of a table; nullptr if there is none.
 const Key* findKey(std::string_view table, std::string_view name);
-
-/// The parts of a path: "body" and "shape" of "body[].shape".
-std::string_view tableOf(const Key& key);
-std::string_view nameOf(const Key& key);
 
 /// The keys of a table, in order.
 std::vector<const Key*> keysOf(std::string_view table);
 
-/// "> 0", "1 to 240", ">= 0 and < 1"; empty without bounds.
+/// "title", "physics.gravity", "body[].shape".
+std::string pathOf(const Key& key);
+
+/// "> 0", "1 to 240", ">= 0 and < 1"; empty for an unbounded range.
 std::string rangeText(const Range& range);
 
-/// "a number", "true or false", `"all" or "random"`.
+/// What a key's value must be: "a number", "true or false", `"all" or "random"`.
 std::string expectedText(const Key& key);
 
-/// "meters" of "m"; the symbol itself where it has no such word.
+/// The name of a unit where it is spelled out in messages ("meters" for "m"), otherwise its symbol.
 std::string unitWords(std::string_view unit);
-
-/// One key as columns of text, for tables and JSON.
-struct SchemaRow {
-    std::string key;
-    std::string type;
-    std::string unit;
-    std::string fallback;   ///< in TOML, or in words in parentheses; "required" or "none" otherwise
-    std::string range;      ///< bounds or choices
-    std::string appliesTo;  ///< e.g. "shape ball, grid"; empty: always
-    std::string help;
-};
-
-std::vector<SchemaRow> schemaRows();
-
-/// The whole table as text for a terminal.
-std::string schemaText();
 
 }  // namespace scenes

@@ -1,4 +1,4 @@
-// Storage of checked values.
+// Storage of validated values.
 #include "scenes/schema/section.h"
 
 #include <fmt/format.h>
@@ -8,87 +8,50 @@
 
 namespace scenes {
 
-Section::Section(const TableInfo& table, std::string prefix, Position at)
-    : table_(&table), prefix_(std::move(prefix)), at_(at) {}
+Section::Section(const TableInfo& table, std::string path, SourcePosition position)
+    : table_(&table), path_(std::move(path)), position_(position) {}
 
 bool Section::isGiven(std::string_view name) const {
-    if (unfit_.find(name) != unfit_.end()) return true;
+    if (invalid_.find(name) != invalid_.end()) return true;
     const auto found = slots_.find(name);
-    return found != slots_.end() && found->second.origin == Origin::given;
+    return found != slots_.end() && found->second.origin == ValueOrigin::given;
 }
 
 bool Section::has(std::string_view name) const {
     return slots_.find(name) != slots_.end();
 }
 
-Position Section::at(std::string_view name) const {
-    if (const auto found = unfit_.find(name); found != unfit_.end()) return found->second;
+SourcePosition Section::position(std::string_view name) const {
+    if (const auto found = invalid_.find(name); found != invalid_.end()) return found->second;
     const auto found = slots_.find(name);
-    return found != slots_.end() && found->second.origin == Origin::given ? found->second.at : at_;
+    return found != slots_.end() && found->second.origin == ValueOrigin::given ? found->second.position : position_;
 }
 
 const Section::Slot& Section::slot(std::string_view name) const {
     const auto found = slots_.find(name);
-    if (found == slots_.end())
-        throw std::logic_error(fmt::format("scene reader: {} has no value for {}", prefix_, name));
+    if (found == slots_.end()) throw std::logic_error(fmt::format("scene reader: {} has no value for {}", path_, name));
     return found->second;
 }
 
-void Section::put(std::string_view name, Typed value, Position at, Origin origin) {
-    // A default may stand in for a value that does not fit; a value that was written stands for itself.
-    if (origin == Origin::given) unfit_.erase(std::string(name));
-    slots_.insert_or_assign(std::string(name), Slot{std::move(value), at, origin});
+void Section::put(std::string_view name, TypedValue value, SourcePosition position, ValueOrigin origin) {
+    // A default may take the place of an invalid value; a valid written value replaces it.
+    if (origin == ValueOrigin::given) invalid_.erase(std::string(name));
+    slots_.insert_or_assign(std::string(name), Slot{std::move(value), position, origin});
 }
 
-void Section::putUnfit(std::string_view name, Position at) {
-    sound_ = false;
-    if (!isGiven(name)) unfit_.insert_or_assign(std::string(name), at);
+void Section::putInvalid(std::string_view name, SourcePosition position) {
+    isValid_ = false;
+    if (!isGiven(name)) invalid_.insert_or_assign(std::string(name), position);
 }
 
-void Section::drop(std::string_view name) {
+void Section::erase(std::string_view name) {
     slots_.erase(std::string(name));
 }
 
-void Section::deriveTyped(std::string_view name, Typed value) {
+void Section::derive(std::string_view name, TypedValue value) {
     if (findKey(table_->name, name) == nullptr)
-        throw std::logic_error(fmt::format("scene reader: no key {} in {}", name, prefix_));
-    if (!isGiven(name)) put(name, std::move(value), at_, Origin::derived);
-}
-
-void Section::deriveNumber(std::string_view name, double number) {
-    Typed value;
-    value.number = number;
-    value.canonical = numberText(number);
-    deriveTyped(name, std::move(value));
-}
-
-void Section::deriveVector(std::string_view name, const engine::Vec3& vector) {
-    Typed value;
-    value.vectors = {vector};
-    value.canonical =
-        fmt::format("[{}, {}, {}]", numberText(vector.x()), numberText(vector.y()), numberText(vector.z()));
-    deriveTyped(name, std::move(value));
-}
-
-void Section::deriveFlag(std::string_view name, bool flag) {
-    Typed value;
-    value.flag = flag;
-    value.canonical = flag ? "true" : "false";
-    deriveTyped(name, std::move(value));
-}
-
-void Section::deriveText(std::string_view name, const std::string& text) {
-    Typed value;
-    value.text = text;
-    value.canonical = inQuotes(text);
-    deriveTyped(name, std::move(value));
-}
-
-void Section::deriveInterval(std::string_view name, double low, double high) {
-    Typed value;
-    value.numbers = {low, high};
-    value.canonical = fmt::format("[{}, {}]", numberText(low), numberText(high));
-    deriveTyped(name, std::move(value));
+        throw std::logic_error(fmt::format("scene reader: no key {} in {}", name, path_));
+    if (!isGiven(name)) put(name, std::move(value), position_, ValueOrigin::derived);
 }
 
 }  // namespace scenes

@@ -1,5 +1,5 @@
-// A table of a scene after the checks: typed values by name, with defaults filled in. The builders read these and add
-// the defaults that depend on other keys.
+// A validated table of a scene: typed values by key, with the schema's constant defaults filled in. The builders in
+// build/ read sections, and add the defaults that depend on other keys.
 #pragma once
 
 #include <map>
@@ -7,80 +7,70 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/schema/check.h"
 #include "scenes/schema/schema.h"
+#include "scenes/schema/typed_value.h"
 
 namespace scenes {
 
-/// Where a value came from.
-enum class Origin {
-    given,     ///< the file or an override
-    fallback,  ///< the schema's default
-    derived    ///< a default that a builder worked out
-};
-
 class Section {
  public:
-    /// prefix: how messages and lists name the table, e.g. "body[0]"; at: its header.
-    Section(const TableInfo& table, std::string prefix, Position at);
+    /// @param path      how messages and lists of values name the table, e.g. "body[0]"
+    /// @param position  of its header
+    Section(const TableInfo& table, std::string path, SourcePosition position);
 
     const TableInfo& table() const { return *table_; }
-    const std::string& prefix() const { return prefix_; }
-    const Position& at() const { return at_; }
+    const std::string& path() const { return path_; }
 
-    /// Whether nothing is wrong with it; only then do the values below all exist as the schema says.
-    bool isSound() const { return sound_; }
-    void markUnsound() { sound_ = false; }
+    /// Whether no problem was found in it; only then does every value exist that the schema says it has.
+    bool isValid() const { return isValid_; }
+    void markInvalid() { isValid_ = false; }
 
-    /// The key was written, readable or not.
+    /// Whether the key was written, with a valid value or not.
     bool isGiven(std::string_view name) const;
-    /// There is a usable value.
+    /// Whether the key has a valid value, written or not.
     bool has(std::string_view name) const;
-    Origin origin(std::string_view name) const { return slot(name).origin; }
-    /// Where the value was written; the header if it was not.
-    Position at(std::string_view name) const;
+    ValueOrigin origin(std::string_view name) const { return slot(name).origin; }
+    /// Position of the table's header.
+    const SourcePosition& position() const { return position_; }
+    /// Position of a written value; that of the header if the key was not written.
+    SourcePosition position(std::string_view name) const;
 
-    double number(std::string_view name) const { return slot(name).value.number; }
-    std::int64_t integer(std::string_view name) const { return slot(name).value.integer; }
-    bool flag(std::string_view name) const { return slot(name).value.flag; }
-    const std::string& text(std::string_view name) const { return slot(name).value.text; }
-    const std::vector<std::string>& texts(std::string_view name) const { return slot(name).value.texts; }
-    const engine::Vec3& vector(std::string_view name) const { return slot(name).value.vectors.at(0); }
-    const std::vector<engine::Vec3>& vectors(std::string_view name) const { return slot(name).value.vectors; }
-    const std::vector<double>& numbers(std::string_view name) const { return slot(name).value.numbers; }
-    const Typed& typed(std::string_view name) const { return slot(name).value; }
-    const std::string& canonical(std::string_view name) const { return slot(name).value.canonical; }
+    // The value of a key, which has to exist and to be of the type asked for.
+    double number(std::string_view name) const { return typed(name).number; }
+    std::int64_t integer(std::string_view name) const { return typed(name).integer; }
+    bool boolean(std::string_view name) const { return typed(name).boolean; }
+    const std::string& string(std::string_view name) const { return typed(name).string; }
+    const std::vector<std::string>& strings(std::string_view name) const { return typed(name).strings; }
+    const engine::Vec3& vector(std::string_view name) const { return typed(name).vectors.at(0); }
+    const std::vector<engine::Vec3>& vectors(std::string_view name) const { return typed(name).vectors; }
+    const std::vector<double>& numbers(std::string_view name) const { return typed(name).numbers; }
+    const std::string& canonical(std::string_view name) const { return typed(name).canonical; }
+    const TypedValue& typed(std::string_view name) const { return slot(name).value; }
 
-    void put(std::string_view name, Typed value, Position at, Origin origin);
-    /// Remembers a key that was written but does not fit; it keeps its default, if it has one.
-    void putUnfit(std::string_view name, Position at);
+    void put(std::string_view name, TypedValue value, SourcePosition position, ValueOrigin origin);
+    /// Records that a key was written with an invalid value. It gets its default, if it has one.
+    void putInvalid(std::string_view name, SourcePosition position);
+    /// Removes a value, as if the key had never been written.
+    void erase(std::string_view name);
 
-    /// Forgets a value: it is as if there had never been one.
-    void drop(std::string_view name);
-
-    /// Sets what a builder worked out, unless the key was written.
-    void deriveNumber(std::string_view name, double number);
-    void deriveVector(std::string_view name, const engine::Vec3& vector);
-    void deriveFlag(std::string_view name, bool flag);
-    void deriveText(std::string_view name, const std::string& text);
-    void deriveInterval(std::string_view name, double low, double high);
+    /// Sets a default that depends on other keys, unless the key was written.
+    void derive(std::string_view name, TypedValue value);
 
  private:
     struct Slot {
-        Typed value;
-        Position at;
-        Origin origin = Origin::fallback;
+        TypedValue value;
+        SourcePosition position;
+        ValueOrigin origin = ValueOrigin::schemaDefault;
     };
 
     const Slot& slot(std::string_view name) const;
-    void deriveTyped(std::string_view name, Typed value);
 
     const TableInfo* table_;
-    std::string prefix_;
-    Position at_;
-    bool sound_ = true;
+    std::string path_;
+    SourcePosition position_;
+    bool isValid_ = true;
     std::map<std::string, Slot, std::less<>> slots_;
-    std::map<std::string, Position, std::less<>> unfit_;
+    std::map<std::string, SourcePosition, std::less<>> invalid_;  ///< keys written with invalid values
 };
 
 }  // namespace scenes

@@ -1,17 +1,102 @@
-// The sRGB curve, hexadecimal colors and color ramps.
+// The sRGB curve, hexadecimal colors, color ramps and color maps.
+//
+// A color map is given by the lightness of its ends and by a Bezier curve in the plane of OKLab's a and b. Distances in
+// OKLab approximate perceived differences, so equal arc lengths along the curve, combined with equal steps of
+// lightness, give colors that look equally far apart. Drawing a map as a curve at even lightness is the idea of van der
+// Walt and Smith (viscm, 2015); the curves are our own. Their control points were chosen for looks, then moved until
+// the steps were also nearly equal by CIEDE2000 and every color was inside the sRGB gamut.
+// OKLab: B. Ottosson, A perceptual color space for image processing (2020), whose matrices are used below.
 #include "scenes/text/color.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace scenes {
 namespace {
 
-int digitOf(char c) {
+using engine::Vec3;
+
+/// Value of a hexadecimal digit; -1 if the character is none.
+int hexDigit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
     if (c >= 'A' && c <= 'F') return c - 'A' + 10;
     return -1;
+}
+
+/// A point of OKLab's chromatic plane: a runs from green to red, b from blue to yellow.
+struct Chroma {
+    double a = 0.0;
+    double b = 0.0;
+};
+
+struct MapCurve {
+    std::string_view name;
+    double startLightness = 0.0;  ///< OKLab lightness of the first color
+    double endLightness = 1.0;    ///< OKLab lightness of the last color
+    std::vector<Chroma> controlPoints;
+};
+
+const std::vector<MapCurve>& curves() {
+    static const std::vector<MapCurve> kCurves = {
+        // Violet, blue, teal, green, yellow.
+        {"lagoon", 0.30, 0.92, {{0.034, -0.092}, {-0.046, -0.119}, {-0.092, -0.028}, {-0.168, 0.085}, {-0.046, 0.185}}},
+        // Night, purple, red, orange, pale yellow.
+        {"ember", 0.22, 0.93, {{0.015, -0.063}, {0.138, -0.070}, {0.244, 0.089}, {0.116, 0.186}, {-0.025, 0.118}}},
+        // Blue, gray, yellow. It avoids red against green, for color-blind viewers.
+        {"dusk", 0.28, 0.91, {{-0.006, -0.090}, {-0.014, -0.064}, {-0.020, 0.0}, {-0.008, 0.059}, {-0.015, 0.124}}},
+        // Deep blue to the white of ice.
+        {"glacier", 0.30, 0.96, {{0.008, -0.111}, {-0.039, -0.156}, {-0.062, -0.071}, {-0.009, -0.005}}},
+    };
+    return kCurves;
+}
+
+Vec3 linearFromOklab(double lightness, const Chroma& chroma) {
+    const auto cube = [](double x) { return x * x * x; };
+    const double l = cube(lightness + 0.3963377774 * chroma.a + 0.2158037573 * chroma.b);
+    const double m = cube(lightness - 0.1055613458 * chroma.a - 0.0638541728 * chroma.b);
+    const double s = cube(lightness - 0.0894841775 * chroma.a - 1.2914855480 * chroma.b);
+    return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+            -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+            -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
+}
+
+Chroma lerp(const Chroma& from, const Chroma& to, double t) {
+    return {from.a + (to.a - from.a) * t, from.b + (to.b - from.b) * t};
+}
+
+/// The point at parameter t of a Bezier curve, by de Casteljau's algorithm.
+Chroma bezierPoint(std::vector<Chroma> points, double t) {
+    for (std::size_t left = points.size() - 1; left > 0; --left)
+        for (std::size_t k = 0; k < left; ++k) points[k] = lerp(points[k], points[k + 1], t);
+    return points[0];
+}
+
+/// A curve as short straight segments, with the arc length from the start to each point.
+struct Polyline {
+    std::vector<Chroma> points;
+    std::vector<double> arcLengths;
+};
+
+Polyline polylineOf(const MapCurve& curve) {
+    constexpr int kSegmentCount = 2000;  // a segment is about 1e-4 of OKLab long, far below what can be seen
+    Polyline line{{curve.controlPoints.front()}, {0.0}};
+    for (int k = 1; k <= kSegmentCount; ++k) {
+        const Chroma next = bezierPoint(curve.controlPoints, static_cast<double>(k) / kSegmentCount);
+        const double da = next.a - line.points.back().a;
+        const double db = next.b - line.points.back().b;
+        line.points.push_back(next);
+        line.arcLengths.push_back(line.arcLengths.back() + std::sqrt(da * da + db * db));
+    }
+    return line;
+}
+
+const MapCurve& findCurve(std::string_view name) {
+    for (const MapCurve& curve : curves())
+        if (curve.name == name) return curve;
+    throw std::logic_error("scenes: there is no color map " + std::string(name));
 }
 
 }  // namespace
@@ -20,27 +105,54 @@ double linearFromSrgb(double component) {
     return component <= 0.04045 ? component / 12.92 : std::pow((component + 0.055) / 1.055, 2.4);
 }
 
-std::optional<engine::Vec3> colorFromHex(std::string_view text) {
+std::optional<Vec3> colorFromHex(std::string_view text) {
     if (text.size() != 7 || text[0] != '#') return std::nullopt;
-    engine::Vec3 color = engine::Vec3::Zero();
+    Vec3 color = Vec3::Zero();
     for (int channel = 0; channel < 3; ++channel) {
-        const auto at = static_cast<std::size_t>(1 + 2 * channel);
-        const int high = digitOf(text[at]);
-        const int low = digitOf(text[at + 1]);
+        const auto offset = static_cast<std::size_t>(1 + 2 * channel);
+        const int high = hexDigit(text[offset]);
+        const int low = hexDigit(text[offset + 1]);
         if (high < 0 || low < 0) return std::nullopt;
         color[channel] = linearFromSrgb((16 * high + low) / 255.0);
     }
     return color;
 }
 
-engine::Vec3 rampColor(const std::vector<engine::Vec3>& colors, double place) {
-    // The comparison is written so that a place that is no number takes the first color.
-    if (!(place > 0.0) || colors.size() == 1) return colors.front();
-    if (place >= 1.0) return colors.back();
-    const double scaled = place * static_cast<double>(colors.size() - 1);
+Vec3 rampColor(const std::vector<Vec3>& colors, double parameter) {
+    // The negated comparison is true for NaN, too, which therefore gives the first color.
+    if (!(parameter > 0.0) || colors.size() == 1) return colors.front();
+    if (parameter >= 1.0) return colors.back();
+    const double scaled = parameter * static_cast<double>(colors.size() - 1);
     const auto below = std::min(static_cast<std::size_t>(scaled), colors.size() - 2);
-    const double share = scaled - static_cast<double>(below);
-    return (1.0 - share) * colors[below] + share * colors[below + 1];
+    const double t = scaled - static_cast<double>(below);
+    return (1.0 - t) * colors[below] + t * colors[below + 1];
+}
+
+const std::vector<std::string_view>& colorMapNames() {
+    static const std::vector<std::string_view> kNames = [] {
+        std::vector<std::string_view> names;
+        for (const MapCurve& curve : curves()) names.push_back(curve.name);
+        return names;
+    }();
+    return kNames;
+}
+
+std::vector<Vec3> colorMap(std::string_view name, int count) {
+    const MapCurve& curve = findCurve(name);
+    const Polyline line = polylineOf(curve);
+    std::vector<Vec3> colors;
+    std::size_t segment = 0;
+    for (int k = 0; k < count; ++k) {
+        const double share = static_cast<double>(k) / (count - 1);
+        const double length = share * line.arcLengths.back();
+        while (segment + 2 < line.arcLengths.size() && line.arcLengths[segment + 1] < length) ++segment;
+        const double t =
+            (length - line.arcLengths[segment]) / (line.arcLengths[segment + 1] - line.arcLengths[segment]);
+        const Chroma chroma = lerp(line.points[segment], line.points[segment + 1], t);
+        colors.push_back(
+            linearFromOklab(curve.startLightness + (curve.endLightness - curve.startLightness) * share, chroma));
+    }
+    return colors;
 }
 
 }  // namespace scenes

@@ -1,4 +1,4 @@
-// Optimal string alignment distance by dynamic programming over three rows.
+// Optimal string alignment distance by dynamic programming, of which only the last three rows are kept.
 #include "scenes/text/edit_distance.h"
 
 #include <algorithm>
@@ -7,42 +7,43 @@
 namespace scenes {
 namespace {
 
-/// Longer names are never meant; the bound keeps hostile input cheap.
-constexpr std::size_t kLongestName = 64;
+/// Longer names get no suggestion. No key is nearly as long, and the time grows with the square of the length.
+constexpr std::size_t kMaxNameLength = 64;
 
-/// One typing mistake in three characters still looks like the name; chosen by trying common slips.
-std::size_t tolerated(std::size_t length) {
+/// The largest distance of a plausible typing mistake: one edit for every three characters. Chosen by trying common
+/// mistakes on the names of the schema.
+std::size_t maxDistance(std::size_t length) {
     return std::max<std::size_t>(1, length / 3);
 }
 
 }  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> beforeLast(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-    std::iota(last.begin(), last.end(), std::size_t{0});
+    std::vector<std::size_t> twoRowsUp(b.size() + 1), rowUp(b.size() + 1), row(b.size() + 1);
+    std::iota(rowUp.begin(), rowUp.end(), std::size_t{0});
     for (std::size_t i = 1; i <= a.size(); ++i) {
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+            const std::size_t replaced = rowUp[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({replaced, rowUp[j] + 1, row[j - 1] + 1});
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                row[j] = std::min(row[j], beforeLast[j - 2] + 1);
+                row[j] = std::min(row[j], twoRowsUp[j - 2] + 1);
         }
-        std::swap(beforeLast, last);
-        std::swap(last, row);
+        std::swap(twoRowsUp, rowUp);
+        std::swap(rowUp, row);
     }
-    return last[b.size()];
+    return rowUp[b.size()];
 }
 
 std::string nearestName(std::string_view name, const std::vector<std::string>& known) {
-    if (name.empty() || name.size() > kLongestName) return {};
+    if (name.empty() || name.size() > kMaxNameLength) return {};
     std::string nearest;
-    std::size_t least = tolerated(name.size()) + 1;
+    std::size_t limit = maxDistance(name.size()) + 1;
     for (const std::string& candidate : known) {
         const std::size_t distance = editDistance(name, candidate);
-        // A name that shares no character is never meant, however short.
-        if (distance >= least || distance >= std::max(name.size(), candidate.size())) continue;
-        least = distance;
+        // As far away as the longer name is long: the two have nothing in common, however short they are.
+        if (distance >= limit || distance >= std::max(name.size(), candidate.size())) continue;
+        limit = distance;
         nearest = candidate;
     }
     return nearest;

@@ -1,4 +1,4 @@
-// How far apart two names are, and the known name nearest to a mistyped one. Used for every "did you mean".
+// How far apart two names are, and the known name closest to a mistyped one. Every "did you mean" comes from here.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,12 @@
 
 namespace scenes {
 
-/// Insertions, deletions, replacements and swaps of neighbors that turn one text into the other.
-/// Holds: symmetric, 0 only for equal texts.
+/// Optimal string alignment distance: the fewest insertions, deletions, replacements and swaps of adjacent characters
+/// that turn one text into the other. It is symmetric, and 0 only for equal texts.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-/// The known name nearest to the given one, the first of equals; empty if none is near enough to be meant.
+/// The known name with the smallest edit distance to the given one, the first of equals; empty if none is close enough
+/// to be a plausible typing mistake.
 std::string nearestName(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace scenes

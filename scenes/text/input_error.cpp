@@ -1,4 +1,4 @@
-// The text of problems.
+// Problems as lines of text.
 #include "scenes/text/input_error.h"
 
 #include <fmt/format.h>
@@ -12,14 +12,14 @@ std::string textOf(const std::vector<Problem>& problems) {
     std::string text;
     for (const Problem& problem : problems) {
         if (!text.empty()) text += '\n';
-        text += lineOf(problem);
+        text += formatProblem(problem);
     }
     return text;
 }
 
 }  // namespace
 
-std::string lineOf(const Problem& problem) {
+std::string formatProblem(const Problem& problem) {
     if (problem.line == 0) return fmt::format("{}: {}", problem.file, problem.message);
     if (problem.column == 0) return fmt::format("{}:{}: {}", problem.file, problem.line, problem.message);
     return fmt::format("{}:{}:{}: {}", problem.file, problem.line, problem.column, problem.message);

@@ -1,5 +1,5 @@
-// What is wrong with what the user gave, as one error that carries every problem of a file. Thrown by the readers of
-// this library; main prints one line per problem.
+// The error that everything wrong with the user's input is reported as. It carries all problems of a file at once;
+// main prints one line for each.
 #pragma once
 
 #include <stdexcept>
@@ -8,18 +8,18 @@
 
 namespace scenes {
 
-/// One mistake and where it stands. A line or column of 0 means that there is none to name.
+/// One mistake and its position. Line and column count from 1; 0 means that there is none to name.
 struct Problem {
-    std::string file;  ///< or the whole option, e.g. "--set physics.step=-1"
+    std::string file;  ///< or the command-line option, e.g. "--set physics.step=-1"
     int line = 0;
     int column = 0;
     std::string message;
 };
 
-/// "file:line:column: message", without what is 0.
-std::string lineOf(const Problem& problem);
+/// "file:line:column: message"; a line or column of 0 is left out.
+std::string formatProblem(const Problem& problem);
 
-/// All problems of one file; what() has one line for each.
+/// All problems of one file; what() has one line for each problem.
 class InputError : public std::runtime_error {
  public:
     explicit InputError(std::vector<Problem> problems);

@@ -1,4 +1,4 @@
-// A change to a scene that whoever runs it asks for.
+// Overrides: changes to a scene that the command line (--set and shorthands such as --size) or a study asks for.
 #pragma once
 
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace scenes {
 
-/// A key and its value, and the flag that says so, which problems name.
+/// One assignment, and the command-line option that it came from, which problems name.
 struct Override {
-    std::string change;  ///< "physics.step=0.005"
-    std::string flag;    ///< "--set physics.step=0.005"
+    std::string assignment;  ///< "physics.step=0.005"
+    std::string option;      ///< "--set physics.step=0.005"
 
-    /// Of --set. Not explicit: most changes are written down as such.
-    Override(std::string keyAndValue) : change(std::move(keyAndValue)), flag("--set " + change) {}
-    Override(const char* keyAndValue) : Override(std::string(keyAndValue)) {}
+    /// An override given by --set. Implicit, so that a list of overrides can be written as a list of strings.
+    Override(std::string text) : assignment(std::move(text)), option("--set " + assignment) {}
+    Override(const char* text) : Override(std::string(text)) {}
 
-    /// Of another flag.
-    Override(std::string keyAndValue, std::string of) : change(std::move(keyAndValue)), flag(std::move(of)) {}
+    /// An override given by another option.
+    Override(std::string text, std::string givenBy) : assignment(std::move(text)), option(std::move(givenBy)) {}
 
     bool operator==(const Override& other) const = default;
 };

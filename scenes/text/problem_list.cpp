@@ -1,4 +1,4 @@
-// Order and wording of the places that problems name.
+// Sorts problems by position and names the file or option that each is in.
 #include "scenes/text/problem_list.h"
 
 #include <algorithm>
@@ -8,47 +8,44 @@
 namespace scenes {
 namespace {
 
-/// More than anyone reads at once; bounds the work on a file that is no scene at all.
-constexpr std::size_t kMostProblems = 200;
+/// Chosen: more problems than are useful at once. It bounds the work on a file that is not a scene at all.
+constexpr std::size_t kMaxProblems = 200;
 
 }  // namespace
 
 ProblemList::ProblemList(std::string file, Overrides overrides)
     : file_(std::move(file)), overrides_(std::move(overrides)) {}
 
-void ProblemList::add(const Position& at, std::string message) {
-    if (entries_.size() == kMostProblems) {
-        more_ = true;
+void ProblemList::add(const SourcePosition& position, std::string message) {
+    if (items_.size() == kMaxProblems) {
+        isTruncated_ = true;
         return;
     }
-    const auto same = [&](const Located& entry) {
-        return entry.at.line == at.line && entry.at.column == at.column && entry.at.overrideIndex == at.overrideIndex &&
-               entry.message == message;
-    };
-    if (std::any_of(entries_.begin(), entries_.end(), same)) return;
-    entries_.push_back({at, std::move(message)});
+    const auto isSame = [&](const Item& item) { return item.position == position && item.message == message; };
+    if (std::any_of(items_.begin(), items_.end(), isSame)) return;
+    items_.push_back({position, std::move(message)});
 }
 
-void ProblemList::add(const Position& at, const InputError& error) {
-    for (const Problem& problem : error.problems()) add(at, lineOf(problem));
+void ProblemList::add(const SourcePosition& position, const InputError& error) {
+    for (const Problem& problem : error.problems()) add(position, formatProblem(problem));
 }
 
 void ProblemList::throwIfAny() const {
-    if (entries_.empty()) return;
-    std::vector<Located> sorted = entries_;
-    std::stable_sort(sorted.begin(), sorted.end(), [](const Located& a, const Located& b) {
-        return std::tie(a.at.overrideIndex, a.at.line, a.at.column) <
-               std::tie(b.at.overrideIndex, b.at.line, b.at.column);
+    if (items_.empty()) return;
+    std::vector<Item> sorted = items_;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Item& a, const Item& b) {
+        return std::tie(a.position.overrideIndex, a.position.line, a.position.column) <
+               std::tie(b.position.overrideIndex, b.position.line, b.position.column);
     });
     std::vector<Problem> problems;
-    for (const Located& entry : sorted) {
-        if (entry.at.overrideIndex < 0)
-            problems.push_back({file_, entry.at.line, entry.at.column, entry.message});
+    for (const Item& item : sorted) {
+        if (item.position.overrideIndex < 0)
+            problems.push_back({file_, item.position.line, item.position.column, item.message});
         else
             problems.push_back(
-                {overrides_.at(static_cast<std::size_t>(entry.at.overrideIndex)).flag, 0, 0, entry.message});
+                {overrides_.at(static_cast<std::size_t>(item.position.overrideIndex)).option, 0, 0, item.message});
     }
-    if (more_) problems.push_back({file_, 0, 0, "there are more problems than are shown here"});
+    if (isTruncated_) problems.push_back({file_, 0, 0, "there are more problems than are shown here"});
     throw InputError(std::move(problems));
 }
 

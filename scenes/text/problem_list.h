@@ -1,4 +1,4 @@
-// Collects the problems of one scene while it is read, so that all of them are reported at once.
+// Collects the problems of a scene while it is read, so that all of them are reported at once.
 #pragma once
 
 #include <cstddef>
@@ -6,38 +6,37 @@
 #include <vector>
 
 #include "scenes/text/input_error.h"
-#include "scenes/text/located.h"
 #include "scenes/text/override.h"
+#include "scenes/text/value.h"
 
 namespace scenes {
 
 class ProblemList {
  public:
-    /// Problems will name this file, or the flag of the override they are in.
+    /// Problems name this file, or the option of the override that they are in.
     ProblemList(std::string file, Overrides overrides);
 
-    /// Records a problem; one already recorded at the same place in the same words is not repeated.
-    void add(const Position& at, std::string message);
+    /// Records a problem. The same message at the same position is recorded once.
+    void add(const SourcePosition& position, std::string message);
 
-    /// Records what another file's reader found, at the place that names that file.
-    void add(const Position& at, const InputError& error);
+    /// Records the problems of a file that the scene refers to, at the position where it does.
+    void add(const SourcePosition& position, const InputError& error);
 
-    bool empty() const { return entries_.empty(); }
+    bool empty() const { return items_.empty(); }
 
-    /// Throws an InputError with all problems: those of the file by position, then those of the overrides in their
-    /// order.
+    /// Throws an InputError with all problems: those of the file by position, then those of the overrides in order.
     void throwIfAny() const;
 
  private:
-    struct Located {
-        Position at;
+    struct Item {
+        SourcePosition position;
         std::string message;
     };
 
     std::string file_;
     Overrides overrides_;
-    std::vector<Located> entries_;
-    bool more_ = false;
+    std::vector<Item> items_;
+    bool isTruncated_ = false;
 };
 
 }  // namespace scenes

@@ -7,10 +7,10 @@
 namespace scenes {
 
 /// Larger scene files are no scene files, bytes.
-inline constexpr std::size_t kLargestSceneFile = std::size_t{16} << 20U;
+inline constexpr std::size_t kMaxSceneFileBytes = std::size_t{16} << 20U;
 
 /// Room for some 50 million particles, bytes.
-inline constexpr std::size_t kLargestParticleFile = std::size_t{4} << 30U;
+inline constexpr std::size_t kMaxParticleFileBytes = std::size_t{4} << 30U;
 
 /// All bytes of a file. Throws: InputError if it cannot be read or is larger than the limit.
 std::string readFile(const std::string& path, std::size_t limit);

@@ -1,16 +1,24 @@
-// A scene and the particles of one moment to the renderer's input. Double becomes float here and nowhere else.
+// From a scene and a simulation to the frames of the animation: the state at a frame, and what the renderer draws of
+// it. Double becomes float on this side of the program only.
 #pragma once
 
-#include "engine/state/particles.h"
+#include "engine/run/advance.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
 
 namespace scenes {
 
-/// What the picture of a moment shows: particles, obstacles, camera, light. time: s, for colors by age.
+/// Advances a simulation that is at a frame of the scene to a later frame. It passes through all frames in between,
+/// because each frame's interval is divided into steps: a run that does not draw every frame has the same bits as one
+/// that does.
+/// @throws engine::InstabilityError
+void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int frame);
+
+/// The view of the scene with the given particles: particles, obstacles, camera, lights and overlay.
+/// @param time  s; determines the camera, and the colors where they show the particles' age
 render::View frameView(const Scene& scene, const engine::Particles& particles, double time);
 
-/// The same for the present moment of a simulation of this scene.
+/// The view of the scene at the current time of its simulation.
 render::View frameView(const Scene& scene, const engine::Simulation& simulation);
 
 }  // namespace scenes

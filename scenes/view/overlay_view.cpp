@@ -1,4 +1,4 @@
-// Numbers to texts.
+// Formats the numbers of the overlay, and places the ticks of the color bar.
 #include "scenes/view/overlay_view.h"
 
 #include <fmt/format.h>
@@ -6,36 +6,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/view/single.h"
+#include "scenes/model/to_float.h"
 
 namespace scenes {
 namespace {
 
 /// The smallest step of 1, 2 or 5 times a power of ten that leaves at most five intervals.
-double stepOf(double span) {
+double tickStep(double span) {
     const double unit = std::pow(10.0, std::floor(std::log10(span / 5.0)));
     for (const double factor : {1.0, 2.0, 5.0})
-        if (span / (factor * unit) <= 5.0 + 1e-9) return factor * unit;  // the quotient of two decimals is rounded
+        if (span / (factor * unit) <= 5.0 + 1e-9) return factor * unit;  // the quotient is rounded
     return 10.0 * unit;
 }
 
-/// A power of ten at or below a positive number.
-int magnitudeOf(double number) {
+/// Exponent of the largest power of ten that is at most a positive number.
+int exponentOf(double number) {
     return static_cast<int>(std::floor(std::log10(number) + 1e-9));
 }
 
-/// Digits down to those that tell neighbors apart, as a power of ten where they would be too many.
+/// The value of a tick with as many decimals as distinguish adjacent ticks, in exponent notation where these would be
+/// too many.
 std::string tickText(double value, double step) {
-    constexpr int kMostPlaces = 5;
-    const int last = magnitudeOf(step);
-    if (std::abs(last) <= kMostPlaces) return fmt::format("{:.{}f}", value, std::max(0, -last));
+    constexpr int kMaxDecimals = 5;
+    const int last = exponentOf(step);
+    if (std::abs(last) <= kMaxDecimals) return fmt::format("{:.{}f}", value, std::max(0, -last));
     if (value == 0.0) return "0";
-    return fmt::format("{:.{}e}", value, std::max(0, magnitudeOf(std::abs(value)) - last));
+    return fmt::format("{:.{}e}", value, std::max(0, exponentOf(std::abs(value)) - last));
 }
 
 render::ColorBar colorBarOf(const Scene& scene) {
     render::ColorBar bar;
-    for (const engine::Vec3& color : scene.look.ramp) bar.colors.push_back(single(color));
+    for (const engine::Vec3& color : scene.look.ramp) bar.colors.push_back(toFloat(color));
     bar.title = fmt::format("{} ({})", scene.overlay.colorLabel, scene.look.colorBy == ColorBy::age ? "s" : "m/s");
     bar.ticks = ticksBetween(scene.look.rampLow, scene.look.rampHigh);
     return bar;
@@ -44,18 +45,19 @@ render::ColorBar colorBarOf(const Scene& scene) {
 }  // namespace
 
 render::Overlay overlayOf(const Scene& scene, double time) {
-    const Overlay& asked = scene.overlay;
+    const Overlay& settings = scene.overlay;
     render::Overlay overlay;
-    if (asked.time) overlay.stamp = timeText(scene, time);
-    if (asked.scaleBar > 0.0) overlay.scaleBar = render::ScaleBar{single(asked.scaleBar), lengthText(asked.scaleBar)};
-    if (asked.colorBar) overlay.colorBar = colorBarOf(scene);
-    overlay.ink = single(asked.ink);
-    overlay.size = single(asked.size);
+    if (settings.time) overlay.stamp = timeText(scene, time);
+    if (settings.scaleBar > 0.0)
+        overlay.scaleBar = render::ScaleBar{toFloat(settings.scaleBar), lengthText(settings.scaleBar)};
+    if (settings.colorBar) overlay.colorBar = colorBarOf(scene);
+    overlay.ink = toFloat(settings.ink);
+    overlay.size = toFloat(settings.size);
     return overlay;
 }
 
 std::string timeText(const Scene& scene, double time) {
-    // Frames are 1/fps apart: 0.01 s tells them apart up to 100 a second.
+    // Frames are 1/fps apart: two decimals distinguish them up to 100 frames per second.
     return fmt::format("t = {:.{}f} s", time, scene.fps > 100 ? 3 : 2);
 }
 
@@ -67,14 +69,14 @@ std::string lengthText(double meters) {
 }
 
 std::vector<render::Tick> ticksBetween(double low, double high) {
-    const double step = stepOf(high - low);
+    const double step = tickStep(high - low);
     std::vector<render::Tick> ticks;
-    // Whole multiples of the step, so that the third tick from 0 by 0.1 is 0.3 and no number near it.
+    // Integer multiples of the step rather than a sum, so that the third tick from 0 in steps of 0.1 is exactly 0.3.
     const double first = std::ceil(low / step - 1e-9);
-    constexpr int kMost = 20;  // more than any step leads to, unless the range is below its own rounding
-    for (int k = 0; k < kMost && (first + k) * step <= high + 1e-9 * step; ++k) {
-        const double value = (first + k) * step + 0.0;  // no "-0"
-        ticks.push_back({single((value - low) / (high - low)), tickText(value, step)});
+    constexpr int kMaxTicks = 20;  // reached only if the range is smaller than its own rounding error
+    for (int k = 0; k < kMaxTicks && (first + k) * step <= high + 1e-9 * step; ++k) {
+        const double value = (first + k) * step + 0.0;  // avoids "-0"
+        ticks.push_back({toFloat((value - low) / (high - low)), tickText(value, step)});
     }
     return ticks;
 }

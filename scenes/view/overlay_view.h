@@ -1,4 +1,4 @@
-// What a scene's overlay says at a moment: texts and ticks, as the renderer takes them.
+// The overlay of a frame (time stamp, scale bar, color bar) as texts and ticks for the renderer.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace scenes {
 
-/// Empty where the scene asks for none. time: s.
+/// The overlay at a time in s. It is empty where the scene has none.
 render::Overlay overlayOf(const Scene& scene, double time);
 
-/// "t = 1.25 s", with as many decimals as tell the frames of the scene apart, at least two.
+/// "t = 1.25 s", with as many decimals as distinguish the frames of the scene, at least two.
 std::string timeText(const Scene& scene, double time);
 
-/// "2 m", "50 cm", "5 mm", "1.5 km".
+/// A length in its customary unit: "2 m", "50 cm", "5 mm", "1.5 km".
 std::string lengthText(double meters);
 
-/// Two to six numbers a reader expects, multiples of 1, 2 or 5 times a power of ten, from low to high, both in m/s or
-/// s; places from 0 at low to 1 at high.
+/// Two to six ticks at multiples of 1, 2 or 5 times a power of ten, for an axis from low to high (m/s or s). The
+/// position of a tick runs from 0 at low to 1 at high.
 std::vector<render::Tick> ticksBetween(double low, double high);
 
 }  // namespace scenes

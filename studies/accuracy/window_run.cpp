@@ -6,7 +6,7 @@
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/stepping/steppers.h"
-#include "scenes/view/frame_steps.h"
+#include "scenes/view/frame_view.h"
 
 namespace studies {
 namespace {

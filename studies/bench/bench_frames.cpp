@@ -5,7 +5,6 @@
 
 #include "engine/run/diagnostics.h"
 #include "render/renderer.h"
-#include "scenes/view/frame_steps.h"
 #include "scenes/view/frame_view.h"
 #include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/view/frame_steps.h"
+#include "scenes/view/frame_view.h"
 #include "studies/common/timing.h"
 
 namespace studies {

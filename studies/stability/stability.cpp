@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/stepping/steppers.h"
+#include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "studies/common/state_difference.h"
 #include "studies/common/timing.h"

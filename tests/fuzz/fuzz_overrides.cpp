@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/model/scene.h"
+#include "scenes/build/read_scene.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "scenes/model/scene.h"
+#include "scenes/build/read_scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

@@ -9,7 +9,7 @@
 #include "engine/run/diagnostics.h"
 #include "render/output/png.h"
 #include "render/renderer.h"
-#include "scenes/view/frame_steps.h"
+#include "scenes/build/read_scene.h"
 #include "scenes/view/frame_view.h"
 #include "tools/compare/picture_provenance.h"
 #include "tools/run/manifest.h"

@@ -214,12 +214,12 @@ TEST_CASE("obstacles become shapes") {
 }
 
 TEST_CASE("obstacles are drawn as the scene says") {
-    CHECK(!obstacleScene("shape = \"plane\"\n").obstacleLooks.at(0).visible);
+    CHECK(!obstacleScene("shape = \"plane\"\n").obstacleLooks.at(0).isVisible);
     const std::string box = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
-    CHECK(!obstacleScene("shape = \"box\"\n" + box).obstacleLooks.at(0).edges);
-    CHECK(obstacleScene("shape = \"container\"\n" + box).obstacleLooks.at(0).edges);
+    CHECK(!obstacleScene("shape = \"box\"\n" + box).obstacleLooks.at(0).hasEdges);
+    CHECK(obstacleScene("shape = \"container\"\n" + box).obstacleLooks.at(0).hasEdges);
     CHECK(obstacleScene("shape = \"container\"\n" + box).obstacleLooks.at(0).color == Vec3(1.0, 0.9, 0.0));
     CHECK(obstacleScene("shape = \"box\"\nedges = true\ncolor = [0.1, 0.2, 0.3]\n" + box).obstacleLooks.at(0).color ==
           Vec3(0.1, 0.2, 0.3));
-    CHECK(!obstacleScene("shape = \"box\"\nvisible = false\n" + box).obstacleLooks.at(0).visible);
+    CHECK(!obstacleScene("shape = \"box\"\nvisible = false\n" + box).obstacleLooks.at(0).isVisible);
 }

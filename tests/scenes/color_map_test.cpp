@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/schema/color_map.h"
 #include "scenes/text/color.h"
 #include "scenes/view/frame_view.h"
 #include "tests/scenes/scene_text.h"

@@ -44,7 +44,7 @@ TEST_CASE("an unknown name offers the nearest") {
     CHECK(resolved("liqiud", roots) == "liqiud: there is no such file or built-in scene, did you mean \"liquid\"?");
     CHECK(resolved("notes", roots) ==
           "notes: there is no such file and no built-in scene of that name (`globular scenes` lists them)");
-    CHECK(resolved("twin", roots) == "twin: may be any of a/twin, b/twin");
+    CHECK(resolved("twin", roots) == "twin: is ambiguous, it may be any of a/twin, b/twin");
     CHECK(resolved("a/twin", roots) == (folder.path / "a/twin.toml").string());
 }
 

@@ -99,7 +99,7 @@ TEST_CASE("nobody begins outside the world") {
     CHECK(problemsOf(kTop + "[world]\nmaximum = [9, 9, 9]\n[[body]]\nshape = \"points\"\npositions = [[1, 10, 1]]\n") ==
           Lines{"pile.toml:3:1: a body's particle at [1, 10, 1] is outside the world"});
     CHECK(problemsOf(kTop + "[world]\nmaximum = [9, 9, 9]\n[[emitter]]\nposition = [1, 1, 9.5]\ninterval = 1\n") ==
-          Lines{"pile.toml:3:1: an emitter's point of birth at [1, 1, 9.5] is outside the world"});
+          Lines{"pile.toml:3:1: an emitter's point of emission at [1, 1, 9.5] is outside the world"});
 }
 
 TEST_CASE("numbers that are not finite are refused") {
@@ -222,14 +222,15 @@ TEST_CASE("bodies and nozzles beyond all measure are refused before memory is sp
           Lines{"pile.toml:4:9: the body would have about 1e+09 particles, at most 2000000 are allowed; --limit "
                 "particles=N allows more"});
     CHECK(problemsOf(kTop + "[[emitter]]\nposition = [0, 0, 0]\nrate = 1e9\n") ==
-          Lines{"pile.toml:5:8: the emitter would give birth to about 2e+09 particles, at most 2000000 are allowed; "
+          Lines{"pile.toml:5:8: the emitter would emit about 2e+09 particles, at most 2000000 are allowed; "
                 "--limit particles=N allows more"});
     CHECK(
         problemsOf(
             kTop +
             "[[emitter]]\nshape = \"disc\"\nposition = [0, 0, 0]\nradius = 1e6\nrate = 1\nvelocity = [0, 1, 0]\n") ==
-        Lines{"pile.toml:3:1: the disc would have about 4.4e+13 points of birth, at most 2000000 are allowed; --limit "
-              "particles=N allows more"});
+        Lines{
+            "pile.toml:3:1: the disc would have about 4.4e+13 points of emission, at most 2000000 are allowed; --limit "
+            "particles=N allows more"});
 }
 
 TEST_CASE("particles of several bodies count together") {

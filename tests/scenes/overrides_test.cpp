@@ -23,7 +23,7 @@ TEST_CASE("a bare word is a string, other values are TOML") {
           engine::StepperKind::symplecticEuler);
     CHECK(sceneOf(kBall, {"title=two words = three"}).title == "two words = three");
     CHECK(sceneOf(kBall, {"physics.gravity=[1, -2.5, 3]"}).setup.gravity == engine::Vec3(1.0, -2.5, 3.0));
-    CHECK(sceneOf(kBall, {"look.shadows=false"}).look.shadows == false);
+    CHECK(sceneOf(kBall, {"look.shadows=false"}).look.common.light.shadows == false);
     CHECK(sceneOf(kBall, {"material.color=#ffffff"}).materialColors.at(0) == engine::Vec3(1.0, 1.0, 1.0));
 }
 

@@ -31,7 +31,7 @@ TEST_CASE("a scene that says little has the defaults of the schema") {
     REQUIRE(scene.setup.materials.size() == 1);
     CHECK(scene.setup.materials[0].name == "liquid");
     CHECK(scene.setup.materials[0].coreFraction == engine::Material{}.coreFraction);
-    CHECK(scene.look.metaballReach == 2.5);
+    CHECK(scene.look.common.field.reach == 2.5);
 }
 
 TEST_CASE("a scene says what it says") {
@@ -58,7 +58,7 @@ TEST_CASE("a scene says what it says") {
     CHECK(scene.stillTime == 3.0);
     CHECK(scene.size.width == 640);
     CHECK(scene.size.height == 480);
-    CHECK(scene.look.style == render::Style::metaballs);
+    CHECK(scene.look.common.style == render::Style::metaballs);
 }
 
 TEST_CASE("frames are counted by rounding and start at time zero") {
@@ -89,17 +89,17 @@ TEST_CASE("the effective values list every key that counts, once, with its origi
         FAIL("no value for " << path);
         return scenes::EffectiveValue{};
     };
-    CHECK(value("title").text == "\"t\"");
-    CHECK(value("body[0].radius").text == "0.5");
+    CHECK(value("title").toml == "\"t\"");
+    CHECK(value("body[0].radius").toml == "0.5");
     CHECK(value("body[0].radius").unit == "m");
-    CHECK(value("body[0].radius").origin == scenes::Origin::given);
-    CHECK(value("body[0].spacing").text == "0.3");
-    CHECK(value("body[0].spacing").origin == scenes::Origin::derived);
-    CHECK(value("material.b1").text == "0.5");
-    CHECK(value("material.cd").text == "2");
-    CHECK(value("physics.gravity").text == "[0, -9.8, 0]");
-    CHECK(value("physics.gravity").origin == scenes::Origin::fallback);
-    CHECK(value("still.time").text == "1");
+    CHECK(value("body[0].radius").origin == scenes::ValueOrigin::given);
+    CHECK(value("body[0].spacing").toml == "0.3");
+    CHECK(value("body[0].spacing").origin == scenes::ValueOrigin::derived);
+    CHECK(value("material.b1").toml == "0.5");
+    CHECK(value("material.cd").toml == "2");
+    CHECK(value("physics.gravity").toml == "[0, -9.8, 0]");
+    CHECK(value("physics.gravity").origin == scenes::ValueOrigin::schemaDefault);
+    CHECK(value("still.time").toml == "1");
     CHECK(paths.count("body[0].counts") == 0);
 }
 
@@ -158,6 +158,6 @@ TEST_CASE("the moments of a strip are numbers that increase, within the duration
           Lines{"pile.toml:7:13: strip[1] is \"a\" (a string), must be a number (seconds)",
                 "pile.toml:7:18: strip[2] is -1, must be >= 0 (seconds)"});
     CHECK(problemsOf(still + "strip = [1, 1, 3]\n") ==
-          Lines{"pile.toml:7:9: strip[1] is 1, must be after the moment before, 1 (seconds)",
+          Lines{"pile.toml:7:9: strip[1] is 1, must be after the time before, 1 (seconds)",
                 "pile.toml:7:9: strip[2] is 3, must be at most the duration, 2 (seconds)"});
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/model/scene.h"
+#include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 
 namespace scenes_test {
@@ -26,7 +26,7 @@ inline Lines problemsOf(const std::string& text, const scenes::Overrides& overri
         scenes::readScene(text, "pile.toml", overrides);
     } catch (const scenes::InputError& error) {
         Lines lines;
-        for (const scenes::Problem& problem : error.problems()) lines.push_back(scenes::lineOf(problem));
+        for (const scenes::Problem& problem : error.problems()) lines.push_back(scenes::formatProblem(problem));
         return lines;
     }
     return {};

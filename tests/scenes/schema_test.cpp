@@ -5,56 +5,58 @@
 #include <set>
 
 #include "engine/law/material.h"
-#include "scenes/schema/check.h"
 #include "scenes/schema/document.h"
 #include "scenes/schema/schema.h"
+#include "scenes/schema/schema_export.h"
+#include "scenes/schema/typed_value.h"
 
 using scenes::Key;
 using scenes::schema;
 
 TEST_CASE("every key has a help line, a known table and its place once") {
-    std::set<std::string_view> paths;
+    std::set<std::string> paths;
     for (const Key& key : schema()) {
-        INFO(key.path);
+        INFO(pathOf(key));
         CHECK(!key.help.empty());
         CHECK(key.help.find('\n') == std::string_view::npos);
-        CHECK(paths.insert(key.path).second);
-        REQUIRE(scenes::findTable(scenes::tableOf(key)) != nullptr);
-        CHECK(scenes::findKey(scenes::tableOf(key), scenes::nameOf(key)) == &key);
-        CHECK((key.path.find("[]") != std::string_view::npos) == scenes::findTable(scenes::tableOf(key))->list);
+        CHECK(paths.insert(pathOf(key)).second);
+        REQUIRE(scenes::findTable(key.table) != nullptr);
+        CHECK(scenes::findKey(key.table, key.name) == &key);
+        CHECK((pathOf(key).find("[]") != std::string::npos) == scenes::findTable(key.table)->allowsList);
     }
     CHECK(schema().size() > 80);
 }
 
 TEST_CASE("every key is required, has a default, or says in words what it is without one") {
     for (const Key& key : schema()) {
-        INFO(key.path);
-        CHECK(key.required + !key.fallback.empty() + !key.derived.empty() == 1);
+        INFO(pathOf(key));
+        CHECK(key.isRequired + !key.defaultValue.empty() + !key.derivedDefault.empty() == 1);
     }
 }
 
 TEST_CASE("every default passes the checks of its own key") {
     for (const Key& key : schema()) {
-        if (key.fallback.empty()) continue;
-        INFO(key.path << " = " << key.fallback);
+        if (key.defaultValue.empty()) continue;
+        INFO(pathOf(key) << " = " << key.defaultValue);
         scenes::ProblemList problems("schema", {});
-        CHECK(scenes::checkValue(key, scenes::parseOverrideValue(std::string(key.fallback), -1), problems).has_value());
+        CHECK(scenes::validateValue(key, scenes::parseOverrideValue(std::string(key.defaultValue), -1), problems)
+                  .has_value());
         CHECK(problems.empty());
     }
 }
 
 TEST_CASE("choices exist where and only where the type is a choice") {
     for (const Key& key : schema()) {
-        INFO(key.path);
+        INFO(pathOf(key));
         CHECK(key.choices.empty() == (key.type != scenes::Type::choice));
     }
 }
 
 TEST_CASE("keys apply to values that their table's discriminator can have") {
     for (const Key& key : schema()) {
-        INFO(key.path);
+        INFO(pathOf(key));
         if (key.appliesTo.empty()) continue;
-        const scenes::TableInfo& table = *scenes::findTable(scenes::tableOf(key));
+        const scenes::TableInfo& table = *scenes::findTable(key.table);
         const Key* discriminator = scenes::findKey(table.name, table.discriminator);
         REQUIRE(discriminator != nullptr);
         for (const std::string_view value : key.appliesTo)
@@ -78,10 +80,10 @@ TEST_CASE("rows show each key with type, unit, default, range and help") {
     };
     CHECK(row("fps").type == "integer");
     CHECK(row("fps").unit == "1/s");
-    CHECK(row("fps").fallback == "30");
+    CHECK(row("fps").defaultText == "30");
     CHECK(row("fps").range == "1 to 240");
-    CHECK(row("title").fallback == "required");
-    CHECK(row("still.time").fallback == "(half the duration)");
+    CHECK(row("title").defaultText == "required");
+    CHECK(row("still.time").defaultText == "(half the duration)");
     CHECK(row("physics.stepper").range ==
           "symplectic-euler | velocity-verlet | leapfrog | implicit-damping | linearly-implicit | auto");
     CHECK(row("body[].center").appliesTo == "shape ball, grid");
@@ -91,14 +93,14 @@ TEST_CASE("rows show each key with type, unit, default, range and help") {
 TEST_CASE("the text shows every key under the header of its table") {
     const std::string text = scenes::schemaText();
     for (const Key& key : schema()) {
-        INFO(key.path);
-        const scenes::TableInfo& table = *scenes::findTable(scenes::tableOf(key));
+        INFO(pathOf(key));
+        const scenes::TableInfo& table = *scenes::findTable(key.table);
         std::string header = "# keys above";
         if (!table.name.empty()) header.assign("[").append(table.name).append("]");
         const std::size_t at = text.find(header);
         REQUIRE(at != std::string::npos);
         std::string name = "\n  ";
-        name.append(scenes::nameOf(key)).append(" ");
+        name.append(key.name).append(" ");
         CHECK(text.find(name, at) != std::string::npos);
         CHECK(text.find(std::string(key.help)) != std::string::npos);
     }
@@ -107,9 +109,9 @@ TEST_CASE("the text shows every key under the header of its table") {
 TEST_CASE("ranges and units have words") {
     CHECK(scenes::rangeText({}) == "");
     CHECK(scenes::rangeText({.low = 0.0}) == ">= 0");
-    CHECK(scenes::rangeText({.low = 0.0, .lowOpen = true}) == "> 0");
+    CHECK(scenes::rangeText({.low = 0.0, .isLowExcluded = true}) == "> 0");
     CHECK(scenes::rangeText({.low = 0.0, .high = 0.5}) == "0 to 0.5");
-    CHECK(scenes::rangeText({.high = 2.0, .highOpen = true}) == "< 2");
+    CHECK(scenes::rangeText({.high = 2.0, .isHighExcluded = true}) == "< 2");
     CHECK(scenes::unitWords("m") == "meters");
     CHECK(scenes::unitWords("N m^4") == "N m^4");
 }

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "scenes/build/library.h"
-#include "scenes/model/scene.h"
+#include "scenes/build/read_scene.h"
 
 using engine::Vec3;
 
@@ -62,7 +62,7 @@ TEST_CASE("no shipped camera meets its target or the ground on its way") {
         for (int frame = 0; frame < scenes::frameCount(scene); ++frame) {
             const scenes::CameraPlacement camera = scenes::cameraAt(scene.camera, scenes::frameTime(scene, frame));
             CHECK((camera.eye - camera.target).norm() > 1.0);
-            if (scene.look.ground) CHECK(camera.eye.y() > scene.look.groundHeight + 0.5);
+            if (scene.look.common.ground) CHECK(camera.eye.y() > scene.look.common.ground->height + 0.5);
         }
     }
     CHECK(paths >= 2);
@@ -84,7 +84,7 @@ TEST_CASE("the paper's scenes have the paper's constants and method") {
         CHECK(scene.setup.step == 0.01);
         CHECK(scene.setup.drag == 1.005);
         CHECK(100 % scene.fps == 0);  // a frame is a whole number of published steps of 0.01 s
-        CHECK(scene.look.backgroundTop == Vec3(0.0, 0.0, 0.0));
+        CHECK(scene.look.common.background.top == glm::vec3(0.0F));
         CHECK(scene.size.width % 2 == 0);
         CHECK(scene.size.height % 2 == 0);
     }

@@ -1,5 +1,5 @@
 // [study]: what a hard case says of itself, and its variants.
-#include "scenes/schema/study.h"
+#include "scenes/model/study.h"
 
 #include "tests/catch.h"
 #include "tests/scenes/scene_text.h"

@@ -1,7 +1,7 @@
 // Text that is not TOML: every broken statement is found, and what stands after it is still read.
 #include "tests/catch.h"
 
-#include "scenes/text/statements.h"
+#include "scenes/text/toml_statements.h"
 #include "tests/scenes/scene_text.h"
 
 using scenes_test::kBall;
@@ -96,8 +96,8 @@ TEST_CASE("statements are found without reading their values") {
     const std::vector<scenes::Statement> statements = scenes::splitStatements(lines);
     std::string found;
     for (const scenes::Statement& statement : statements)
-        found += statement.name + (statement.form == scenes::Form::header ? "!" : "") +
+        found += statement.name + (statement.kind == scenes::StatementKind::tableHeader ? "!" : "") +
                  std::to_string(statement.firstLine) + "-" + std::to_string(statement.lastLine) +
-                 (statement.closed ? " " : "? ");
+                 (statement.isClosed ? " " : "? ");
     CHECK(found == "a0-0 t!3-3 c4-5 u!6-6 d7-9 e10-10 f11-11? g12-12 ");
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "engine/stepping/steppers.h"
+#include "scenes/build/read_scene.h"
 #include "studies/accuracy/accuracy.h"
 
 using engine::StepperKind;

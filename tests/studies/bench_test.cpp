@@ -1,5 +1,6 @@
 // The benchmark measures what it says: rows for what was asked, numbers that fit together, hashes that do not depend on
 // threads.
+#include "scenes/build/read_scene.h"
 #include "studies/bench/bench.h"
 
 #include <tbb/global_control.h>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/model/scene.h"
+#include "scenes/build/read_scene.h"
 #include "studies/stability/observables.h"
 
 namespace studies_test {

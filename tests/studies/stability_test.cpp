@@ -10,6 +10,7 @@
 #include <set>
 
 #include "scenes/build/library.h"
+#include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "tests/catch.h"
 

@@ -221,7 +221,7 @@ TEST_CASE("Scenes that would never end or overload the reader are refused", "[to
     CHECK(problem(deep + "a = 1\n" + scene).find("a.toml:1:1: a key of more than 256 parts") != std::string::npos);
     CHECK(problem("\"\" = 3\n" + scene).find("a.toml:1:1: unknown key") != std::string::npos);
     CHECK(problem(scene + "[\"\"]\n").find("unknown table") != std::string::npos);
-    CHECK(problem(scene, " --set duration.value=9").find("duration is no table") != std::string::npos);
+    CHECK(problem(scene, " --set duration.value=9").find("duration is not a table") != std::string::npos);
     CHECK(problem(scene + "[[body]]\nshape = \"points\"\npositions = [[1e300, 0, 0]]\n").find("positions[0][0] is") !=
           std::string::npos);
     CHECK(problem("title = \"t\"\nduration = 1\n[[body]]\nshape = \"points\"\npositions = [[0, 0, 0], [1, 0, 0]]\n",

@@ -11,6 +11,7 @@
 #include "engine/forces/simd_forces.h"
 #include "scenes/build/library.h"
 #include "scenes/text/input_error.h"
+#include "scenes/build/read_scene.h"
 #include "studies/bench/bench.h"
 #include "tools/commands/commands.h"
 #include "tools/run/threads.h"

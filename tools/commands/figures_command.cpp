@@ -75,8 +75,8 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
     for (const int frame : scenes::stripFrames(scene)) entry.stripTimes.push_back(scenes::frameTime(scene, frame));
     entry.stillTime = scenes::frameTime(scene, scenes::stillFrame(scene));
     for (const scenes::EffectiveValue& value : scene.values) {
-        if (value.origin == scenes::Origin::fallback) continue;
-        entry.parameters.emplace_back(value.path, value.unit.empty() ? value.text : value.text + " " + value.unit);
+        if (value.origin == scenes::ValueOrigin::schemaDefault) continue;
+        entry.parameters.emplace_back(value.path, value.unit.empty() ? value.toml : value.toml + " " + value.unit);
     }
     entry.command = fmt::format("globular render {} -o out/{} --video out/{}.mp4", name, name, name);
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "scenes/schema/schema.h"
+#include "scenes/schema/schema_export.h"
 #include "tools/commands/commands.h"
 #include "tools/system/json.h"
 
@@ -25,7 +25,7 @@ void addSchemaCommand(const Command& program) {
             printJson(Json{{"key", row.key},
                            {"type", row.type},
                            {"unit", row.unit},
-                           {"default", row.fallback},
+                           {"default", row.defaultText},
                            {"range", row.range},
                            {"applies_to", row.appliesTo},
                            {"help", row.help}});

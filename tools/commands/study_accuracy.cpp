@@ -11,7 +11,7 @@
 #include <set>
 
 #include "engine/stepping/steppers.h"
-#include "scenes/model/limits.h"
+#include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "studies/accuracy/accuracy.h"
 #include "tools/commands/study_command.h"

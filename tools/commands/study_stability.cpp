@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "scenes/build/library.h"
+#include "scenes/build/read_scene.h"
 #include "studies/stability/stability.h"
 #include "tools/commands/study_command.h"
 #include "tools/pages/study_pages.h"

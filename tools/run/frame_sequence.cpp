@@ -5,7 +5,7 @@
 
 #include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
-#include "scenes/view/frame_steps.h"
+#include "scenes/view/frame_view.h"
 #include "tools/system/json.h"
 
 namespace tools {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "scenes/build/library.h"
+#include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "tools/system/text.h"
 

@@ -1,5 +1,5 @@
-// A scanner that knows strings, brackets and comments, and no more of TOML than that.
-#include "scenes/text/statements.h"
+// A scanner that knows the strings, brackets and comments of TOML, and nothing else of it.
+#include "scenes/text/toml_statements.h"
 
 #include <cctype>
 
@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 
-bool isBare(char c) {
+bool isBareKeyCharacter(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
 }
 
@@ -17,39 +17,41 @@ std::size_t skipBlanks(const std::string& line, std::size_t at) {
     return found == std::string::npos ? line.size() : found;
 }
 
-/// The dotted name of bare keys that starts at a place; empty if none does.
-std::string nameAt(const std::string& line, std::size_t at) {
-    std::size_t end = at;
-    while (end < line.size() && (isBare(line[end]) || line[end] == '.')) ++end;
-    return line.substr(at, end - at);
+/// The dotted name of bare keys that starts at an index of a line; empty if there is none.
+std::string nameAt(const std::string& line, std::size_t start) {
+    std::size_t end = start;
+    while (end < line.size() && (isBareKeyCharacter(line[end]) || line[end] == '.')) ++end;
+    return line.substr(start, end - start);
 }
 
-bool endsWithName(const std::string& line, std::size_t at, std::string_view after) {
-    const std::string name = nameAt(line, at);
+/// Whether a name starts at an index and, but for blanks, the given text comes after it.
+bool isNameBefore(const std::string& line, std::size_t start, std::string_view after) {
+    const std::string name = nameAt(line, start);
     if (name.empty()) return false;
-    const std::size_t next = skipBlanks(line, at + name.size());
+    const std::size_t next = skipBlanks(line, start + name.size());
     return line.compare(next, after.size(), after) == 0;
 }
 
-/// A line that cannot be the continuation of a list: a whole header, or a key and its equals sign.
+/// Whether a line starts a new statement and cannot continue a list: a complete header, or a key and its equals sign.
 bool opensStatement(const std::string& line) {
     const std::size_t first = skipBlanks(line, 0);
-    if (endsWithName(line, first, "=")) return true;
-    if (line.compare(first, 2, "[[") == 0) return endsWithName(line, skipBlanks(line, first + 2), "]]");
-    // [true] would be a list; no table is called that.
-    return line.compare(first, 1, "[") == 0 && endsWithName(line, skipBlanks(line, first + 1), "]") &&
-           !endsWithName(line, skipBlanks(line, first + 1), "],") &&
+    if (isNameBefore(line, first, "=")) return true;
+    if (line.compare(first, 2, "[[") == 0) return isNameBefore(line, skipBlanks(line, first + 2), "]]");
+    // [1] and [a], are elements of lists; only a name that starts with a letter is a header.
+    return line.compare(first, 1, "[") == 0 && isNameBefore(line, skipBlanks(line, first + 1), "]") &&
+           !isNameBefore(line, skipBlanks(line, first + 1), "],") &&
            std::isalpha(static_cast<unsigned char>(line[skipBlanks(line, first + 1)])) != 0;
 }
 
-/// What is still open at the end of a line.
-struct Open {
+/// The brackets and strings that are still open at the end of a line.
+struct OpenDelimiters {
     int brackets = 0;
-    std::string quote;     ///< the delimiter of a string that spans lines
-    bool runaway = false;  ///< a string that cannot span lines did not end in its own
+    std::string quote;               ///< the delimiter of a string that spans lines
+    bool hasUnclosedString = false;  ///< a string that cannot span lines did not end in its line
 };
 
-/// The end of a string that opens at a place with the given delimiter; npos if it does not end in this line.
+/// Index after the end of a string with the given delimiter; npos if it does not end in this line.
+/// @param from  index after the opening delimiter
 std::size_t endOfString(const std::string& line, std::size_t from, const std::string& delimiter) {
     for (std::size_t at = from; at < line.size(); ++at) {
         if (line[at] == '\\' && delimiter[0] == '"')
@@ -60,7 +62,8 @@ std::size_t endOfString(const std::string& line, std::size_t from, const std::st
     return std::string::npos;
 }
 
-void scanLine(const std::string& line, std::size_t at, Open& open) {
+/// Updates what is open with the characters of a line from an index on.
+void scanLine(const std::string& line, std::size_t at, OpenDelimiters& open) {
     while (at < line.size()) {
         if (!open.quote.empty()) {
             at = endOfString(line, at, open.quote);
@@ -75,9 +78,9 @@ void scanLine(const std::string& line, std::size_t at, Open& open) {
             const bool isTriple = line.compare(at, 3, triple) == 0;
             open.quote = isTriple ? triple : std::string(1, c);
             at = endOfString(line, at + open.quote.size(), open.quote);
-            // A plain string ends with its line, whether closed or not.
+            // A string in single delimiters ends with its line, closed or not.
             if (at != std::string::npos || !isTriple) open.quote.clear();
-            open.runaway = open.runaway || (at == std::string::npos && !isTriple);
+            open.hasUnclosedString = open.hasUnclosedString || (at == std::string::npos && !isTriple);
             if (at == std::string::npos) return;
             continue;
         }
@@ -89,25 +92,25 @@ void scanLine(const std::string& line, std::size_t at, Open& open) {
 
 Statement headerAt(const std::string& line, std::size_t first) {
     Statement statement;
-    statement.form = Form::header;
-    statement.doubleBracket = line.compare(first, 2, "[[") == 0;
-    statement.name = nameAt(line, skipBlanks(line, first + (statement.doubleBracket ? 2 : 1)));
+    statement.kind = StatementKind::tableHeader;
+    statement.hasDoubleBrackets = line.compare(first, 2, "[[") == 0;
+    statement.name = nameAt(line, skipBlanks(line, first + (statement.hasDoubleBrackets ? 2 : 1)));
     return statement;
 }
 
-/// A value that is never closed is taken to end with its first line.
-Statement pairAt(const std::vector<std::string>& lines, std::size_t index, std::size_t first) {
+/// The statement of a key. A value that is never closed is taken to end with its first line.
+Statement keyValueAt(const std::vector<std::string>& lines, std::size_t index, std::size_t first) {
     Statement statement;
     statement.name = nameAt(lines[index], first);
-    if (!statement.name.empty()) statement.form = Form::pair;
-    Open open;
+    if (!statement.name.empty()) statement.kind = StatementKind::keyValue;
+    OpenDelimiters open;
     scanLine(lines[index], first, open);
     std::size_t last = index;
     while ((open.brackets > 0 || !open.quote.empty()) && last + 1 < lines.size()) {
         if (open.quote.empty() && opensStatement(lines[last + 1])) break;
         scanLine(lines[++last], 0, open);
     }
-    statement.closed = open.brackets <= 0 && open.quote.empty() && !open.runaway;
+    statement.isClosed = open.brackets <= 0 && open.quote.empty() && !open.hasUnclosedString;
     statement.lastLine = open.quote.empty() ? last : index;
     return statement;
 }
@@ -130,7 +133,7 @@ std::vector<Statement> splitStatements(const std::vector<std::string>& lines) {
         const std::size_t first = skipBlanks(lines[index], 0);
         if (first == lines[index].size() || lines[index][first] == '#') continue;
         const bool isHeader = lines[index][first] == '[';
-        Statement statement = isHeader ? headerAt(lines[index], first) : pairAt(lines, index, first);
+        Statement statement = isHeader ? headerAt(lines[index], first) : keyValueAt(lines, index, first);
         statement.firstLine = index;
         if (isHeader) statement.lastLine = index;
         statement.column = static_cast<int>(first) + 1;

@@ -1,5 +1,5 @@
-// Lookups in located values and their text.
-#include "scenes/text/located.h"
+// Lookups in TOML values, and their text in messages.
+#include "scenes/text/value.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 namespace scenes {
 namespace {
 
-/// Longer strings are cut in messages.
-constexpr std::size_t kLongestQuote = 40;
+/// Longer strings are cut off in messages, bytes.
+constexpr std::size_t kMaxQuotedLength = 40;
 
 template <class Table>
 auto* findIn(Table& table, std::string_view key) {
@@ -18,10 +18,10 @@ auto* findIn(Table& table, std::string_view key) {
     return static_cast<decltype(table.entries.data())>(nullptr);
 }
 
-/// Cuts before a character, never within the bytes of one.
+/// Cuts a long string off, never within the bytes of one UTF-8 character.
 std::string shortened(const std::string& text) {
-    if (text.size() <= kLongestQuote) return text;
-    std::size_t end = kLongestQuote;
+    if (text.size() <= kMaxQuotedLength) return text;
+    std::size_t end = kMaxQuotedLength;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
     return text.substr(0, end) + "...";
 }
@@ -37,27 +37,27 @@ Entry* findEntry(Value& table, std::string_view key) {
 
 std::string describe(const Value& value) {
     switch (value.kind) {
-        case Kind::boolean:
+        case ValueKind::boolean:
             return value.boolean ? "true" : "false";
-        case Kind::integer:
+        case ValueKind::integer:
             return fmt::format("{}", value.integer);
-        case Kind::real:
-            return numberText(value.real);
-        case Kind::text:
-            return inQuotes(shortened(value.text)) + " (a string)";
-        case Kind::date:
+        case ValueKind::floatingPoint:
+            return formatNumber(value.number);
+        case ValueKind::string:
+            return tomlString(shortened(value.string)) + " (a string)";
+        case ValueKind::dateTime:
             return "a date or time";
-        case Kind::array:
+        case ValueKind::array:
             return fmt::format("a list of {}", value.items.size());
-        case Kind::table:
+        case ValueKind::table:
             return "a table";
-        case Kind::broken:
+        case ValueKind::invalid:
             break;
     }
     return "unreadable";
 }
 
-std::string inQuotes(std::string_view text) {
+std::string tomlString(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\')
@@ -74,7 +74,7 @@ std::string inQuotes(std::string_view text) {
     return result + '"';
 }
 
-std::string numberText(double number) {
+std::string formatNumber(double number) {
     if (std::isnan(number)) return "nan";
     return fmt::format("{}", number);
 }

@@ -1,4 +1,6 @@
-// The schema as `globular schema` shows it.
+// The schema as columns of text, and as text for a terminal.
+#include "scenes/schema/schema_export.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,9 +20,9 @@ std::string typeText(Type type) {
             return "integer";
         case Type::boolean:
             return "boolean";
-        case Type::text:
+        case Type::string:
             return "string";
-        case Type::textList:
+        case Type::stringList:
             return "list of strings";
         case Type::choice:
             return "choice";
@@ -46,33 +48,33 @@ std::string joined(const std::vector<std::string_view>& words, std::string_view 
     return fmt::format("{}", fmt::join(words, separator));
 }
 
-std::string fallbackText(const Key& key) {
-    if (key.required) return "required";
-    if (!key.fallback.empty()) return std::string(key.fallback);
-    return key.derived.empty() ? "none" : fmt::format("({})", key.derived);
+std::string defaultText(const Key& key) {
+    if (key.isRequired) return "required";
+    if (!key.defaultValue.empty()) return std::string(key.defaultValue);
+    return key.derivedDefault.empty() ? "none" : fmt::format("({})", key.derivedDefault);
 }
 
 SchemaRow rowOf(const Key& key) {
     SchemaRow row;
-    row.key = std::string(key.path);
+    row.key = pathOf(key);
     row.type = typeText(key.type);
     row.unit = std::string(key.unit);
-    row.fallback = fallbackText(key);
+    row.defaultText = defaultText(key);
     row.range = key.type == Type::choice ? joined(key.choices, " | ") : rangeText(key.range);
     if (!key.appliesTo.empty())
-        row.appliesTo = fmt::format("{} {}", findTable(tableOf(key))->discriminator, joined(key.appliesTo, ", "));
+        row.appliesTo = fmt::format("{} {}", findTable(key.table)->discriminator, joined(key.appliesTo, ", "));
     row.help = std::string(key.help);
     return row;
 }
 
-/// "m, > 0, default 0.15": what there is to say besides the help.
+/// All columns but the key and the help, e.g. "number, m, > 0, default 0.15".
 std::string factsOf(const SchemaRow& row) {
     std::string facts = row.type;
     if (!row.unit.empty()) facts += fmt::format(", {}", row.unit);
     if (!row.range.empty()) facts += fmt::format(", {}", row.range);
-    facts += row.fallback == "required" || row.fallback == "none"
-                 ? fmt::format(", {}", row.fallback == "none" ? "no default" : "required")
-                 : fmt::format(", default {}", row.fallback);
+    facts += row.defaultText == "required" || row.defaultText == "none"
+                 ? fmt::format(", {}", row.defaultText == "none" ? "no default" : "required")
+                 : fmt::format(", default {}", row.defaultText);
     if (!row.appliesTo.empty()) facts += fmt::format("; {}", row.appliesTo);
     return facts;
 }
@@ -87,15 +89,15 @@ std::vector<SchemaRow> schemaRows() {
 
 std::string schemaText() {
     std::size_t width = 0;
-    for (const Key& key : schema()) width = std::max(width, nameOf(key).size());
+    for (const Key& key : schema()) width = std::max(width, key.name.size());
     std::string text;
     for (const TableInfo& table : tables()) {
-        const std::string_view brackets = table.name.empty() ? "{}# {}\n"
-                                          : table.single     ? "\n[{}]  # {}\n"
-                                                             : "\n[[{}]]  # {}\n";
+        const std::string_view brackets = table.name.empty()   ? "{}# {}\n"
+                                          : table.allowsSingle ? "\n[{}]  # {}\n"
+                                                               : "\n[[{}]]  # {}\n";
         text += fmt::format(fmt::runtime(brackets), table.name, table.help);
         for (const Key* key : keysOf(table.name)) {
-            text += fmt::format("  {:<{}}  {}\n", nameOf(*key), width, key->help);
+            text += fmt::format("  {:<{}}  {}\n", key->name, width, key->help);
             text += fmt::format("  {:<{}}    {}\n", "", width, factsOf(rowOf(*key)));
         }
     }

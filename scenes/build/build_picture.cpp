@@ -1,0 +1,207 @@
+// Builds what is drawn: [camera], or the [[camera]] list that makes a path, [look] and [overlay].
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes/build/builders.h"
+#include "scenes/model/to_float.h"
+#include "scenes/text/color.h"
+
+namespace scenes {
+namespace {
+
+using engine::Vec3;
+
+/// Squared sine of the angle below which "up" counts as parallel to the direction of view.
+constexpr double kParallel = 1e-12;
+
+void checkCamera(Section& section, BuildContext& context) {
+    const auto forward = unitVector(section.vector("target") - section.vector("eye"));
+    const auto up = unitVector(section.vector("up"));
+    if (!forward) report(section, "target", "target is where eye is, must be another point", context);
+    if (!up) report(section, "up", "up is [0, 0, 0], must not be zero", context);
+    if (forward && up && engine::squaredLength(forward->cross(*up)) < kParallel)
+        report(section, "up", "up lies along the direction of view, must point across it", context);
+}
+
+/// Checks what concerns several cameras together: times must increase, and the projection cannot change, because there
+/// is nothing to interpolate between the two.
+void checkPath(std::vector<Section>& sections, BuildContext& context) {
+    const Section* previous = nullptr;
+    for (Section& section : sections) {
+        if (!section.isGiven("time")) reportMissing(section, "time", context);
+        if (previous != nullptr && previous->has("time") && section.has("time") &&
+            section.number("time") <= previous->number("time"))
+            report(section, "time",
+                   fmt::format("time is {}, must be after that of the camera before, {} (seconds)",
+                               section.canonical("time"), previous->canonical("time")),
+                   context);
+        if (previous != nullptr && section.string("projection") != previous->string("projection"))
+            report(section, "projection",
+                   fmt::format("projection is {}, must stay {} along the path", section.canonical("projection"),
+                               previous->canonical("projection")),
+                   context);
+        previous = &section;
+    }
+}
+
+CameraPlacement placementFrom(const Section& section) {
+    CameraPlacement camera;
+    camera.eye = section.vector("eye");
+    camera.target = section.vector("target");
+    camera.up = section.vector("up");
+    if (section.string("projection") == "orthographic") {
+        camera.projection = render::Projection::orthographic;
+        camera.halfHeight = section.number("half_height");
+    } else {
+        camera.verticalFov = section.number("fov") * std::numbers::pi / 180.0;
+    }
+    return camera;
+}
+
+/// Whether an override gives `key` while the scene file gives `other`.
+bool overrides(const Section& section, std::string_view key, std::string_view other) {
+    return section.isGiven(key) && section.position(key).overrideIndex >= 0 &&
+           section.position(other).overrideIndex < 0;
+}
+
+/// Chooses between colors and a color map where both are given: an override takes precedence over the file, and the
+/// other is then removed from the values of the scene. Otherwise it is a mistake to give both.
+void chooseRamp(Section& section, BuildContext& context) {
+    if (!section.isGiven("colors") || !section.isGiven("color_map")) return;
+    if (overrides(section, "color_map", "colors"))
+        section.erase("colors");
+    else if (overrides(section, "colors", "color_map"))
+        section.erase("color_map");
+    else
+        reportConflict(section, "colors", "color_map", context);
+}
+
+void readColors(Section& section, const BuildContext& context, Look& look) {
+    const std::string& colorBy = section.string("color_by");
+    look.colorBy = colorBy == "speed" ? ColorBy::speed : colorBy == "age" ? ColorBy::age : ColorBy::material;
+    look.edgeColor = toFloat(section.vector("edge_color"));
+    look.edgeWidth = toFloat(section.number("edge_width"));
+    if (look.colorBy == ColorBy::material) return;
+    // 5 m/s is chosen: about the speed of a fall from 1.3 m.
+    const double high = look.colorBy == ColorBy::speed ? 5.0 : context.duration;
+    section.derive("color_range", TypedValue::ofNumbers({0.0, high}));
+    look.ramp = section.has("color_map") ? colorMap(section.string("color_map")) : section.vectors("colors");
+    look.rampLow = section.numbers("color_range")[0];
+    look.rampHigh = section.numbers("color_range")[1];
+}
+
+void readLights(const Section& section, render::View& view) {
+    const auto number = [&](std::string_view name) { return toFloat(section.number(name)); };
+    const auto color = [&](std::string_view name) { return toFloat(section.vector(name)); };
+    view.light.color = color("light_color");
+    view.light.shadows = section.boolean("shadows");
+    view.light.softness = number("shadow_softness");
+    view.ambient = {color("ambient_sky"), color("ambient_ground"), number("occlusion")};
+    view.surroundings = {color("mirror_top"), color("mirror_horizon"), color("mirror_bottom")};
+    view.exposure = number("exposure");
+    view.background = {color("background_top"), color("background_bottom")};
+    if (section.boolean("ground"))
+        view.ground = render::Ground{
+            .height = number("ground_height"), .color = color("ground_color"), .fadeDistance = number("ground_fade")};
+}
+
+void readSurface(const Section& section, render::View& view) {
+    const auto number = [&](std::string_view name) { return toFloat(section.number(name)); };
+    view.style = section.string("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;
+    view.field.reach = number("metaball_reach");
+    view.field.skin = section.string("skin") == "smooth" ? render::Skin::smooth : render::Skin::plain;
+    view.surface.specular = number("specular");
+    view.surface.glossExponent = static_cast<int>(section.integer("gloss"));
+    view.surface.reflection = number("reflection");
+    view.surface.metal = number("metal");
+    view.surface.roughness = number("roughness");
+    view.surface.translucency = number("translucency");
+    view.surface.absorption = number("absorption");
+    view.surface.glow = number("glow");
+}
+
+/// Length of a scale bar at a camera's target, as a share of the picture's width.
+double widthShare(double length, const CameraPlacement& camera, const Section& look) {
+    const std::vector<double>& size = look.numbers("size");
+    const double halfHeight =
+        camera.projection == render::Projection::orthographic
+            ? camera.halfHeight
+            : std::tan(0.5 * camera.verticalFov) * std::sqrt(engine::squaredLength(camera.target - camera.eye));
+    return length / (2.0 * halfHeight) * size[1] / size[0];
+}
+
+void checkScaleBar(Section& section, const Section& look, const CameraPath& camera, BuildContext& context) {
+    constexpr double kMaxShare = 0.8;  // chosen: leaves room for margins at any size of the picture
+    for (const CameraKey& key : camera.keys) {
+        const double share = widthShare(section.number("scale_bar"), key.placement, look);
+        if (share <= kMaxShare) continue;
+        report(section, "scale_bar",
+               fmt::format("scale_bar is {}, {:.2g} of the picture's width at the camera's target, must be at most {} "
+                           "of it (meters)",
+                           section.canonical("scale_bar"), share, kMaxShare),
+               context);
+        return;
+    }
+}
+
+double luminance(const Vec3& linear) {
+    return linear.dot(Vec3(0.2126, 0.7152, 0.0722));
+}
+
+/// Dark on a light background, light on a dark one.
+Vec3 contrastingInk(const Section& look) {
+    constexpr double kMiddleGray = 0.18;  // looks half as bright as white
+    const double background =
+        0.5 * (luminance(look.vector("background_top")) + luminance(look.vector("background_bottom")));
+    return background > kMiddleGray ? Vec3(0.01, 0.01, 0.01) : Vec3(0.93, 0.93, 0.93);
+}
+
+}  // namespace
+
+CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
+    CameraPath path;
+    for (Section& section : sections) checkCamera(section, context);
+    if (sections.size() > 1) checkPath(sections, context);
+    for (const Section& section : sections) {
+        if (!section.isValid()) return {{CameraKey{}}};
+        path.keys.push_back({section.has("time") ? section.number("time") : 0.0, placementFrom(section)});
+    }
+    return path;
+}
+
+Look buildLook(Section& section, BuildContext& context) {
+    Look look;
+    const auto toLight = unitVector(section.vector("light_direction"));
+    if (!toLight) report(section, "light_direction", "light_direction is [0, 0, 0], must not be zero", context);
+    chooseRamp(section, context);
+    if (!section.isValid()) return look;
+    readColors(section, context, look);
+    readLights(section, look.common);
+    readSurface(section, look.common);
+    look.common.light.toLight = toFloat(*toLight);
+    return look;
+}
+
+Overlay buildOverlay(Section& section, const Section& look, const CameraPath& camera, BuildContext& context) {
+    const bool isByMaterial = look.string("color_by") == "material";
+    if (look.isValid() && isByMaterial && section.boolean("color_bar"))
+        report(section, "color_bar",
+               "color_bar is true, but colors by material have no scale; it needs look.color_by \"speed\" or \"age\"",
+               context);
+    if (section.number("scale_bar") > 0.0) checkScaleBar(section, look, camera, context);
+    if (!isByMaterial) section.derive("color_label", TypedValue::ofString(look.string("color_by")));
+    section.derive("ink", TypedValue::ofVector(contrastingInk(look)));
+    Overlay overlay;
+    if (!section.isValid()) return overlay;
+    overlay.time = section.boolean("time");
+    overlay.scaleBar = section.number("scale_bar");
+    overlay.colorBar = section.boolean("color_bar");
+    if (section.has("color_label")) overlay.colorLabel = section.string("color_label");
+    overlay.ink = section.vector("ink");
+    overlay.size = section.number("size");
+    return overlay;
+}
+
+}  // namespace scenes

@@ -1,0 +1,34 @@
+// The rows of the schema by subject, and what they share. Included by the schema's own files only.
+#pragma once
+
+#include "engine/stepping/state_checks.h"
+#include "scenes/schema/schema.h"
+
+namespace scenes {
+
+inline constexpr Range kPositive{.low = 0.0, .isLowExcluded = true};
+inline constexpr Range kNotNegative{.low = 0.0};
+inline constexpr Range kUnitInterval{.low = 0.0, .high = 1.0};
+inline constexpr Range kOpenUnitInterval{.low = 0.0, .high = 1.0, .isLowExcluded = true, .isHighExcluded = true};
+/// Coordinates (m) and, for want of a tighter bound, velocities (m/s): a particle further out counts as lost.
+inline constexpr Range kWithinWorld{.low = -engine::kWorldLimit, .high = engine::kWorldLimit};
+
+/// A key before its range, default and so on are added.
+inline Key key(std::string_view name, Type type, std::string_view unit, std::string_view help) {
+    return {.name = name, .type = type, .unit = unit, .help = help};
+}
+
+std::vector<Key> topKeys();
+std::vector<Key> physicsKeys();
+std::vector<Key> worldKeys();
+std::vector<Key> materialKeys();
+std::vector<Key> bodyKeys();
+std::vector<Key> emitterKeys();
+std::vector<Key> obstacleKeys();
+std::vector<Key> cameraKeys();
+std::vector<Key> lookKeys();
+std::vector<Key> overlayKeys();
+std::vector<Key> stillKeys();
+std::vector<Key> studyKeys();
+
+}  // namespace scenes
