@@ -14,7 +14,7 @@ packages=(
 if [ "${1:-}" = --tests ]; then
     shift
     # clang has the sanitizers and the fuzzer; llvm the symbolizer that puts names into their reports; chromium opens the
-    # report of `globular compare`.
-    packages+=(catch2 clang libclang-rt-dev llvm chromium)
+    # report of `globular compare`; python3-jsonschema checks the scenes against `globular schema --json-schema`.
+    packages+=(catch2 clang libclang-rt-dev llvm chromium python3-jsonschema)
 fi
 exec "$(dirname "$0")/install_packages.sh" "${packages[@]}" "$@"

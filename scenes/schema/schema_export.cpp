@@ -1,9 +1,10 @@
-// The schema as columns of text, and as text for a terminal.
+// The schema as columns of text, as text for a terminal, and as Markdown.
 #include "scenes/schema/schema_export.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "scenes/schema/schema.h"
 
@@ -51,7 +52,7 @@ std::string joined(const std::vector<std::string_view>& words, std::string_view 
 std::string defaultText(const Key& key) {
     if (key.isRequired) return "required";
     if (!key.defaultValue.empty()) return std::string(key.defaultValue);
-    return key.derivedDefault.empty() ? "none" : fmt::format("({})", key.derivedDefault);
+    return fmt::format("({})", key.derivedDefault);
 }
 
 SchemaRow rowOf(const Key& key) {
@@ -72,11 +73,42 @@ std::string factsOf(const SchemaRow& row) {
     std::string facts = row.type;
     if (!row.unit.empty()) facts += fmt::format(", {}", row.unit);
     if (!row.range.empty()) facts += fmt::format(", {}", row.range);
-    facts += row.defaultText == "required" || row.defaultText == "none"
-                 ? fmt::format(", {}", row.defaultText == "none" ? "no default" : "required")
-                 : fmt::format(", default {}", row.defaultText);
+    facts += fmt::format(", {}{}", row.defaultText == "required" ? "" : "default ", row.defaultText);
     if (!row.appliesTo.empty()) facts += fmt::format("; {}", row.appliesTo);
     return facts;
+}
+
+/// A table's header as it is written in a scene file; empty for the keys above the first table.
+std::string headerOf(const TableInfo& table) {
+    if (table.name.empty()) return {};
+    return fmt::format(fmt::runtime(table.allowsSingle ? "[{}]" : "[[{}]]"), table.name);
+}
+
+/// Text for a cell of a Markdown table, where | separates columns and < may open a tag.
+std::string inCell(std::string_view text) {
+    std::string cell;
+    for (const char c : text) {
+        if (c == '|' || c == '<') cell += '\\';
+        cell += c;
+    }
+    return cell;
+}
+
+/// Text for a cell of a Markdown table as code; empty text stays empty.
+std::string codeInCell(std::string_view text) {
+    return text.empty() ? "" : fmt::format("`{}`", text);
+}
+
+std::string markdownRow(const Key& key) {
+    const SchemaRow row = rowOf(key);
+    const std::string type = row.unit.empty() ? row.type : fmt::format("{}, {}", row.type, row.unit);
+    const std::string defaultCell = key.defaultValue.empty() ? row.defaultText : codeInCell(row.defaultText);
+    std::vector<std::string> choices;
+    for (const std::string_view choice : key.choices) choices.push_back(codeInCell(choice));
+    const std::string range = choices.empty() ? inCell(row.range) : fmt::format("{}", fmt::join(choices, ", "));
+    const std::string condition = row.appliesTo.empty() ? "" : fmt::format(" (only for {})", row.appliesTo);
+    return fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, type, defaultCell, range, inCell(row.help),
+                       condition);
 }
 
 }  // namespace
@@ -92,14 +124,36 @@ std::string schemaText() {
     for (const Key& key : schema()) width = std::max(width, key.name.size());
     std::string text;
     for (const TableInfo& table : tables()) {
-        const std::string_view brackets = table.name.empty()   ? "{}# {}\n"
-                                          : table.allowsSingle ? "\n[{}]  # {}\n"
-                                                               : "\n[[{}]]  # {}\n";
-        text += fmt::format(fmt::runtime(brackets), table.name, table.help);
+        const std::string header = headerOf(table);
+        text += header.empty() ? fmt::format("# {}\n", table.help) : fmt::format("\n{}  # {}\n", header, table.help);
         for (const Key* key : keysOf(table.name)) {
             text += fmt::format("  {:<{}}  {}\n", key->name, width, key->help);
             text += fmt::format("  {:<{}}    {}\n", "", width, factsOf(rowOf(*key)));
         }
+    }
+    return text;
+}
+
+std::string schemaMarkdown() {
+    std::string text = R"(# Scene files
+
+A scene is a [TOML](https://toml.io) file. This page lists every key that it may contain. It is generated: run
+`globular schema --markdown > docs/scenes.md` after a change of the schema. `globular schema` shows the same in a
+terminal, and `globular schema --json-schema` writes a JSON Schema, with which an editor completes and checks keys while
+one types.
+
+Lengths are in meters, masses in kilograms, times in seconds; y points up. A color is `"#rrggbb"` in sRGB, or `[r, g, b]`
+in linear light from 0 to 1. A default in parentheses depends on other keys. Any key can be changed on the command line,
+for example with `--set physics.step=0.001` or `--set body[0].radius=0.5`. Unknown keys, wrong types and values out of
+range are errors, and are reported with line and column.
+)";
+    for (const TableInfo& table : tables()) {
+        const std::string header = headerOf(table);
+        text += fmt::format("\n## {}\n\n", header.empty() ? "Keys above the first table" : fmt::format("`{}`", header));
+        if (!header.empty())
+            text += fmt::format("{}{}.\n\n", static_cast<char>(std::toupper(table.help[0])), table.help.substr(1));
+        text += "| Key | Type, unit | Default | Range or choices | Meaning |\n|---|---|---|---|---|\n";
+        for (const Key* key : keysOf(table.name)) text += markdownRow(*key);
     }
     return text;
 }

@@ -1,4 +1,5 @@
-// The schema in the forms that `globular schema` prints.
+// The schema in the forms that `globular schema` prints: columns of text, text for a terminal, Markdown for
+// docs/scenes.md, and JSON Schema for editors.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@ struct SchemaRow {
     std::string key;
     std::string type;
     std::string unit;
-    std::string defaultText;  ///< as TOML, or in words in parentheses; otherwise "required" or "none"
+    std::string defaultText;  ///< as TOML, or in words in parentheses, or "required"
     std::string range;        ///< bounds or choices
     std::string appliesTo;    ///< e.g. "shape ball, grid"; empty: always
     std::string help;
@@ -21,5 +22,12 @@ std::vector<SchemaRow> schemaRows();
 
 /// The whole schema as text for a terminal.
 std::string schemaText();
+
+/// The whole schema as Markdown: a section for each table, with a table of its keys.
+std::string schemaMarkdown();
+
+/// The whole schema as JSON Schema, draft-07, which taplo and Even Better TOML read. It accepts every valid scene;
+/// rules about several keys, such as "position or positions", are left to the reader of scenes.
+std::string jsonSchema();
 
 }  // namespace scenes

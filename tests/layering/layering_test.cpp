@@ -31,7 +31,7 @@ const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", 
 /// Libraries that a folder may use, by the first part of the path; standard headers have no such part.
 const std::map<std::string, std::set<std::string>> kLibraries = {
     {"engine", {"Eigen", "hwy", "tbb"}},
-    {"scenes", {"Eigen", "glm", "fmt", "toml++"}},
+    {"scenes", {"Eigen", "glm", "fmt", "nlohmann", "toml++"}},
     {"studies", {"Eigen", "fmt", "glm", "hwy", "tbb"}},
 };
 

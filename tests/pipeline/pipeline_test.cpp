@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "scenes/build/read_scene.h"
 #include "tests/catch.h"
 #include "tests/scenes/scene_text.h"
 #include "tools/run/render_loop.h"

@@ -2,6 +2,8 @@
 #include "tests/catch.h"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "engine/law/material.h"
@@ -104,6 +106,13 @@ TEST_CASE("the text shows every key under the header of its table") {
         CHECK(text.find(name, at) != std::string::npos);
         CHECK(text.find(std::string(key.help)) != std::string::npos);
     }
+}
+
+TEST_CASE("docs/scenes.md is current") {
+    std::ifstream file(GLOBULAR_SOURCE "/docs/scenes.md", std::ios::binary);
+    const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    INFO("bring it up to date with: build/release/globular schema --markdown > docs/scenes.md");
+    CHECK((page == scenes::schemaMarkdown()));
 }
 
 TEST_CASE("ranges and units have words") {

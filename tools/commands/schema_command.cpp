@@ -1,4 +1,4 @@
-// globular schema: lists every key that a scene file may have.
+// globular schema: every key that a scene file may contain, as text, JSON, JSON Schema or Markdown.
 #include <fmt/format.h>
 
 #include <memory>
@@ -14,11 +14,18 @@ void addSchemaCommand(const Command& program) {
     const Command command =
         program.command("schema", "every key of a scene file with type, unit, default, range, help");
     const auto json = std::make_shared<bool>(false);
-    command.flag("--json", *json, "one JSON object a line");
-    command.example("globular schema");
-    command.run([json] {
+    const auto jsonSchema = std::make_shared<bool>(false);
+    const auto markdown = std::make_shared<bool>(false);
+    Flag rows = command.flag("--json", *json, "the keys as JSON, one object per line");
+    Flag editor = command.flag("--json-schema", *jsonSchema, "a JSON Schema, with which editors check scene files");
+    command.flag("--markdown", *markdown, "the page docs/scenes.md").notWith(rows).notWith(editor);
+    editor.notWith(rows);
+    command.example("globular schema --json-schema > globular.schema.json");
+    command.run([json, jsonSchema, markdown] {
         if (!*json) {
-            fmt::print("{}", scenes::schemaText());
+            fmt::print("{}", *jsonSchema ? scenes::jsonSchema()
+                             : *markdown ? scenes::schemaMarkdown()
+                                         : scenes::schemaText());
             return;
         }
         for (const scenes::SchemaRow& row : scenes::schemaRows())

@@ -7,7 +7,7 @@
 
 #include "engine/run/run_memory.h"
 #include "render/picture/view.h"
-#include "scenes/view/frame_steps.h"
+#include "scenes/view/frame_view.h"
 
 namespace tools {
 namespace {
