@@ -4,8 +4,6 @@
 namespace scenes {
 namespace {
 
-using enum Type;
-
 constexpr std::string_view kMinimumHelp = "corner with the smallest coordinates";
 constexpr std::string_view kMaximumHelp = "corner with the largest coordinates";
 
@@ -13,47 +11,48 @@ constexpr std::string_view kMaximumHelp = "corner with the largest coordinates";
 
 std::vector<Key> bodyKeys() {
     return {
-        key("shape", choice, "", "what is filled with particles at the start")
+        key("shape", Type::choice, "", "what is filled with particles at the start")
             .required()
             .oneOf({"box", "ball", "grid", "points", "file"}),
-        key("material", string, "", "name of a [[material]]").derivedAs("the first; for a file, the materials in it"),
-        key("velocity", vec3, "m/s", "velocity of every particle, in addition to those of points and files")
+        key("material", Type::string, "", "name of a [[material]]")
+            .derivedAs("the first; for a file, the materials in it"),
+        key("velocity", Type::vec3, "m/s", "velocity of every particle, in addition to those of points and files")
             .defaultsTo("[0, 0, 0]")
             .within(kWithinWorld),
-        key("center", vec3, "m", "center of the body")
+        key("center", Type::vec3, "m", "center of the body")
             .defaultsTo("[0, 0, 0]")
             .within(kWithinWorld)
             .onlyFor({"ball", "grid"}),
-        key("radius", number, "m", "radius of the ball").required().within(kPositive).onlyFor({"ball"}),
-        key("minimum", vec3, "m", kMinimumHelp).required().within(kWithinWorld).onlyFor({"box"}),
-        key("maximum", vec3, "m", kMaximumHelp).required().within(kWithinWorld).onlyFor({"box"}),
-        key("counts", counts, "", "number of particles along x, y and z")
+        key("radius", Type::number, "m", "radius of the ball").required().within(kPositive).onlyFor({"ball"}),
+        key("minimum", Type::vec3, "m", kMinimumHelp).required().within(kWithinWorld).onlyFor({"box"}),
+        key("maximum", Type::vec3, "m", kMaximumHelp).required().within(kWithinWorld).onlyFor({"box"}),
+        key("counts", Type::counts, "", "number of particles along x, y and z")
             .required()
             .within({1.0, 1e6})
             .onlyFor({"grid"}),
-        key("spacing", number, "m", "distance of nearest neighbors")
+        key("spacing", Type::number, "m", "distance of nearest neighbors")
             .derivedAs("two particle radii")
             .within(kPositive)
             .onlyFor({"box", "ball", "grid"}),
-        key("jitter", number, "", "random displacement, as a share of the spacing")
+        key("jitter", Type::number, "", "random displacement, as a share of the spacing")
             .defaultsTo("0")
             .within({0.0, 0.5})
             .onlyFor({"box", "ball", "grid"}),
-        key("positions", vec3List, "m", "position of each particle")
+        key("positions", Type::vec3List, "m", "position of each particle")
             .required()
             .within(kWithinWorld)
             .onlyFor({"points"}),
-        key("velocities", vec3List, "m/s", "velocity of each particle, in the order of positions")
+        key("velocities", Type::vec3List, "m/s", "velocity of each particle, in the order of positions")
             .derivedAs("at rest")
             .within(kWithinWorld)
             .onlyFor({"points"}),
-        key("file", string, "", "PLY file as `globular simulate` writes it, relative to the scene file")
+        key("file", Type::string, "", "PLY file as `globular simulate` writes it, relative to the scene file")
             .required()
             .onlyFor({"file"}),
-        key("particle_radius", number, "m", "radius of this body's particles")
+        key("particle_radius", Type::number, "m", "radius of this body's particles")
             .derivedAs("of the material; for a file, the radii in it")
             .within(kPositive),
-        key("particle_mass", number, "kg", "mass of this body's particles")
+        key("particle_mass", Type::number, "kg", "mass of this body's particles")
             .derivedAs("of the material; for a file, the masses in it")
             .within(kPositive),
     };
@@ -61,88 +60,94 @@ std::vector<Key> bodyKeys() {
 
 std::vector<Key> emitterKeys() {
     return {
-        key("shape", choice, "", "individual points of emission, or a disc filled with them")
+        key("shape", Type::choice, "", "individual points of emission, or a disc filled with them")
             .defaultsTo("\"point\"")
             .oneOf({"point", "disc"}),
-        key("position", vec3, "m", "point of emission, or center of the disc")
+        key("position", Type::vec3, "m", "point of emission, or center of the disc")
             .derivedAs("none: this or positions is required")
             .within(kWithinWorld),
-        key("positions", vec3List, "m", "several points of emission")
+        key("positions", Type::vec3List, "m", "several points of emission")
             .derivedAs("none: this or position is required")
             .within(kWithinWorld)
             .onlyFor({"point"}),
-        key("velocity", vec3, "m/s", "velocity of emitted particles").defaultsTo("[0, 0, 0]").within(kWithinWorld),
-        key("direction", vec3, "", "normal of the disc, of any length").derivedAs("of the velocity").onlyFor({"disc"}),
-        key("radius", number, "m", "radius of the disc").required().within(kPositive).onlyFor({"disc"}),
-        key("spacing", number, "m", "distance of the disc's points of emission")
+        key("velocity", Type::vec3, "m/s", "velocity of emitted particles")
+            .defaultsTo("[0, 0, 0]")
+            .within(kWithinWorld),
+        key("direction", Type::vec3, "", "normal of the disc, of any length")
+            .derivedAs("of the velocity")
+            .onlyFor({"disc"}),
+        key("radius", Type::number, "m", "radius of the disc").required().within(kPositive).onlyFor({"disc"}),
+        key("spacing", Type::number, "m", "distance of the disc's points of emission")
             .derivedAs("two particle radii")
             .within(kPositive)
             .onlyFor({"disc"}),
-        key("interval", number, "s",
+        key("interval", Type::number, "s",
             "time between emissions of each point, or of the whole emitter if it picks points at random")
             .derivedAs("none: this or rate is required")
             .within({.low = 1e-9}),
-        key("rate", number, "1/s", "particles that the whole emitter emits per second")
+        key("rate", Type::number, "1/s", "particles that the whole emitter emits per second")
             .derivedAs("none: this or interval is required")
             .within({0.0, 1e9, true}),
-        key("start", number, "s", "time of the first emission").defaultsTo("0").within(kNotNegative),
-        key("until", number, "s", "nothing is emitted at or after this time").derivedAs("no end").within(kPositive),
-        key("count", integer, "", "total number of particles emitted").derivedAs("no limit").within({.low = 1.0}),
-        key("pick", choice, "", "whether every point emits, or one that is picked at random each time")
+        key("start", Type::number, "s", "time of the first emission").defaultsTo("0").within(kNotNegative),
+        key("until", Type::number, "s", "nothing is emitted at or after this time")
+            .derivedAs("no end")
+            .within(kPositive),
+        key("count", Type::integer, "", "total number of particles emitted").derivedAs("no limit").within({.low = 1.0}),
+        key("pick", Type::choice, "", "whether every point emits, or one that is picked at random each time")
             .defaultsTo("\"all\"")
             .oneOf({"all", "random"}),
-        key("clearance", number, "",
+        key("clearance", Type::number, "",
             "smallest distance to other particles at emission, in sums of radii; 0 lets them overlap")
             .defaultsTo("1")
             .within(kNotNegative),
-        key("jitter", number, "", "random displacement perpendicular to the velocity, in particle radii")
+        key("jitter", Type::number, "", "random displacement perpendicular to the velocity, in particle radii")
             .defaultsTo("0")
             .within({0.0, 10.0}),
-        key("material", string, "", "name of a [[material]]").derivedAs("the first"),
+        key("material", Type::string, "", "name of a [[material]]").derivedAs("the first"),
     };
 }
 
 std::vector<Key> obstacleKeys() {
     return {
-        key("shape", choice, "", "shape of the obstacle; a container is the inside of a box")
+        key("shape", Type::choice, "", "shape of the obstacle; a container is the inside of a box")
             .required()
             .oneOf({"plane", "box", "container", "sphere"}),
-        key("point", vec3, "m", "any point of the plane")
+        key("point", Type::vec3, "m", "any point of the plane")
             .defaultsTo("[0, 0, 0]")
             .within(kWithinWorld)
             .onlyFor({"plane"}),
-        key("normal", vec3, "", "direction away from the solid side, of any length")
+        key("normal", Type::vec3, "", "direction away from the solid side, of any length")
             .defaultsTo("[0, 1, 0]")
             .onlyFor({"plane"}),
-        key("minimum", vec3, "m", kMinimumHelp)
+        key("minimum", Type::vec3, "m", kMinimumHelp)
             .derivedAs("from center and size")
             .within(kWithinWorld)
             .onlyFor({"box", "container"}),
-        key("maximum", vec3, "m", kMaximumHelp)
+        key("maximum", Type::vec3, "m", kMaximumHelp)
             .derivedAs("from center and size")
             .within(kWithinWorld)
             .onlyFor({"box", "container"}),
-        key("center", vec3, "m", "center; required for a sphere")
+        key("center", Type::vec3, "m", "center; required for a sphere")
             .derivedAs("from minimum and maximum")
             .within(kWithinWorld)
             .onlyFor({"box", "container", "sphere"}),
-        key("size", vec3, "m", "edge lengths")
+        key("size", Type::vec3, "m", "edge lengths")
             .derivedAs("from minimum and maximum")
             .within(kPositive)
             .onlyFor({"box", "container"}),
-        key("radius", number, "m", "radius of the sphere").required().within(kPositive).onlyFor({"sphere"}),
-        key("repulsor", choice, "",
+        key("radius", Type::number, "m", "radius of the sphere").required().within(kPositive).onlyFor({"sphere"}),
+        key("repulsor", Type::choice, "",
             "what repels particles: a repulsor below the surface, or, as in the paper, one as large as the sphere")
             .defaultsTo("\"surface\"")
             .oneOf({"surface", "literal"})
             .onlyFor({"sphere"}),
-        key("visible", boolean, "", "whether the obstacle is drawn")
+        key("visible", Type::boolean, "", "whether the obstacle is drawn")
             .defaultsTo("true")
             .onlyFor({"box", "container", "sphere"}),
-        key("edges", boolean, "", "whether the edges are drawn as lines")
+        key("edges", Type::boolean, "", "whether the edges are drawn as lines")
             .derivedAs("true for a container, false for a box")
             .onlyFor({"box", "container"}),
-        key("color", color, "", "color of the surface, or of the edges of a container")
+        key("color", Type::color, "", "color of the surface, or of the edges of a container")
             .derivedAs("gray; for a container look.edge_color")
             .within(kUnitInterval)
             .onlyFor({"box", "container", "sphere"}),

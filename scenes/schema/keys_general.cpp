@@ -3,52 +3,49 @@
 #include "scenes/schema/keys.h"
 
 namespace scenes {
-namespace {
-
-using enum Type;
-
-}  // namespace
 
 std::vector<Key> topKeys() {
     return {
-        key("title", string, "", "what the scene shows").required(),
-        key("description", string, "", "more about the scene").defaultsTo("\"\""),
+        key("title", Type::string, "", "what the scene shows").required(),
+        key("description", Type::string, "", "more about the scene").defaultsTo("\"\""),
         // A million seconds keeps every frame number within 32 bits.
-        key("duration", number, "s", "length of the animation").required().within({0.0, 1e6, true}),
-        key("fps", integer, "1/s", "frames per second; frame k shows the time k / fps")
+        key("duration", Type::number, "s", "length of the animation").required().within({0.0, 1e6, true}),
+        key("fps", Type::integer, "1/s", "frames per second; frame k shows the time k / fps")
             .defaultsTo("30")
             .within({1.0, 240.0}),
-        key("seed", integer, "", "seed of all random numbers").defaultsTo("1").within(kNotNegative),
+        key("seed", Type::integer, "", "seed of all random numbers").defaultsTo("1").within(kNotNegative),
     };
 }
 
 std::vector<Key> physicsKeys() {
     return {
-        key("gravity", vec3, "m/s^2", "acceleration of every particle").defaultsTo("[0, -9.8, 0]"),
-        key("drag", number, "1/s", "rate k at which free motion decays, like exp(-k t)")
+        key("gravity", Type::vec3, "m/s^2", "acceleration of every particle").defaultsTo("[0, -9.8, 0]"),
+        key("drag", Type::number, "1/s", "rate k at which free motion decays, like exp(-k t)")
             .defaultsTo("0")
             .within(kNotNegative),
-        key("stepper", choice, "",
+        key("stepper", Type::choice, "",
             "time integrator; symplectic-euler is the paper's, auto the cheapest one that meets the wanted error")
             .defaultsTo("\"auto\"")
             .oneOf(
                 {"symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping", "linearly-implicit", "auto"}),
-        key("error", number, "", "wanted position error in particle radii per second of motion; for the auto stepper")
+        key("error", Type::number, "",
+            "wanted position error in particle radii per second of motion; for the auto stepper")
             .defaultsTo("0.01")
             .within(kPositive),
-        key("step", number, "s", "longest time step of a fixed stepper; a frame is divided into equal steps")
+        key("step", Type::number, "s", "longest time step of a fixed stepper; a frame is divided into equal steps")
             .defaultsTo("0.002")
             .within({.low = 1e-9}),
-        key("solver_tolerance", number, "",
+        key("solver_tolerance", Type::number, "",
             "residual relative to the right-hand side at which the solver of an implicit stepper stops; the auto "
             "stepper may stop it earlier where the wanted error allows it")
             .defaultsTo("0.0001")
             .within(kOpenUnitInterval),
-        key("precision", choice, "",
+        key("precision", Type::choice, "",
             "arithmetic of the pair forces, where all particles are alike; the state is always double")
             .defaultsTo("\"double\"")
             .oneOf({"double", "float"}),
-        key("forces", choice, "", "how pairs are found: with a cell grid, or by testing every pair as in the paper")
+        key("forces", Type::choice, "",
+            "how pairs are found: with a cell grid, or by testing every pair as in the paper")
             .defaultsTo("\"grid\"")
             .oneOf({"grid", "reference"}),
     };
@@ -56,43 +53,48 @@ std::vector<Key> physicsKeys() {
 
 std::vector<Key> worldKeys() {
     return {
-        key("minimum", vec3, "m", "corner with the smallest coordinates").derivedAs("no bound").within(kWithinWorld),
-        key("maximum", vec3, "m", "corner with the largest coordinates").derivedAs("no bound").within(kWithinWorld),
+        key("minimum", Type::vec3, "m", "corner with the smallest coordinates")
+            .derivedAs("no bound")
+            .within(kWithinWorld),
+        key("maximum", Type::vec3, "m", "corner with the largest coordinates")
+            .derivedAs("no bound")
+            .within(kWithinWorld),
     };
 }
 
 std::vector<Key> materialKeys() {
     const std::string_view preset = "of the preset";
     return {
-        key("name", string, "", "name that bodies and emitters refer to").derivedAs("the preset's name"),
-        key("preset", choice, "",
+        key("name", Type::string, "", "name that bodies and emitters refer to").derivedAs("the preset's name"),
+        key("preset", Type::choice, "",
             "row of Table 1 of the paper, or a named substance, that the other keys take their defaults from")
             .defaultsTo("\"liquid\"")
             .oneOf({"liquid", "solid", "powder", "fountain", "honey", "jam", "oil", "lava", "mud", "molten-metal",
                     "sand"}),
-        key("radius", number, "m", "radius of a particle").derivedAs(preset).within(kPositive),
-        key("mass", number, "kg", "mass of a particle").derivedAs(preset).within(kPositive),
-        key("b1", number, "N m^4", "strength of repulsion and attraction").derivedAs(preset).within(kNotNegative),
-        key("bd", number, "kg/s", "strength of damping: viscosity").derivedAs(preset).within(kNotNegative),
-        key("cr", number, "", "cutoff of repulsion and attraction in rest lengths; particles attract only above 1")
+        key("radius", Type::number, "m", "radius of a particle").derivedAs(preset).within(kPositive),
+        key("mass", Type::number, "kg", "mass of a particle").derivedAs(preset).within(kPositive),
+        key("b1", Type::number, "N m^4", "strength of repulsion and attraction").derivedAs(preset).within(kNotNegative),
+        key("bd", Type::number, "kg/s", "strength of damping: viscosity").derivedAs(preset).within(kNotNegative),
+        key("cr", Type::number, "",
+            "cutoff of repulsion and attraction in rest lengths; particles attract only above 1")
             .derivedAs(preset)
             .within({.low = 1.0}),
-        key("cd", number, "", "cutoff of damping in rest lengths").derivedAs(preset).within(kPositive),
-        key("friction", number, "",
+        key("cd", Type::number, "", "cutoff of damping in rest lengths").derivedAs(preset).within(kPositive),
+        key("friction", Type::number, "",
             "friction coefficient, between particles and against obstacles; 0: none, as in the paper")
             .derivedAs(preset)
             .within(kNotNegative),
-        key("core", number, "", "share of the rest length below which the force grows no further")
+        key("core", Type::number, "", "share of the rest length below which the force grows no further")
             .derivedAs(preset)
             .within(kOpenUnitInterval),
-        key("color", color, "", "color of the particles").derivedAs("by preset").within(kUnitInterval),
+        key("color", Type::color, "", "color of the particles").derivedAs("by preset").within(kUnitInterval),
     };
 }
 
 std::vector<Key> stillKeys() {
     return {
-        key("time", number, "s", "time of the picture").derivedAs("half the duration").within(kNotNegative),
-        key("strip", numberList, "s", "times of the pictures in the scene's strip, side by side")
+        key("time", Type::number, "s", "time of the picture").derivedAs("half the duration").within(kNotNegative),
+        key("strip", Type::numberList, "s", "times of the pictures in the scene's strip, side by side")
             .derivedAs("the four quarters of the duration")
             .within(kNotNegative),
     };
@@ -102,26 +104,27 @@ std::vector<Key> studyKeys() {
     std::vector<std::string_view> names;
     for (const ObservableInfo& info : observables()) names.push_back(info.name);
     return {
-        key("number", integer, "", "row in the table of the study").required().within({1.0, 1e3}),
-        key("observable", choice, "", "what is measured; `globular study stability --help` explains each")
+        key("number", Type::integer, "", "row in the table of the study").required().within({1.0, 1e3}),
+        key("observable", Type::choice, "", "what is measured; `globular study stability --help` explains each")
             .required()
             .oneOf(names),
-        key("limit", number, "", "largest value of the observable that passes").required().within(kNotNegative),
-        key("at_least", number, "", "smallest value of the observable that passes")
+        key("limit", Type::number, "", "largest value of the observable that passes").required().within(kNotNegative),
+        key("at_least", Type::number, "", "smallest value of the observable that passes")
             .derivedAs("no lower limit")
             .within(kNotNegative),
-        key("paper_must_fail", boolean, "", "whether the paper's stepper is expected to fail").defaultsTo("false"),
-        key("paper_step", number, "s", "time step of the paper's stepper").defaultsTo("0.01").within(kPositive),
-        key("reference_step", number, "s", "time step of the run that errors are measured against")
+        key("paper_must_fail", Type::boolean, "", "whether the paper's stepper is expected to fail")
+            .defaultsTo("false"),
+        key("paper_step", Type::number, "s", "time step of the paper's stepper").defaultsTo("0.01").within(kPositive),
+        key("reference_step", Type::number, "s", "time step of the run that errors are measured against")
             .derivedAs("no reference")
             .within(kPositive),
-        key("reference_stepper", choice, "", "stepper of the run that errors are measured against")
+        key("reference_stepper", Type::choice, "", "stepper of the run that errors are measured against")
             .defaultsTo("\"velocity-verlet\"")
             .oneOf({"symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping", "linearly-implicit"}),
-        key("vary", stringList, "",
+        key("vary", Type::stringList, "",
             "variants of the scene, each written KEY=VALUE; KEY=VALUE as for --set; none: the scene as it is")
             .defaultsTo("[]"),
-        key("quick", stringList, "", "the variants that a quick run goes through").derivedAs("those of vary"),
+        key("quick", Type::stringList, "", "the variants that a quick run goes through").derivedAs("those of vary"),
     };
 }
 

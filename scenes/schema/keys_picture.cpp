@@ -6,8 +6,6 @@
 namespace scenes {
 namespace {
 
-using enum Type;
-
 /// Light may be brighter than 1. The upper bound is chosen to catch typing mistakes.
 constexpr Range kLight{.low = 0.0, .high = 100.0};
 
@@ -17,34 +15,36 @@ void append(std::vector<Key>& keys, std::vector<Key> more) {
 
 std::vector<Key> colorKeys() {
     return {
-        key("style", choice, "", "particles one by one, or as one smooth surface")
+        key("style", Type::choice, "", "particles one by one, or as one smooth surface")
             .defaultsTo("\"spheres\"")
             .oneOf({"spheres", "metaballs"}),
-        key("size", size, "pixels", "width and height of the picture").defaultsTo("[1280, 720]").within({16.0, 8192.0}),
-        key("color_by", choice, "", "quantity that the color of a particle shows")
+        key("size", Type::size, "pixels", "width and height of the picture")
+            .defaultsTo("[1280, 720]")
+            .within({16.0, 8192.0}),
+        key("color_by", Type::choice, "", "quantity that the color of a particle shows")
             .defaultsTo("\"material\"")
             .oneOf({"material", "speed", "age"}),
-        key("colors", colorList, "", "colors from low to high, evenly spaced, interpolated in linear light")
+        key("colors", Type::colorList, "", "colors from low to high, evenly spaced, interpolated in linear light")
             .defaultsTo("[\"#1f4e9e\", \"#4fb3d9\", \"#f4f1de\"]")
             .within(kUnitInterval)
             .onlyFor({"speed", "age"}),
-        key("color_map", choice, "", "a perceptually uniform color map instead of colors")
+        key("color_map", Type::choice, "", "a perceptually uniform color map instead of colors")
             .derivedAs("colors is used")
             .oneOf(colorMapNames())
             .onlyFor({"speed", "age"}),
-        key("color_range", interval, "m/s or s", "speeds or ages of the first and the last color")
+        key("color_range", Type::interval, "m/s or s", "speeds or ages of the first and the last color")
             .derivedAs("[0, 5] for speed, [0, duration] for age")
             .onlyFor({"speed", "age"}),
-        key("background_top", color, "", "background at the upper edge of the picture")
+        key("background_top", Type::color, "", "background at the upper edge of the picture")
             .defaultsTo("\"#b4c4d4\"")
             .within(kUnitInterval),
-        key("background_bottom", color, "", "background at the lower edge of the picture")
+        key("background_bottom", Type::color, "", "background at the lower edge of the picture")
             .defaultsTo("\"#e6ebf0\"")
             .within(kUnitInterval),
-        key("edge_color", color, "", "color of the edges of boxes and containers")
+        key("edge_color", Type::color, "", "color of the edges of boxes and containers")
             .defaultsTo("[1, 0.9, 0]")
             .within(kUnitInterval),
-        key("edge_width", number, "pixels", "width of the edges of boxes and containers, at any quality")
+        key("edge_width", Type::number, "pixels", "width of the edges of boxes and containers, at any quality")
             .defaultsTo("1.5")
             .within({0.0, 64.0, true}),
     };
@@ -52,37 +52,40 @@ std::vector<Key> colorKeys() {
 
 std::vector<Key> lightKeys() {
     return {
-        key("light_direction", vec3, "", "direction toward the light, of any length").defaultsTo("[0.4, 0.8, 0.45]"),
-        key("light_color", color, "", "color of the light").defaultsTo("[1, 1, 1]").within(kLight),
-        key("shadows", boolean, "", "whether the light casts shadows").defaultsTo("true"),
-        key("ambient_sky", color, "", "ambient light from above").defaultsTo("[0.35, 0.35, 0.35]").within(kLight),
-        key("ambient_ground", color, "", "ambient light from below").defaultsTo("[0.2, 0.2, 0.2]").within(kLight),
-        key("specular", number, "", "specular reflectance of the particles at normal incidence; 0 is matte")
+        key("light_direction", Type::vec3, "", "direction toward the light, of any length")
+            .defaultsTo("[0.4, 0.8, 0.45]"),
+        key("light_color", Type::color, "", "color of the light").defaultsTo("[1, 1, 1]").within(kLight),
+        key("shadows", Type::boolean, "", "whether the light casts shadows").defaultsTo("true"),
+        key("ambient_sky", Type::color, "", "ambient light from above").defaultsTo("[0.35, 0.35, 0.35]").within(kLight),
+        key("ambient_ground", Type::color, "", "ambient light from below").defaultsTo("[0.2, 0.2, 0.2]").within(kLight),
+        key("specular", Type::number, "", "specular reflectance of the particles at normal incidence; 0 is matte")
             .defaultsTo("0")
             .within(kUnitInterval),
-        key("gloss", integer, "", "sharpness of highlights: their exponent is 2 to the power of this")
+        key("gloss", Type::integer, "", "sharpness of highlights: their exponent is 2 to the power of this")
             .defaultsTo("6")
             .within({0.0, 10.0}),
-        key("shadow_softness", number, "", "width of the penumbra in particle radii; 0 is sharp")
+        key("shadow_softness", Type::number, "", "width of the penumbra in particle radii; 0 is sharp")
             .defaultsTo("0")
             .within(kUnitInterval),
-        key("occlusion", number, "", "strength of ambient occlusion: how much darker crevices are")
+        key("occlusion", Type::number, "", "strength of ambient occlusion: how much darker crevices are")
             .defaultsTo("0")
             .within(kUnitInterval),
-        key("exposure", number, "",
+        key("exposure", Type::number, "",
             "factor of all light before highlights are compressed to below 1; 0 leaves the light as it is")
             .defaultsTo("0")
             .within({0.0, 10.0}),
-        key("ground", boolean, "", "whether a horizontal plane is drawn").defaultsTo("false"),
-        key("ground_height", number, "m", "height of the drawn plane").defaultsTo("0").within(kWithinWorld),
-        key("ground_color", color, "", "color of the drawn plane").defaultsTo("[0.6, 0.6, 0.6]").within(kUnitInterval),
-        key("ground_fade", number, "m", "distance at which the drawn plane has half faded into the background")
+        key("ground", Type::boolean, "", "whether a horizontal plane is drawn").defaultsTo("false"),
+        key("ground_height", Type::number, "m", "height of the drawn plane").defaultsTo("0").within(kWithinWorld),
+        key("ground_color", Type::color, "", "color of the drawn plane")
+            .defaultsTo("[0.6, 0.6, 0.6]")
+            .within(kUnitInterval),
+        key("ground_fade", Type::number, "m", "distance at which the drawn plane has half faded into the background")
             .defaultsTo("30")
             .within(kPositive),
-        key("metaball_reach", number, "", "radius of a metaball's field in particle radii; larger is smoother")
+        key("metaball_reach", Type::number, "", "radius of a metaball's field in particle radii; larger is smoother")
             .defaultsTo("2.5")
             .within({1.2, 4.0}),
-        key("skin", choice, "",
+        key("skin", Type::choice, "",
             "surface of metaballs: around the particles as they are, or around particles averaged with their neighbors")
             .defaultsTo("\"plain\"")
             .oneOf({"plain", "smooth"}),
@@ -92,31 +95,32 @@ std::vector<Key> lightKeys() {
 /// How the particles respond to light, apart from their color.
 std::vector<Key> surfaceKeys() {
     return {
-        key("reflection", number, "", "strength of mirror reflections of the surroundings, times the Fresnel term")
+        key("reflection", Type::number, "",
+            "strength of mirror reflections of the surroundings, times the Fresnel term")
             .defaultsTo("0")
             .within({0.0, 4.0}),
-        key("mirror_top", color, "", "reflected color of the surroundings above")
+        key("mirror_top", Type::color, "", "reflected color of the surroundings above")
             .defaultsTo("[0.9, 0.9, 0.9]")
             .within(kLight),
-        key("mirror_horizon", color, "", "reflected color of the surroundings at the horizon")
+        key("mirror_horizon", Type::color, "", "reflected color of the surroundings at the horizon")
             .defaultsTo("[0.6, 0.6, 0.6]")
             .within(kLight),
-        key("mirror_bottom", color, "", "reflected color of the surroundings below")
+        key("mirror_bottom", Type::color, "", "reflected color of the surroundings below")
             .defaultsTo("[0.2, 0.2, 0.2]")
             .within(kLight),
-        key("metal", number, "", "1: reflections have the color of the particles, and there is no diffuse light")
+        key("metal", Type::number, "", "1: reflections have the color of the particles, and there is no diffuse light")
             .defaultsTo("0")
             .within(kUnitInterval),
-        key("roughness", number, "", "1: as bright at the rim as in the middle, like dust")
+        key("roughness", Type::number, "", "1: as bright at the rim as in the middle, like dust")
             .defaultsTo("0")
             .within(kUnitInterval),
-        key("translucency", number, "", "light from behind that shines through thin parts")
+        key("translucency", Type::number, "", "light from behind that shines through thin parts")
             .defaultsTo("0")
             .within({0.0, 4.0}),
-        key("absorption", number, "", "how much more saturated and darker the color of thick parts is")
+        key("absorption", Type::number, "", "how much more saturated and darker the color of thick parts is")
             .defaultsTo("0")
             .within(kUnitInterval),
-        key("glow", number, "", "strength of the particles' own light, in the square of their color")
+        key("glow", Type::number, "", "strength of the particles' own light, in the square of their color")
             .defaultsTo("0")
             .within(kLight),
     };
@@ -126,20 +130,22 @@ std::vector<Key> surfaceKeys() {
 
 std::vector<Key> cameraKeys() {
     return {
-        key("time", number, "s", "when the camera is here; between the cameras of a list it moves smoothly")
+        key("time", Type::number, "s", "when the camera is here; between the cameras of a list it moves smoothly")
             .derivedAs("required in a list")
             .within(kNotNegative),
-        key("projection", choice, "", "perspective, or orthographic without foreshortening")
+        key("projection", Type::choice, "", "perspective, or orthographic without foreshortening")
             .defaultsTo("\"perspective\"")
             .oneOf({"perspective", "orthographic"}),
-        key("eye", vec3, "m", "position of the camera").defaultsTo("[0, 2, 10]").within(kWithinWorld),
-        key("target", vec3, "m", "point in the middle of the picture").defaultsTo("[0, 0, 0]").within(kWithinWorld),
-        key("up", vec3, "", "direction that is upward in the picture, of any length").defaultsTo("[0, 1, 0]"),
-        key("fov", number, "degrees", "full vertical angle of view")
+        key("eye", Type::vec3, "m", "position of the camera").defaultsTo("[0, 2, 10]").within(kWithinWorld),
+        key("target", Type::vec3, "m", "point in the middle of the picture")
+            .defaultsTo("[0, 0, 0]")
+            .within(kWithinWorld),
+        key("up", Type::vec3, "", "direction that is upward in the picture, of any length").defaultsTo("[0, 1, 0]"),
+        key("fov", Type::number, "degrees", "full vertical angle of view")
             .defaultsTo("40")
             .within({1.0, 170.0})
             .onlyFor({"perspective"}),
-        key("half_height", number, "m", "half the height of the picture")
+        key("half_height", Type::number, "m", "half the height of the picture")
             .defaultsTo("5")
             .within(kPositive)
             .onlyFor({"orthographic"}),
@@ -155,19 +161,19 @@ std::vector<Key> lookKeys() {
 
 std::vector<Key> overlayKeys() {
     return {
-        key("time", boolean, "", "whether the time is shown, in the upper left corner").defaultsTo("false"),
-        key("scale_bar", number, "m",
+        key("time", Type::boolean, "", "whether the time is shown, in the upper left corner").defaultsTo("false"),
+        key("scale_bar", Type::number, "m",
             "length of the scale bar in the lower left corner, at the camera's target; 0: none")
             .defaultsTo("0")
             .within(kNotNegative),
-        key("color_bar", boolean, "", "whether a color bar for speed or age is shown, in the lower right corner")
+        key("color_bar", Type::boolean, "", "whether a color bar for speed or age is shown, in the lower right corner")
             .defaultsTo("false"),
-        key("color_label", string, "", "name of the quantity at the color bar; its unit is added")
+        key("color_label", Type::string, "", "name of the quantity at the color bar; its unit is added")
             .derivedAs("speed or age"),
-        key("ink", color, "", "color of text and lines")
+        key("ink", Type::color, "", "color of text and lines")
             .derivedAs("dark or light, whichever contrasts with the background")
             .within(kUnitInterval),
-        key("size", number, "", "size of the text; 1 is 3 % of the picture's shorter side, at least 11 pixels")
+        key("size", Type::number, "", "size of the text; 1 is 3 % of the picture's shorter side, at least 11 pixels")
             .defaultsTo("1")
             .within({0.5, 4.0}),
     };
