@@ -1,7 +1,7 @@
 // The benchmark measures what it says: rows for what was asked, numbers that fit together, hashes that do not depend on
 // threads.
-#include "scenes/build/read_scene.h"
 #include "studies/bench/bench.h"
+#include "scenes/build/read_scene.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
