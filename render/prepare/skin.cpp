@@ -30,8 +30,7 @@ namespace render {
 constexpr std::size_t kBlock = 16;
 
 /// Particles sorted by cells, component by component, so that all that are in reach of a particle lie in nine
-/// contiguous runs. The arrays of floats have kBlock more entries than there are particles, so that a whole block can
-/// be read from any of them.
+/// contiguous runs.
 struct ParticleCells {
     glm::vec3 low{0.0F};
     float side = 1.0F;
@@ -53,7 +52,7 @@ struct ParticleCells {
 /// Particles in whole blocks: x, y, z and radius. The last block is filled up with particles out of reach.
 struct Neighborhood {
     std::size_t size = 0;
-    std::array<std::vector<float>, 4> values;  // all of one length, at least `size`
+    std::array<std::vector<float>, 4> values;  // at least `size` entries each
 };
 
 /// Sums over a particle's neighbors, itself included, of the kernel k of view.h's smooth skin.
@@ -72,11 +71,6 @@ namespace HWY_NAMESPACE {
 constexpr std::size_t kVectorsPerBlock = kBlock / hn::MaxLanes(D());
 using BlockSum = std::array<V, kVectorsPerBlock>;
 
-HWY_INLINE void copyBlock(const float* from, float* to) {
-    for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(D()))
-        hn::StoreU(hn::LoadU(D(), from + lane), D(), to + lane);
-}
-
 /// Copies all particles that may be in reach of those of one cell, themselves included.
 void gather(const ParticleCells& cells, glm::ivec3 cell, Neighborhood& neighborhood) {
     const glm::ivec3 first = max(cell - 1, glm::ivec3(0));
@@ -87,13 +81,11 @@ void gather(const ParticleCells& cells, glm::ivec3 cell, Neighborhood& neighborh
         for (int y = first.y; y <= last.y; ++y) {
             const std::size_t begin = cells.begin[cells.cellIndex(first.x, y, z)];
             const std::size_t count = cells.begin[cells.cellIndex(last.x, y, z) + 1] - begin;
-            if (neighborhood.values[0].size() < neighborhood.size + count + 2 * kBlock)
-                for (std::vector<float>& values : neighborhood.values)
-                    values.resize(2 * (neighborhood.size + count + kBlock));
-            // The rest of a run's last block is overwritten by the next run.
-            for (std::size_t value = 0; value < 4; ++value)
-                for (std::size_t k = 0; k < count; k += kBlock)
-                    copyBlock(from[value] + begin + k, &neighborhood.values[value][neighborhood.size + k]);
+            for (std::size_t value = 0; value < 4; ++value) {
+                std::vector<float>& to = neighborhood.values[value];
+                if (to.size() < neighborhood.size + count + kBlock) to.resize(2 * (neighborhood.size + count + kBlock));
+                std::copy_n(from[value] + begin, count, to.begin() + static_cast<std::ptrdiff_t>(neighborhood.size));
+            }
             neighborhood.size += count;
         }
     }
@@ -200,8 +192,7 @@ ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     }
     for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];
     std::vector<std::uint32_t> next(cells.begin.begin(), cells.begin.end() - 1);
-    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius})
-        values->resize(particles.size() + kBlock);
+    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius}) values->resize(particles.size());
     cells.index.resize(particles.size());
     for (std::size_t k = 0; k < particles.size(); ++k) {
         const Sphere& particle = particles[k];
