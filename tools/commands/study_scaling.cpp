@@ -148,7 +148,7 @@ void measurePeer(ScalingResults& results, const ScalingOptions& options) {
 
 /// The results as the terminal shows them.
 std::string summaryOf(const ScalingResults& results) {
-    std::string text = textTable(scalingTable(results.rows, false));
+    std::string text = textTable(parseCsv(studies::scalingCsv(results.rows), 0));
     for (const studies::ScalingFit& fit : results.fits)
         text += fmt::format("{}, {}: time grows like N^{:.2f} from {} to {}\n", fit.subject, fit.method, fit.exponent,
                             fit.from, fit.to);

@@ -16,26 +16,6 @@ std::string csvHtml(const std::string& csv, std::size_t skippedColumns = 0) {
     return htmlTable(parseCsv(csv, skippedColumns));
 }
 
-std::string costRatio(const std::optional<studies::HandPicked>& picked, double cost) {
-    if (!picked) return "none errs as little";
-    return fmt::format("{:.2f} \u00d7 {}", cost / picked->cost, engine::nameOf(picked->stepper));
-}
-
-std::string autoTable(const studies::SceneAccuracy& accuracy) {
-    std::vector<Cells> rows;
-    for (const studies::AutoRow& row : accuracy.autos)
-        rows.push_back({fmt::format("{:g}", row.asked), fmt::format("{:.2e}", row.obtained),
-                        fmt::format("{:.2f}{}", row.obtained / row.asked, row.resolved ? "" : " or less"),
-                        fmt::format("{:.3g}", row.seconds), costRatio(row.secondsAtObtained, row.seconds),
-                        costRatio(row.secondsAtAsked, row.seconds),
-                        costRatio(row.evaluationsAtObtained, row.evaluationCost),
-                        costRatio(row.evaluationsAtAsked, row.evaluationCost)});
-    return htmlTable(
-        {{"asked (radii/s)", "obtained (radii/s)", "ratio", "seconds", "seconds over best, at the error obtained",
-          "at the error asked", "force evaluations over best, at the error obtained", "at the error asked"},
-         rows});
-}
-
 std::string referenceText(const studies::SceneAccuracy& accuracy) {
     const studies::ReferenceFacts& facts = accuracy.reference;
     return fmt::format(
@@ -55,8 +35,9 @@ std::string accuracySection(const AccuracySection& section) {
     return fmt::format("<section><h2>{}: {}</h2>\n", escaped(accuracy.name), escaped(accuracy.title)) +
            referenceText(accuracy) + "<div class=\"row\">\n" + svgImage("error against seconds", section.secondsPlot) +
            svgImage("error against force evaluations", section.evaluationsPlot) +
-           "</div>\n<h3>auto against the best hand-picked stepper and step</h3>\n" + autoTable(accuracy) +
-           "<h3>Orders</h3>\n" + csvHtml(studies::ordersCsv({accuracy}), 1) + "<details><summary>All runs</summary>\n" +
+           "</div>\n<h3>auto against the best hand-picked stepper and step</h3>\n" +
+           csvHtml(studies::autosCsv({accuracy}), 1) + "<h3>Orders</h3>\n" +
+           csvHtml(studies::ordersCsv({accuracy}), 1) + "<details><summary>All runs</summary>\n" +
            csvHtml(studies::accuracyCsv({accuracy}), 1) + "</details></section>\n";
 }
 
@@ -75,10 +56,6 @@ std::string accuracyText(const AccuracyRun& run) {
         escaped(run.command), run.threads, run.threads == 1 ? "" : "s",
         run.isTimedOnce ? "each run timed once"
                         : "the least of three rounds for runs below 5 s, of up to twelve for short ones");
-}
-
-std::string milliseconds(const std::optional<double>& seconds) {
-    return seconds ? fmt::format("{:.4g}", 1e3 * *seconds) : "-";
 }
 
 std::string peerTable(const std::vector<studies::PeerRow>& peers) {
@@ -118,20 +95,6 @@ std::string glossary() {
 }
 
 }  // namespace
-
-Table scalingTable(const std::vector<studies::ScalingRow>& rows, bool withHashes) {
-    Table table{{"scene or material", "particles", "neighbors", "published, ms", "every pair, ms", "list, ms",
-                 "list in float, ms"},
-                {}};
-    if (withHashes) table.head.emplace_back("state hash");
-    for (const studies::ScalingRow& row : rows) {
-        table.rows.push_back({row.subject, fmt::format("{}", row.particles), fmt::format("{:.1f}", row.neighbors),
-                              milliseconds(row.published), milliseconds(row.everyPair), milliseconds(row.list),
-                              milliseconds(row.listInFloat)});
-        if (withHashes) table.rows.back().push_back(row.stateHash);
-    }
-    return table;
-}
 
 std::string accuracyPage(const std::vector<AccuracySection>& sections, const AccuracyRun& run) {
     std::string body = accuracyText(run);
@@ -179,7 +142,7 @@ std::string scalingPage(const ScalingResults& results, const std::string& comman
         "thread; <em>list</em> is ours. Hashes are of the state after the steps in double.</p>\n",
         escaped(command));
     body +=
-        svgImage("milliseconds a step against particles", results.plot) + htmlTable(scalingTable(results.rows, true));
+        svgImage("milliseconds a step against particles", results.plot) + csvHtml(studies::scalingCsv(results.rows));
     body += "<h2>How time grows</h2>\n" + csvHtml(studies::fitsCsv(results.fits));
     if (!results.peerText.empty())
         body += fmt::format("<h2>Beside a peer</h2>\n<p>{}</p>\n", escaped(results.peerText));

@@ -42,9 +42,6 @@ struct ScalingResults {
     std::string plot;                     ///< SVG
 };
 
-/// Times of a step, as the page and the terminal show them; the page adds the hash of the last state.
-Table scalingTable(const std::vector<studies::ScalingRow>& rows, bool withHashes);
-
 std::string accuracyPage(const std::vector<AccuracySection>& sections, const AccuracyRun& run);
 std::string picturesPage(const PictureResults& results, const std::string& command);
 std::string scalingPage(const ScalingResults& results, const std::string& command);
