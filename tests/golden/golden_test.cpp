@@ -11,7 +11,7 @@
 #include "tests/catch.h"
 #include "tests/golden/draw_goldens.h"
 #include "tools/compare/approve.h"
-#include "tools/pages/compare_page.h"
+#include "tools/pages/compare_reports.h"
 #include "tools/system/output_file.h"
 
 namespace {

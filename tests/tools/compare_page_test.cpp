@@ -1,6 +1,6 @@
 // Tests the report of compare without a browser: it is one file that refers to no other, and its data cannot end the
 // script element that holds them.
-#include "tools/pages/compare_page.h"
+#include "tools/pages/compare_reports.h"
 
 #include <nlohmann/json.hpp>
 

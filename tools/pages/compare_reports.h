@@ -1,5 +1,6 @@
-// The page of `compare --report`: one file with all pictures in it that fetches nothing. Its HTML, CSS and script are
-// in tools/pages; this code collects the data that they show.
+// The reports of `compare`. The page of --report is one file with all pictures in it that fetches nothing; its HTML,
+// CSS and script are in tools/pages, and this code collects the data that they show. The file of --junit has the
+// results in JUnit's XML format, which CI systems show as tests.
 #pragma once
 
 #include <map>
@@ -45,6 +46,16 @@ class ComparePage {
     std::map<std::string, nlohmann::json> runs_;  ///< the run.json files beside the pictures, by path
     std::size_t passedBytes_ = 0;
     std::size_t failedBytes_ = 0;
+};
+
+/// Collects results; text() is the content of the file.
+class JunitReport {
+ public:
+    void add(const PictureResult& result);
+    std::string text(const CompareCounts& counts) const;
+
+ private:
+    std::string cases_;
 };
 
 }  // namespace tools
