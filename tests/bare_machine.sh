@@ -36,7 +36,8 @@ for step in "${steps[@]}"; do
     [[ $step =~ ^(figures|test|package)$ ]] || fail "there is no step $step; choose figures, test or package"
 done
 [ "$(id -u)" -eq 0 ] || fail "run it as root: it makes a system of its own and mounts /proc there"
-commit=$(git -C "$repository" rev-parse --verify --quiet "$commit^{commit}") || fail "there is no commit $commit"
+name=$commit
+commit=$(git -C "$repository" rev-parse --verify --quiet "$name^{commit}") || fail "there is no commit $name"
 
 # In a mount namespace of its own nothing stays mounted, however the script ends.
 if [ -z "${BARE_MACHINE_NAMESPACE:-}" ]; then
@@ -145,7 +146,7 @@ run_script() { # machine, script
     time on_machine "$1" "globular/$2" || fail "$2 failed on a bare machine"
 }
 
-films_of() { (cd "$1" && find . -name '*.mp4' | sort); }
+films_of() { (cd "$1" && find . -name '*.mp4' -printf '%P\n' | sort); }
 
 figures() {
     run_script figures tools/figures.sh
