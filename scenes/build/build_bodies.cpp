@@ -142,9 +142,9 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
     Section& section = body.section;
     const std::string path = (std::filesystem::path(context.folder) / section.string("file")).string();
     try {
-        const std::string bytes = readFile(path, kMaxParticleFileBytes);
-        context.contentHash = engine::fnv1a(bytes, context.contentHash);
-        const ParticleFile file = decodeParticles(bytes, path);
+        const std::vector<std::uint8_t> bytes = readFile(path, kMaxParticleFileBytes);
+        context.contentHash = engine::fnv1a(asText(bytes), context.contentHash);
+        const ParticleFile file = decodeParticles(asText(bytes), path);
         for (std::size_t index = 0; index < file.particles.count(); ++index) {
             if (file.hasMaterial && !section.has("material") &&
                 file.particles.material[index] >= body.materials.list.size())

@@ -45,7 +45,7 @@ std::string lastPart(const std::string& name) {
 std::string titleOf(const std::string& path) {
     try {
         ProblemList problems(path, {});
-        const Document document = parseDocument(readFile(path, kMaxSceneFileBytes), problems);
+        const Document document = parseDocument(asText(readFile(path, kMaxSceneFileBytes)), problems);
         const Entry* title = findEntry(document.root, "title");
         return title != nullptr && title->value.kind == ValueKind::string ? title->value.string : std::string{};
     } catch (const InputError&) {

@@ -204,7 +204,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
 }
 
 Scene loadScene(const std::string& path, const Overrides& overrides, const Limits& limits) {
-    return readScene(readFile(path, kMaxSceneFileBytes), path, overrides, limits);
+    return readScene(asText(readFile(path, kMaxSceneFileBytes)), path, overrides, limits);
 }
 
 }  // namespace scenes

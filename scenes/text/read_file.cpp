@@ -1,41 +1,44 @@
-// Reads in blocks, so that a device or a pipe cannot fill the memory before the limit is noticed.
+// Reads in blocks, so that a device or a pipe without an end cannot fill the memory before the limit is noticed.
 #include "scenes/text/read_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
-#include <vector>
 
 #include "scenes/text/input_error.h"
 
 namespace scenes {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 16U;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 16U;
 
-[[noreturn]] void fail(const std::string& path, const std::string& why) {
-    throw InputError({{path, 0, 0, "cannot be read: " + why}});
+[[noreturn]] void failToRead(const std::string& path, const std::string& reason) {
+    throw InputError({{path, 0, 0, "cannot be read: " + reason}});
 }
 
 }  // namespace
 
-std::string readFile(const std::string& path, std::size_t limit) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) fail(path, "it is a folder");
+std::vector<std::uint8_t> readFile(const std::string& path, std::size_t limit) {
+    std::error_code noSize;
+    if (std::filesystem::is_directory(path, noSize)) failToRead(path, "it is a folder");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    if (!file) fail(path, errno == 0 ? "it cannot be opened" : std::generic_category().message(errno));
-    std::string bytes;
-    std::vector<char> block(kBlock);
+    if (!file) failToRead(path, errno == 0 ? "it cannot be opened" : std::generic_category().message(errno));
+    std::vector<std::uint8_t> bytes;
+    // Spares the growing of a large file's memory. A device or a pipe has no size.
+    const std::uintmax_t size = std::filesystem::file_size(path, noSize);
+    if (!noSize) bytes.reserve(std::min<std::uintmax_t>(size, limit));
+    std::vector<char> block(kBlockBytes);
     while (file) {
         file.read(block.data(), static_cast<std::streamsize>(block.size()));
-        bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
-        if (bytes.size() > limit) fail(path, fmt::format("it is larger than {} MiB", limit >> 20U));
+        bytes.insert(bytes.end(), block.data(), block.data() + file.gcount());
+        if (bytes.size() > limit) failToRead(path, fmt::format("it is larger than {} MiB", limit >> 20U));
     }
-    if (file.bad()) fail(path, "reading stopped before its end");
+    if (file.bad()) failToRead(path, "reading stopped before its end");
     return bytes;
 }
 

@@ -5,11 +5,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include "render/output/atomic_file.h"
 #include "render/picture/system_error.h"
+#include "scenes/text/input_error.h"
+#include "scenes/text/read_file.h"
 
 namespace tools {
 namespace {
@@ -40,15 +41,12 @@ void writeFile(const fs::path& path, const std::string& text) {
 }
 
 std::vector<std::uint8_t> readFile(const fs::path& path) {
-    if (fs::is_directory(path)) fail("read", path, EISDIR);
-    std::ifstream stream(path, std::ios::binary | std::ios::ate);
-    if (!stream) fail("read", path, errno);
-    const auto size = static_cast<std::streamoff>(stream.tellg());
-    if (size < 0) fail("read", path, errno);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-    stream.seekg(0);
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()), size)) fail("read", path, errno);
-    return bytes;
+    try {
+        return scenes::readFile(path.string());
+    } catch (const scenes::InputError& error) {
+        // What the program reads this way it has written itself, so that it is not the user's input that is wrong.
+        throw render::SystemError(error.what());
+    }
 }
 
 }  // namespace tools
