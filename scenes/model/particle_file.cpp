@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/stepping/state_checks.h"
 #include "scenes/text/input_error.h"
 
 namespace scenes {
@@ -229,10 +230,14 @@ void setProperty(engine::NewParticle& particle, const std::string& name, double 
         particle.material = static_cast<std::uint32_t>(value);
 }
 
-/// What a value would have to be; empty if it is valid.
+/// What a value would have to be; empty if it is valid. Positions and velocities have the bounds that they have in
+/// scene files.
 std::string violatedRule(const std::string& name, double value) {
     if (!std::isfinite(value)) return "must be finite";
-    if ((name == "radius" || name == "mass") && !(value > 0.0)) return "must be > 0";
+    if (name == "radius" || name == "mass") return value > 0.0 ? "" : "must be > 0";
+    const bool isIndex = contains(kIndexProperties, name);
+    if (!isIndex && std::abs(value) > engine::kWorldLimit)
+        return fmt::format("must be {} to {}", -engine::kWorldLimit, engine::kWorldLimit);
     return {};
 }
 

@@ -1,14 +1,14 @@
-// Particle states as PLY files: what `globular simulate` writes and what a body with shape = "file" reads. No file is
-// written here; the program writes the bytes.
+// Particle states as PLY files, which `globular simulate` writes and a body with shape = "file" reads. The functions
+// here work on bytes; the program reads and writes the files.
 //
 // One element "vertex", binary little-endian, in this order:
 //   double x y z        m
 //   double vx vy vz     m/s
 //   double radius       m
-//   double mass         kg          so that the state can be used again exactly
+//   double mass         kg
 //   uint   material                 index into the materials of the scene
-//   uint   id                       order of birth
-// Times of birth are not kept: a scene that starts from a file starts at age 0.
+//   uint   id                       order of emission
+// The emission times are not stored: in a scene that starts from a file, particles have age 0.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace scenes {
 
-/// What a particle file holds. Arrays that it leaves out have zeros here, except ids, which are 0, 1, 2, ... always.
+/// The contents of a particle file. Arrays that the file leaves out hold zeros. Ids are always 0, 1, 2, ...
 struct ParticleFile {
     engine::Particles particles;
     bool hasVelocity = false;
@@ -31,8 +31,8 @@ struct ParticleFile {
 std::string encodeParticles(const engine::Particles& particles);
 
 /// The particles in the bytes of a file. Properties may come in any order, as float or double; all but x, y and z may
-/// be left out, velocities only together. Throws: InputError that names the file and what is wrong with it. Memory
-/// stays in proportion to the bytes given.
+/// be left out, velocities only together. The memory taken is proportional to the number of bytes.
+/// @throws InputError that names the file, the particle and what is wrong
 ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName);
 
 }  // namespace scenes

@@ -1,4 +1,4 @@
-// Particle files: a round trip bit for bit, foreign files that are accepted, and everything that is refused.
+// Tests particle files: a round trip bit for bit, files of other programs that are accepted, and all that is rejected.
 #include "tests/catch.h"
 
 #include <bit>
@@ -15,7 +15,7 @@ namespace {
 engine::Particles sample() {
     engine::Particles particles;
     append(particles, {.position = Vec3(0.1, -0.0, 1e-310),
-                       .velocity = Vec3(1.0 / 3.0, -2.5, 1e300),
+                       .velocity = Vec3(1.0 / 3.0, -2.5, 1e-300),
                        .radius = 0.15,
                        .mass = 1.0,
                        .material = 0});
@@ -83,7 +83,7 @@ TEST_CASE("the format is the documented one") {
         "double vz\n"
         "property double radius\nproperty double mass\nproperty uint material\nproperty uint id\nend_header\n";
     CHECK(bytes.substr(0, expected.size()) == expected);
-    // 8 doubles and 2 unsigned integers a row.
+    // Each row has 8 doubles and 2 unsigned integers.
     CHECK(bytes.size() == expected.size() + 2 * (8 * 8 + 2 * 4));
     CHECK(bytes.substr(expected.size(), 8) == bytesOf(0.1));
     CHECK(bytes.substr(bytes.size() - 4) == bytesOf(std::uint32_t{1}));
@@ -107,7 +107,7 @@ TEST_CASE("properties may come in any order and precision, and velocities may be
     CHECK(!file.hasMass);
 }
 
-TEST_CASE("headers that are not understood are refused") {
+TEST_CASE("headers with mistakes are rejected") {
     CHECK(problemOf("") == "a.ply: is not a PLY file");
     CHECK(problemOf("plyx\n") == "a.ply: is not a PLY file");
     CHECK(problemOf("ply\nformat ascii 1.0\n") == "a.ply:2:1: the format must be \"binary_little_endian 1.0\"");
@@ -123,10 +123,10 @@ TEST_CASE("headers that are not understood are refused") {
     CHECK(problemOf("ply\nformat binary_little_endian 1.0\nelement vertex -1\n") ==
           "a.ply:3:1: the count of vertices is \"-1\", must be a whole number");
     CHECK(problemOf(header("sorcery\n")) == "a.ply:4:1: unknown header line \"sorcery\"");
-    CHECK(problemOf("ply\nproperty double x\n") == "a.ply:2:1: a property stands before its element");
+    CHECK(problemOf("ply\nproperty double x\n") == "a.ply:2:1: property before its element");
 }
 
-TEST_CASE("properties that are not understood are refused") {
+TEST_CASE("properties with mistakes are rejected") {
     CHECK(problemOf(header("property int x\n")) == "a.ply:4:1: property \"x\" has type int, must be float or double");
     CHECK(problemOf(header("property uint x\n")) == "a.ply:4:1: property \"x\" has type uint, must be float or double");
     CHECK(problemOf(header("property double id\n")) ==
@@ -143,7 +143,7 @@ TEST_CASE("rows have to fill the file exactly") {
     CHECK(problemOf(header(kDoubles) + kOrigin.substr(1)) ==
           "a.ply: truncated: 1 particles of 24 bytes are announced, 23 bytes follow");
     CHECK(problemOf(header(kDoubles) + kOrigin + "x") == "a.ply: 1 bytes follow the last particle");
-    // A count that would need more memory than there is must be refused before any is taken.
+    // A count that would need more memory than there is has to be rejected before memory is allocated.
     CHECK(problemOf("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + kDoubles +
                     "end_header\n" + kOrigin) ==
           "a.ply: truncated: 18446744073709551615 particles of 24 bytes are announced, 24 bytes follow");
@@ -156,7 +156,7 @@ TEST_CASE("rows have to fill the file exactly") {
         CHECK(problemOf(whole.substr(0, length)) != "no error");
 }
 
-TEST_CASE("numbers that no particle can have are refused") {
+TEST_CASE("numbers that are invalid for a particle are rejected") {
     const auto withRadius = [](double x, double radius) {
         return problemOf(header(kDoubles + "property double radius\n") + bytesOf(x) + kOrigin.substr(8) +
                          bytesOf(radius));
@@ -166,4 +166,9 @@ TEST_CASE("numbers that no particle can have are refused") {
     CHECK(withRadius(0.0, -1.0) == "a.ply: particle 0: radius is -1, must be > 0");
     CHECK(withRadius(std::numeric_limits<double>::infinity(), 0.1) == "a.ply: particle 0: x is inf, must be finite");
     CHECK(withRadius(std::numeric_limits<double>::quiet_NaN(), 0.1) == "a.ply: particle 0: x is nan, must be finite");
+    CHECK(withRadius(-1e8, 0.1) == "no error");
+    CHECK(withRadius(2e8, 0.1) == "a.ply: particle 0: x is 200000000, must be -100000000 to 100000000");
+    CHECK(problemOf(header(kDoubles + "property double vx\nproperty double vy\nproperty double vz\n", 2) +
+                    std::string(48 + 24 + 16, '\0') + bytesOf(-1e9)) ==
+          "a.ply: particle 1: vz is -1000000000, must be -100000000 to 100000000");
 }

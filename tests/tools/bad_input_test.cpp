@@ -228,3 +228,23 @@ TEST_CASE("Scenes that would never end or overload the reader are refused", "[to
                   " --limit particles=1")
               .find("2 particles, at most 1 are allowed") != std::string::npos);
 }
+
+TEST_CASE("A particle file beyond the bounds of the world is wrong input, whether the scene is run or not", "[tools]") {
+    const program::Folder folder;
+    const double position[] = {0.0, 3e8, 0.0};
+    std::ofstream(folder / "far.ply", std::ios::binary)
+        << "ply\nformat binary_little_endian 1.0\nelement vertex 1\n"
+           "property double x\nproperty double y\nproperty double z\nend_header\n"
+        << std::string(reinterpret_cast<const char*>(position), sizeof position);
+    std::ofstream(folder / "far.toml")
+        << "title = \"far\"\nduration = 1\n[[body]]\nshape = \"file\"\nfile = \"far.ply\"\n";
+    const std::string scene = (folder / "far.toml").string();
+    const std::string message = "far.ply: particle 0: y is 300000000, must be -100000000 to 100000000\n";
+    for (const std::string& command :
+         {"check " + scene, "render --frames 0 " + scene + " -o " + (folder / "out").string()}) {
+        INFO(command);
+        const auto outcome = run(command);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find(message) != std::string::npos);
+    }
+}
