@@ -32,7 +32,7 @@ bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t e
              << (simulation.setup.stepper == StepperKind::automatic ? "physics.error" : "physics.step")
              << ", or raise material.mass";
     else
-        text << "where no step has moved it; positions reach to " << kWorldLimit << " m, speeds to " << kFastest
+        text << "before its first step; positions must be within " << kWorldLimit << " m and speeds below " << kFastest
              << " m/s: change the body or the emitter that it comes from";
     throw InstabilityError(text.str());
 }

@@ -81,11 +81,10 @@ std::string manSection(const CLI::App& app, const std::string& path) {
     for (const CLI::Option* argument : optionsOf(app, true))
         text += fmt::format(".TP\n\\fI{}\\fR\n{}\n", roff(argument->get_name(true)), roff(argument->get_description()));
     for (const CLI::Option* flag : optionsOf(app, false)) {
+        if (flag == app.get_help_ptr()) continue;  // every command has it
         text += fmt::format(".TP\n\\fB{}\\fR", roff(fmt::format("{}", fmt::join(spellingsOf(*flag), ", "))));
         if (hasValue(*flag)) text += fmt::format(" \\fI{}\\fR", roff(placeholderOf(*flag)));
         text += "\n" + roff(flag->get_description()) + "\n";
-        if (const std::string choices = choicesOf(*flag); !choices.empty())
-            text += fmt::format("(one of: {})\n", roff(choices));
     }
     if (const std::string footer = app.get_footer(); !footer.empty())
         text += fmt::format(".PP\n.nf\n{}\n.fi\n", roff(footer));
