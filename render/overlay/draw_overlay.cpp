@@ -48,7 +48,7 @@ void paintInk(const Canvas& canvas, const CoverageMask& mask) {
     paint(canvas.image, mask, srgbBytes(canvas.overlay.ink));
 }
 
-Box around(const Box& a, const Box& b) {
+Box enclosing(const Box& a, const Box& b) {
     return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
 }
 
@@ -80,7 +80,7 @@ void drawScaleBar(const Canvas& canvas, const Camera& camera) {
     const double middle = left + 0.5 * (length - textWidth(bar.text, canvas.em));
     const TextPosition position{std::max(left, middle), static_cast<int>(bottom - tick - std::round(0.25 * canvas.em)),
                                 canvas.em};
-    CoverageMask mask = emptyMask(around(textBox(bar.text, position), {left, bottom - tick, left + length, bottom}));
+    CoverageMask mask = emptyMask(enclosing(textBox(bar.text, position), {left, bottom - tick, left + length, bottom}));
     coverText(mask, bar.text, position);
     // The boxes do not overlap, so that the partly covered pixels at the right end add up to the exact length.
     coverBox(mask, {left, bottom - line, left + length, bottom});
@@ -126,13 +126,12 @@ Box colorBarBox(const Canvas& canvas) {
 CoverageMask colorBarLines(const Canvas& canvas, const Box& bar) {
     const ColorBar& colorBar = *canvas.overlay.colorBar;
     const double w = canvas.hairline;
-    const int lift =
-        static_cast<int>(std::lround(0.5 * kCapitalHeight * canvas.em));  // from the middle of digits to their baseline
+    const auto halfCapital = static_cast<int>(std::lround(0.5 * kCapitalHeight * canvas.em));
     const double end = canvas.image.width - canvas.margin;
     const double titleLeft = std::min(bar.left, end - textWidth(colorBar.title, canvas.em));
     const TextPosition title{titleLeft, static_cast<int>(bar.top - std::round(canvas.em)), canvas.em};
     const Box all{bar.left - w, bar.top - canvas.em, end + canvas.em, bar.bottom + canvas.em};
-    CoverageMask mask = emptyMask(around(all, textBox(colorBar.title, title)));
+    CoverageMask mask = emptyMask(enclosing(all, textBox(colorBar.title, title)));
     coverText(mask, colorBar.title, title);
     coverBox(mask, {bar.left - w, bar.top - w, bar.right + w, bar.top});
     coverBox(mask, {bar.left - w, bar.bottom, bar.right + w, bar.bottom + w});
@@ -142,7 +141,7 @@ CoverageMask colorBarLines(const Canvas& canvas, const Box& bar) {
         const double row = std::clamp(std::round(bar.bottom - tick.position * (bar.bottom - bar.top) - 0.5 * w),
                                       bar.top, bar.bottom - w);
         coverBox(mask, {bar.right + w, row, bar.right + std::round(0.3 * canvas.em), row + w});
-        coverText(mask, tick.text, {bar.right + 0.6 * canvas.em, static_cast<int>(row) + lift, canvas.em});
+        coverText(mask, tick.text, {bar.right + 0.6 * canvas.em, static_cast<int>(row) + halfCapital, canvas.em});
     }
     return mask;
 }

@@ -23,8 +23,8 @@ using TileVec3 = std::array<std::array<float, kTilePixels>, 3>;
 struct CellLists {
     int columns = 0;
     int rows = 0;
-    std::vector<std::uint32_t>
-        begin;  ///< cell c has items[begin[c]] ... items[begin[c + 1] - 1]; one entry more than cells
+    /// Cell c has items[begin[c]] ... items[begin[c + 1] - 1]: one entry more than there are cells.
+    std::vector<std::uint32_t> begin;
     std::vector<std::uint32_t> items;
 
     std::size_t cellIndex(int column, int row) const {
