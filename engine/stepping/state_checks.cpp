@@ -28,7 +28,8 @@ bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t e
          << x.y() << ", " << x.z() << ") m with speed " << simulation.particles.velocity[p].stableNorm()
          << " m/s at time " << simulation.time << " s, ";
     if (h > 0.0)
-        text << "after " << simulation.steps.count << " steps, in a step of " << h << " s; lower "
+        text << "after " << simulation.steps.count << (simulation.steps.count == 1 ? " step" : " steps")
+             << ", in a step of " << h << " s; lower "
              << (simulation.setup.stepper == StepperKind::automatic ? "physics.error" : "physics.step")
              << ", or raise material.mass";
     else

@@ -30,7 +30,7 @@ run() { "$program" render fountain --size 160x90 --frames 0-29 --quiet --checkpo
 
 run -o "$work/whole" --video "$work/whole.mp4"
 
-# What a run in trouble must have said and left.
+# Checks what a run printed and left.
 check_trouble() { # what happened, exit code, reason
     [ "$2" -eq 1 ] || fail "$1: it ended with $2"
     [ "$(wc -l <"$work/log")" -eq 1 ] || fail "$1: it said: $(cat "$work/log")"
@@ -64,7 +64,7 @@ for percent in 10 30 60 80; do
     umount "$work/disk"
 done
 
-# The end of a video is most of a short one: it is there that the disk runs full.
+# Most of a short video is written at its end, so the disk runs full there.
 mount -t tmpfs -o size=$(($(stat -c %s "$work/whole.mp4") / 2)) tmpfs "$work/disk"
 code=0
 "$program" video "$work/whole" -o "$work/disk/a.mp4" --quiet 2>"$work/log" || code=$?
@@ -76,7 +76,7 @@ mount -t tmpfs -o size=50m tmpfs "$work/disk"
 run -o "$work/disk/a" --video "$work/disk/a.mp4" 2>"$work/log" &
 child=$!
 while [ ! -e "$work/disk/a/frame-00005.png" ]; do sleep 0.02; done
-until rm -rf "$work/disk/a" 2>/dev/null; do :; done  # it may write while we remove
+until rm -rf "$work/disk/a" 2>/dev/null; do :; done  # the run may write meanwhile
 code=0
 wait "$child" || code=$?
 check_trouble 'folder removed' "$code" 'No such file or directory'
@@ -89,7 +89,8 @@ check_trouble 'read-only disk' "$code" 'Read-only file system'
 mount -o remount,rw "$work/disk"
 check_resume 'read-only disk'
 
-# Midway: nothing but the video is open for writing between two frames, so this run makes none.
+# The disk becomes read-only during a run. That is possible only while no file is open for writing, so this run makes no
+# video.
 rm -rf "$work/disk/a" "$work/disk/a.mp4"
 run -o "$work/disk/a" 2>"$work/log" &
 child=$!

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Kills runs of the four scenes at random moments with SIGKILL and goes on with --resume until they are done, again and
-# again. Every finished run must have the frames, the video and the state hash of one that was never disturbed, byte for
-# byte. Every other run is not killed before its first checkpoint, so that on a machine of any speed some go on from one.
+# Kills runs of four scenes at random times with SIGKILL and resumes them until they are done, again and again. Every
+# finished run must have the frames, the video and the state hash of a run that was never disturbed, byte for byte. Every
+# other run is not killed before its first checkpoint, so that some runs resume from one on a machine of any speed.
 # Usage: kill_harness.sh PROGRAM [KILLS] [SEED]; prints what it did; fails if a byte differs.
 set -euo pipefail
 
@@ -50,14 +50,14 @@ while [ "$kills" -lt "$wanted" ]; do
         child=$!
         if [ $((runs % 2)) -eq 0 ] && [ "$time" -eq 1 ]; then wait_for_checkpoint "$folder" "$child"; fi
         sleep "$(printf '0.%03d' $((RANDOM % 900 + 50)))"
-        # What has ended by now cannot be killed any more, and is no kill.
+        # A run that has ended by now is not counted as a kill.
         kill -KILL "$child" 2>/dev/null || true
         code=0
         wait "$child" 2>/dev/null || code=$?
         [ "$code" -eq 137 ] || break
         kills=$((kills + 1))
     done
-    # Killed often enough: undisturbed to the end.
+    # After the last kill the run is resumed to its end.
     if [ "$code" -eq 137 ]; then
         code=0
         (run "$scene" "$folder" --resume) 2>"$work/log" || code=$?
