@@ -1,4 +1,4 @@
-// The basis of a camera, and the bounds of projected boxes.
+// The basis of a camera, and the bounds of projected boxes and spheres.
 #include "render/picture/camera_frame.h"
 
 #include <algorithm>
@@ -91,7 +91,7 @@ std::optional<Rect> pixelsTouchedBySphere(const CameraFrame& frame, glm::vec3 ce
     const double r = double(radius);
     if (at.z + r <= 0.0) return std::nullopt;
     if (!frame.perspective) return pixelsOf(frame, {at.x - r, at.x + r}, {at.y - r, at.y + r}, 1.0);
-    // Where a sphere all but touches the eye's plane, tangents are useless.
+    // Where a sphere nearly touches the eye's plane, its tangents are too imprecise.
     if (at.z <= 1.0001 * r) return Rect{0, 0, frame.width - 1, frame.height - 1};
     return pixelsOf(frame, tangents(at.x, at.z, r), tangents(at.y, at.z, r), 1.0);
 }
