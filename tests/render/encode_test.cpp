@@ -9,10 +9,6 @@
 
 namespace {
 
-double exactSteps(double c) {
-    return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
-}
-
 /// Draws a background from `bottom` to `top` and returns the largest error of its bytes, in steps of 1/255.
 double largestError(float bottom, float top) {
     constexpr int kHeight = 8192;
@@ -23,7 +19,7 @@ double largestError(float bottom, float top) {
     for (int y = 0; y < kHeight; ++y) {
         const double t = 1.0 - (y + 0.5) / kHeight;
         const double c = double(bottom) + (double(top) - double(bottom)) * t;
-        largest = std::max(largest, std::abs(exactSteps(c) - image.rgb[static_cast<std::size_t>(3 * y)]));
+        largest = std::max(largest, std::abs(pictures::encodedSteps(c) - image.rgb[static_cast<std::size_t>(3 * y)]));
     }
     return largest;
 }
@@ -45,8 +41,8 @@ double largestEncodedError(float most) {
         render::encodeColors(colors, encoded.data());
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t k = 0; k < render::kTilePixels; ++k)
-                largest = std::max(
-                    largest, std::abs(exactSteps(double(value(channel, k))) - (encoded[k] >> (8 * channel) & 0xffU)));
+                largest = std::max(largest, std::abs(pictures::encodedSteps(double(value(channel, k))) -
+                                                     (encoded[k] >> (8 * channel) & 0xffU)));
     }
     return largest;
 }

@@ -289,12 +289,9 @@ TEST_CASE("The color bar runs through its colors, from bottom to top") {
             const double position = (bar.bottom - y + 0.5) / rows;
             const double red = std::max(0.0, 1.0 - 2.0 * position);
             const double blue = position < 0.5 ? position : 0.5 + (position - 0.5);
-            const auto encoded = [](double c) {
-                return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
-            };
-            CHECK(std::abs(byteAt(image, bar.left, y, 0) - encoded(red)) <=
-                  0.51);  // half a step of rounding, and floats
-            CHECK(std::abs(byteAt(image, bar.right, y, 2) - encoded(blue)) <= 0.51);
+            // 0.51: half a step of rounding, and floats.
+            CHECK(std::abs(byteAt(image, bar.left, y, 0) - pictures::encodedSteps(red)) <= 0.51);
+            CHECK(std::abs(byteAt(image, bar.right, y, 2) - pictures::encodedSteps(blue)) <= 0.51);
         }
         // The middle tick is a white line that begins at the frame, halfway up.
         const int beside = bar.right + static_cast<int>(0.25 * em);

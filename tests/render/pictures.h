@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <ostream>
 #include <random>
@@ -13,6 +14,11 @@
 #include "studies/oracle/oracle.h"
 
 namespace pictures {
+
+/// sRGB encoding of a linear value from 0 to 1, not rounded, in 8-bit steps.
+inline double encodedSteps(double linear) {
+    return 255.0 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+}
 
 /// How far two pictures are apart, in 8-bit steps of a channel.
 struct Difference {
