@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs on a disk that is full, that becomes read-only, and whose folder is removed: one clear line with the file and the
-# reason, exit code 1, what is there is whole, and --resume completes it when the trouble is over. Needs to mount a small
-# tmpfs, in a mount namespace of its own, and in a user namespace where it does not run as root; where neither is allowed
-# it says so and exits with 77.
+# Tests runs on a disk that is full, that becomes read-only, and whose folder is removed. Each must print one line with the
+# file and the reason, end with exit code 1, and leave only complete files, and --resume must complete it afterward. Needs to
+# mount a small tmpfs in a mount namespace of its own, and a user namespace as well if it does not run as root. If neither is
+# allowed, the script says so and exits with 77.
 # Usage: disk_trouble.sh PROGRAM
 set -euo pipefail
 
