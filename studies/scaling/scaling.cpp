@@ -30,7 +30,7 @@ constexpr double kStep = 0.01;
 
 /// The step of the cubes, s. Chosen: the solid contracts under its attraction, which would be unstable at the paper's
 /// step.
-constexpr double kBlockStep = 0.002;
+constexpr double kCubeStep = 0.002;
 
 /// Steps of a run. Chosen: with 22 steps a cube of any size rebuilds its list twice; with 20 some rebuild it only once.
 constexpr std::uint64_t kSteps = 22;
@@ -166,7 +166,7 @@ std::vector<ScalingRow> measureCubes(const std::string& material, const ScalingS
     for (const std::size_t count : settings.cubeSizes) {
         engine::Setup setup = fccCube(material, count, {.mass = 1.0, .speed = 1.0});
         setup.stepper = engine::StepperKind::symplecticEuler;
-        setup.step = kBlockStep;
+        setup.step = kCubeStep;
         rows.push_back(measureFrom(material, engine::start(setup), settings));
         listener(rows.back());
     }
