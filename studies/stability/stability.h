@@ -65,7 +65,7 @@ struct CaseOptions {
 /// @throws scenes::InputError for a faulty scene, and for one without [study]
 CaseResult runCase(const CaseOptions& options);
 
-// The results as text: the table on the terminal, its rows for the page, and CSV.
+// The results as text: the rows of the table on the terminal and the page, and CSV.
 
 inline constexpr std::array kStabilityColumns = {"#",     "case",  "paper's stepper", "ours",  "observable",
                                                  "value", "limit", "result",          "steps", "seconds"};
@@ -80,9 +80,6 @@ std::string outcomeText(const Outcome& outcome);
 
 /// For example "0.03", or "1.9 to 2.1".
 std::string limitText(const scenes::Study& study);
-
-/// The table with aligned columns, a line for each case.
-std::string stabilityTable(const std::vector<CaseResult>& results);
 
 /// A line for each variant that did not come out as it must; empty if all did.
 std::string stabilityProblems(const std::vector<CaseResult>& results);

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "studies/common/report.h"
 
 namespace studies {
@@ -68,24 +66,6 @@ StabilityRow rowOf(const CaseResult& result) {
             verdict,
             fmt::format("{}", ours.ours.steps.count),
             fmt::format("{:.2f}", ours.ours.seconds)};
-}
-
-std::string stabilityTable(const std::vector<CaseResult>& results) {
-    std::vector<StabilityRow> rows(1);
-    std::copy(kStabilityColumns.begin(), kStabilityColumns.end(), rows[0].begin());
-    for (const CaseResult& result : results) rows.push_back(rowOf(result));
-    std::array<std::size_t, kStabilityColumns.size()> widths{};
-    for (const StabilityRow& row : rows)
-        for (std::size_t column = 0; column < row.size(); ++column)
-            widths[column] = std::max(widths[column], row[column].size());
-    std::string text;
-    for (const StabilityRow& row : rows) {
-        std::string line;
-        for (std::size_t column = 0; column < row.size(); ++column)
-            line += fmt::format("{:<{}}  ", row[column], widths[column]);
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
 }
 
 std::string stabilityProblems(const std::vector<CaseResult>& results) {

@@ -15,6 +15,7 @@
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
 #include "tools/system/output_file.h"
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {
@@ -82,7 +83,7 @@ void study(const StabilityOptions& options) {
     }
     writeFile(fs::path(options.folder) / "stability.csv", studies::stabilityCsv(results));
     finishStudy(options, stabilityPage(results, commandLineOf(options, options.cases)),
-                fmt::format("{}\n{} cases in {:.0f} s; ", studies::stabilityTable(results), results.size(), seconds));
+                fmt::format("{}\n{} cases in {:.0f} s; ", textTable(stabilityTable(results)), results.size(), seconds));
     const std::string problems = studies::stabilityProblems(results);
     if (!problems.empty()) throw std::runtime_error(problems);
 }

@@ -70,14 +70,10 @@ std::string peerTable(const std::vector<studies::PeerRow>& peers) {
 }
 
 std::string stabilitySummary(const std::vector<studies::CaseResult>& results) {
-    Table table{{studies::kStabilityColumns.begin(), studies::kStabilityColumns.end()}, {}};
     std::vector<bool> isBad;
-    for (const studies::CaseResult& result : results) {
-        const studies::StabilityRow row = studies::rowOf(result);
-        table.rows.emplace_back(row.begin(), row.end());
+    for (const studies::CaseResult& result : results)
         isBad.push_back(!studies::oursPasses(result) || !studies::paperIsAsExpected(result));
-    }
-    return htmlTable(table, isBad);
+    return htmlTable(stabilityTable(results), isBad);
 }
 
 std::string stabilitySection(const studies::CaseResult& result) {
@@ -148,6 +144,15 @@ std::string scalingPage(const ScalingResults& results, const std::string& comman
         body += fmt::format("<h2>Beside a peer</h2>\n<p>{}</p>\n", escaped(results.peerText));
     if (!results.peers.empty()) body += peerTable(results.peers);
     return htmlPage("globular: time against the number of particles", body);
+}
+
+Table stabilityTable(const std::vector<studies::CaseResult>& results) {
+    Table table{{studies::kStabilityColumns.begin(), studies::kStabilityColumns.end()}, {}};
+    for (const studies::CaseResult& result : results) {
+        const studies::StabilityRow row = studies::rowOf(result);
+        table.rows.emplace_back(row.begin(), row.end());
+    }
+    return table;
 }
 
 std::string stabilityPage(const std::vector<studies::CaseResult>& results, const std::string& command) {

@@ -45,6 +45,9 @@ struct ScalingResults {
 std::string accuracyPage(const std::vector<AccuracySection>& sections, const AccuracyRun& run);
 std::string picturesPage(const PictureResults& results, const std::string& command);
 std::string scalingPage(const ScalingResults& results, const std::string& command);
+/// The table of the cases, with a row for each.
+Table stabilityTable(const std::vector<studies::CaseResult>& results);
+
 std::string stabilityPage(const std::vector<studies::CaseResult>& results, const std::string& command);
 
 }  // namespace tools
