@@ -28,25 +28,18 @@ struct FiguresOptions {
 
 /// Draws the still and the strip in the best quality.
 void drawPictures(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
-    const StillsJob job{.scene = &scene,
-                        .backend = backendOf(options.draw),
-                        .threads = threadCount(options.run),
-                        .verbosity = options.run.verbosity(),
-                        .title = fmt::format("figure {} pictures", entry.number)};
+    DrawJob job = drawJob(scene, options.draw, options.run, fmt::format("figure {} pictures", entry.number));
+    job.quality = render::Quality::final;
     const StillPictures pictures = drawStills(job, {scenes::stillFrame(scene), scenes::stripFrames(scene)});
     writeFile(entry.stillPath, render::encodePng(pictures.still));
     writeFile(entry.stripPath, render::encodePng(pictures.strip));
 }
 
 FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
-    RenderJob job;
-    job.scene = &scene;
-    job.frames = {0, scenes::frameCount(scene) - 1};
-    job.videoPath = entry.videoPath;
-    job.backend = backendOf(options.draw);
-    job.threads = threadCount(options.run);
-    job.verbosity = options.run.verbosity();
-    job.title = fmt::format("figure {}", entry.number);
+    const RenderJob job{drawJob(scene, options.draw, options.run, fmt::format("figure {}", entry.number)),
+                        {0, scenes::frameCount(scene) - 1},
+                        std::nullopt,
+                        entry.videoPath};
     FinishedRun result = renderFrames(job);
     if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
     return result;

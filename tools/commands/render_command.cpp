@@ -40,17 +40,10 @@ void printSummary(const RenderOptions& options, const Json& json) {
 
 void render(RenderOptions options) {
     const scenes::Scene scene = load(options.scene, overridesOf(options.draw));
-    RenderJob job;
-    job.scene = &scene;
-    job.frames = frameRange(options.frames, scenes::frameCount(scene));
-    job.quality = qualityOf(options.draw);
-    job.backend = backendOf(options.draw);
-    job.threads = threadCount(options.run);
-    job.verbosity = options.run.verbosity();
-    job.title = runName(options.scene);
-    job.videoPath = options.video;
-    if (options.folder.path.empty()) options.folder.path = (fs::path("out") / job.title).string();
-    job.folder = options.folder;
+    const std::string name = runName(options.scene);
+    if (options.folder.path.empty()) options.folder.path = (fs::path("out") / name).string();
+    const RenderJob job{drawJob(scene, options.draw, options.run, name),
+                        frameRange(options.frames, scenes::frameCount(scene)), options.folder, options.video};
 
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
     const FinishedRun run = renderFrames(job);

@@ -41,13 +41,7 @@ void printResult(const StripOptions& options, const fs::path& path, const Json& 
 
 void drawStrip(const StripOptions& options) {
     const scenes::Scene scene = loadScene(options);
-    StillsJob job;
-    job.scene = &scene;
-    job.quality = qualityOf(options.draw);
-    job.backend = backendOf(options.draw);
-    job.threads = threadCount(options.run);
-    job.verbosity = options.run.verbosity();
-    job.title = runName(options.scene);
+    const DrawJob job = drawJob(scene, options.draw, options.run, runName(options.scene));
     const fs::path path =
         options.output.empty() ? fs::path("out") / (job.title + "-strip.png") : fs::path(options.output);
 

@@ -70,17 +70,19 @@ scenes::Overrides overridesOf(const DrawOptions& options) {
     return overrides;
 }
 
-render::Quality qualityOf(const DrawOptions& options) {
-    if (options.quality == "draft") return render::Quality::draft;
-    return options.quality == "final" ? render::Quality::final : render::Quality::normal;
-}
-
 render::Backend backendOf(const DrawOptions& options) {
     const auto backend = render::backendNamed(options.backend);
     if (!backend)
         failFlag("--gl " + options.backend,
                  fmt::format("there is no such OpenGL backend; choose one of: {}", render::kBackendNames));
     return *backend;
+}
+
+DrawJob drawJob(const scenes::Scene& scene, const DrawOptions& draw, const RunOptions& run, const std::string& title) {
+    const render::Quality quality = draw.quality == "draft"   ? render::Quality::draft
+                                    : draw.quality == "final" ? render::Quality::final
+                                                              : render::Quality::normal;
+    return {&scene, quality, backendOf(draw), threadCount(run), run.verbosity(), title};
 }
 
 render::PictureSize parseSize(const std::string& text, const std::string& flag) {

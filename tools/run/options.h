@@ -45,6 +45,16 @@ struct FolderOptions {
     double checkpointSeconds = 5.0;  ///< time between two checkpoints
 };
 
+/// How the frames of a scene are drawn, by render_loop.h or stills.h.
+struct DrawJob {
+    const scenes::Scene* scene = nullptr;
+    render::Quality quality = render::Quality::normal;
+    render::Backend backend = render::Backend::osmesa;
+    int threads = 1;
+    Verbosity verbosity = Verbosity::normal;
+    std::string title;  ///< in the progress
+};
+
 /// Frame numbers from first to last, both included.
 struct FrameRange {
     int first = 0;
@@ -70,10 +80,11 @@ std::string runName(const SceneOptions& options);
 /// @throws scenes::InputError
 scenes::Overrides overridesOf(const DrawOptions& options);
 
-render::Quality qualityOf(const DrawOptions& options);
-
 /// @throws scenes::InputError if there is no backend of that name
 render::Backend backendOf(const DrawOptions& options);
+
+/// @throws scenes::InputError if there is no backend of that name
+DrawJob drawJob(const scenes::Scene& scene, const DrawOptions& draw, const RunOptions& run, const std::string& title);
 
 /// Width and height of a text such as "1280x720".
 /// @param flag  names the flag in the error

@@ -14,16 +14,10 @@
 
 namespace tools {
 
-struct RenderJob {
-    const scenes::Scene* scene = nullptr;
+struct RenderJob : DrawJob {
     FrameRange frames;
     std::optional<FolderOptions> folder;  ///< where frames and checkpoints go; none: only a video is made
     std::string videoPath;                ///< empty: no video
-    render::Quality quality = render::Quality::normal;
-    render::Backend backend = render::Backend::osmesa;
-    int threads = 1;
-    Verbosity verbosity = Verbosity::normal;
-    std::string title;  ///< in the progress
 };
 
 /// Draws the frames of a job. If the simulation becomes unstable, the run ends after the frames before that. After a

@@ -25,7 +25,7 @@ void trimOverlay(const scenes::Scene& scene, const std::vector<int>& frames, int
     if (frame != frames.front() && scene.camera.keys.size() == 1) overlay.scaleBar.reset();
 }
 
-StillPictures drawAll(const StillsJob& job, const StillSelection& selection) {
+StillPictures drawAll(const DrawJob& job, const StillSelection& selection) {
     const scenes::Scene& scene = *job.scene;
     std::set<int> frames(selection.stripFrames.begin(), selection.stripFrames.end());
     if (selection.stillFrame) frames.insert(*selection.stillFrame);
@@ -65,7 +65,7 @@ void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
 
 }  // namespace
 
-StillPictures drawStills(const StillsJob& job, const StillSelection& selection) {
+StillPictures drawStills(const DrawJob& job, const StillSelection& selection) {
     requireStripSize(*job.scene, selection.stripFrames.size());
     StillPictures pictures;
     onThreads(job.threads, [&] { pictures = drawAll(job, selection); });

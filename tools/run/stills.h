@@ -6,22 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "render/opengl/context.h"
 #include "render/picture/image.h"
-#include "render/picture/view.h"
-#include "scenes/model/scene.h"
-#include "tools/system/progress.h"
+#include "tools/run/options.h"
 
 namespace tools {
-
-struct StillsJob {
-    const scenes::Scene* scene = nullptr;
-    render::Quality quality = render::Quality::final;
-    render::Backend backend = render::Backend::osmesa;
-    int threads = 1;
-    Verbosity verbosity = Verbosity::normal;
-    std::string title;  ///< in the progress
-};
 
 /// The frames to draw: one for a still, several for a strip, or both.
 struct StillSelection {
@@ -40,6 +28,6 @@ struct StillPictures {
 /// moves.
 /// @throws engine::InstabilityError, render::SystemError
 /// @throws scenes::InputError if the strip would have too many pixels
-StillPictures drawStills(const StillsJob& job, const StillSelection& selection);
+StillPictures drawStills(const DrawJob& job, const StillSelection& selection);
 
 }  // namespace tools
