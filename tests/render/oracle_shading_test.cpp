@@ -170,7 +170,7 @@ TEST_CASE("oracle: slivers that a 0.06 m step misses are found") {
     }
 }
 
-TEST_CASE("oracle: in a random crowd the hit is on the surface, faces downhill, and no sample before it is inside") {
+TEST_CASE("oracle: among random balls the hit is on the surface, faces downhill, and no sample before it is inside") {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> place(-1.0F, 1.0F);
     std::uniform_real_distribution<float> radius(0.06F, 0.2F);

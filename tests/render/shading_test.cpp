@@ -263,20 +263,20 @@ TEST_CASE("A smooth skin's balls are the sums over all particles in reach") {
         for (std::size_t p = 0; p < view.particles.size(); ++p) {
             const render::Sphere& here = view.particles[p];
             if (here.radius == 0.0F) continue;
-            double crowd = 0.0;
-            glm::dvec3 pull(0.0);
+            double density = 0.0;
+            glm::dvec3 weightedOffset(0.0);
             for (const render::Sphere& other : view.particles) {
                 const glm::dvec3 off = glm::dvec3(other.center) - glm::dvec3(here.center);
                 const double reach = 0.5 * double(view.field.reach) * (double(here.radius) + double(other.radius));
                 const double root = std::max(0.0, 1.0 - glm::dot(off, off) / (reach * reach));
-                crowd += root * root;
-                pull += root * root * off;
+                density += root * root;
+                weightedOffset += root * root * off;
             }
-            const glm::dvec3 center = glm::dvec3(here.center) + double(render::kSkinPull) * pull / crowd;
+            const glm::dvec3 center = glm::dvec3(here.center) + double(render::kSkinPull) * weightedOffset / density;
             INFO("particle " << p << " of " << count);
             // Tolerance: some forty additions of numbers below 1 in single precision (6e-8 each).
             CHECK(glm::length(glm::dvec3(skin[p].center) - center) < 3e-6);
-            CHECK(std::abs(double(skin[p].weight) - std::pow(crowd, -0.75)) < 3e-6);
+            CHECK(std::abs(double(skin[p].weight) - std::pow(density, -0.75)) < 3e-6);
         }
     }
 }
