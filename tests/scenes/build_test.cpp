@@ -1,4 +1,4 @@
-// Sections to the engine's input: materials, bodies, emitters and obstacles, number by number.
+// Tests that the tables of a scene become the engine's input: materials, bodies, emitters and obstacles.
 #include "tests/catch.h"
 
 #include "engine/state/bodies.h"
@@ -31,7 +31,7 @@ scenes::Scene obstacleScene(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE("a material starts from its preset and overrides what it likes") {
+TEST_CASE("a material has the values of its preset where it gives none of its own") {
     const scenes::Scene scene =
         sceneOf(kBall + "[material]\npreset = \"solid\"\nmass = 2\nbd = 7\ncolor = \"#ff0000\"\ncore = 0.5\n");
     const engine::Material& material = scene.setup.materials.at(0);
@@ -47,7 +47,7 @@ TEST_CASE("a material starts from its preset and overrides what it likes") {
     CHECK(scene.materialColors.at(0) == Vec3(1.0, 0.0, 0.0));
 }
 
-TEST_CASE("bodies and emitters choose materials by name, else take the first") {
+TEST_CASE("bodies and emitters refer to materials by name, and use the first by default") {
     const scenes::Scene scene =
         sceneOf(kTop +
                 "[[material]]\nname = \"a\"\nradius = 0.1\n[[material]]\nname = \"b\"\nradius = 0.2\nmass = 3\n"
@@ -60,7 +60,7 @@ TEST_CASE("bodies and emitters choose materials by name, else take the first") {
     CHECK(scene.setup.emitters.at(0).material == 1);
 }
 
-TEST_CASE("packed bodies are those of the engine, spaced by two radii") {
+TEST_CASE("packed bodies are those of the engine, with a default spacing of two radii") {
     const engine::Particles ball =
         particlesOf("shape = \"ball\"\ncenter = [1, 2, 3]\nradius = 1\nvelocity = [4, 5, 6]\n");
     CHECK(ball.position == engine::ballPositions(Vec3(1, 2, 3), 1.0, {.spacing = 0.3}));
@@ -88,7 +88,7 @@ TEST_CASE("jitter depends on the seed of the scene and differs between bodies") 
     CHECK((one.position[0] - Vec3(-0.15, -0.15, -0.15)).cwiseAbs().maxCoeff() <= 0.06);
 }
 
-TEST_CASE("points are taken as they are") {
+TEST_CASE("points become particles at the given positions") {
     const engine::Particles points = particlesOf(
         "shape = \"points\"\npositions = [[0, 0, 0], [1, 2, 3]]\nvelocities = [[0, 0, 1], [0, 1, 0]]\nvelocity = [5, "
         "0, 0]\n");
@@ -97,7 +97,7 @@ TEST_CASE("points are taken as they are") {
     CHECK(points.id == std::vector<std::uint32_t>{0, 1});
 }
 
-TEST_CASE("a file body is found beside the scene and gives back the state it was made from") {
+TEST_CASE("a file body is found relative to the scene and restores the state that was written") {
     const ScratchFolder folder;
     engine::Particles state;
     append(state,
@@ -129,7 +129,7 @@ TEST_CASE("a file body is found beside the scene and gives back the state it was
     CHECK(scenes::loadScene(scenePath, {}).sceneHash != before);
 }
 
-TEST_CASE("a file body that cannot be used is reported at its key") {
+TEST_CASE("problems of a particle file are reported at the key that names it") {
     const ScratchFolder folder;
     const std::string body = kTop + "[[body]]\nshape = \"file\"\nfile = \"none.ply\"\n";
     const std::string scenePath = folder.write("s.toml", body);
@@ -161,7 +161,7 @@ TEST_CASE("emitters have an interval for each schedule") {
     CHECK(emitterOf("positions = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\nrate = 5\npick = \"random\"\n").interval == 0.2);
 }
 
-TEST_CASE("emitters say what they say") {
+TEST_CASE("the keys of an emitter reach the engine") {
     const engine::Emitter emitter = emitterOf(
         "position = [1, 2, 3]\nrate = 1\nvelocity = [4, 5, 6]\nstart = 0.5\nuntil = 1.5\ncount = 7\npick = "
         "\"random\"\nclearance = 0\njitter = 0.25\n");
@@ -180,7 +180,7 @@ TEST_CASE("emitters say what they say") {
     CHECK(plain.clearance == 1.0);
 }
 
-TEST_CASE("a disc is filled with points of birth across its direction") {
+TEST_CASE("a disc is filled with points of emission perpendicular to its direction") {
     const std::string disc = "shape = \"disc\"\nposition = [0, 1, 0]\nradius = 0.5\nrate = 10\n";
     const engine::Emitter along = emitterOf(disc + "velocity = [0, -3, 0]\n");
     CHECK(along.sites == engine::discSites(Vec3(0, 1, 0), Vec3(0, -1, 0), 0.5, 0.3));
@@ -189,7 +189,7 @@ TEST_CASE("a disc is filled with points of birth across its direction") {
     CHECK(tilted.sites == engine::discSites(Vec3(0, 1, 0), Vec3(1, 0, 0), 0.5, 0.25));
 }
 
-TEST_CASE("obstacles become shapes") {
+TEST_CASE("obstacles become shapes of the engine") {
     const auto plane = std::get<engine::Plane>(
         obstacleScene("shape = \"plane\"\npoint = [0, 1, 0]\nnormal = [0, 3, 4]\n").setup.obstacles.shapes.at(0));
     CHECK(plane.point == Vec3(0, 1, 0));
@@ -213,7 +213,7 @@ TEST_CASE("obstacles become shapes") {
                .literalRepulsor);
 }
 
-TEST_CASE("obstacles are drawn as the scene says") {
+TEST_CASE("the keys of an obstacle determine how it is drawn") {
     CHECK(!obstacleScene("shape = \"plane\"\n").obstacleLooks.at(0).isVisible);
     const std::string box = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
     CHECK(!obstacleScene("shape = \"box\"\n" + box).obstacleLooks.at(0).hasEdges);

@@ -1,4 +1,4 @@
-// Paths of the camera: written as a list, smooth, without a swing beyond their keys.
+// Tests camera paths: the list of keys, and an interpolation that is smooth and does not overshoot.
 #include "tests/catch.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ using scenes_test::sceneOf;
 
 namespace {
 
-/// Keys at 0, 1 and 2 s; the eye's x goes 0, 1, 4, its z turns round, the angle stays.
+/// Keys at 0, 1 and 2 s; the eye's x goes 0, 1, 4, its z has an extremum, the angle is constant.
 const std::string kPath =
     "[[camera]]\ntime = 0\neye = [0, 1, 9]\nfov = 30\n"
     "[[camera]]\ntime = 1\neye = [1, 1, 11]\n"
@@ -32,7 +32,7 @@ CameraPath randomPath(unsigned seed) {
     for (int key = 0; key < 9; ++key) {
         scenes::CameraPlacement placement;
         for (Vec3* vector : {&placement.eye, &placement.target, &placement.up})
-            *vector = Vec3(uniform(), std::round(2.0 * uniform()), uniform());  // y stays the same now and then
+            *vector = Vec3(uniform(), std::round(2.0 * uniform()), uniform());  // y often repeats
         placement.verticalFov = 0.2 + uniform();
         placement.halfHeight = 1.0 + uniform();
         path.keys.push_back({time, placement});
@@ -50,13 +50,13 @@ std::vector<double> numbersOf(const scenes::CameraPlacement& camera) {
 
 }  // namespace
 
-TEST_CASE("a camera that is no list stands still") {
+TEST_CASE("a single camera does not move") {
     const scenes::Scene scene = sceneOf(kBall + "[camera]\neye = [1, 2, 3]\n");
     REQUIRE(scene.camera.keys.size() == 1);
     for (const double time : {-1.0, 0.0, 0.7, 1e9}) CHECK(cameraAt(scene.camera, time).eye == Vec3(1.0, 2.0, 3.0));
 }
 
-TEST_CASE("a path passes through its keys and holds still before and after them") {
+TEST_CASE("a path passes through its keys and is constant before and after them") {
     const scenes::Scene scene = sceneOf(kBall + kPath);
     const auto eye = [&](double time) { return cameraAt(scene.camera, time).eye; };
     CHECK(eye(-5.0) == Vec3(0.0, 1.0, 9.0));
@@ -66,16 +66,17 @@ TEST_CASE("a path passes through its keys and holds still before and after them"
     CHECK(eye(99.0) == Vec3(4.0, 1.0, 10.0));
 }
 
-TEST_CASE("between keys it runs through the published cubic") {
+TEST_CASE("between keys a path follows the published cubic") {
     const scenes::Scene scene = sceneOf(kBall + kPath);
-    // x: rates 1 and 3 on both sides of the middle key give 2/(1/1 + 1/3) = 1.5 there, 0 at the ends. Half way
-    // 0.5 - 1.5/8 = 0.3125, and 2.5 + 1.5/8 = 2.6875.
+    // x: slopes 1 and 3 on both sides of the middle key give a derivative of 2/(1/1 + 1/3) = 1.5 there, 0 at the ends.
+    // Half way 0.5 - 1.5/8 = 0.3125, and 2.5 + 1.5/8 = 2.6875.
     CHECK(cameraAt(scene.camera, 0.5).eye.x() == Approx(0.3125).epsilon(1e-15));
     CHECK(cameraAt(scene.camera, 1.5).eye.x() == Approx(2.6875).epsilon(1e-15));
-    // z turns round at the middle key, so that it rises and falls like u^2 (3 - 2u): 5/32 of the way after a quarter.
+    // z has an extremum at the middle key, so that it rises and falls like u^2 (3 - 2u): 5/32 of the way after a
+    // quarter.
     CHECK(cameraAt(scene.camera, 0.25).eye.z() == Approx(9.0 + 2.0 * 5.0 / 32.0).epsilon(1e-15));
     CHECK(cameraAt(scene.camera, 1.75).eye.z() == Approx(10.0 + 5.0 / 32.0).epsilon(1e-15));
-    // What does not change stays to the last bit.
+    // A number that does not change keeps its bits.
     CHECK(cameraAt(scene.camera, 0.3).verticalFov == scene.camera.keys[0].placement.verticalFov);
     CHECK(cameraAt(scene.camera, 0.3).target == Vec3(0.0, 0.0, 0.0));
 }
@@ -122,7 +123,7 @@ TEST_CASE("the velocity does not jump at a key") {
     }
 }
 
-TEST_CASE("a camera keeps what it leaves out from the one before") {
+TEST_CASE("a camera inherits from the one before what it leaves out") {
     const scenes::Scene scene =
         sceneOf(kBall +
                 "[[camera]]\ntime = 0\nprojection = \"orthographic\"\nhalf_height = 4\ntarget = [0, 1, 0]\n"
@@ -137,7 +138,7 @@ TEST_CASE("a camera keeps what it leaves out from the one before") {
     CHECK(scene.camera.keys[1].placement.eye == Vec3(0.0, 2.0, 10.0));
 }
 
-TEST_CASE("the picture of a moment is seen from the camera's place at that moment") {
+TEST_CASE("the view at a time has the camera of that time") {
     const scenes::Scene scene = sceneOf(kBall + kPath + "[look]\nground = true\n");
     const render::View view = scenes::frameView(scene, scene.setup.initial, 1.5);
     CHECK(view.camera.eye.x == 2.6875F);
@@ -145,13 +146,13 @@ TEST_CASE("the picture of a moment is seen from the camera's place at that momen
     CHECK(view.ground->center == glm::vec3(0.0F));
 }
 
-TEST_CASE("keys of a path are changed by their number") {
+TEST_CASE("overrides refer to the cameras of a path by number") {
     CHECK(sceneOf(kBall + kPath, {"camera[1].eye=[7, 7, 7]"}).camera.keys.at(1).placement.eye == Vec3(7.0, 7.0, 7.0));
     CHECK(problemsOf(kBall + kPath, {"camera.fov=20"}) ==
           Lines{"--set camera.fov=20: camera is a list, write camera[0].fov"});
 }
 
-TEST_CASE("the times of a path are there and increase") {
+TEST_CASE("every camera of a path has a time, and the times increase") {
     CHECK(problemsOf(kBall + "[[camera]]\neye = [1, 2, 3]\n") == Lines{});
     CHECK(problemsOf(kBall + "[[camera]]\ntime = 1\n[[camera]]\neye = [1, 2, 3]\n") ==
           Lines{"pile.toml:8:1: time is missing, a camera on a path needs it (seconds)"});
@@ -163,7 +164,7 @@ TEST_CASE("the times of a path are there and increase") {
                 "pile.toml:9:1: unknown key \"camera.tmie\", did you mean \"time\"?"});
 }
 
-TEST_CASE("every camera of a path has to make sense") {
+TEST_CASE("every camera of a path is checked") {
     CHECK(problemsOf(kBall + kPath + "[[camera]]\ntime = 3\neye = [0, 1, 0]\n") ==
           Lines{"pile.toml:17:1: target is where eye is, must be another point"});
     CHECK(problemsOf(kBall + kPath + "[[camera]]\ntime = 3\nup = [0, 0, 0]\n") ==

@@ -1,4 +1,5 @@
-// Color maps, judged in CIELAB and by CIEDE2000; they are made in OKLab, so the judge shares nothing with the maker.
+// Tests that the color maps are perceptually uniform, by CIELAB and CIEDE2000. The maps are made in OKLab, so that the
+// test shares nothing with them.
 #include "tests/catch.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using scenes_test::sceneOf;
 
 namespace {
 
-/// CIELAB of linear sRGB, white D65. Source: CIE 15; IEC 61966-2-1 for the matrix.
+/// CIELAB of linear sRGB, white point D65, by CIE 15 with the matrix of IEC 61966-2-1.
 Vec3 labOf(const Vec3& linear) {
     const auto f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
     const double x = f(linear.dot(Vec3(0.4124564, 0.3575761, 0.1804375)) / 0.95047);
@@ -34,12 +35,12 @@ double cosine(double degree) {
     return std::cos(degree * std::numbers::pi / 180.0);
 }
 
-/// The share of the chroma among its powers that CIEDE2000 uses twice.
+/// The term (C^7 / (C^7 + 25^7))^(1/2) of CIEDE2000, which occurs twice in it.
 double chromaWeight(double chroma) {
     return std::sqrt(std::pow(chroma, 7) / (std::pow(chroma, 7) + std::pow(25.0, 7)));
 }
 
-/// CIEDE2000. Source: Sharma, Wu and Dalal 2005, equations 2 to 22.
+/// The color difference CIEDE2000 by Sharma, Wu and Dalal 2005, equations 2 to 22.
 double difference(const Vec3& one, const Vec3& other) {
     const auto chroma = [](double a, double b) { return std::sqrt(a * a + b * b); };
     const double stretch =
@@ -72,7 +73,7 @@ double difference(const Vec3& one, const Vec3& other) {
     return std::sqrt(l * l + c * c + h * h + rotation * c * h);
 }
 
-/// How even a row of numbers is: the smallest and the largest over their mean.
+/// The smallest and the largest of some numbers, relative to their mean.
 struct Evenness {
     double least = 0.0;
     double most = 0.0;
@@ -101,8 +102,8 @@ Steps stepsOf(const std::vector<Vec3>& colors) {
     return steps;
 }
 
-/// Whether a map may be called uniform: by CIELAB no step of lightness is further than 15 % from the mean, by CIEDE2000
-/// no step less than two thirds or more than one and a half times it. Chosen; the rainbow below is off by far more.
+/// Whether a map counts as uniform: by CIELAB no step of lightness differs from the mean by more than 15 %, and by
+/// CIEDE2000 every step is between two thirds and one and a half of the mean. Chosen; the rainbow below is far outside.
 bool isUniform(const std::vector<Vec3>& colors) {
     const Steps steps = stepsOf(colors);
     const Evenness lightness = evennessOf(steps.lightness);
@@ -112,16 +113,16 @@ bool isUniform(const std::vector<Vec3>& colors) {
 
 }  // namespace
 
-TEST_CASE("the judge of colors gives the published differences") {
-    // Pairs 1, 7 and 25 of Sharma's table 1, printed with four decimals.
+TEST_CASE("CIEDE2000 gives the published differences") {
+    // Pairs 1, 7 and 25 of Sharma's table 1, which has four decimals.
     CHECK(difference({50.0, 2.6772, -79.7751}, {50.0, 0.0, -82.7485}) == Approx(2.0425).margin(5e-5));
     CHECK(difference({50.0, 0.0, 0.0}, {50.0, -1.0, 2.0}) == Approx(2.3669).margin(5e-5));
     CHECK(difference({60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}) == Approx(1.2644).margin(5e-5));
-    CHECK(labOf(Vec3(1.0, 1.0, 1.0)).x() == Approx(100.0).margin(1e-4));  // digits of the matrix
+    CHECK(labOf(Vec3(1.0, 1.0, 1.0)).x() == Approx(100.0).margin(1e-4));  // the digits of the matrix
     CHECK(std::abs(labOf(Vec3(1.0, 1.0, 1.0)).y()) < 0.01);
 }
 
-TEST_CASE("the judge does not take a rainbow or a ramp in linear light for uniform") {
+TEST_CASE("a rainbow and a ramp in linear light do not count as uniform") {
     std::vector<Vec3> rainbow;
     std::vector<Vec3> ramp;
     for (int k = 0; k < 65; ++k) {
@@ -134,7 +135,7 @@ TEST_CASE("the judge does not take a rainbow or a ramp in linear light for unifo
     CHECK(!isUniform(ramp));
 }
 
-TEST_CASE("in every map lightness grows and steps look equal") {
+TEST_CASE("in every map lightness increases and all steps look equal") {
     REQUIRE(scenes::colorMapNames().size() == 4);
     for (const std::string_view name : scenes::colorMapNames()) {
         for (const int count : {9, 65, 256}) {
@@ -152,7 +153,7 @@ TEST_CASE("in every map lightness grows and steps look equal") {
     }
 }
 
-TEST_CASE("every color of a map can be shown, and the maps are long and different") {
+TEST_CASE("every color of a map is inside the sRGB gamut, and the maps differ") {
     for (const std::string_view name : scenes::colorMapNames()) {
         INFO(name);
         const std::vector<Vec3> colors = colorMap(name);
@@ -168,25 +169,25 @@ TEST_CASE("every color of a map can be shown, and the maps are long and differen
     CHECK_THROWS_AS(colorMap("viridis"), std::logic_error);
 }
 
-TEST_CASE("a scene names its map, and particles take its colors") {
+TEST_CASE("a scene refers to a map by name, and particles have its colors") {
     const std::string point = scenes_test::kTop +
                               "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\nvelocity = [3, 0, 4]\n"
                               "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 10]\ncolor_map = \"ember\"\n";
     const scenes::Scene scene = sceneOf(point);
     CHECK(scene.look.ramp == colorMap("ember"));
     const glm::vec3 color = scenes::frameView(scene, scene.setup.initial, 0.0).particles.at(0).color;
-    const Vec3 middle = colorMap("ember", 3)[1];  // a speed of 5 m/s is half way
+    const Vec3 middle = colorMap("ember", 3)[1];  // for a speed of 5 m/s, in the middle of the range
     for (int channel = 0; channel < 3; ++channel)
         CHECK(color[channel] == Approx(middle[channel]).margin(1e-4));  // between two of 256 colors
     CHECK(sceneOf(point, {"look.color_map=dusk"}).look.ramp == colorMap("dusk"));
     CHECK(sceneOf(point, {"look.color_map=dusk", "overlay.color_bar=true"}).overlay.colorBar);
 }
 
-TEST_CASE("a map and a ramp of the scene's own exclude each other; names are checked") {
+TEST_CASE("a color map and explicit colors exclude each other, and unknown names are rejected") {
     const std::string look = kBall + "[look]\ncolor_by = \"speed\"\n";
     CHECK(problemsOf(look + "colors = [\"#000000\"]\ncolor_map = \"ember\"\n") ==
           Lines{"pile.toml:9:13: colors and color_map exclude each other, give one"});
-    // An override decides.
+    // An override takes precedence over the file.
     CHECK(sceneOf(look + "colors = [\"#000000\"]\n", {"look.color_map=ember"}).look.ramp == colorMap("ember"));
     CHECK(sceneOf(look + "color_map = \"ember\"\n", {"look.colors=[\"#000000\"]"}).look.ramp.size() == 1);
     CHECK(problemsOf(look, {"look.colors=[\"#000000\"]", "look.color_map=ember"}).size() == 1);

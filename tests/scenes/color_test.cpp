@@ -1,4 +1,4 @@
-// Colors: the sRGB curve against its published values, and ramps.
+// Tests the sRGB curve against its definition, hexadecimal colors, and ramps.
 #include "tests/catch.h"
 
 #include <cmath>
@@ -10,18 +10,18 @@ using scenes::colorFromHex;
 using scenes::linearFromSrgb;
 using scenes::rampColor;
 
-TEST_CASE("the sRGB curve meets its definition") {
+TEST_CASE("the sRGB curve has the values of its definition") {
     CHECK(linearFromSrgb(0.0) == 0.0);
     CHECK(linearFromSrgb(1.0) == 1.0);
     // Linear below the knee: 0.04045 / 12.92.
     CHECK(linearFromSrgb(0.04045) == Approx(0.0031308049535603713).epsilon(1e-15));
     // ((0.5 + 0.055) / 1.055)^2.4 = exp(2.4 ln(0.5260663507...)), by bc with 30 digits.
     CHECK(linearFromSrgb(0.5) == Approx(0.21404114048223255).epsilon(1e-14));
-    // The two pieces meet to the rounding of the standard's constants, 3e-8.
+    // The two pieces of the curve meet within the rounding of the standard's constants, 3e-8.
     CHECK(std::abs(linearFromSrgb(0.04045 + 1e-12) - linearFromSrgb(0.04045)) < 1e-7);
 }
 
-TEST_CASE("hexadecimal colors are read in either case, and nothing else is") {
+TEST_CASE("hexadecimal colors may have either case, and other texts are no colors") {
     CHECK(*colorFromHex("#ffffff") == Vec3(1.0, 1.0, 1.0));
     CHECK(*colorFromHex("#000000") == Vec3(0.0, 0.0, 0.0));
     CHECK(*colorFromHex("#FF8000") == *colorFromHex("#ff8000"));

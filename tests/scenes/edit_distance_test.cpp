@@ -1,4 +1,4 @@
-// Distances between names, and which name is near enough to be meant.
+// Tests the edit distance, and the suggestion of a known name for a mistyped one.
 #include "tests/catch.h"
 
 #include "scenes/text/edit_distance.h"
@@ -23,7 +23,7 @@ TEST_CASE("the edit distance is symmetric") {
             CHECK(editDistance(a, b) == editDistance(b, a));
 }
 
-TEST_CASE("only a near name is offered, the first of equals") {
+TEST_CASE("only a close name is suggested, the first of equals") {
     const std::vector<std::string> known = {"gravity", "drag", "step", "fov", "stop"};
     CHECK(nearestName("gravty", known) == "gravity");
     CHECK(nearestName("darg", known) == "drag");

@@ -1,4 +1,4 @@
-// A scene's frame as the renderer gets it: numbers, colors, obstacles and their edges.
+// Tests the renderer's input for a frame of a scene: numbers, colors, obstacles and their edges.
 #include "tests/catch.h"
 
 #include <numbers>
@@ -24,7 +24,7 @@ const std::string kPoint = kTop + "[[body]]\nshape = \"points\"\npositions = [[0
 
 }  // namespace
 
-TEST_CASE("particles keep place, radius and order, in single precision") {
+TEST_CASE("particles keep position, radius and order, in single precision") {
     const render::View view = viewOf(
         kTop + "[[body]]\nshape = \"points\"\npositions = [[0.1, 0.2, 0.3], [1, 2, 3]]\nparticle_radius = 0.7\n");
     REQUIRE(view.particles.size() == 2);
@@ -51,9 +51,9 @@ TEST_CASE("color by material") {
     CHECK(view.particles.at(1).color == glm::vec3(0.1F, 0.2F, 0.3F));
 }
 
-TEST_CASE("color by speed and by age runs through the ramp in linear light") {
+TEST_CASE("colors by speed and by age interpolate the ramp in linear light") {
     const std::string ramp = "colors = [\"#000000\", \"#ffffff\"]\n";
-    // The speed of (3, 0, 4) is 5, half way from 0 to 10 and a quarter from 4 to 8.
+    // The speed of (3, 0, 4) is 5: half of the range from 0 to 10, and a quarter of that from 4 to 8.
     CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 10]\n" + ramp).particles.at(0).color ==
           glm::vec3(0.5F));
     CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [4, 8]\n" + ramp).particles.at(0).color ==
@@ -62,11 +62,11 @@ TEST_CASE("color by speed and by age runs through the ramp in linear light") {
           glm::vec3(1.0F));
     CHECK(viewOf(kPoint + "[look]\ncolor_by = \"speed\"\ncolor_range = [6, 8]\n" + ramp).particles.at(0).color ==
           glm::vec3(0.0F));
-    // By default ages run to the duration, 2 s.
+    // By default the range of ages ends at the duration, 2 s.
     CHECK(viewOf(kPoint + "[look]\ncolor_by = \"age\"\n" + ramp, 0.5).particles.at(0).color == glm::vec3(0.25F));
 }
 
-TEST_CASE("the age of a particle counts from its birth") {
+TEST_CASE("the age of a particle counts from its emission") {
     const scenes::Scene scene =
         sceneOf(kPoint + "[look]\ncolor_by = \"age\"\ncolors = [\"#000000\", \"#ffffff\"]\ncolor_range = [0, 4]\n");
     engine::Particles particles = scene.setup.initial;
@@ -113,7 +113,7 @@ TEST_CASE("a container has twelve different edges along the axes") {
     CHECK(length == 28.0F);
 }
 
-TEST_CASE("edges take their colors from the look or from the container") {
+TEST_CASE("edges have the color of the look or of the container") {
     const std::string corners = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
     const std::string look = "[look]\nedge_color = [0, 0, 1]\n";
     CHECK(viewOf(kBall + "[[obstacle]]\nshape = \"container\"\n" + corners + look).edges.at(0).color ==
@@ -129,7 +129,7 @@ TEST_CASE("edges take their colors from the look or from the container") {
     CHECK(viewOf(kBall + "[[obstacle]]\nshape = \"container\"\nedges = false\n" + corners).edges.empty());
 }
 
-TEST_CASE("the camera and the look arrive") {
+TEST_CASE("the camera and the look reach the renderer") {
     const render::View view =
         viewOf(kBall +
                "[camera]\neye = [1, 2, 3]\ntarget = [4, 5, 7]\nup = [0, 0, 1]\nfov = 90\n"
@@ -167,7 +167,7 @@ TEST_CASE("an orthographic camera has a half height") {
     CHECK(view.camera.halfHeight == 6.0F);
 }
 
-TEST_CASE("defaults of the schema that repeat the renderer's agree with them") {
+TEST_CASE("the schema has the same defaults as the renderer") {
     const render::View view = viewOf(kBall);
     const render::View plain;
     CHECK(view.ambient.sky == plain.ambient.sky);

@@ -1,4 +1,4 @@
-// Built-in scenes by name.
+// Tests that built-in scenes are found by name.
 #include "tests/catch.h"
 
 #include "scenes/build/library.h"
@@ -31,11 +31,11 @@ TEST_CASE("scenes are found by full name, by last part and by path") {
     CHECK(resolved("paper/figure-2", roots) == figure);
     CHECK(resolved("hard/honey", roots) == honey);
     CHECK(resolved(honey, {}) == honey);
-    // A path that is meant as one is left to the reader, which says that it does not exist.
+    // A path that does not exist is left to the reader, which reports it.
     CHECK(resolved("nowhere/x.toml", roots) == "nowhere/x.toml");
 }
 
-TEST_CASE("an unknown name offers the nearest") {
+TEST_CASE("for an unknown name the nearest is suggested") {
     const ScratchFolder folder;
     folder.write("liquid.toml", kBall);
     folder.write("a/twin.toml", kBall);
@@ -48,7 +48,7 @@ TEST_CASE("an unknown name offers the nearest") {
     CHECK(resolved("a/twin", roots) == (folder.path / "a/twin.toml").string());
 }
 
-TEST_CASE("scenes are listed by name with their titles; the earlier root counts") {
+TEST_CASE("scenes are listed by name with their titles, from the first root that has them") {
     const ScratchFolder first;
     const ScratchFolder second;
     first.write("b.toml", "title = \"mine\"\nduration = 1\n");

@@ -1,4 +1,4 @@
-// Every kind of mistake a scene can hold beyond its syntax, with the exact place and words of its message.
+// Tests every kind of mistake that a scene can have beyond its syntax, with the exact position and text of the message.
 #include "tests/catch.h"
 
 #include "tests/scenes/scene_text.h"
@@ -23,14 +23,14 @@ TEST_CASE("unknown keys and tables are named, with the nearest known name") {
     CHECK(problemsOf(kBall + "[quux]\n") == Lines{"pile.toml:6:1: unknown table \"quux\""});
 }
 
-TEST_CASE("a key in the wrong table is sent home") {
+TEST_CASE("for a key in the wrong table the right one is suggested") {
     CHECK(problemsOf(kBall + "[physics]\nfps = 30\n") ==
           Lines{"pile.toml:7:1: unknown key \"physics.fps\": it belongs above the first table"});
     CHECK(problemsOf("gravity = [0, 0, 0]\n" + kBall) ==
           Lines{"pile.toml:1:1: unknown key \"gravity\", did you mean \"physics.gravity\"?"});
 }
 
-TEST_CASE("a mistyped key is not reported as missing as well") {
+TEST_CASE("a mistyped key is not reported as missing, too") {
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\nraduis = 1\n") ==
           Lines{"pile.toml:5:1: unknown key \"body.raduis\", did you mean \"radius\"?"});
     CHECK(problemsOf(kTop + "[[emitter]]\npositon = [0, 0, 0]\ninterval = 1\n") ==
@@ -39,7 +39,7 @@ TEST_CASE("a mistyped key is not reported as missing as well") {
           Lines{"pile.toml:1:1: unknown key \"titel\", did you mean \"title\"?"});
 }
 
-TEST_CASE("wrong types say what was found and what is expected") {
+TEST_CASE("the message for a wrong type names the value and the expected type") {
     const auto physics = [](const std::string& line) { return problemsOf(kBall + "[physics]\n" + line + "\n"); };
     CHECK(physics("step = \"fast\"") ==
           Lines{"pile.toml:7:8: step is \"fast\" (a string), must be a number (seconds)"});
@@ -65,7 +65,7 @@ TEST_CASE("wrong types say what was found and what is expected") {
           Lines{"pile.toml:7:16: ground_color is \"red\" (a string), must be \"#rrggbb\" or [r, g, b]"});
 }
 
-TEST_CASE("numbers outside their range are refused, with bounds and unit") {
+TEST_CASE("numbers out of range are rejected, with bounds and unit") {
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = -0.2\n") ==
           Lines{"pile.toml:5:10: radius is -0.2, must be > 0 (meters)"});
     CHECK(problemsOf("fps = 241\n" + kBall) == Lines{"pile.toml:1:7: fps is 241, must be 1 to 240 (per second)"});
@@ -79,14 +79,14 @@ TEST_CASE("numbers outside their range are refused, with bounds and unit") {
           Lines{"pile.toml:7:16: light_color[0] is -1, must be 0 to 100"});
 }
 
-TEST_CASE("the bounds themselves are accepted where they are closed") {
+TEST_CASE("bounds are accepted unless they are excluded") {
     CHECK(problemsOf("fps = 240\n" + kBall) == Lines{});
     CHECK(problemsOf("fps = 1\n" + kBall) == Lines{});
     CHECK(problemsOf(kBall + "[material]\ncr = 1\n") == Lines{});
     CHECK(problemsOf(kBall + "[look]\nsize = [16, 8192]\n") == Lines{});
 }
 
-TEST_CASE("a world has its maximum above its minimum, where it has both") {
+TEST_CASE("the maximum of a world has to be above its minimum") {
     CHECK(problemsOf(kBall + "[world]\nminimum = [0, 1, 0]\nmaximum = [2, 1, -1]\n") ==
           Lines{"pile.toml:8:11: maximum[1] is 1, must be above the minimum 1 (meters)",
                 "pile.toml:8:11: maximum[2] is -1, must be above the minimum 0 (meters)"});
@@ -95,14 +95,14 @@ TEST_CASE("a world has its maximum above its minimum, where it has both") {
           Lines{"pile.toml:7:18: maximum[2] is 200000000, must be -100000000 to 100000000 (meters)"});
 }
 
-TEST_CASE("nobody begins outside the world") {
+TEST_CASE("no particle may start outside the world") {
     CHECK(problemsOf(kTop + "[world]\nmaximum = [9, 9, 9]\n[[body]]\nshape = \"points\"\npositions = [[1, 10, 1]]\n") ==
           Lines{"pile.toml:3:1: a body's particle at [1, 10, 1] is outside the world"});
     CHECK(problemsOf(kTop + "[world]\nmaximum = [9, 9, 9]\n[[emitter]]\nposition = [1, 1, 9.5]\ninterval = 1\n") ==
           Lines{"pile.toml:3:1: an emitter's point of emission at [1, 1, 9.5] is outside the world"});
 }
 
-TEST_CASE("numbers that are not finite are refused") {
+TEST_CASE("numbers that are not finite are rejected") {
     CHECK(problemsOf(kBall + "[physics]\ngravity = [0, -inf, nan]\n") ==
           Lines{"pile.toml:7:15: gravity[1] is -inf, must be finite (m/s^2)",
                 "pile.toml:7:21: gravity[2] is nan, must be finite (m/s^2)"});
@@ -110,7 +110,7 @@ TEST_CASE("numbers that are not finite are refused") {
           Lines{"pile.toml:7:8: drag is nan, must be finite (per second)"});
 }
 
-TEST_CASE("choices are listed, with the nearest one") {
+TEST_CASE("the message for a wrong choice lists all, and suggests the nearest") {
     CHECK(problemsOf(kBall + "[material]\npreset = \"liqid\"\n") ==
           Lines{"pile.toml:7:10: preset is \"liqid\", must be \"liquid\", \"solid\", \"powder\", \"fountain\", "
                 "\"honey\", \"jam\", \"oil\", \"lava\", \"mud\", \"molten-metal\" or \"sand\", "
@@ -135,7 +135,7 @@ TEST_CASE("missing keys are reported at the table that needs them") {
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"box\"\nminimum = [0, 0, 0]\n").size() == 1);
 }
 
-TEST_CASE("keys that do not apply to the chosen shape are refused") {
+TEST_CASE("keys that do not apply to the shape are rejected") {
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 1, 1]\nradius = 1\n") ==
           Lines{"pile.toml:7:1: radius does not apply to shape \"box\", only to ball"});
     CHECK(problemsOf(kBall + "[camera]\nhalf_height = 3\n") ==
@@ -144,7 +144,7 @@ TEST_CASE("keys that do not apply to the chosen shape are refused") {
           Lines{"pile.toml:7:1: colors does not apply to color_by \"material\", only to speed, age"});
 }
 
-TEST_CASE("keys that contradict each other are refused at the later one") {
+TEST_CASE("keys that exclude each other are reported at the later one") {
     const std::string emitter = kTop + "[[emitter]]\nposition = [0, 0, 0]\n";
     CHECK(problemsOf(emitter + "interval = 1\nrate = 2\n") ==
           Lines{"pile.toml:6:8: interval and rate exclude each other, give one"});
@@ -164,13 +164,13 @@ TEST_CASE("keys that contradict each other are refused at the later one") {
           Lines{"pile.toml:7:8: time is 2.5, must be at most the duration, 2 (seconds)"});
 }
 
-TEST_CASE("a key that is written counts from its own place, not from that of its mistyped twin") {
+TEST_CASE("a written key has its own position, not that of a mistyped one") {
     CHECK(problemsOf(kTop + "[[emitter]]\nposition = [0, 0, 0]\nintervall = 1\nrate = 2\ninterval = 1\n") ==
           Lines{"pile.toml:5:1: unknown key \"emitter.intervall\", did you mean \"interval\"?",
                 "pile.toml:7:12: interval and rate exclude each other, give one"});
 }
 
-TEST_CASE("corners, directions and cameras have to make sense") {
+TEST_CASE("corners, directions and cameras are checked") {
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 0, 1]\n") ==
           Lines{"pile.toml:9:11: maximum[1] is 0, must be above the minimum 0 (meters)"});
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, -1, 1]\n") ==
@@ -189,7 +189,7 @@ TEST_CASE("corners, directions and cameras have to make sense") {
           Lines{"pile.toml:8:15: color_range is [2, 1], must be two numbers [low, high], low below high (m/s or s)"});
 }
 
-TEST_CASE("materials have to be defined, once") {
+TEST_CASE("materials have to be defined exactly once") {
     const std::string two = "[[material]]\nname = \"wax\"\n[[material]]\nname = \"sand\"\n";
     CHECK(problemsOf(kTop + two + "[[body]]\nshape = \"ball\"\nradius = 1\nmaterial = \"snad\"\n") ==
           Lines{"pile.toml:10:12: material \"snad\" is not defined, did you mean \"sand\"?"});
@@ -199,7 +199,7 @@ TEST_CASE("materials have to be defined, once") {
           Lines{"pile.toml:9:8: there are two materials with the name \"wax\""});
 }
 
-TEST_CASE("tables written in the wrong form are refused") {
+TEST_CASE("tables in the wrong form are rejected") {
     CHECK(problemsOf(kTop + "[body]\nshape = \"ball\"\nradius = 1\n") ==
           Lines{"pile.toml:3:1: body is a table, must be a list of tables: [[body]]"});
     CHECK(problemsOf(kBall + "[[physics]]\nstep = 0.1\n") ==
@@ -208,13 +208,13 @@ TEST_CASE("tables written in the wrong form are refused") {
     CHECK(problemsOf("body = [1]\n" + kTop) == Lines{"pile.toml:1:9: body[0] is 1, must be a table"});
 }
 
-TEST_CASE("an empty world is refused") {
+TEST_CASE("a scene without particles is rejected") {
     CHECK(problemsOf(kTop) == Lines{"pile.toml: there is nothing to simulate: give a [[body]] or an [[emitter]]"});
 }
 
 const std::string kParticleLimit = " are allowed; --limit particles=N allows more";
 
-TEST_CASE("bodies and nozzles beyond all measure are refused before memory is spent on them") {
+TEST_CASE("bodies and emitters that are too large are rejected before memory is allocated") {
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = 1e9\n") ==
           Lines{"pile.toml:4:9: the body would have about 4.2e+29 particles, at most 2000000 are allowed; --limit "
                 "particles=N allows more"});
@@ -233,7 +233,7 @@ TEST_CASE("bodies and nozzles beyond all measure are refused before memory is sp
             "particles=N allows more"});
 }
 
-TEST_CASE("particles of several bodies count together") {
+TEST_CASE("the limit applies to the particles of all bodies together") {
     const std::string body = "[[body]]\nshape = \"grid\"\ncounts = [100, 100, 120]\n";
     CHECK(problemsOf(kTop + body + "[[emitter]]\nposition = [0, 0, 0]\nrate = 1000\n") == Lines{});
     CHECK(
@@ -242,7 +242,7 @@ TEST_CASE("particles of several bodies count together") {
               kParticleLimit});
 }
 
-TEST_CASE("animations and pictures beyond all measure are refused, unless they are meant") {
+TEST_CASE("animations and pictures that are too large are rejected, unless a limit is raised") {
     const std::string body = "[[body]]\nshape = \"ball\"\nradius = 0.5\n";
     const std::string lengthy = "title = \"t\"\nduration = 5000.0\n" + body;
     const std::string large = kTop + body + "[look]\nsize = [8000, 8000]\n";
@@ -287,7 +287,7 @@ TEST_CASE("ten different mistakes are ten problems, in order of position") {
     CHECK(problemsOf(text) == expected);
 }
 
-TEST_CASE("what() holds every problem on a line of its own") {
+TEST_CASE("what() has one line for each problem") {
     try {
         scenes::readScene("fps = 0\n", "pile.toml", {});
         FAIL("no error was thrown");
@@ -300,7 +300,7 @@ TEST_CASE("what() holds every problem on a line of its own") {
     }
 }
 
-TEST_CASE("a file that is no scene at all ends in a bounded number of problems") {
+TEST_CASE("a file that is not a scene gives a bounded number of problems") {
     std::string text;
     for (int key = 0; key < 1000; ++key) text += "key" + std::to_string(key) + " = 1\n";
     const Lines lines = problemsOf(text);

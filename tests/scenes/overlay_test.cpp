@@ -1,4 +1,4 @@
-// Overlays of a scene: keys, texts, ticks, and what is refused.
+// Tests the overlay of a scene: its keys, texts and ticks, and mistakes in it.
 #include "tests/catch.h"
 
 #include "scenes/view/frame_view.h"
@@ -27,14 +27,14 @@ Lines tickTexts(double low, double high) {
 
 }  // namespace
 
-TEST_CASE("a scene that asks for no overlay has none") {
+TEST_CASE("a scene without [overlay] has no overlay") {
     const render::Overlay overlay = overlayAt(kBall + kSpeed, 1.0);
     CHECK(overlay.stamp.empty());
     CHECK(!overlay.scaleBar.has_value());
     CHECK(!overlay.colorBar.has_value());
 }
 
-TEST_CASE("the stamp is the time of the picture, with decimals that tell frames apart") {
+TEST_CASE("the stamp shows the time with decimals that distinguish frames") {
     const std::string text = kBall + "[overlay]\ntime = true\n";
     CHECK(overlayAt(text, 0.0).stamp == "t = 0.00 s");
     CHECK(overlayAt(text, 1.25).stamp == "t = 1.25 s");
@@ -43,7 +43,7 @@ TEST_CASE("the stamp is the time of the picture, with decimals that tell frames 
     CHECK(overlayAt(kBall, 1.25, {"overlay.time=true"}).stamp == "t = 1.25 s");
 }
 
-TEST_CASE("the scale bar says its length") {
+TEST_CASE("the scale bar shows its length") {
     const render::Overlay overlay = overlayAt(kBall + "[overlay]\nscale_bar = 0.5\n", 0.0);
     REQUIRE(overlay.scaleBar.has_value());
     CHECK(overlay.scaleBar->length == 0.5F);
@@ -106,7 +106,7 @@ TEST_CASE("ink contrasts with the background unless it is given") {
     CHECK(overlayAt(kBall + on + "size = 2.5\n", 0.0).size == 2.5F);
 }
 
-TEST_CASE("overlays that cannot be drawn are refused where they are asked for") {
+TEST_CASE("overlays that cannot be drawn are reported at their keys") {
     CHECK(problemsOf(kBall + "[overlay]\ncolor_bar = true\n") ==
           Lines{"pile.toml:7:13: color_bar is true, but colors by material have no scale; it needs look.color_by "
                 "\"speed\" or \"age\""});

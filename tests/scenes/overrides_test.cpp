@@ -1,4 +1,4 @@
-// --set: values replace those of the file and pass through the same checks.
+// Tests overrides (--set): they replace values of the file and go through the same checks.
 #include "tests/catch.h"
 
 #include "tests/scenes/scene_text.h"
@@ -53,12 +53,12 @@ TEST_CASE("problems of overrides name the option, after those of the file and in
                 "--set fps=0: fps is 0, must be 1 to 240 (per second)"});
 }
 
-TEST_CASE("an override mends what the file has wrong") {
+TEST_CASE("an override replaces a wrong value of the file") {
     CHECK(problemsOf(kBall + "[physics]\nstep = -1\n").size() == 1);
     CHECK(problemsOf(kBall + "[physics]\nstep = -1\n", {"physics.step=1"}) == Lines{});
 }
 
-TEST_CASE("overrides that name nothing are refused") {
+TEST_CASE("overrides of unknown keys are rejected") {
     const std::string form = "must be KEY=VALUE, with a key like fps, physics.step or body[0].radius";
     for (const std::string text : {"fps", "=3", "physics.=3", "body[0=3", "body]0[.radius=1", "a.b.c=3", "body[0]=3"})
         CHECK(problemsOf(kBall, {text}) == Lines{"--set " + text + ": " + form});
@@ -69,7 +69,7 @@ TEST_CASE("overrides that name nothing are refused") {
     CHECK(problemsOf(kBall, {"body[99999999999999999999].radius=1"}).size() == 1);
 }
 
-TEST_CASE("an override of the shape makes the keys of the former shape moot") {
+TEST_CASE("where an override changes the shape, keys of the former shape are ignored") {
     const std::string text = kBall + "[camera]\nprojection = \"orthographic\"\nhalf_height = 3\n";
     CHECK(problemsOf(text, {"camera.projection=perspective"}) == Lines{});
     CHECK(sceneOf(text, {"camera.projection=perspective"}).camera.keys.at(0).placement.projection ==

@@ -54,7 +54,7 @@ const std::string kOrigin(24, '\0');
 
 }  // namespace
 
-TEST_CASE("a particle file gives back every bit") {
+TEST_CASE("a particle file preserves every bit") {
     const engine::Particles before = sample();
     const scenes::ParticleFile file = scenes::decodeParticles(scenes::encodeParticles(before), "a.ply");
     CHECK(file.hasVelocity);
@@ -75,7 +75,7 @@ TEST_CASE("a particle file gives back every bit") {
     CHECK(file.particles.id == before.id);
 }
 
-TEST_CASE("the format is the documented one") {
+TEST_CASE("the format is as documented") {
     const std::string bytes = scenes::encodeParticles(sample());
     const std::string expected =
         "ply\nformat binary_little_endian 1.0\ncomment globular particles\nelement vertex 2\n"
@@ -89,7 +89,7 @@ TEST_CASE("the format is the documented one") {
     CHECK(bytes.substr(bytes.size() - 4) == bytesOf(std::uint32_t{1}));
 }
 
-TEST_CASE("a file without particles is a file") {
+TEST_CASE("a file without particles is valid") {
     CHECK(scenes::decodeParticles(scenes::encodeParticles({}), "a.ply").particles.count() == 0);
 }
 

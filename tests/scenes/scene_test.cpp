@@ -1,4 +1,4 @@
-// What a scene amounts to: values, defaults, frames, effective values and the hash.
+// Tests the contents of a scene: values, defaults, frames, effective values and the hash.
 #include "tests/catch.h"
 
 #include <set>
@@ -12,7 +12,7 @@ using scenes_test::problemsOf;
 using scenes_test::sceneOf;
 using scenes_test::ScratchFolder;
 
-TEST_CASE("a scene that says little has the defaults of the schema") {
+TEST_CASE("a minimal scene has the defaults of the schema") {
     const scenes::Scene scene = sceneOf(kBall);
     CHECK(scene.title == "t");
     CHECK(scene.duration == 2.0);
@@ -34,7 +34,7 @@ TEST_CASE("a scene that says little has the defaults of the schema") {
     CHECK(scene.look.common.field.reach == 2.5);
 }
 
-TEST_CASE("a scene says what it says") {
+TEST_CASE("the keys of a file reach the scene") {
     const scenes::Scene scene = sceneOf(
         "title = \"all\"\ndescription = \"d\"\nduration = 3\nfps = 25\nseed = 9007199254740993\n"
         "[physics]\ngravity = [1, 2, 3]\ndrag = 0.5\nstepper = \"symplectic-euler\"\nstep = 0.01\nforces = "
@@ -44,7 +44,7 @@ TEST_CASE("a scene says what it says") {
         "\"metaballs\"\n");
     CHECK(scene.description == "d");
     CHECK(scene.fps == 25);
-    // 2^53 + 1: a seed is not squeezed through a double.
+    // 2^53 + 1 is not a double: a seed keeps all its bits.
     CHECK(scene.seed == 9007199254740993ULL);
     CHECK(scene.setup.seed == 9007199254740993ULL);
     CHECK(scene.setup.gravity == Vec3(1.0, 2.0, 3.0));
@@ -79,7 +79,7 @@ TEST_CASE("frames are counted by rounding and start at time zero") {
     CHECK(scenes::frameTime(scene, 45) == 1.5);
 }
 
-TEST_CASE("the effective values list every key that counts, once, with its origin") {
+TEST_CASE("the effective values list every key that applies once, with its origin") {
     const scenes::Scene scene = sceneOf(kBall + "[material]\nb1 = 0.5\n");
     std::set<std::string> paths;
     for (const scenes::EffectiveValue& value : scene.values) CHECK(paths.insert(value.path).second);
@@ -103,14 +103,14 @@ TEST_CASE("the effective values list every key that counts, once, with its origi
     CHECK(paths.count("body[0].counts") == 0);
 }
 
-TEST_CASE("the hash changes with any value and with nothing else") {
+TEST_CASE("the hash depends on every value and on nothing else") {
     const std::string hash = sceneOf(kBall).sceneHash;
     CHECK(hash.size() == 16);
     CHECK(hash.find_first_not_of("0123456789abcdef") == std::string::npos);
     CHECK(sceneOf("# comment\n" + kBall + "\n\n").sceneHash == hash);
     CHECK(sceneOf(kBall + "center = [0.0, 0, 0]\n[physics]\nstep = 2e-3\n").sceneHash == hash);
     CHECK(sceneOf(kBall, {"duration=2"}).sceneHash == hash);
-    // Which of two counts is part of what a scene means.
+    // Of two keys that exclude each other, the one in use is part of the hash.
     const std::string ramp = "look.colors=[\"#1f4e9e\", \"#4fb3d9\", \"#f4f1de\"]";
     const std::string mapped = kBall + "[look]\ncolor_by = \"speed\"\ncolor_map = \"lagoon\"\n";
     CHECK(sceneOf(mapped, {ramp}).sceneHash != sceneOf(mapped).sceneHash);
@@ -142,14 +142,14 @@ TEST_CASE("scenes are read from files, and a file that cannot be read is an inpu
     CHECK(messageOf(folder.path.string()) == folder.path.string() + ": cannot be read: it is a folder");
 }
 
-TEST_CASE("the strip of a scene is its four quarters, or the moments it names") {
-    CHECK(scenes::stripFrames(sceneOf(kBall)) == std::vector<int>{15, 30, 45, 59});  // 2 s at 30 a second
+TEST_CASE("the strip of a scene shows its four quarters, or the given times") {
+    CHECK(scenes::stripFrames(sceneOf(kBall)) == std::vector<int>{15, 30, 45, 59});  // 2 s at 30 frames per second
     CHECK(scenes::stripFrames(sceneOf(kBall + "[still]\nstrip = [0.1, 1, 1.9]\n")) == std::vector<int>{3, 30, 57});
-    // Two moments that are nearest to one frame are one panel.
+    // Two times with the same nearest frame give one picture.
     CHECK(scenes::stripFrames(sceneOf(kBall, {"still.strip=[0.5,0.501,2]"})) == std::vector<int>{15, 59});
 }
 
-TEST_CASE("the moments of a strip are numbers that increase, within the duration") {
+TEST_CASE("the times of a strip increase and are within the duration") {
     const std::string still = kBall + "[still]\n";
     CHECK(problemsOf(still + "strip = 1\n") == Lines{"pile.toml:7:9: strip is 1, must be a list of numbers (seconds)"});
     CHECK(problemsOf(still + "strip = []\n") ==

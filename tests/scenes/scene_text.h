@@ -1,4 +1,4 @@
-// Scene texts for tests, and what is wrong with them as lines.
+// Scene texts for tests, and the problems of a scene text as lines.
 #pragma once
 
 #include <cstdlib>
@@ -14,13 +14,13 @@ namespace scenes_test {
 
 using Lines = std::vector<std::string>;
 
-/// A scene with nothing wrong: a title, a duration and one ball. Whatever is appended starts in line 6.
+/// A valid scene: a title, a duration and one ball. Text that is appended starts in line 6.
 inline const std::string kBall = "title = \"t\"\nduration = 2\n[[body]]\nshape = \"ball\"\nradius = 0.5\n";
 
-/// The top alone, without anything to simulate. Whatever is appended starts in line 3.
+/// The keys above the first table, without a body. Text that is appended starts in line 3.
 inline const std::string kTop = "title = \"t\"\nduration = 2\n";
 
-/// The problems of a scene called pile.toml, one line each; empty if there are none.
+/// The problems of a scene with the file name pile.toml, one line for each.
 inline Lines problemsOf(const std::string& text, const scenes::Overrides& overrides = {}) {
     try {
         scenes::readScene(text, "pile.toml", overrides);
@@ -36,7 +36,7 @@ inline scenes::Scene sceneOf(const std::string& text, const scenes::Overrides& o
     return scenes::readScene(text, "pile.toml", overrides);
 }
 
-/// A new folder that is removed at the end.
+/// A temporary folder that is removed with the object.
 struct ScratchFolder {
     std::filesystem::path path;
 

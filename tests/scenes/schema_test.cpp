@@ -1,4 +1,4 @@
-// The table of keys: complete, consistent with itself and with the engine, and shown in full.
+// Tests the schema: it is complete and consistent with itself and with the engine, and is exported in full.
 #include "tests/catch.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 using scenes::Key;
 using scenes::schema;
 
-TEST_CASE("every key has a help line, a known table and its place once") {
+TEST_CASE("every key has a help line and a known table, and occurs once") {
     std::set<std::string> paths;
     for (const Key& key : schema()) {
         INFO(pathOf(key));
@@ -29,14 +29,14 @@ TEST_CASE("every key has a help line, a known table and its place once") {
     CHECK(schema().size() > 80);
 }
 
-TEST_CASE("every key is required, has a default, or says in words what it is without one") {
+TEST_CASE("every key is required or has a constant or derived default") {
     for (const Key& key : schema()) {
         INFO(pathOf(key));
         CHECK(key.isRequired + !key.defaultValue.empty() + !key.derivedDefault.empty() == 1);
     }
 }
 
-TEST_CASE("every default passes the checks of its own key") {
+TEST_CASE("every default is valid for its own key") {
     for (const Key& key : schema()) {
         if (key.defaultValue.empty()) continue;
         INFO(pathOf(key) << " = " << key.defaultValue);
@@ -47,14 +47,14 @@ TEST_CASE("every default passes the checks of its own key") {
     }
 }
 
-TEST_CASE("choices exist where and only where the type is a choice") {
+TEST_CASE("exactly the keys of type choice have choices") {
     for (const Key& key : schema()) {
         INFO(pathOf(key));
         CHECK(key.choices.empty() == (key.type != scenes::Type::choice));
     }
 }
 
-TEST_CASE("keys apply to values that their table's discriminator can have") {
+TEST_CASE("keys apply to values of their table's discriminator") {
     for (const Key& key : schema()) {
         INFO(pathOf(key));
         if (key.appliesTo.empty()) continue;
@@ -115,7 +115,7 @@ TEST_CASE("docs/scenes.md is current") {
     CHECK((page == scenes::schemaMarkdown()));
 }
 
-TEST_CASE("ranges and units have words") {
+TEST_CASE("ranges and units are put into words") {
     CHECK(scenes::rangeText({}) == "");
     CHECK(scenes::rangeText({.low = 0.0}) == ">= 0");
     CHECK(scenes::rangeText({.low = 0.0, .isLowExcluded = true}) == "> 0");

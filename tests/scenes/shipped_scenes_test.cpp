@@ -1,4 +1,4 @@
-// Every scene in the repository loads, and the paper's say what the paper says.
+// Tests that every scene of the repository loads, and that the paper's scenes have the paper's settings.
 #include "tests/catch.h"
 
 #include <filesystem>
@@ -52,7 +52,7 @@ TEST_CASE("every shipped scene opens with a comment") {
     }
 }
 
-TEST_CASE("no shipped camera meets its target or the ground on its way") {
+TEST_CASE("no camera of a shipped scene comes close to its target or the ground") {
     int paths = 0;
     for (const scenes::LibraryEntry& entry : scenes::listScenes({kScenes})) {
         INFO(entry.name);
@@ -118,8 +118,8 @@ TEST_CASE("the paper's scenes have its gravity, obstacles and particles") {
 TEST_CASE("the floor line of figure 3 is the last but one row of its picture, as published") {
     const scenes::Scene scene = paperScene("figure-3");
     const scenes::CameraPlacement& camera = scene.camera.keys.at(0).placement;
-    // Row of y = -5 from the top: half the rows for half_height, measured down from the target.
+    // The row of y = -5, counted from the top: half_height corresponds to half the rows.
     const double row = 0.5 * scene.size.height * (1.0 + (camera.target.y() + 5.0) / camera.halfHeight);
-    // Published: row 542 of 543; ours has one row more, half at each edge.
+    // Published: row 542 of 543. This picture has one row more, half a row at each edge.
     CHECK(row == Approx(543.0).margin(1.0));
 }

@@ -1,4 +1,4 @@
-// [study]: what a hard case says of itself, and its variants.
+// Tests the [study] table of a scene, and its variants.
 #include "scenes/model/study.h"
 
 #include "tests/catch.h"
@@ -8,7 +8,7 @@ using scenes_test::kBall;
 using scenes_test::problemsOf;
 using scenes_test::sceneOf;
 
-TEST_CASE("a scene has a study only where it says so") {
+TEST_CASE("a scene has a study only if it has a [study] table") {
     CHECK(!sceneOf(kBall).study.has_value());
     const scenes::Scene scene = sceneOf(
         kBall +
@@ -27,14 +27,14 @@ TEST_CASE("a scene has a study only where it says so") {
     CHECK(scene.study->quick.empty());
 }
 
-TEST_CASE("a study changes the hash of its scene and stands in its list of values") {
+TEST_CASE("a study is part of the scene's hash and of its list of values") {
     const std::string study = "[study]\nnumber = 1\nobservable = \"fragments\"\nlimit = 0\n";
     const scenes::Scene scene = sceneOf(kBall + study);
     CHECK(scene.sceneHash != sceneOf(kBall).sceneHash);
     CHECK(scene.values.back().path.substr(0, 6) == "study.");
 }
 
-TEST_CASE("what is wrong with a study is reported at its place") {
+TEST_CASE("problems of a study are reported at their positions") {
     CHECK(problemsOf(kBall + "[study]\nnumber = 1\nobservable = \"fragmets\"\nlimit = 1\n")
               .at(0)
               .find("pile.toml:8:14: observable is \"fragmets\", must be") == 0);
@@ -58,7 +58,7 @@ TEST_CASE("a variant is a list of overrides") {
     CHECK(problemsOf(kBall, scenes::overridesOf("fps")).size() == 1);
 }
 
-TEST_CASE("a quick run takes its own variants, or else all, or else the scene as it is") {
+TEST_CASE("a quick run has its own variants, otherwise all, otherwise the scene as it is") {
     scenes::Study study;
     CHECK(scenes::variantsOf(study, false) == std::vector<std::string>{""});
     study.vary = {"a=1", "a=2"};
@@ -68,7 +68,7 @@ TEST_CASE("a quick run takes its own variants, or else all, or else the scene as
     CHECK(scenes::variantsOf(study, false) == study.vary);
 }
 
-TEST_CASE("observables are listed in the order of their enumeration, each with a name of its own and a line of help") {
+TEST_CASE("observables are listed in the order of their enumeration, each with a unique name and a line of help") {
     for (std::size_t k = 0; k < scenes::observables().size(); ++k) {
         const scenes::ObservableInfo& info = scenes::observables()[k];
         INFO(info.name);

@@ -1,4 +1,4 @@
-// Text that is not TOML: every broken statement is found, and what stands after it is still read.
+// Tests text with syntax errors: every statement in error is reported, and what follows it is still read.
 #include "tests/catch.h"
 
 #include "scenes/text/toml_statements.h"
@@ -9,30 +9,30 @@ using scenes_test::kTop;
 using scenes_test::Lines;
 using scenes_test::problemsOf;
 
-TEST_CASE("syntax errors are reported where they are, all of them") {
+TEST_CASE("all syntax errors are reported at their positions") {
     CHECK(problemsOf(kBall + "[physics]\nstep = 0..1\ndrag = = 2\ngravity 3\n") ==
           Lines{"pile.toml:7:10: syntax error: floating-point: expected decimal digit or exponent, saw '.'",
                 "pile.toml:8:8: syntax error: value: could not determine value type",
                 "pile.toml:9:9: syntax error: key-value pair: expected '=', saw '3'"});
 }
 
-TEST_CASE("a value that cannot be read is not missing") {
+TEST_CASE("a key whose value cannot be read is not reported as missing") {
     CHECK(problemsOf("title = x\nduration = 2\n[[body]]\nshape = \"ball\"\nradius = 1\n") ==
           Lines{"pile.toml:1:9: syntax error: value: could not determine value type"});
 }
 
-TEST_CASE("checks go on after a syntax error") {
+TEST_CASE("values are validated after a syntax error, too") {
     CHECK(problemsOf(kBall + "[physics]\nstep = 0..1\ndrag = -1\n") ==
           Lines{"pile.toml:7:10: syntax error: floating-point: expected decimal digit or exponent, saw '.'",
                 "pile.toml:8:8: drag is -1, must be >= 0 (per second)"});
 }
 
-TEST_CASE("duplicate keys name the line of the first") {
+TEST_CASE("the message for a duplicate key names the line of the first") {
     CHECK(problemsOf(kBall + "radius = 3\n") == Lines{"pile.toml:6:1: key \"radius\" is given twice, first in line 5"});
     CHECK(problemsOf(kBall + "[[body]]\nshape = \"ball\"\nradius = 3\n") == Lines{});
 }
 
-TEST_CASE("what is given twice within a value is not the key that the value is of") {
+TEST_CASE("a duplicate key within a value is not taken for the key of the value") {
     const Lines lines = problemsOf(kTop + "body = [{ shape = \"ball\", shape = \"ball\", radius = 1 }]\n");
     REQUIRE(lines.size() == 1);
     CHECK(lines[0].find("pile.toml:3:") == 0);
@@ -50,7 +50,7 @@ TEST_CASE("duplicate tables are reported, and their keys are not taken for those
         Lines{"pile.toml:6:1: table \"body\" is given twice, first in line 3 (several of them are written [[body]])"});
 }
 
-TEST_CASE("a broken header keeps its keys") {
+TEST_CASE("a header with a syntax error keeps its keys") {
     CHECK(problemsOf(kBall + "[physics\ndrag = -1\n") ==
           Lines{"pile.toml:6:9: syntax error: table header: expected ']', saw '\\n'",
                 "pile.toml:7:8: drag is -1, must be >= 0 (per second)"});
@@ -78,19 +78,19 @@ TEST_CASE("an error inside a value of many lines is reported at its line, once")
           Lines{"pile.toml:7:6: syntax error: array: expected value or closing ']', saw comma"});
 }
 
-TEST_CASE("text that is no TOML from start to end is refused") {
+TEST_CASE("text without any valid statement is rejected") {
     CHECK(problemsOf("\xFF\xFE") == Lines{"pile.toml:1:1: syntax error: invalid utf-8 sequence"});
     CHECK(problemsOf("]\n").front() ==
           "pile.toml:1:1: syntax error: root table: expected keys, tables, whitespace or comments, saw ']'");
 }
 
-TEST_CASE("lines may end as on other systems, and a byte order mark is no mistake") {
+TEST_CASE("carriage returns and a byte order mark are accepted") {
     CHECK(problemsOf("title = \"t\"\r\nduration = 2\r\n[[body]]\r\nshape = \"ball\"\r\nradius = -1\r\n") ==
           Lines{"pile.toml:5:10: radius is -1, must be > 0 (meters)"});
     CHECK(problemsOf("\xEF\xBB\xBF" + kBall) == Lines{});
 }
 
-TEST_CASE("statements are found without reading their values") {
+TEST_CASE("statements are found without parsing their values") {
     const std::vector<std::string> lines = scenes::splitLines(
         "a = 1 # [\n\n# b\n[t]\nc = [\"]\",\n 2]\n[[ u ]]\nd = '''x\n[v]\n'''\ne = \"\\\"[\"\nf = [1,\ng = 2");
     const std::vector<scenes::Statement> statements = scenes::splitStatements(lines);
