@@ -1,5 +1,6 @@
-# embed_texts(OUTPUT FOLDER HEADER FUNCTION NAME...): writes a C++ file that defines FUNCTION(std::string_view name), declared in
-# HEADER, to return the text of FOLDER/NAME..., again whenever one of them changes.
+# embed_texts(OUTPUT FOLDER HEADER FUNCTION PATH...): the build writes the C++ file OUTPUT, again whenever one of the files
+# FOLDER/PATH changes. It defines FUNCTION(std::string_view name), which HEADER declares and which returns the text of the file
+# with that name, without folder, or an empty text.
 set(EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/write_embedded.cmake)
 function(embed_texts output folder header function)
     set(paths "")

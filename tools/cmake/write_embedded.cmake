@@ -1,4 +1,4 @@
-# Run by embed_texts: -DOUTPUT=file -DHEADER=that declares it -DFUNCTION=qualified name -DPATHS=list of files.
+# Writes OUTPUT for embed_texts(), with HEADER and FUNCTION as there and PATHS, the list of files.
 set(cases "")
 foreach(path IN LISTS PATHS)
     get_filename_component(name ${path} NAME)
