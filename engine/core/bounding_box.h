@@ -17,12 +17,6 @@ struct BoundingBox {
     Vec3 low;   ///< smallest coordinates
     Vec3 high;  ///< largest coordinates
 
-    /// The box of no vector: including any vector gives the box of that one.
-    static BoundingBox empty() {
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
-        return {Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
-    }
-
     /// The box that contains every vector.
     static BoundingBox unbounded() {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -36,9 +30,7 @@ struct BoundingBox {
 
     Vec3 middle() const { return 0.5 * (low + high); }
 
-    /// Distance from the middle to a corner.
-    double halfDiagonal() const { return 0.5 * std::sqrt(squaredLength(high - low)); }
-
+    /// Extends the box to contain another.
     void include(const BoundingBox& other) {
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = std::min(low[axis], other.low[axis]);
@@ -50,19 +42,19 @@ struct BoundingBox {
 /// The box of vectorOf(index) over 0 ... count - 1; count is at least 1.
 template <class VectorOf>
 BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
-    const auto extentOf = [&](std::size_t begin, std::size_t end) {
+    const auto boxOf = [&](std::size_t begin, std::size_t end) {
         const Vec3 first = vectorOf(begin);
-        BoundingBox extent{first, first};
+        BoundingBox box{first, first};
         for (std::size_t index = begin + 1; index < end; ++index) {
             const Vec3 vector = vectorOf(index);
-            extent.include({vector, vector});
+            box.include({vector, vector});
         }
-        return extent;
+        return box;
     };
-    const std::vector<BoundingBox> parts = resultsOfChunks<BoundingBox>(count, extentOf);
-    BoundingBox extent = parts.front();
-    for (const BoundingBox& part : parts) extent.include(part);
-    return extent;
+    const std::vector<BoundingBox> parts = resultsOfChunks<BoundingBox>(count, boxOf);
+    BoundingBox box = parts.front();
+    for (const BoundingBox& part : parts) box.include(part);
+    return box;
 }
 
 /// The largest distance of vectorOf(index) from a vector, over 0 ... count - 1; a NaN counts as infinitely far.

@@ -141,9 +141,9 @@ inline double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, cons
     return surface.height >= probe.radius ? 0.0 : contactEnergy(contactWith(surface, law, probe));
 }
 
-/// Velocity of a particle along a surface, in m/s.
-inline Vec3 slipVelocity(const Surface& surface, const Vec3& velocity) {
-    return velocity - dot(velocity, surface.normal) * surface.normal;
+/// The part of a velocity (m/s) along a surface of this normal.
+inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
+    return velocity - dot(velocity, normal) * normal;
 }
 
 /// Adds the contact's force on the particle, in newtons, friction included. Forced inline: a call takes half of its
@@ -152,7 +152,7 @@ inline Vec3 slipVelocity(const Surface& surface, const Vec3& velocity) {
                                             Vec3& force) {
     force += normalForce(contact, dot(probe.velocity, surface.normal)) * surface.normal;
     if (probe.friction == 0.0) return;
-    const Vec3 slip = slipVelocity(surface, probe.velocity);
+    const Vec3 slip = slipVelocity(probe.velocity, surface.normal);
     force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
 }
 

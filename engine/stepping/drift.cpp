@@ -113,7 +113,7 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
             const Matrix3 projection = surface.normal * surface.normal.transpose();
             matrix.own[place] += along * projection;
             if (probe.friction == 0.0) return;
-            const Vec3 slip = probe.velocity - dot(probe.velocity, surface.normal) * surface.normal;
+            const Vec3 slip = slipVelocity(probe.velocity, surface.normal);
             const double across = slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip));
             matrix.own[place] += weights.damping * across * (Matrix3::Identity() - projection);
         });

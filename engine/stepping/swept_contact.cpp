@@ -117,7 +117,7 @@ double smallStepFor(const ContactBounds& bounds, double mass, double speed, doub
 /// Applies Coulomb friction: an impulse (N s) against the slip, at most what stops it.
 void applyFriction(BallisticState& state, const Vec3& normal, double impulse) {
     Vec3& velocity = state.probe.velocity;
-    const Vec3 slip = velocity - dot(velocity, normal) * normal;
+    const Vec3 slip = slipVelocity(velocity, normal);
     const double speed = std::sqrt(squaredLength(slip));
     if (speed > 0.0) velocity -= std::min(1.0, impulse / (state.mass * speed)) * slip;
 }
