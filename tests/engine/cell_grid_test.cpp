@@ -56,14 +56,14 @@ void checkComplete(const std::vector<Vec3>& positions, double width) {
 
 }  // namespace
 
-TEST_CASE("Every pair within the width is found once", "[neighbors]") {
+TEST_CASE("Every pair within the width is found once", "[cell-grid]") {
     checkComplete(clouds::strewn(300, 1.5).position, 0.6);   // dense
     checkComplete(clouds::strewn(300, 6.0).position, 0.6);   // more cells needed than allowed
     checkComplete(clouds::strewn(50, 0.2).position, 0.6);    // all in one or two cells
     checkComplete(clouds::strewn(200, 40.0).position, 0.6);  // thinly spread
 }
 
-TEST_CASE("Flat and linear arrangements have fewer than three cells across", "[neighbors]") {
+TEST_CASE("Flat and linear arrangements have fewer than three cells across", "[cell-grid]") {
     std::vector<Vec3> flat = clouds::strewn(200, 3.0).position;
     for (Vec3& position : flat) position.z() = 0.0;
     checkComplete(flat, 0.6);
@@ -71,7 +71,7 @@ TEST_CASE("Flat and linear arrangements have fewer than three cells across", "[n
     checkComplete(flat, 0.6);
 }
 
-TEST_CASE("Particles on cell faces and far outliers are found", "[neighbors]") {
+TEST_CASE("Particles on cell faces and far outliers are found", "[cell-grid]") {
     std::vector<Vec3> positions;
     for (int x = -3; x <= 3; ++x)
         for (int y = -3; y <= 3; ++y) positions.emplace_back(0.6 * x, 0.6 * y, 0.0);
@@ -81,14 +81,14 @@ TEST_CASE("Particles on cell faces and far outliers are found", "[neighbors]") {
     checkComplete(positions, 0.6);
 }
 
-TEST_CASE("The order within a cell is that of the indices", "[neighbors]") {
+TEST_CASE("The order within a cell is that of the indices", "[cell-grid]") {
     CellGrid grid;
     build(grid, clouds::strewn(500, 1.0).position, 0.5);
     for (std::size_t cell = 0; cell < grid.cellCount(); ++cell)
         CHECK(std::is_sorted(grid.order.begin() + grid.start[cell], grid.order.begin() + grid.start[cell + 1]));
 }
 
-TEST_CASE("Runs are as long as their limits allow, and end before the last cell of a line", "[neighbors]") {
+TEST_CASE("Runs are as long as their limits allow, and end before the last cell of a line", "[cell-grid]") {
     std::vector<Vec3> positions;
     for (int x = 0; x < 12; ++x) positions.emplace_back(x + 0.5, 0.5, 0.5);  // one in a cell
     CellGrid grid;
@@ -107,14 +107,14 @@ TEST_CASE("Runs are as long as their limits allow, and end before the last cell 
     CHECK(cellsFrom(last, 100, 100) == 1);
 }
 
-TEST_CASE("Without particles there are no cells to visit", "[neighbors]") {
+TEST_CASE("Without particles there are no cells to visit", "[cell-grid]") {
     CellGrid grid;
     build(grid, {}, 0.6);
     CHECK(grid.order.empty());
     CHECK(neighborhood(grid, {}).count == 0);
 }
 
-TEST_CASE("Positions that are NaN or huge do no harm to the others", "[neighbors]") {
+TEST_CASE("Positions that are NaN or huge do no harm to the others", "[cell-grid]") {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Vec3> positions = clouds::strewn(100, 3.0).position;
     const std::size_t sound = positions.size();
