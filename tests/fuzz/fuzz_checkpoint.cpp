@@ -1,5 +1,5 @@
-// Any bytes are a state that can be written, read again and gone on from, or are refused. The checksum is put right
-// first: it would keep everything else from being tried.
+// Fuzzes the reader of checkpoints: any bytes are either rejected, or are a state that can be saved, restored and
+// advanced. A valid checksum is appended to the bytes, because almost all inputs would otherwise fail there.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +27,9 @@ engine::Setup setupOf(engine::StepperKind stepper) {
     return setup;
 }
 
-/// Motion and steps that a scene could have led to. Grains faster than sound are no mistake, but take as many steps as
-/// they are radii on their way, and after a million years a step is less than the clock tells apart.
+/// Whether a scene could have led to the state. Particles at 100 m/s are valid, too, but need a step for every radius
+/// of their way, which takes a fuzzer too long; and after a million years a step is smaller than the rounding of the
+/// time.
 bool isPlausible(const engine::Simulation& simulation) {
     const auto& velocities = simulation.particles.velocity;
     const auto& choices = simulation.automatic.choices;
@@ -39,7 +40,7 @@ bool isPlausible(const engine::Simulation& simulation) {
                        [](const engine::AutoChoice& choice) { return choice.step == 0.0 || choice.step > 1e-6; });
 }
 
-void tryGoingOn(engine::StepperKind stepper, const std::vector<std::uint8_t>& bytes) {
+void tryToAdvance(engine::StepperKind stepper, const std::vector<std::uint8_t>& bytes) {
     const engine::Setup setup = setupOf(stepper);
     std::optional<engine::Simulation> simulation;
     try {
@@ -64,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint64_t checksum = engine::fnv1aOf(bytes);
     bytes.resize(size + 8);
     std::memcpy(bytes.data() + size, &checksum, 8);
-    tryGoingOn(engine::StepperKind::velocityVerlet, bytes);
-    tryGoingOn(engine::StepperKind::automatic, bytes);
+    tryToAdvance(engine::StepperKind::velocityVerlet, bytes);
+    tryToAdvance(engine::StepperKind::automatic, bytes);
     return 0;
 }

@@ -1,4 +1,5 @@
-// Any bytes are a manifest or are refused; what is read is written as it was meant.
+// Fuzzes the reader of manifests: any bytes are either rejected, or are a manifest that is the same after it was
+// written and read again.
 #include <cstddef>
 #include <cstdint>
 #include <string>

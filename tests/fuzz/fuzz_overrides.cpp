@@ -1,4 +1,4 @@
-// Any lines are overrides (--set) of a scene or problems of their own.
+// Fuzzes overrides (--set): any lines either change the scene below or are rejected.
 #include <cstddef>
 #include <cstdint>
 #include <sstream>

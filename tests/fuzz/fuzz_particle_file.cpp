@@ -1,4 +1,4 @@
-// Any bytes are a PLY file of particles or are refused.
+// Fuzzes the reader of particle files: any bytes are either rejected or are particles.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes everything that reads bytes from outside, all targets side by side, with AddressSanitizer and
-# UndefinedBehaviorSanitizer. Usage: run.sh [SECONDS] (default: 60). What is found is left in build/asan-ubsan/fuzz/found;
-# the corpora in tests/fuzz/corpus are read and not changed.
+# Fuzzes all code that reads bytes from outside the program, all targets in parallel, with AddressSanitizer and
+# UndefinedBehaviorSanitizer. Usage: run.sh [SECONDS] (default: 60). Inputs that fail are written to
+# build/asan-ubsan/fuzz/found; the corpora in tests/fuzz/corpus are read but not changed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -14,8 +14,9 @@ mkdir -p build/asan-ubsan/fuzz/found
 cd build/asan-ubsan/fuzz
 for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
-    # What was learned in earlier runs comes first; the repository's corpus is the seed. A minute for one input: where two
-    # grains meet hard, the automatic stepper takes some 70,000 passes for its first looks, which is not yet endless.
+    # The first folder collects the inputs that earlier runs have found; the repository's corpus is the seed. An input may
+    # take a minute: where two particles collide hard, the automatic stepper needs about 70,000 force evaluations for its
+    # first error estimates.
     "../tests/fuzz/fuzz_$target" "corpus/$target" "../../../tests/fuzz/corpus/$target" -max_total_time="$seconds" \
         -rss_limit_mb=2048 -timeout=60 -max_len=16384 -artifact_prefix="found/$target-" -print_final_stats=1 \
         -verbosity=0 >"$target.log" 2>&1 &
