@@ -44,18 +44,6 @@ double maxParticleCount(const Section& section) {
     return counts.x() * counts.y() * counts.z();
 }
 
-void checkBox(Section& section, BuildContext& context) {
-    if (!section.has("minimum") || !section.has("maximum")) return;
-    const Vec3 extent = section.vector("maximum") - section.vector("minimum");
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(extent[axis] >= 0.0))
-            report(section, "maximum",
-                   fmt::format("maximum[{}] is {}, must be at least the minimum {} (meters)", axis,
-                               formatNumber(section.vector("maximum")[axis]),
-                               formatNumber(section.vector("minimum")[axis])),
-                   context);
-}
-
 void checkPoints(Section& section, BuildContext& context) {
     if (!section.has("positions") || !section.has("velocities")) return;
     const std::size_t expected = section.vectors("positions").size();
@@ -63,10 +51,6 @@ void checkPoints(Section& section, BuildContext& context) {
     if (found != expected)
         report(section, "velocities",
                fmt::format("velocities has {} entries, must have {} like positions", found, expected), context);
-}
-
-void checkCount(Section& section, BuildContext& context) {
-    addExpectedParticles(section, "shape", maxParticleCount(section), "the body would have", context);
 }
 
 engine::Packing packingOf(const Body& body, const BuildContext& context) {
@@ -171,9 +155,10 @@ void buildBody(const Body& body, BuildContext& context, engine::Particles& parti
         section.derive("spacing", TypedValue::ofNumber(2.0 * (section.has("particle_radius")
                                                                   ? section.number("particle_radius")
                                                                   : body.materials.list[body.material].radius)));
-    checkBox(section, context);
+    checkCorners(section, Flatness::allowed, context);
     checkPoints(section, context);
-    if (isPacked && section.isValid()) checkCount(section, context);
+    if (isPacked && section.isValid())
+        addExpectedParticles(section, "shape", maxParticleCount(section), "the body would have", context);
     if (!section.isValid()) return;
     const std::size_t countBefore = particles.count();
     if (shape == "file")

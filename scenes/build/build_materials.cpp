@@ -34,33 +34,27 @@ engine::Vec3 presetColor(const std::string& preset) {
     return *colorFromHex(row == kPresetColors.end() ? kPresetColors.front().hex : row->hex);
 }
 
+/// A key that is a number of the engine's material.
+struct MaterialKey {
+    std::string_view name;
+    double engine::Material::*member;
+};
+
+constexpr std::array<MaterialKey, 8> kMaterialKeys = {{{"radius", &engine::Material::radius},
+                                                       {"mass", &engine::Material::mass},
+                                                       {"b1", &engine::Material::repulsion},
+                                                       {"bd", &engine::Material::damping},
+                                                       {"cr", &engine::Material::repulsionReach},
+                                                       {"cd", &engine::Material::dampingReach},
+                                                       {"friction", &engine::Material::friction},
+                                                       {"core", &engine::Material::coreFraction}}};
+
 /// Gives the keys that the scene leaves out the values of the preset.
 void completeMaterial(Section& section) {
     const engine::Material preset = *engine::materialPreset(section.string("preset"));
     section.derive("name", TypedValue::ofString(preset.name));
-    section.derive("radius", TypedValue::ofNumber(preset.radius));
-    section.derive("mass", TypedValue::ofNumber(preset.mass));
-    section.derive("b1", TypedValue::ofNumber(preset.repulsion));
-    section.derive("bd", TypedValue::ofNumber(preset.damping));
-    section.derive("cr", TypedValue::ofNumber(preset.repulsionReach));
-    section.derive("cd", TypedValue::ofNumber(preset.dampingReach));
-    section.derive("friction", TypedValue::ofNumber(preset.friction));
-    section.derive("core", TypedValue::ofNumber(preset.coreFraction));
+    for (const MaterialKey& key : kMaterialKeys) section.derive(key.name, TypedValue::ofNumber(preset.*key.member));
     section.derive("color", TypedValue::ofVector(presetColor(preset.name)));
-}
-
-engine::Material materialFrom(const Section& section) {
-    engine::Material material;
-    material.name = section.string("name");
-    material.radius = section.number("radius");
-    material.mass = section.number("mass");
-    material.repulsion = section.number("b1");
-    material.damping = section.number("bd");
-    material.repulsionReach = section.number("cr");
-    material.dampingReach = section.number("cd");
-    material.friction = section.number("friction");
-    material.coreFraction = section.number("core");
-    return material;
 }
 
 void checkName(Section& section, const Materials& previous, BuildContext& context) {
@@ -84,7 +78,7 @@ Materials buildMaterials(std::vector<Section>& sections, BuildContext& context) 
             material.name = section.string("name");
         }
         if (section.isValid()) {
-            material = materialFrom(section);
+            for (const MaterialKey& key : kMaterialKeys) material.*key.member = section.number(key.name);
             color = section.vector("color");
         }
         materials.list.push_back(material);

@@ -65,7 +65,7 @@ Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, Bu
         const std::string& shape = section.string("shape");
         if (shape == "box" || shape == "container") {
             completeCorners(section, context);
-            checkCorners(section, context);
+            checkCorners(section, Flatness::forbidden, context);
         }
         if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
         if (!section.isValid()) continue;

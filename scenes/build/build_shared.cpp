@@ -48,15 +48,18 @@ std::string allowedText(std::string_view limit, double most) {
     return fmt::format("at most {:.7g} are allowed; --limit {}=N allows more", most, limit);
 }
 
-void checkCorners(Section& section, BuildContext& context) {
+void checkCorners(Section& section, Flatness flatness, BuildContext& context) {
     if (!section.has("minimum") || !section.has("maximum")) return;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(section.vector("minimum")[axis] < section.vector("maximum")[axis]))
-            report(section, "maximum",
-                   fmt::format("maximum[{}] is {}, must be above the minimum {} (meters)", axis,
-                               formatNumber(section.vector("maximum")[axis]),
-                               formatNumber(section.vector("minimum")[axis])),
-                   context);
+    const bool mayBeFlat = flatness == Flatness::allowed;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = section.vector("minimum")[axis];
+        const double high = section.vector("maximum")[axis];
+        if (low < high || (mayBeFlat && low == high)) continue;
+        report(section, "maximum",
+               fmt::format("maximum[{}] is {}, must be {} the minimum {} (meters)", axis, formatNumber(high),
+                           mayBeFlat ? "at least" : "above", formatNumber(low)),
+               context);
+    }
 }
 
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context) {

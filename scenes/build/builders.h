@@ -66,8 +66,12 @@ void addExpectedParticles(Section& section, std::string_view name, double partic
 /// "at most 2e+06 are allowed; --limit particles=N allows more"
 std::string allowedText(std::string_view limit, double most);
 
-/// Records a problem if maximum is not above minimum along every axis. Does nothing unless the section has both.
-void checkCorners(Section& section, BuildContext& context);
+/// Whether a box may have an extent of zero.
+enum class Flatness { allowed, forbidden };
+
+/// Records a problem if maximum is below minimum along any axis, or, for a box that must not be flat, equal to it. Does
+/// nothing unless the section has both.
+void checkCorners(Section& section, Flatness flatness, BuildContext& context);
 
 /// Index of the material that a section refers to, 0 if it refers to none; nothing, with the problem recorded, if it is
 /// not defined.

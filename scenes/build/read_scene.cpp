@@ -40,7 +40,7 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
 
 std::optional<engine::BoundingBox> buildWorld(Section& section, BuildContext& context) {
     if (!section.has("minimum") && !section.has("maximum")) return std::nullopt;
-    checkCorners(section, context);
+    checkCorners(section, Flatness::forbidden, context);
     engine::BoundingBox world = engine::BoundingBox::unbounded();
     if (section.has("minimum")) world.low = section.vector("minimum");
     if (section.has("maximum")) world.high = section.vector("maximum");

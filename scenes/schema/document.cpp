@@ -22,9 +22,7 @@ constexpr int kMaxParses = 200;
 constexpr int kMaxDepth = 256;
 
 /// Takes the place of a value that could not be parsed. No scene contains the control character.
-constexpr std::string_view kInvalidMarker =
-    "\x7F"
-    "invalid";
+constexpr std::string_view kInvalidMarker = "\x7Finvalid";
 
 SourcePosition positionOf(const toml::source_region& region) {
     return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
@@ -76,7 +74,7 @@ Value valueOf(const toml::node& node, int depth = 0) {
     return value;
 }
 
-/// A text that is being repaired.
+/// A text that is being repaired, line by line.
 struct RepairableText {
     std::vector<std::string> lines;
     std::vector<Statement> statements;
@@ -106,7 +104,7 @@ std::size_t statementAt(const RepairableText& source, std::size_t line) {
     return runsOn ? index - 1 : index;
 }
 
-/// The last line of the section that a header opens.
+/// Index of the last line of the table that a header opens.
 std::size_t sectionEnd(const RepairableText& source, std::size_t header) {
     for (std::size_t next = header + 1; next < source.statements.size(); ++next)
         if (source.statements[next].kind == StatementKind::tableHeader) return source.statements[next].firstLine - 1;
