@@ -61,8 +61,8 @@ struct HandPicked {
 
 /// A run of the automatic stepper, compared with the best choice of a fixed stepper and step.
 struct AutoRow {
-    double asked = 0.0;     ///< radii per second of motion
-    double obtained = 0.0;  ///< radii per second of motion
+    double asked = 0.0;     ///< error that was asked for, radii per second of motion
+    double obtained = 0.0;  ///< error against the reference, radii per second of motion
     double seconds = 0.0;
     double evaluationCost = 0.0;  ///< see WindowRun
     bool resolved = false;
@@ -78,7 +78,7 @@ std::vector<AutoRow> autosOf(const std::vector<AccuracyRow>& rows, double window
 /// The results for a scene.
 struct SceneAccuracy {
     std::string name;               ///< the caller's name for the scene and window
-    std::string title;              ///< the scene's
+    std::string title;              ///< of the scene
     std::size_t particleCount = 0;  ///< at the start of the window
     double from = 0.0;              ///< start of the window, s
     double window = 0.0;            ///< length of the window, s

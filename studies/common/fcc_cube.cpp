@@ -39,7 +39,7 @@ double meanNeighbors(const engine::Setup& setup, const engine::Particles& partic
     engine::PairTraversal pairs(law, engine::Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<std::uint32_t> neighbors(particles.count());
-    // The traversal calls this from several threads, so each particle counts for itself.
+    // The traversal calls this from several threads, so every particle has a counter of its own.
     pairs.forEachParticle([&](std::size_t index) {
         pairs.forEachNeighbor(index, [&](std::uint32_t, const Vec3&, double) { ++neighbors[index]; });
     });

@@ -21,7 +21,7 @@ render::View shifted(render::View view, const FlickerSettings& settings, int fra
     return view;
 }
 
-/// Change and jerk of successive pictures; the rest of the row is the caller's.
+/// Change and jerk of successive pictures. The other fields of the row are left to the caller.
 FlickerRow flickerOf(const std::vector<render::Image>& frames) {
     FlickerRow row;
     const auto count = static_cast<double>(frames.front().rgb.size());

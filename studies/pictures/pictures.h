@@ -115,11 +115,10 @@ std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const Ro
 struct SmoothingRow {
     render::Skin skin = render::Skin::plain;
     std::size_t particles = 0;
-    double draw = 0.0;  ///< median time to draw a frame of normal quality and read it back, s
-    double volume =
-        0.0;             ///< inside the surface of a level pool, over the volume per particle: 1 if it keeps its volume
-    double lone = 0.0;   ///< inside the surface of a single particle, over the volume of its sphere
-    double bumps = 0.0;  ///< RMS tilt of the normals of the level pool's surface, degrees
+    double draw = 0.0;    ///< median time to draw a frame of normal quality and read it back, s
+    double volume = 0.0;  ///< inside the surface of a level pool, over its particles' share of space: 1 is right
+    double lone = 0.0;    ///< inside the surface of a single particle, over the volume of its sphere
+    double bumps = 0.0;   ///< RMS tilt of the normals of the level pool's surface, degrees
 };
 
 struct SmoothingSettings {

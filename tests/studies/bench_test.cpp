@@ -1,4 +1,4 @@
-// The benchmark measures what it says: rows for what was asked, numbers that fit together, hashes that do not depend on
+// The benchmark: the rows that were asked for, numbers that are consistent, hashes that do not depend on the number of
 // threads.
 #include "studies/bench/bench.h"
 #include "scenes/build/read_scene.h"
