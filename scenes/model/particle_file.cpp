@@ -20,11 +20,15 @@
 namespace scenes {
 namespace {
 
-enum class PlyType { float32, float64, uint8, uint16, uint32 };
+/// The type of a property.
+struct PlyType {
+    std::size_t size = 8;  ///< bytes
+    bool isReal = true;    ///< a floating-point number; otherwise an unsigned integer
+};
 
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::float64;
+    PlyType type;
 };
 
 /// What the header says of the rows that follow it.
@@ -39,29 +43,13 @@ struct PlyHeader {
     }
 };
 
-std::size_t byteSizeOf(PlyType type) {
-    switch (type) {
-        case PlyType::uint8:
-            return 1;
-        case PlyType::uint16:
-            return 2;
-        case PlyType::float32:
-        case PlyType::uint32:
-            return 4;
-        case PlyType::float64:
-            break;
-    }
-    return 8;
-}
-
 /// Chosen: ten times the longest header that is written or understood here.
 constexpr std::size_t kMaxHeaderBytes = 65536;
 
 const std::vector<std::pair<std::string_view, PlyType>> kTypes = {
-    {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
-    {"float64", PlyType::float64}, {"uchar", PlyType::uint8},     {"uint8", PlyType::uint8},
-    {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"uint", PlyType::uint32},
-    {"uint32", PlyType::uint32}};
+    {"float", {4, true}},  {"float32", {4, true}}, {"double", {8, true}},  {"float64", {8, true}},
+    {"uchar", {1, false}}, {"uint8", {1, false}},  {"ushort", {2, false}}, {"uint16", {2, false}},
+    {"uint", {4, false}},  {"uint32", {4, false}}};
 
 const std::vector<std::string_view> kRealProperties = {"x", "y", "z", "vx", "vy", "vz", "radius", "mass"};
 const std::vector<std::string_view> kIndexProperties = {"material", "id"};
@@ -126,8 +114,7 @@ void readProperty(HeaderReader& reader, const std::vector<std::string>& words) {
         fail(reader, fmt::format("unknown property \"{}\" (known: {}, {})", name, fmt::join(kRealProperties, ", "),
                                  fmt::join(kIndexProperties, ", ")));
     if (reader.header.has(name)) fail(reader, fmt::format("property \"{}\" is given twice", name));
-    const bool isReal = type != kTypes.end() && (type->second == PlyType::float32 || type->second == PlyType::float64);
-    if (type == kTypes.end() || isReal != contains(kRealProperties, name))
+    if (type == kTypes.end() || type->second.isReal != contains(kRealProperties, name))
         fail(reader, fmt::format("property \"{}\" has type {}, must be {}", name, words[1],
                                  contains(kRealProperties, name) ? "float or double" : "uchar, ushort or uint"));
     reader.header.properties.push_back({name, type->second});
@@ -161,7 +148,7 @@ void checkComplete(HeaderReader& reader) {
 /// Checks that the rows fill the file exactly. Divides rather than multiplies, so that no row count overflows.
 void checkLength(HeaderReader& reader) {
     std::size_t stride = 0;
-    for (const PlyProperty& property : reader.header.properties) stride += byteSizeOf(property.type);
+    for (const PlyProperty& property : reader.header.properties) stride += property.type.size;
     const std::size_t rest = reader.bytes.size() - reader.header.size;
     if (reader.header.rowCount > rest / stride)
         fail(reader, fmt::format("truncated: {} particles of {} bytes are announced, {} bytes follow",
@@ -209,11 +196,10 @@ std::uint64_t bitsAt(std::string_view bytes, std::size_t at, std::size_t count) 
 }
 
 double numberAt(std::string_view bytes, std::size_t at, PlyType type) {
-    const std::size_t size = byteSizeOf(type);
-    const std::uint64_t bits = bitsAt(bytes, at, size);
-    if (type == PlyType::float64) return std::bit_cast<double>(bits);
-    if (type == PlyType::float32) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
-    return static_cast<double>(bits);
+    const std::uint64_t bits = bitsAt(bytes, at, type.size);
+    if (!type.isReal) return static_cast<double>(bits);
+    if (type.size == 4) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    return std::bit_cast<double>(bits);
 }
 
 /// Stores one value of a row. The property "id" is ignored: ids follow the order of the rows.
@@ -273,7 +259,7 @@ ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName
         particle.radius = particle.mass = 0.0;
         for (const PlyProperty& property : header.properties) {
             const double value = numberAt(bytes, at, property.type);
-            at += byteSizeOf(property.type);
+            at += property.type.size;
             if (const std::string rule = violatedRule(property.name, value); !rule.empty())
                 throw InputError(
                     {{fileName, 0, 0, fmt::format("particle {}: {} is {}, {}", index, property.name, value, rule)}});

@@ -160,12 +160,12 @@ void report(const RepairableText& source, std::size_t index, const toml::parse_e
 
 /// Rewrites a header in the form that the schema gives its table. A duplicate, or one whose name cannot be read, is
 /// left out with all keys below it, so that these are not mistaken for keys of the table before.
-void repairHeader(RepairableText& source, std::size_t index, bool duplicate) {
+void repairHeader(RepairableText& source, std::size_t index, bool isRepeated) {
     const Statement& statement = source.statements[index];
     const TableInfo* table = findTable(statement.name);
-    if (table == nullptr || duplicate || source.repairCounts[index] > 1) {
+    if (table == nullptr || isRepeated || source.repairCounts[index] > 1) {
         blank(source, statement.firstLine, sectionEnd(source, index));
-        source.hasOmissions = source.hasOmissions || !duplicate;
+        source.hasOmissions = source.hasOmissions || !isRepeated;
         return;
     }
     const bool isList = table->allowsList && (statement.hasDoubleBrackets || !table->allowsSingle);
@@ -174,14 +174,14 @@ void repairHeader(RepairableText& source, std::size_t index, bool duplicate) {
 }
 
 /// Replaces a value that cannot be parsed by a marker. A duplicate, or a statement that is still in error, is left out.
-void repair(RepairableText& source, std::size_t index, bool duplicate) {
+void repair(RepairableText& source, std::size_t index, bool isRepeated) {
     const Statement& statement = source.statements[index];
     const bool wasRepaired = source.repairCounts[index]++ > 0;
-    if (statement.kind == StatementKind::tableHeader) return repairHeader(source, index, duplicate);
+    if (statement.kind == StatementKind::tableHeader) return repairHeader(source, index, isRepeated);
     blank(source, statement.firstLine, statement.lastLine);
-    if (statement.kind == StatementKind::keyValue && !duplicate && !wasRepaired)
+    if (statement.kind == StatementKind::keyValue && !isRepeated && !wasRepaired)
         source.lines[statement.firstLine] = fmt::format("{} = \"\\u007F{}\"", statement.name, kInvalidMarker.substr(1));
-    else if (!duplicate)
+    else if (!isRepeated)
         source.hasOmissions = true;
 }
 

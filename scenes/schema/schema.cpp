@@ -3,12 +3,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/schema/keys.h"
 #include "scenes/text/value.h"
 
 namespace scenes {
+namespace {
+
+struct TypeWords {
+    Type type = Type::number;
+    std::string_view name;
+    std::string_view expected;  ///< what a value must be; of a choice it depends on the key
+};
+
+const TypeWords& wordsOf(Type type) {
+    static const std::vector<TypeWords> kWords = {
+        {Type::number, "number", "a number"},
+        {Type::numberList, "list of numbers", "a list of numbers"},
+        {Type::integer, "integer", "a whole number"},
+        {Type::boolean, "boolean", "true or false"},
+        {Type::string, "string", "a string"},
+        {Type::stringList, "list of strings", "a list of strings"},
+        {Type::choice, "choice", ""},
+        {Type::vec3, "[x, y, z]", "three numbers [x, y, z]"},
+        {Type::vec3List, "list of [x, y, z]", "a list of [x, y, z]"},
+        {Type::color, "color", "\"#rrggbb\" or [r, g, b]"},
+        {Type::colorList, "list of colors", "a list of colors \"#rrggbb\""},
+        {Type::interval, "[low, high]", "two numbers [low, high], low below high"},
+        {Type::size, "[width, height]", "two whole numbers [width, height]"},
+        {Type::counts, "[nx, ny, nz]", "three whole numbers [nx, ny, nz]"},
+    };
+    return *std::find_if(kWords.begin(), kWords.end(), [&](const TypeWords& words) { return words.type == type; });
+}
+
+}  // namespace
 
 const std::vector<TableInfo>& tables() {
     static const std::vector<TableInfo> kTables = {
@@ -117,42 +147,17 @@ std::string rangeText(const Range& range) {
 }
 
 std::string expectedText(const Key& key) {
-    switch (key.type) {
-        case Type::number:
-            return "a number";
-        case Type::numberList:
-            return "a list of numbers";
-        case Type::integer:
-            return "a whole number";
-        case Type::boolean:
-            return "true or false";
-        case Type::string:
-            return "a string";
-        case Type::stringList:
-            return "a list of strings";
-        case Type::vec3:
-            return "three numbers [x, y, z]";
-        case Type::vec3List:
-            return "a list of [x, y, z]";
-        case Type::color:
-            return "\"#rrggbb\" or [r, g, b]";
-        case Type::colorList:
-            return "a list of colors \"#rrggbb\"";
-        case Type::interval:
-            return "two numbers [low, high], low below high";
-        case Type::size:
-            return "two whole numbers [width, height]";
-        case Type::counts:
-            return "three whole numbers [nx, ny, nz]";
-        case Type::choice:
-            break;
-    }
+    if (key.type != Type::choice) return std::string(wordsOf(key.type).expected);
     std::string text;
     for (std::size_t index = 0; index < key.choices.size(); ++index) {
         if (index > 0) text += index + 1 == key.choices.size() ? " or " : ", ";
         text += tomlString(key.choices[index]);
     }
     return text;
+}
+
+std::string typeText(Type type) {
+    return std::string(wordsOf(type).name);
 }
 
 std::string unitWords(std::string_view unit) {

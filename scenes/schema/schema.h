@@ -116,6 +116,9 @@ std::string rangeText(const Range& range);
 /// What a key's value must be: "a number", "true or false", `"all" or "random"`.
 std::string expectedText(const Key& key);
 
+/// The name of a type in lists of keys: "number", "list of [x, y, z]".
+std::string typeText(Type type);
+
 /// The name of a unit where it is spelled out in messages ("meters" for "m"), otherwise its symbol.
 std::string unitWords(std::string_view unit);
 

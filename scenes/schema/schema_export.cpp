@@ -11,40 +11,6 @@
 namespace scenes {
 namespace {
 
-std::string typeText(Type type) {
-    switch (type) {
-        case Type::number:
-            return "number";
-        case Type::numberList:
-            return "list of numbers";
-        case Type::integer:
-            return "integer";
-        case Type::boolean:
-            return "boolean";
-        case Type::string:
-            return "string";
-        case Type::stringList:
-            return "list of strings";
-        case Type::choice:
-            return "choice";
-        case Type::vec3:
-            return "[x, y, z]";
-        case Type::vec3List:
-            return "list of [x, y, z]";
-        case Type::color:
-            return "color";
-        case Type::colorList:
-            return "list of colors";
-        case Type::interval:
-            return "[low, high]";
-        case Type::size:
-            return "[width, height]";
-        case Type::counts:
-            return "[nx, ny, nz]";
-    }
-    return {};
-}
-
 std::string joined(const std::vector<std::string_view>& words, std::string_view separator) {
     return fmt::format("{}", fmt::join(words, separator));
 }

@@ -37,7 +37,7 @@ bool opensStatement(const std::string& line) {
     const std::size_t first = skipBlanks(line, 0);
     if (isNameBefore(line, first, "=")) return true;
     if (line.compare(first, 2, "[[") == 0) return isNameBefore(line, skipBlanks(line, first + 2), "]]");
-    // [1] and [a], are elements of lists; only a name that starts with a letter is a header.
+    // [1] and [a], are elements of a list: a header has a name that starts with a letter, and no comma after it.
     return line.compare(first, 1, "[") == 0 && isNameBefore(line, skipBlanks(line, first + 1), "]") &&
            !isNameBefore(line, skipBlanks(line, first + 1), "],") &&
            std::isalpha(static_cast<unsigned char>(line[skipBlanks(line, first + 1)])) != 0;
