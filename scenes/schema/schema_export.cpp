@@ -104,9 +104,10 @@ std::string schemaMarkdown() {
     std::string text = R"(# Scene files
 
 A scene is a [TOML](https://toml.io) file. This page lists every key that it may contain. It is generated: run
-`globular schema --markdown > docs/scenes.md` after a change of the schema. `globular schema` shows the same in a
-terminal, and `globular schema --json-schema` writes a JSON Schema, with which an editor completes and checks keys while
-one types.
+`globular schema --markdown > docs/scenes.md` after a change of the schema. `globular schema` shows the same in a terminal.
+
+Editors can complete and check keys: `globular schema --json-schema > globular.schema.json` writes a JSON Schema, which
+taplo and Even Better TOML use for a scene that starts with the line `#:schema ./globular.schema.json`.
 
 Lengths are in meters, masses in kilograms, times in seconds; y points up. A color is `"#rrggbb"` in sRGB, or `[r, g, b]`
 in linear light from 0 to 1. A default in parentheses depends on other keys. Any key can be changed on the command line,
