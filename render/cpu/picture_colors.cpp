@@ -180,8 +180,8 @@ void colorTile(const PictureJob& job, std::size_t tile, const PictureMean& mean,
     const bool isGround = !hasLines && contents.isGround(tile);
     const bool isOpenGround = isGround && contents.ground[tile].kind == GroundKind::open;
     if (isOpenGround || (!hasLines && contents.isBackground(tile))) {
-        // Every picture of a mean has the same, and the last one counts.
-        colorBackgroundTile(job.geometry, job.shading, isOpenGround, target);
+        // All pictures of a mean have the same.
+        if (mean.index == 0) colorBackgroundTile(job.geometry, job.shading, isOpenGround, target);
         return;
     }
     TileColors colors(job, tile);
