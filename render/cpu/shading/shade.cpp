@@ -2,6 +2,9 @@
 // instruction set.
 #include "render/cpu/shading/shade.h"
 
+#include <algorithm>
+#include <array>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/cpu/shading/shade.cpp"
 #include <hwy/foreach_target.h>
@@ -226,29 +229,39 @@ glm::vec3 openGroundColor(const Shading& shading, glm::vec3 albedo) {
     return {hn::GetLane(color.x), hn::GetLane(color.y), hn::GetLane(color.z)};
 }
 
-Vec3 openGroundAt(const ShadingGeometry& geometry, const Shading& shading, const ImagePoint& at,
-                  const Vec3& background) {
-    const Ray ray = worldRay(geometry.frame, at);
+Vec3 backgroundAt(const ShadingGeometry& geometry, const Shading& shading, V y) {
+    return lerp(shading.background.top, shading.background.bottom,
+                y * splat(1.0F / static_cast<float>(geometry.frame.height)));
+}
+
+Vec3 openGroundAt(const ShadingGeometry& geometry, const Shading& shading, V x, V y) {
+    const Ray ray = worldRay(geometry.frame, imagePointAt(geometry.frame, x, y));
     const V depth = (splat(geometry.ground.value_or(0.0F)) - ray.origin.y) / ray.direction.y;
     const Vec3 position = pointOnRay(ray.origin, depth, ray.direction);
-    return lerp(splat(shading.openGround), background,
+    return lerp(splat(shading.openGround), backgroundAt(geometry, shading, y),
                 groundFade(position, shading.groundCenter, shading.fadeDistance));
 }
 
 void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
                          const TileTarget& target) {
-    const CameraFrame& frame = geometry.frame;
-    const Background& background = shading.background;
-    PixelColor* pixels = target.first;
-    for (int row = 0; row < kTileSize; ++row, pixels += target.rowLength) {
-        const V y = splat(static_cast<float>(target.corner.y + row) + 0.5F);
-        const V down = y * splat(1.0F / static_cast<float>(frame.height));
-        const Vec3 behind = lerp(background.top, background.bottom, down);
-        for (std::size_t column = 0; column < kTileSize; column += hn::Lanes(D())) {
-            const V x = hn::Iota(D(), static_cast<float>(target.corner.x) + 0.5F) + splat(static_cast<float>(column));
-            const Vec3 color = isGround ? openGroundAt(geometry, shading, imagePointAt(frame, x, y), behind) : behind;
-            storeSrgb(clampUnit(color), pixels + column);
+    const auto lanes = static_cast<int>(hn::Lanes(D()));
+    const auto middlesFrom = [](int first) { return hn::Iota(D(), static_cast<float>(first) + 0.5F); };
+    const auto rowOf = [&](int row) { return target.first + static_cast<std::size_t>(row) * target.rowLength; };
+    if (isGround) {
+        for (int row = 0; row < kTileSize; ++row) {
+            const V y = splat(static_cast<float>(target.corner.y + row) + 0.5F);
+            for (int column = 0; column < kTileSize; column += lanes)
+                storeSrgb(clampUnit(openGroundAt(geometry, shading, middlesFrom(target.corner.x + column), y)),
+                          rowOf(row) + column);
         }
+        return;
+    }
+    // The background has one color in each row: a vector holds the colors of several rows.
+    for (int first = 0; first < kTileSize; first += lanes) {
+        std::array<PixelColor, kTileSize> colors;
+        storeSrgb(clampUnit(backgroundAt(geometry, shading, middlesFrom(target.corner.y + first))), colors.data());
+        for (int row = 0; row < lanes; ++row)
+            std::fill_n(rowOf(first + row), kTileSize, colors[static_cast<std::size_t>(row)]);
     }
 }
 
