@@ -158,7 +158,7 @@ Renderer::~Renderer() {
         const CurrentContext current(parts_->context);
         parts_.reset();
     } catch (const SystemError&) {
-        // Without its context nothing can be freed; the context's own end frees it.
+        // OpenGL's objects cannot be deleted without their context. They are freed together with it.
         static_cast<void>(parts_.release());
     }
 }

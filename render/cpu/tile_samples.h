@@ -43,7 +43,7 @@ using SampleOffsets = std::span<const glm::vec2>;
 /// A pixel whose samples hit several things.
 struct EdgePixel {
     std::uint8_t pixel;     ///< column + 16 row
-    std::uint8_t hitCount;  ///< how many different things
+    std::uint8_t hitCount;  ///< number of different things that its samples hit
 };
 
 struct EdgeHit {

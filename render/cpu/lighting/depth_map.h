@@ -22,7 +22,7 @@ struct DepthMap {
     int columns = 1;         ///< of texels
     int rows = 1;
     float bottom = 0.0F;  ///< m
-    float step = 1.0F;    ///< m
+    float step = 1.0F;    ///< of the heights, m
     /// Row by row, two rows of heights per row of texels; then as many more as a vector reads from the last one on.
     std::vector<std::uint16_t> heights;
     /// Per texel: the extremes of the heights in it and in two texels around it, in steps.

@@ -82,7 +82,7 @@ void addSpheres(const ShadingGeometry& geometry, const HitRays& hits, M where, P
     const Float4 sphere = gather4(reinterpret_cast<const float*>(geometry.spheres.data()), hn::ShiftLeft<2>(index));
     const Vec3 toCenter = Vec3{sphere.x, sphere.y, sphere.z} - ray.origin;
     const V radius = sphere.w;
-    // As primary_hits.cpp has it, but along the world's axes and with a position and a normal.
+    // The same intersection as in primary_hits.cpp, but along the world's axes, and with a normal.
     const V closest = dot(toCenter, ray.direction) * hits.inverseSquare;
     const Vec3 off = ray.direction * closest - toCenter;
     const V zero = splat(0.0F);

@@ -79,7 +79,7 @@ class TileBalls {
 
     std::span<const Metaball> balls_;
     std::span<const std::uint32_t> index_;
-    std::size_t copied_ = 0;  // whole vectors
+    std::size_t copied_ = 0;  // number of balls copied so far, in whole vectors
     std::vector<float> x_, y_, z_, reach_, distance_;
 };
 

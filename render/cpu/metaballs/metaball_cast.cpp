@@ -139,7 +139,7 @@ class RayVector {
 
     float depthOf(long sample) const { return gridStart_ + static_cast<float>(sample) * scene_.step; }
 
-    /// The last sample that does not lie beyond this depth; the first where all do.
+    /// The last sample of the grid that does not lie beyond this depth, or the first sample if all do.
     long sampleBefore(float depth) const { return std::max(0L, static_cast<long>((depth - gridStart_) / scene_.step)); }
 
     /// Rising at the first sample, falling at the second, and the tangents meet above the threshold:

@@ -90,7 +90,7 @@ class NearBalls {
         return entered_ == count_ ? std::numeric_limits<float>::infinity() : storage_.nearDepth[entered_];
     }
 
-    /// The range of balls that count at the present depth.
+    /// The balls whose kernels reach the present depth are among those from first() to end().
     std::size_t first() const { return left_; }
     std::size_t end() const { return entered_; }
     std::uint32_t index(std::size_t ball) const { return storage_.index[ball]; }

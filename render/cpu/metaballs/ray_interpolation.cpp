@@ -122,7 +122,8 @@ class Interpolation {
     Interpolation(const MetaballScene& scene, const CoarseHits& coarse, SmoothnessLimits limits, glm::vec2 corner)
         : scene_(scene), coarse_(coarse), limits_(limits), corner_(corner) {}
 
-    /// Writes the cast rays k, k + 1, ... (row by row), and beside each the three rays to its right and below.
+    /// Writes a vector of cast rays, which begins with ray k (row by row), and for each of them the interpolated rays
+    /// to its right, below it, and diagonally below.
     void fill(std::size_t k, RayBlock& block, std::array<float, kTilePixels>& isSmooth) const {
         const std::size_t at = k / kCoarseSide * CoarseHits::kSide + k % kCoarseSide;
         const std::size_t below = at + CoarseHits::kSide;

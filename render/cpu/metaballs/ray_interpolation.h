@@ -50,7 +50,7 @@ extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePixels;
 /// may rise within a pixel. A ray's result depends on the hits around it alone, bit for bit, not on the instruction
 /// set.
 /// @param corner   position of the first cast ray on the picture, pixels
-/// @param isRough  set for pixels that are neither, which have to be cast
+/// @param isRough  set for pixels of which neither holds: their rays have to be cast
 void interpolateRays(const MetaballScene& scene, const CoarseHits& coarse, SmoothnessLimits limits, glm::vec2 corner,
                      RayBlock& block, std::array<bool, kTilePixels>& isRough);
 
