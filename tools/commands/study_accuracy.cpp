@@ -214,8 +214,7 @@ void addStudyAccuracy(const Command& program) {
     options->name = "accuracy";
     command.option("SCENE", options->scenes,
                    "scene files or names, each with a window of its own as in powder:2 (default: liquid solid powder "
-                   "fountain honey; "
-                   "powder:2 too unless quick)");
+                   "fountain honey; powder:2 too unless quick)");
     command.option("--set", options->overrides, "change a key of every scene").of("KEY=VALUE").oneAtATime();
     command.option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
         .atLeastZero();
