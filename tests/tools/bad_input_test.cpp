@@ -219,7 +219,7 @@ TEST_CASE("Scenes that would never end or overload the reader are refused", "[to
     CHECK(problem(scene + "[physics]\nstep = 1e-300\n").find("a.toml:7:8: step is 1e-300") != std::string::npos);
     CHECK(problem(scene + "[[emitter]]\nposition = [0, 0, 0]\ninterval = 1e-17\n").find(":8:12: interval is 1e-17") !=
           std::string::npos);
-    CHECK(problem(deep + "a = 1\n" + scene).find("a.toml:1:1: a key of more than 256 parts") != std::string::npos);
+    CHECK(problem(deep + "a = 1\n" + scene).find("a.toml:1:1: the key has more than 256 parts") != std::string::npos);
     CHECK(problem("\"\" = 3\n" + scene).find("a.toml:1:1: unknown key") != std::string::npos);
     CHECK(problem(scene + "[\"\"]\n").find("unknown table") != std::string::npos);
     CHECK(problem(scene, " --set duration.value=9").find("duration is not a table") != std::string::npos);
