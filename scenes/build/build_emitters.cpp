@@ -32,19 +32,17 @@ void checkSchedule(Section& section, BuildContext& context) {
 }
 
 /// The unit normal of a disc: the given direction, or that of the velocity.
-std::optional<Vec3> discDirection(Section& section, BuildContext& context) {
-    const bool isGiven = section.isGiven("direction");
-    if (!section.has(isGiven ? "direction" : "velocity")) return std::nullopt;
-    const auto direction = unitVector(section.vector(isGiven ? "direction" : "velocity"));
-    if (!direction && isGiven) report(section, "direction", "direction is [0, 0, 0], must not be zero", context);
-    if (!direction && !isGiven)
-        report(section, "direction", "direction is missing, a disc whose velocity is zero needs it", context);
-    if (direction) section.derive("direction", TypedValue::ofVector(*direction));
-    return direction;
+std::optional<Vec3> discNormal(Section& section, BuildContext& context) {
+    if (section.has("direction")) return directionFrom(section, "direction", context);
+    if (section.isGiven("direction") || !section.has("velocity")) return std::nullopt;
+    const auto normal = unitVector(section.vector("velocity"));
+    if (!normal) report(section, "direction", "direction is missing, a disc whose velocity is zero needs it", context);
+    if (normal) section.derive("direction", TypedValue::ofVector(*normal));
+    return normal;
 }
 
 /// Points of emission of a disc; empty, with the problem recorded, if there are too many.
-std::vector<Vec3> discSitesOf(Section& section, const Vec3& direction, BuildContext& context) {
+std::vector<Vec3> discSitesOf(Section& section, const Vec3& normal, BuildContext& context) {
     const double across = 2.0 * section.number("radius") / section.number("spacing") + 1.0;
     if (across * across > context.limits.particles) {
         report(section, "spacing",
@@ -53,14 +51,13 @@ std::vector<Vec3> discSitesOf(Section& section, const Vec3& direction, BuildCont
                context);
         return {};
     }
-    return engine::discSites(section.vector("position"), direction, section.number("radius"),
-                             section.number("spacing"));
+    return engine::discSites(section.vector("position"), normal, section.number("radius"), section.number("spacing"));
 }
 
 std::vector<Vec3> sitesOf(Section& section, BuildContext& context) {
     if (isDisc(section)) {
-        const auto direction = discDirection(section, context);
-        return direction && section.isValid() ? discSitesOf(section, *direction, context) : std::vector<Vec3>{};
+        const auto normal = discNormal(section, context);
+        return normal && section.isValid() ? discSitesOf(section, *normal, context) : std::vector<Vec3>{};
     }
     if (!section.isValid()) return {};
     return section.has("positions") ? section.vectors("positions") : std::vector<Vec3>{section.vector("position")};

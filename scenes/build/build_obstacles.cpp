@@ -33,9 +33,7 @@ void completeCorners(Section& section, BuildContext& context) {
 engine::Plane planeFrom(Section& section, BuildContext& context) {
     engine::Plane plane;
     plane.point = section.vector("point");
-    const auto normal = unitVector(section.vector("normal"));
-    if (!normal) report(section, "normal", "normal is [0, 0, 0], must not be zero", context);
-    plane.normal = normal.value_or(Vec3::UnitY());
+    plane.normal = directionFrom(section, "normal", context).value_or(Vec3::UnitY());
     return plane;
 }
 

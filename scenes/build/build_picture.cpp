@@ -18,9 +18,8 @@ constexpr double kParallel = 1e-12;
 
 void checkCamera(Section& section, BuildContext& context) {
     const auto forward = unitVector(section.vector("target") - section.vector("eye"));
-    const auto up = unitVector(section.vector("up"));
+    const auto up = directionFrom(section, "up", context);
     if (!forward) report(section, "target", "target is where eye is, must be another point", context);
-    if (!up) report(section, "up", "up is [0, 0, 0], must not be zero", context);
     if (forward && up && engine::squaredLength(forward->cross(*up)) < kParallel)
         report(section, "up", "up lies along the direction of view, must point across it", context);
 }
@@ -173,8 +172,7 @@ CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
 
 Look buildLook(Section& section, BuildContext& context) {
     Look look;
-    const auto toLight = unitVector(section.vector("light_direction"));
-    if (!toLight) report(section, "light_direction", "light_direction is [0, 0, 0], must not be zero", context);
+    const auto toLight = directionFrom(section, "light_direction", context);
     chooseRamp(section, context);
     if (!section.isValid()) return look;
     readColors(section, context, look);

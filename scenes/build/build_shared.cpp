@@ -86,4 +86,10 @@ std::optional<engine::Vec3> unitVector(const engine::Vec3& vector) {
     return scaled / std::sqrt(engine::squaredLength(scaled));
 }
 
+std::optional<engine::Vec3> directionFrom(Section& section, std::string_view name, BuildContext& context) {
+    const auto direction = unitVector(section.vector(name));
+    if (!direction) report(section, name, fmt::format("{} is [0, 0, 0], must not be zero", name), context);
+    return direction;
+}
+
 }  // namespace scenes

@@ -80,4 +80,7 @@ std::optional<std::uint32_t> materialOf(Section& section, const Materials& mater
 /// The vector scaled to length 1; nothing for the zero vector.
 std::optional<engine::Vec3> unitVector(const engine::Vec3& vector);
 
+/// The direction that a key gives, with length 1; nothing, with the problem recorded, if it is the zero vector.
+std::optional<engine::Vec3> directionFrom(Section& section, std::string_view name, BuildContext& context);
+
 }  // namespace scenes

@@ -13,6 +13,8 @@ namespace scenes {
 namespace {
 
 using engine::Vec3;
+
+/// A valid value; nothing if it was rejected, and its problems recorded.
 using MaybeValue = std::optional<TypedValue>;
 
 /// What is validated: a key's value or an element of it.
