@@ -26,6 +26,7 @@ class Renderer {
     /// @param old  an image that is no longer needed, whose memory is reused
     /// @throws SystemError  if OpenGL fails, or if the tiles' lists of spheres or lines become too long
     /// @throws std::logic_error  if the view has numbers that are not finite
+    /// After an exception the renderer must not draw again: it may be wrong about what its pixels hold.
     Image draw(const View& view, Image old = {});
 
     /// What the pixels of the view's picture show, row by row from the top left, computed as for the picture.

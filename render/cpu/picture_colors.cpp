@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -174,16 +175,17 @@ std::array<std::int32_t, kTilePixels> uniformHits(std::int32_t hitId) {
     return hitIds;
 }
 
+BackgroundCache::TileKind kindOf(const TileContents& contents, std::size_t tile) {
+    if (contents.hasLines(tile)) return BackgroundCache::TileKind::other;
+    if (contents.isBackground(tile)) return BackgroundCache::TileKind::background;
+    const bool isOpenGround = contents.isGround(tile) && contents.ground[tile].kind == GroundKind::open;
+    return isOpenGround ? BackgroundCache::TileKind::openGround : BackgroundCache::TileKind::other;
+}
+
 void colorTile(const PictureJob& job, std::size_t tile, const PictureMean& mean, const TileTarget& target) {
     const TileContents& contents = job.contents;
     const bool hasLines = contents.hasLines(tile);
     const bool isGround = !hasLines && contents.isGround(tile);
-    const bool isOpenGround = isGround && contents.ground[tile].kind == GroundKind::open;
-    if (isOpenGround || (!hasLines && contents.isBackground(tile))) {
-        // All pictures of a mean have the same.
-        if (mean.index == 0) colorBackgroundTile(job.geometry, job.shading, isOpenGround, target);
-        return;
-    }
     TileColors colors(job, tile);
     if (isGround) {
         colors.colorPixels(uniformHits(kHitGround));
@@ -209,12 +211,32 @@ void colorTile(const PictureJob& job, std::size_t tile, const PictureMean& mean,
 
 }  // namespace
 
-void colorPixels(const PictureJob& job, const PictureMean& mean, std::span<PixelColor> pixels) {
+void BackgroundCache::begin(const ShadingGeometry& geometry, const Shading& shading, std::size_t tileCount) {
+    Key key{geometry.frame,     geometry.ground,      shading.background,
+            shading.openGround, shading.groundCenter, shading.fadeDistance};
+    key.frame.eye = glm::vec3(0.0F);  // all positions are relative to it
+    if (key != key_ || kinds_.size() != tileCount) kinds_.assign(tileCount, TileKind::other);
+    key_ = key;
+}
+
+bool BackgroundCache::keeps(std::size_t tile, TileKind kind) {
+    return std::exchange(kinds_[tile], kind) == kind && kind != TileKind::other;
+}
+
+void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache& cache, std::span<PixelColor> pixels) {
     const CellLists& tiles = *job.contents.geometry.tiles;
     const std::size_t tileCount = tiles.begin.size() - 1;
     if (mean.count > 1) mean.sums.resize(tileCount);
-    tbb::parallel_for(std::size_t{0}, tileCount,
-                      [&](std::size_t tile) { colorTile(job, tile, mean, targetOf(tiles, tile, pixels)); });
+    cache.begin(job.geometry, job.shading, tileCount);
+    tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
+        const BackgroundCache::TileKind kind = kindOf(job.contents, tile);
+        if (cache.keeps(tile, kind)) return;
+        const TileTarget target = targetOf(tiles, tile, pixels);
+        if (kind == BackgroundCache::TileKind::other)
+            colorTile(job, tile, mean, target);
+        else
+            colorBackgroundTile(job.geometry, job.shading, kind == BackgroundCache::TileKind::openGround, target);
+    });
 }
 
 std::vector<VisiblePoint> visiblePoints(const PictureJob& job) {

@@ -139,7 +139,7 @@ auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visi
 
 void PicturePass::color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels) {
     withJob(view, sampling, [&](const PictureJob& job) {
-        colorPixels(job, {sampling.index, sampling.count, sums_}, pixels);
+        colorPixels(job, {sampling.index, sampling.count, sums_}, background_, pixels);
     });
 }
 

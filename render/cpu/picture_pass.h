@@ -46,7 +46,7 @@ class PicturePass {
     void castMetaballs(const Sampling& sampling);
 
     /// Colors the picture, or adds one sampling to the mean, which the last of them writes.
-    /// @param pixels  of whole tiles, row by row
+    /// @param pixels  of whole tiles, row by row; as the last call left them
     void color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels);
 
     /// What the first sample of each pixel hits, row by row.
@@ -92,6 +92,7 @@ class PicturePass {
     SkyVisibilityMap groundSky_;
     std::vector<SkyVisibility> particleSky_;
 
+    BackgroundCache background_;
     std::vector<PointColors> sums_;  // of the samplings so far, per tile
 };
 

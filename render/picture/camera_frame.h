@@ -46,6 +46,8 @@ struct CameraFrame {
     }
     /// Width of a pixel, m: at view depth 1 in perspective, at any depth in parallel projection.
     float pixelWidth() const { return 2.0F * halfHeight / static_cast<float>(height); }
+
+    bool operator==(const CameraFrame&) const = default;
 };
 
 /// @param size  of the picture, pixels

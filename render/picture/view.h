@@ -158,6 +158,8 @@ struct Ground {
 struct Background {
     glm::vec3 top{0.0F};
     glm::vec3 bottom{0.0F};
+
+    bool operator==(const Background&) const = default;
 };
 
 struct SphereObstacle {

@@ -3,12 +3,14 @@
 #include "tests/catch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "render/cpu/picture_colors.h"
 #include "render/cpu/shading/shade.h"
 #include "tests/render/pictures.h"
 
@@ -162,4 +164,27 @@ TEST_CASE("Tiles of background and of open ground are colored where they stand")
     // interest.
     CHECK(count(1, 0x000000ff) >= render::kTilePixels / 2);
     CHECK(count(2, kMark) == render::kTilePixels);
+}
+
+TEST_CASE("A tile of background is kept while it shows the same in front of the same camera") {
+    using Kind = render::BackgroundCache::TileKind;
+    render::BackgroundCache cache;
+    render::ShadingGeometry geometry;
+    render::Shading shading;
+    const auto keeps = [&](Kind first, Kind second) {
+        cache.begin(geometry, shading, 2);
+        return std::array{cache.keeps(0, first), cache.keeps(1, second)};
+    };
+    CHECK(keeps(Kind::background, Kind::openGround) == std::array{false, false});
+    CHECK(keeps(Kind::background, Kind::openGround) == std::array{true, true});
+    CHECK(keeps(Kind::openGround, Kind::openGround) == std::array{false, true});
+    CHECK(keeps(Kind::other, Kind::other) == std::array{false, false});
+    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, false});
+    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, true});
+    shading.fadeDistance = 2.0F;
+    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, false});
+    geometry.frame.up.x = 0.1F;
+    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, false});
+    geometry.frame.eye.x = 3.0F;  // everything else is relative to the eye
+    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, true});
 }
