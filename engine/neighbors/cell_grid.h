@@ -33,6 +33,14 @@ struct CellAxis {
     std::int64_t cellOf(double coordinate) const;
 };
 
+using CellAxes = std::array<CellAxis, 3>;
+
+/// Storage index of the cell that contains a position, x fastest.
+std::uint32_t cellAt(const CellAxes& axes, const Vec3& position);
+
+/// cellAt() for many positions at once, with the same result on any instruction set.
+void findCells(const CellAxes& axes, const Vec3* positions, std::size_t count, std::uint32_t* cells);
+
 /// Consecutive entries of CellGrid::order.
 struct CellRange {
     std::uint32_t begin = 0;

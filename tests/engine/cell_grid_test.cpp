@@ -6,6 +6,7 @@
 #include <set>
 #include "tests/catch.h"
 
+#include "engine/core/instruction_sets.h"
 #include "tests/engine/clouds.h"
 
 using namespace engine;
@@ -105,6 +106,36 @@ TEST_CASE("Runs are as long as their limits allow, and end before the last cell 
     CHECK(cellsFrom(1, 3, 100) == 3);
     CHECK(cellsFrom(1, 0, 100) == 1);
     CHECK(cellsFrom(last, 100, 100) == 1);
+}
+
+TEST_CASE("Cells are those of the scalar path on every instruction set", "[cell-grid]") {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Vec3> positions = clouds::strewn(203, 3.0).position;
+    for (int k = -6; k <= 6; ++k) positions.emplace_back(0.6 * k, -0.6 * k, 0.6 * (k % 3));  // on faces
+    for (const double far : {1e3, -1e8, 1e300, std::numeric_limits<double>::infinity(), kNan})
+        for (int axis = 0; axis < 3; ++axis) {
+            positions.push_back(clouds::randomVector(61, positions.size()));
+            positions.back()[axis] = far;
+            for (int k = 0; k < 9; ++k) positions.push_back(clouds::randomVector(62, positions.size()));
+        }
+    // As many cells as are needed, too few, and one, with the first cell below, at and above number 0.
+    for (const std::int64_t size : {12, 5, 1})
+        for (const double lowest : {-3.0, 0.0, 2.0}) {
+            const CellAxes axes{CellAxis(0.6, size, lowest), CellAxis(0.6, size + 2, lowest),
+                                CellAxis(0.6, size, lowest - 1.0)};
+            std::vector<std::uint32_t> expected;
+            for (const Vec3& position : positions) {
+                expected.push_back(cellAt(axes, position));
+                CHECK(expected.back() < static_cast<std::uint32_t>(size * size * (size + 2)));
+            }
+            for (const std::string& name : instructionSets()) {
+                const OnInstructionSet only(name);
+                std::vector<std::uint32_t> cells(positions.size());
+                findCells(axes, positions.data(), positions.size(), cells.data());
+                INFO(name << ", " << size << " cells from " << lowest << " m");
+                CHECK(cells == expected);
+            }
+        }
 }
 
 TEST_CASE("Without particles there are no cells to visit", "[cell-grid]") {
