@@ -52,9 +52,12 @@ class TileDepths {
         for (std::size_t row = 0; row < kTileSize; ++row) {
             const float* own = &depths_[indexOf(static_cast<std::uint8_t>(row * kTileSize))];
             std::uint32_t* found = &samples[row * kTileSize];
-            for (const auto& [step, sampleMask] : kSides)
-                for (std::ptrdiff_t k = 0; k < kTileSize; ++k)  // without branches: compilers vectorize this loop
-                    found[k] |= std::abs(own[k + step] - own[k]) > jump ? sampleMask : 0U;
+            for (std::ptrdiff_t k = 0; k < kTileSize; ++k) {  // without branches: compilers vectorize this loop
+                const auto toward = [&](const NeighborSide& side) {
+                    return std::abs(own[k + side.step] - own[k]) > jump ? side.sampleMask : 0U;
+                };
+                found[k] = toward(kSides[0]) | toward(kSides[1]) | toward(kSides[2]) | toward(kSides[3]);
+            }
         }
         return samples;
     }
