@@ -60,14 +60,14 @@ HWY_EXPORT(skyVisibilityOfBatch);
 
 namespace {
 
-constexpr int kReach = 6;  // number of cubes that the sum tau of view.h takes in
+constexpr int kReach = 6;  // number of cubes that the sum tau of shading_model.h takes in
 // Cubes between the particles and the sides of the grid: the reach, one that volumes are spread over, one more for the
 // blur, and two for the interpolation at points that are offset along a direction.
 constexpr int kMargin = kReach + 4;
 // Six values each make 24 MB. Where a single particle flies far, the cubes become wider instead.
 constexpr double kMostCells = 1e6;
 
-/// The side s of the cubes of view.h, before it is doubled.
+/// The side s of the cubes of shading_model.h, before it is doubled.
 float cubeSide(std::span<const Sphere> particles) {
     const double wanted = 2.0 * meanRadius(particles);
     constexpr double kStep = 1.189207115002721;  // 2^(1/4)
@@ -168,7 +168,7 @@ void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const CubeValues
     });
 }
 
-/// O = 1/(1 + tau)^2 of view.h toward one side, for a row of cubes along x whose densities begin at `density`. A sum
+/// O = 1/(1 + tau)^2 of shading_model.h toward one side, for a row of cubes along x whose densities begin at `density`. A sum
 /// that leaves the row goes on at the end of a neighboring row, where all cubes are empty as well.
 /// @param stride  the difference in index to the next cube toward that side
 void integrateAlong(const float* density, std::ptrdiff_t stride, std::span<float> visibility) {

@@ -1,5 +1,5 @@
 // How much of the sky each point of a scene sees (ambient occlusion), from the density of particles on a grid: section
-// 3 of view.h defines it. Called by the picture pass when a term of the shading model needs it.
+// 3 of shading_model.h defines it. Called by the picture pass when a term of the shading model needs it.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace render {
 
-/// The values O of view.h along +x, -x, +y, -y, +z, -z: 0 is hidden, 1 is open.
+/// The values O of shading_model.h along +x, -x, +y, -y, +z, -z: 0 is hidden, 1 is open.
 using SkyVisibility = std::array<float, 6>;
 
 inline constexpr SkyVisibility kUnoccluded = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
@@ -45,7 +45,7 @@ struct SkyVisibilityMap {
 /// @param old  a grid that is no longer needed, whose memory is reused
 SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibilityGrid old = {});
 
-/// How far from a point, in sides of a cube, the grid is sampled along the direction asked for (0.75 in view.h).
+/// How far from a point, in sides of a cube, the grid is sampled along the direction asked for (0.75 in shading_model.h).
 inline constexpr float kSkySampleOffset = 0.75F;
 
 /// The values at each particle's center; kUnoccluded outside of the grid. They depend on the center and the grid alone,

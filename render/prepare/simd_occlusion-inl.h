@@ -29,7 +29,7 @@ HWY_INLINE Vec3 gridPosition(const SkyVisibilityGrid& grid, glm::vec3 eye, const
     return (position - splat(grid.origin - eye)) * splat(1.0F / grid.side);
 }
 
-/// O of view.h, section 3: the visibility toward one of the six sides, interpolated; 1 outside of the grid.
+/// O of shading_model.h, section 3: the visibility toward one of the six sides, interpolated; 1 outside of the grid.
 /// @param side  index into SkyVisibility
 /// @param at  a gridPosition()
 HWY_INLINE V skyVisibilityInGrid(const SkyVisibilityGrid& grid, std::size_t side, const Vec3& at) {
@@ -58,7 +58,7 @@ HWY_INLINE V skyVisibilityInGrid(const SkyVisibilityGrid& grid, std::size_t side
     return hn::IfThenElse(inGrid, value, splat(1.0F));
 }
 
-/// skyVisibility(d) of view.h in the direction of unit vectors d along the world's axes.
+/// skyVisibility(d) of shading_model.h in the direction of unit vectors d along the world's axes.
 /// @param plus  the values O along +x, +y, +z
 /// @param minus  the values O along -x, -y, -z
 HWY_INLINE V skyVisibilityToward(const Vec3& direction, const Vec3& plus, const Vec3& minus) {

@@ -158,7 +158,7 @@ dvec3 unitToLight(const render::View& view) {
     return glm::normalize(dvec3(view.light.toLight));
 }
 
-// The functions below are named after the terms of section 1 of view.h.
+// The functions below are named after the terms of section 1 of shading_model.h.
 
 dvec3 fresnel(const render::View& view, const dvec3& albedo, double cosine) {
     const dvec3 headOn = glm::mix(dvec3(view.surface.specular), albedo, double(view.surface.metal));

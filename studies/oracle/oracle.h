@@ -1,8 +1,8 @@
 // The oracle of pictures: a slow, exact and simple ray caster in double precision. It shares nothing with render/ but
-// the input, render/picture/view.h, whose text is the shading model that it computes. Used by the renderer's tests and
-// by the study of pictures.
+// the input, render/picture/view.h, and computes the model of render/picture/shading_model.h. Used by the renderer's
+// tests and by the study of pictures.
 //
-// Conventions where view.h leaves room:
+// Conventions where these leave room:
 //   - Spheres, boxes and the metaball surface are solid: a ray that starts inside one hits it at distance 0. The normal
 //     there is a sphere's radial direction, the normal of a box's nearest face, or the negative gradient of the field;
 //     where that is zero, the normal points against the ray.
@@ -85,7 +85,7 @@ double meanRadius(const render::View& view);
 /// a point of a surface with this normal: a hard shadow. Light::shadows is ignored here; shade() respects it.
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal);
 
-/// lightVisibility of view.h at a point of a surface with this normal; without softness it is 0 or 1 by isInShadow().
+/// lightVisibility of shading_model.h at a point of a surface with this normal; without softness it is 0 or 1 by isInShadow().
 double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal);
 
 /// Linear color of what a ray meets, before the clamp to [0, 1].

@@ -1,4 +1,4 @@
-// The sums of section 3 of render/picture/view.h as they are written there; see sky_visibility.h.
+// The sums of section 3 of render/picture/shading_model.h as they are written there; see sky_visibility.h.
 #include "studies/oracle/sky_visibility.h"
 
 #include <cmath>

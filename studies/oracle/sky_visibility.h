@@ -1,5 +1,5 @@
-// Sky visibility by section 3 of render/picture/view.h, term by term in double precision. Cubes are kept in a hash
-// table that holds only those that are not empty. Used by the oracle alone. For particles so scattered that view.h
+// Sky visibility by section 3 of render/picture/shading_model.h, term by term in double precision. Cubes are kept in a hash
+// table that holds only those that are not empty. Used by the oracle alone. For particles so scattered that shading_model.h
 // widens the cubes the oracle is not valid.
 #pragma once
 
@@ -41,7 +41,7 @@ class SkyVisibility {
     double ofCube(int axis, int sign, const Cube& cube) const;
 
     double side_ = 1.0;  ///< of a cube, m
-    Density density_;    ///< F of view.h
+    Density density_;    ///< F of shading_model.h
     std::vector<AxisVisibility> particles_;
 };
 

@@ -1,4 +1,4 @@
-// Soft shadows by section 4 of render/picture/view.h: the share of the light that spheres and boxes cover, and the
+// Soft shadows by section 4 of render/picture/shading_model.h: the share of the light that spheres and boxes cover, and the
 // origins of the rays to the light for metaballs. Header only: it is used by the oracle alone.
 #pragma once
 
@@ -20,10 +20,10 @@ struct ShadedPoint {
     dvec3 point{0.0};
     dvec3 normal{0.0};
     dvec3 toLight{0.0};     ///< unit length
-    double softness = 0.0;  ///< S of view.h
+    double softness = 0.0;  ///< S of shading_model.h
 };
 
-/// edge(x) of view.h.
+/// edge(x) of shading_model.h.
 inline double softEdge(double x) {
     const double t = std::clamp(x + 0.5, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
@@ -49,7 +49,7 @@ inline std::array<dvec3, 2> lightAxes(const dvec3& toLight) {
 }
 
 /// Projects the corners of the box onto the light's plane and takes every line through two of them that has all others
-/// on its left. These lines bound the outline, so the least signed distance to them is view.h's x.
+/// on its left. These lines bound the outline, so the least signed distance to them is shading_model.h's x.
 inline double coverOfBox(const ShadedPoint& shaded, const render::BoxObstacle& box, double particleRadius) {
     const dvec3 minimum(box.minimum);
     const dvec3 maximum(box.maximum);

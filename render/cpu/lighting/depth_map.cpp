@@ -232,7 +232,7 @@ DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const
     }
     if (kernels.empty()) return {};
     const LightBounds bounds = lightBounds(basis, kernels);
-    // A soft edge is filtered over three texels, each of half the softness (view.h).
+    // A soft edge is filtered over three texels, each of half the softness (shading_model.h).
     const auto mean = static_cast<float>(meanRadius(view.particles));
     const float softness = view.light.softness;
     const float texelSize = softness > 0.0F ? 0.5F * softness * mean : smallest / kTexelsPerRadius;

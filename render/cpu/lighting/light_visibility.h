@@ -1,4 +1,4 @@
-// How much of the light and of the sky reaches shading points, by the definitions of view.h. Called by
+// How much of the light and of the sky reaches shading points, by the definitions of shading_model.h. Called by
 // picture_colors.cpp for tiles where anything may cast a shadow or occlude the sky.
 #pragma once
 

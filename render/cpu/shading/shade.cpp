@@ -1,4 +1,4 @@
-// The shading model of view.h with Highway, term by term, one point per lane; this file is compiled once per
+// The shading model (render/picture/shading_model.h) with Highway, term by term, one point per lane; this file is compiled once per
 // instruction set.
 #include "render/cpu/shading/shade.h"
 
@@ -28,7 +28,7 @@ HWY_INLINE Vec3 lerp(const Vec3& a, const Vec3& b, V t) {
     return a * (splat(1.0F) - t) + b * t;
 }
 
-/// How much of the background shows through the ground at these positions: fade / (1 + fade) of view.h.
+/// How much of the background shows through the ground at these positions: fade / (1 + fade) of shading_model.h.
 HWY_INLINE V groundFade(const Vec3& position, glm::vec3 center, float fadeDistance) {
     const Vec3 offset = (position - splat(center)) * splat(1.0F / fadeDistance);
     const V square = dot(offset, offset);
@@ -80,7 +80,7 @@ V positive(V value) {
     return hn::Max(value, splat(0.0F));
 }
 
-/// sky(d) of view.h. @param up  d.y
+/// skyLight(d) of shading_model.h. @param up  d.y
 Vec3 skyToward(const Ambient& ambient, V up) {
     return lerp(ambient.ground, ambient.sky, splat(0.5F) + splat(0.5F) * up);
 }
@@ -94,8 +94,8 @@ Vec3 fresnel(const Surface& surface, const Vec3& albedo, V cosine) {
     return headOn + (Vec3{one, one, one} - headOn) * (square * square * away);
 }
 
-/// The glint without the light's color and visibility.
-Vec3 glint(const Shading& shading, const ShadingInputs& at) {
+/// The highlight, without the light's color and visibility.
+Vec3 highlight(const Shading& shading, const ShadingInputs& at) {
     const Vec3 halfway = normalize(splat(shading.light.toLight) + at.toEye);
     V peak = positive(dot(at.normal, halfway));
     float gloss = 1.0F;
@@ -106,14 +106,14 @@ Vec3 glint(const Shading& shading, const ShadingInputs& at) {
     return fresnel(shading.surface, at.albedo, dot(at.toEye, halfway)) * (splat((gloss + 8.0F) / 8.0F) * peak);
 }
 
-/// surroundings(d) of view.h. @param up  d.y
+/// surroundings(d) of shading_model.h. @param up  d.y
 Vec3 surroundingsToward(const Surroundings& around, V up) {
     const Vec3 above = lerp(around.horizon, around.top, up * (splat(2.0F) - up));
     const Vec3 below = lerp(around.horizon, around.bottom, hn::Min(splat(1.0F), splat(-4.0F) * up));
     return select(up > splat(0.0F), above, below);
 }
 
-Vec3 mirror(const Shading& shading, const ShadingInputs& at) {
+Vec3 mirrored(const Shading& shading, const ShadingInputs& at) {
     const V cosine = dot(at.normal, at.toEye);
     const V up = splat(2.0F) * cosine * at.normal.y - at.toEye.y;
     const Vec3 reflected = fresnel(shading.surface, at.albedo, cosine) * surroundingsToward(shading.surroundings, up);
@@ -150,7 +150,7 @@ Vec3 bodyColor(const Shading& shading, const ShadingInputs& at) {
     return color * (one - at.isParticle * splat(surface.metal));
 }
 
-/// shoulder(c) of view.h.
+/// shoulder(c) of shading_model.h.
 Vec3 shoulder(const Vec3& color) {
     const V one = splat(1.0F);
     const V peak = hn::Max(color.x, hn::Max(color.y, color.z));
@@ -160,7 +160,7 @@ Vec3 shoulder(const Vec3& color) {
     return select(peak > splat(0.7F), bent, color);
 }
 
-/// All terms of view.h's color, before it is clamped.
+/// All terms of shading_model.h's color, before it is clamped.
 Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
     const Surface& surface = shading.surface;
     Vec3 color = bodyColor(shading, at);
@@ -169,9 +169,9 @@ Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
         if (surface.specular > 0.0F || surface.metal > 0.0F) {
             const M isFacing = dot(at.normal, splat(shading.light.toLight)) > splat(0.0F);
             const V share = hn::IfThenElseZero(isFacing, at.isParticle * at.lightVisibility);
-            color = color + splat(shading.light.color) * glint(shading, at) * share;
+            color = color + splat(shading.light.color) * highlight(shading, at) * share;
         }
-        if (surface.reflection > 0.0F) color = color + mirror(shading, at) * at.isParticle;
+        if (surface.reflection > 0.0F) color = color + mirrored(shading, at) * at.isParticle;
         if (surface.glow > 0.0F) color = color + at.albedo * at.albedo * (at.isParticle * splat(surface.glow));
     }
     return shading.exposure > 0.0F ? shoulder(color * splat(shading.exposure)) : color;

@@ -1,4 +1,4 @@
-// Colors by the shading model of view.h: of shading points, and of tiles of background. Called by picture_colors.cpp.
+// Colors by the shading model of shading_model.h: of shading points, and of tiles of background. Called by picture_colors.cpp.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,130 @@
+// The shading model: what color a point of a surface has, and what light, surface, ground and background it depends on.
+// render/cpu/ computes it fast, studies/oracle/ slowly in double precision, and both are written from the text below and
+// the comments on the fields. Units and axes are those of view.h.
+//
+// 1. Color of a point on a surface
+//
+// n is the unit normal, v the unit vector to the eye, l the one to the light. Products of colors are taken channel by
+// channel. The fields of Surface describe the particles; on obstacles and the ground, which are matt, they count as 0.
+// A term whose strength is 0 is not computed.
+//
+//   h               = normalize(l + v), halfway between the two
+//   r               = 2 (n.v) n - v, the direction in which the eye's ray is mirrored
+//   mix(a, b, t)    = a (1 - t) + b t
+//   skyLight(d)     = mix(ambient.ground, ambient.sky, 0.5 + 0.5 d.y)
+//   ambient         = skyLight(n) (1 - occlusion (1 - skyVisibility(n)))            skyVisibility: section 3
+//   cosine          = max(0, n.l) (1 + roughness (2.2 / (max(0, n.l) + max(0, n.v) + 0.2) - 1))
+//   diffuse         = light.color cosine lightVisibility                            lightVisibility: section 4
+//   transmitted     = translucency skyVisibility(-n) (skyLight(-n) + light.color (0.25 + max(0, -n.l)))
+//   body            = mix(albedo, albedo^2, absorption (1 - skyVisibility(-n)))
+//   fresnel(c)      = f + (1 - f) (1 - max(0, c))^5  with  f = mix(specular, albedo, metal)
+//   highlight       = light.color lightVisibility fresnel(v.h) (g + 8)/8 max(0, n.h)^g  with  g = 2^glossExponent;
+//                     0 where n.l <= 0, and where both specular and metal are 0
+//   mirrored        = reflection fresnel(n.v) skyVisibility(r) surroundings(r)
+//   surroundings(d) = mix(horizon, top, d.y (2 - d.y)) for d.y > 0, else mix(horizon, bottom, min(1, -4 d.y))
+//   color           = (1 - metal) body (ambient + diffuse + transmitted) + highlight + mirrored + glow albedo^2
+//   displayed       = shoulder(exposure color), or color where exposure is 0
+//   shoulder(c)     = c where its largest channel p <= 0.7, else mix(c q/p, q, 1 - 1/(1 + 0.06 (p - q)))
+//                     with q = 1 - 0.09/(p - 0.4)
+//
+// Full roughness is the Lommel-Seeliger law of dust and of the moon, cosine / (n.l + n.v), with 0.2 added against the
+// pole at grazing angles and 2.2 to leave a surface seen and lit head-on as bright as it was. fresnel is Schlick's
+// approximation (1994), highlight the Blinn-Phong lobe normalized to reflect the same energy at any exponent. The
+// shoulder compresses what is too bright to display: q has the value 0.7 and the slope 1 at p = 0.7 and stays below 1,
+// and the mix turns very bright colors white. At last the picture is clamped to [0, 1], sRGB encoded and rounded to 8
+// bits.
+//
+// 2. Background and ground
+//
+// The background is mix(bottom, top, t), where t runs from 0 at the bottom edge of the picture to 1 at the top edge.
+// The ground's color is mixed into the background by fade/(1 + fade), where fade = (d/fadeDistance)^4 and d is the
+// distance of the point from the ground's center.
+//
+// 3. Sky visibility (ambient occlusion)
+//
+// At a point x, in the direction of a unit vector d,
+//   skyVisibility(d) = sum over the axes a = x, y, z of d_a^2 O(x, a, sign of d_a).
+// The values O between 0 (hidden) and 1 (open), two along each axis, come from a grid. Space is divided into cubes of
+// side s, with corners at multiples of s. s is the smallest power of 2^(1/4) m that is not below twice the particles'
+// mean radius; it is doubled until the box around all particles' centers, ten cubes wider on each side, has at most a
+// million cubes. Every particle spreads its volume, in units of s^3, over the eight cubes whose centers surround its
+// own, by trilinear weights. Blurred with the weights 1/4, 1/2, 1/4 along each axis, that is the density F of a cube.
+// In the direction e of one of its six faces a cube has
+//   O   = 1/(1 + tau)^2,
+//   tau = sum over j = 1...6 of (1 - (j - 1/2)/6) F(j cubes further along e),
+// and O(x) is interpolated trilinearly between the centers of the cubes around x + 0.75 s e, a little ahead so that a
+// surface does not hide the sky from itself. A particle has the values of its center all over, the surface of metaballs
+// the mean of the balls' values weighted by their kernels, obstacles and the ground those of the point itself.
+//
+// 4. Light visibility (shadows)
+//
+// lightVisibility is max(0, 1 - C), where C is the sum of what spheres, boxes and metaballs cover of the light. The
+// light's plane is the one across l, and S is the softness of the light. With S > 0,
+//   edge(x) = y^2 (3 - 2 y)  with  y = clamp(x + 1/2, 0, 1).
+// A sphere of radius R, whose center is at the distance q from the ray to the light and H along it, covers
+//   edge((R - q)/w)  with  w = S min(R, max(0, H/2)),
+// if H + sqrt(max(0, R^2 - q^2)) > R/100; with 0 in place of R/100, rounding would let a sphere shade itself. A box
+// covers
+//   edge(x/w)  with  w = S min(mean radius of the particles, E/2),
+// where x is the distance on the light's plane from the nearest of the lines through the sides of its outline, positive
+// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing. Metaballs cover the
+// share of rays to the light that meet them. With t = S/2 mean radii, these rays start around
+//   p + 1.5 t n + 0.5 t l,  p being the point,
+// and are spread over the light's plane with the weights of a quadratic B-spline, 3 t wide, along each of the axes u
+// and v of light_space.h. With S = 0 edges are sharp, up to the width of a pixel.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace render {
+
+/// Parallel light.
+struct Light {
+    glm::vec3 toLight{0.4F, 0.8F, 0.4472136F};  ///< unit length
+    glm::vec3 color{1.0F};
+    bool shadows = true;    ///< without, lightVisibility is 1
+    float softness = 0.0F;  ///< S of section 4: about the width of shadows' edges in radii of particles; at most 1
+};
+
+struct Ambient {
+    glm::vec3 sky{0.35F};
+    glm::vec3 ground{0.2F};
+    float occlusion = 0.0F;  ///< 0: a crack is as bright as a hill, 1: it is dark where no sky is visible
+};
+
+/// What a mirroring surface reflects.
+struct Surroundings {
+    glm::vec3 top{0.9F};
+    glm::vec3 horizon{0.6F};
+    glm::vec3 bottom{0.2F};
+};
+
+/// How the particles reflect light. Obstacles and the ground are matt.
+struct Surface {
+    float specular = 0.0F;      ///< reflectance at normal incidence; 0 is matt
+    int glossExponent = 6;      ///< base-2 logarithm of the highlight's exponent
+    float reflection = 0.0F;    ///< strength of the mirrored surroundings, times Fresnel's factor
+    float metal = 0.0F;         ///< 1: no diffuse light, and reflections take the color of the surface
+    float roughness = 0.0F;     ///< 1: dust, as bright at its rim as in its middle
+    float translucency = 0.0F;  ///< share of the light from behind that passes through thin regions
+    float absorption = 0.0F;    ///< how much the color deepens in thick regions
+    float glow = 0.0F;          ///< emitted light
+};
+
+/// A horizontal plane that fades into the background with the distance from its center.
+struct Ground {
+    float height = 0.0F;
+    glm::vec3 color{0.6F};
+    glm::vec3 center{0.0F};
+    float fadeDistance = 30.0F;  ///< at which it is half ground, half background
+};
+
+/// A vertical gradient over the whole picture.
+struct Background {
+    glm::vec3 top{0.0F};
+    glm::vec3 bottom{0.0F};
+
+    bool operator==(const Background&) const = default;
+};
+
+}  // namespace render
