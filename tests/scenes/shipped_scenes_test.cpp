@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
@@ -15,6 +16,11 @@ const std::string kScenes = GLOBULAR_SOURCE "/scenes/library";
 
 scenes::Scene paperScene(const std::string& name) {
     return scenes::loadScene(kScenes + "/paper/" + name + ".toml", {});
+}
+
+std::string textOf(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// Table 1 and the published list: b1, b_d, c_r, c_d.
@@ -40,6 +46,20 @@ TEST_CASE("every shipped scene loads and has a title") {
         CHECK(!entry.title.empty());
         CHECK_NOTHROW(scenes::loadScene(entry.path, {}));
     }
+}
+
+TEST_CASE("the scenes of docs/ load, and the README shows the first of them as it is") {
+    const std::filesystem::path docs = std::filesystem::path(GLOBULAR_SOURCE) / "docs";
+    int loaded = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(docs)) {
+        if (entry.path().extension() != ".toml") continue;
+        INFO(entry.path());
+        CHECK_NOTHROW(scenes::loadScene(entry.path(), {}));
+        ++loaded;
+    }
+    CHECK(loaded >= 2);
+    const std::string shown = "```toml\n" + textOf(docs / "first.toml") + "```";
+    CHECK(textOf(docs.parent_path() / "README.md").find(shown) != std::string::npos);
 }
 
 TEST_CASE("every shipped scene opens with a comment") {

@@ -1,5 +1,5 @@
-// The shading model (render/picture/shading_model.h) with Highway, term by term, one point per lane; this file is compiled once per
-// instruction set.
+// The shading model (render/picture/shading_model.h) with Highway, term by term, one point per lane; this file is
+// compiled once per instruction set.
 #include "render/cpu/shading/shade.h"
 
 #include <algorithm>
