@@ -4,33 +4,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scenes/schema/document.h"
+#include "scenes/schema/schema.h"
 #include "scenes/schema/schema_export.h"
-#include "scenes/schema/typed_value.h"
+#include "scenes/text/value.h"
 
 namespace scenes {
 namespace {
 
 /// Keeps the order in which members are added, so that the file reads in the order of the schema.
 using Json = nlohmann::ordered_json;
-
-Json jsonOf(const Value& value) {
-    switch (value.kind) {
-        case ValueKind::boolean:
-            return value.boolean;
-        case ValueKind::integer:
-            return value.integer;
-        case ValueKind::floatingPoint:
-            return value.number;
-        case ValueKind::array: {
-            Json array = Json::array();
-            for (const Value& item : value.items) array.push_back(jsonOf(item));
-            return array;
-        }
-        default:
-            return value.string;
-    }
-}
 
 Json numberSchema(const char* type, const Range& range) {
     Json json = {{"type", type}};
@@ -91,7 +73,8 @@ Json keySchema(const Key& key) {
     if (!key.unit.empty()) description += " (" + std::string(key.unit) + ")";
     if (!key.derivedDefault.empty()) description += "; default: " + std::string(key.derivedDefault);
     json["description"] = description;
-    if (!key.defaultValue.empty()) json["default"] = jsonOf(parseOverrideValue(std::string(key.defaultValue), -1));
+    // The TOML text of every default, a number, boolean, string or list, is JSON as well.
+    if (!key.defaultValue.empty()) json["default"] = Json::parse(key.defaultValue);
     return json;
 }
 
