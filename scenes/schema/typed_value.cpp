@@ -19,14 +19,10 @@ using MaybeValue = std::optional<TypedValue>;
 
 /// What is validated: a key's value or an element of it.
 struct Subject {
-    const Key& key;
+    const Key& key;  ///< for an element, the key with the type of an element
     ProblemList& problems;
-    std::string name;      ///< as messages call it: "gravity" or "gravity[1]"
-    std::string expected;  ///< what it must be: "three numbers [x, y, z]"
-
-    Subject element(std::size_t index, std::string elementExpected) const {
-        return {key, problems, fmt::format("{}[{}]", name, index), std::move(elementExpected)};
-    }
+    std::string name;                          ///< what messages call the value: "gravity" or "gravity[1]"
+    std::string expected = expectedText(key);  ///< what the value must be: "three numbers [x, y, z]"
 };
 
 std::nullopt_t reject(const Subject& subject, const SourcePosition& position, const std::string& found,
@@ -46,94 +42,17 @@ bool contains(const Range& range, double number) {
            (range.isHighExcluded ? number < range.high : number <= range.high);
 }
 
-/// Whether the key's number, or each of its numbers, has to be an integer.
-bool isInteger(const Key& key) {
-    return key.type == Type::integer || key.type == Type::size || key.type == Type::counts;
-}
-
 /// A finite number within the key's range.
-std::optional<double> numberOf(const Subject& subject, const Value& value) {
-    const bool isNumber = value.kind == ValueKind::integer || value.kind == ValueKind::floatingPoint;
-    if (isInteger(subject.key) ? value.kind != ValueKind::integer : !isNumber) return reject(subject, value);
+MaybeValue numberOf(const Subject& subject, const Value& value) {
+    const bool isInteger = value.kind == ValueKind::integer;
+    const bool isNumber = isInteger || value.kind == ValueKind::floatingPoint;
+    if (subject.key.type == Type::integer ? !isInteger : !isNumber) return reject(subject, value);
     if (!std::isfinite(value.number)) return reject(subject, value.position, describe(value), "finite");
     if (!contains(subject.key.range, value.number))
         return reject(subject, value.position, describe(value), rangeText(subject.key.range));
-    return value.number;
-}
-
-/// The numbers of an array of the given length.
-std::optional<std::vector<double>> numbersOf(const Subject& subject, const Value& value, std::size_t length) {
-    if (value.kind != ValueKind::array || value.items.size() != length) return reject(subject, value);
-    const char* const expected = isInteger(subject.key) ? "a whole number" : "a number";
-    std::vector<double> numbers;
-    for (std::size_t index = 0; index < length; ++index)
-        if (const auto number = numberOf(subject.element(index, expected), value.items[index]))
-            numbers.push_back(*number);
-    if (numbers.size() < length) return std::nullopt;
-    return numbers;
-}
-
-MaybeValue scalarOf(const Subject& subject, const Value& value) {
-    const auto number = numberOf(subject, value);
-    if (!number) return std::nullopt;
-    TypedValue typed = TypedValue::ofNumber(*number);
+    TypedValue typed = TypedValue::ofNumber(value.number);
     typed.integer = value.integer;
-    if (isInteger(subject.key)) typed.canonical = fmt::format("{}", value.integer);
-    return typed;
-}
-
-MaybeValue numberListOf(const Subject& subject, const Value& value) {
-    if (value.items.empty()) return reject(subject, value);
-    auto numbers = numbersOf(subject, value, value.items.size());
-    if (!numbers) return std::nullopt;
-    return TypedValue::ofNumbers(std::move(*numbers));
-}
-
-MaybeValue pairOf(const Subject& subject, const Value& value) {
-    auto numbers = numbersOf(subject, value, 2);
-    if (!numbers) return std::nullopt;
-    const bool isOrdered = (*numbers)[0] < (*numbers)[1];
-    TypedValue typed = TypedValue::ofNumbers(std::move(*numbers));
-    if (subject.key.type == Type::interval && !isOrdered)
-        return reject(subject, value.position, typed.canonical, subject.expected);
-    return typed;
-}
-
-MaybeValue vectorOf(const Subject& subject, const Value& value) {
-    const auto numbers = numbersOf(subject, value, 3);
-    if (!numbers) return std::nullopt;
-    return TypedValue::ofVector(Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]));
-}
-
-MaybeValue colorOf(const Subject& subject, const Value& value) {
-    if (value.kind == ValueKind::array) return vectorOf(subject, value);
-    const auto color = value.kind == ValueKind::string ? colorFromHex(value.string) : std::nullopt;
-    if (!color) return reject(subject, value);
-    std::string lowerCase = value.string;
-    for (char& c : lowerCase)
-        if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
-    TypedValue typed;
-    typed.vectors = {*color};
-    typed.canonical = tomlString(lowerCase);
-    return typed;
-}
-
-/// A list of vectors or of colors.
-MaybeValue vectorListOf(const Subject& subject, const Value& value) {
-    if (value.kind != ValueKind::array || value.items.empty()) return reject(subject, value);
-    const bool isColor = subject.key.type == Type::colorList;
-    const Key elementKey{.type = isColor ? Type::color : Type::vec3};
-    TypedValue typed;
-    std::vector<std::string> texts;
-    for (std::size_t index = 0; index < value.items.size(); ++index) {
-        const Subject element = subject.element(index, expectedText(elementKey));
-        const MaybeValue vector = (isColor ? colorOf : vectorOf)(element, value.items[index]);
-        if (!vector) continue;
-        typed.vectors.push_back(vector->vectors[0]);
-        texts.push_back(vector->canonical);
-    }
-    if (texts.size() < value.items.size()) return std::nullopt;
-    typed.canonical = fmt::format("[{}]", fmt::join(texts, ", "));
+    if (subject.key.type == Type::integer) typed.canonical = fmt::format("{}", value.integer);
     return typed;
 }
 
@@ -152,24 +71,98 @@ MaybeValue stringOf(const Subject& subject, const Value& value) {
     return TypedValue::ofString(value.string);
 }
 
-MaybeValue stringListOf(const Subject& subject, const Value& value) {
-    if (value.kind != ValueKind::array) return reject(subject, value);
-    TypedValue typed;
-    std::vector<std::string> texts;
-    for (std::size_t index = 0; index < value.items.size(); ++index) {
-        const MaybeValue string = stringOf(subject.element(index, "a string"), value.items[index]);
-        if (!string) continue;
-        typed.strings.push_back(string->string);
-        texts.push_back(string->canonical);
-    }
-    if (texts.size() < value.items.size()) return std::nullopt;
-    typed.canonical = fmt::format("[{}]", fmt::join(texts, ", "));
-    return typed;
-}
-
 MaybeValue booleanOf(const Subject& subject, const Value& value) {
     if (value.kind != ValueKind::boolean) return reject(subject, value);
     return TypedValue::ofBoolean(value.boolean);
+}
+
+MaybeValue typedOf(const Subject& subject, const Value& value);
+
+/// A list whose elements are of the given type.
+MaybeValue listOf(const Subject& subject, const Value& value, Type elementType) {
+    const bool mayBeEmpty = elementType == Type::string;
+    if (value.kind != ValueKind::array || (value.items.empty() && !mayBeEmpty)) return reject(subject, value);
+    Key elementKey = subject.key;
+    elementKey.type = elementType;
+    TypedValue list;
+    std::vector<std::string> texts;
+    for (std::size_t index = 0; index < value.items.size(); ++index) {
+        const Subject element{elementKey, subject.problems, fmt::format("{}[{}]", subject.name, index)};
+        const MaybeValue typed = typedOf(element, value.items[index]);
+        if (!typed) continue;
+        list.numbers.push_back(typed->number);
+        list.strings.push_back(typed->string);
+        list.vectors.insert(list.vectors.end(), typed->vectors.begin(), typed->vectors.end());
+        texts.push_back(typed->canonical);
+    }
+    if (texts.size() < value.items.size()) return std::nullopt;
+    list.canonical = fmt::format("[{}]", fmt::join(texts, ", "));
+    return list;
+}
+
+/// A list of numbers of the given length.
+MaybeValue numbersOf(const Subject& subject, const Value& value, std::size_t length, Type elementType) {
+    if (value.kind != ValueKind::array || value.items.size() != length) return reject(subject, value);
+    return listOf(subject, value, elementType);
+}
+
+MaybeValue intervalOf(const Subject& subject, const Value& value) {
+    const MaybeValue pair = numbersOf(subject, value, 2, Type::number);
+    if (pair && pair->numbers[0] >= pair->numbers[1])
+        return reject(subject, value.position, pair->canonical, subject.expected);
+    return pair;
+}
+
+MaybeValue vectorOf(const Subject& subject, const Value& value, Type elementType = Type::number) {
+    const MaybeValue list = numbersOf(subject, value, 3, elementType);
+    if (!list) return std::nullopt;
+    return TypedValue::ofVector(Vec3(list->numbers[0], list->numbers[1], list->numbers[2]));
+}
+
+MaybeValue colorOf(const Subject& subject, const Value& value) {
+    if (value.kind == ValueKind::array) return vectorOf(subject, value);
+    const auto color = value.kind == ValueKind::string ? colorFromHex(value.string) : std::nullopt;
+    if (!color) return reject(subject, value);
+    std::string lowerCase = value.string;
+    for (char& c : lowerCase)
+        if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
+    TypedValue typed;
+    typed.vectors = {*color};
+    typed.canonical = tomlString(lowerCase);
+    return typed;
+}
+
+MaybeValue typedOf(const Subject& subject, const Value& value) {
+    switch (subject.key.type) {
+        case Type::number:
+        case Type::integer:
+            return numberOf(subject, value);
+        case Type::boolean:
+            return booleanOf(subject, value);
+        case Type::string:
+            return stringOf(subject, value);
+        case Type::choice:
+            return choiceOf(subject, value);
+        case Type::vec3:
+            return vectorOf(subject, value);
+        case Type::counts:
+            return vectorOf(subject, value, Type::integer);
+        case Type::color:
+            return colorOf(subject, value);
+        case Type::interval:
+            return intervalOf(subject, value);
+        case Type::size:
+            return numbersOf(subject, value, 2, Type::integer);
+        case Type::numberList:
+            return listOf(subject, value, Type::number);
+        case Type::stringList:
+            return listOf(subject, value, Type::string);
+        case Type::vec3List:
+            return listOf(subject, value, Type::vec3);
+        case Type::colorList:
+            return listOf(subject, value, Type::color);
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -212,39 +205,13 @@ TypedValue TypedValue::ofVector(const Vec3& vector) {
 }
 
 std::optional<TypedValue> validateValue(const Key& key, const Value& value, ProblemList& problems) {
-    const Subject subject{key, problems, std::string(key.name), expectedText(key)};
+    const Subject subject{key, problems, std::string(key.name)};
     if (value.kind == ValueKind::invalid) {
         // Its syntax error has been reported already, unless the file itself contains the reader's internal marker.
         if (problems.empty()) reject(subject, value);
         return std::nullopt;
     }
-    switch (key.type) {
-        case Type::number:
-        case Type::integer:
-            return scalarOf(subject, value);
-        case Type::numberList:
-            return numberListOf(subject, value);
-        case Type::stringList:
-            return stringListOf(subject, value);
-        case Type::boolean:
-            return booleanOf(subject, value);
-        case Type::string:
-            return stringOf(subject, value);
-        case Type::choice:
-            return choiceOf(subject, value);
-        case Type::vec3:
-        case Type::counts:
-            return vectorOf(subject, value);
-        case Type::color:
-            return colorOf(subject, value);
-        case Type::vec3List:
-        case Type::colorList:
-            return vectorListOf(subject, value);
-        case Type::interval:
-        case Type::size:
-            return pairOf(subject, value);
-    }
-    return std::nullopt;
+    return typedOf(subject, value);
 }
 
 }  // namespace scenes
