@@ -21,13 +21,8 @@ void reportMissing(Section& section, std::string_view name, BuildContext& contex
 
 bool reportConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context) {
     if (!section.isGiven(one) || !section.isGiven(other)) return false;
-    const SourcePosition first = section.position(one);
-    const SourcePosition second = section.position(other);
-    // The problem is reported at the later of the two.
-    const bool swapped = second.overrideIndex != first.overrideIndex ? second.overrideIndex < first.overrideIndex
-                         : second.line != first.line                 ? second.line < first.line
-                                                                     : second.column < first.column;
-    report(section, swapped ? one : other, fmt::format("{} and {} exclude each other, give one", one, other), context);
+    const std::string_view later = section.position(other) < section.position(one) ? one : other;
+    report(section, later, fmt::format("{} and {} exclude each other, give one", one, other), context);
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "scenes/schema/schema.h"
@@ -49,7 +50,8 @@ std::optional<OverrideKey> parseKey(const std::string& path) {
 }
 
 Entry& findOrAdd(Value& table, const std::string& key, const SourcePosition& position) {
-    if (Entry* entry = findEntry(table, key)) return *entry;
+    const auto found = std::ranges::find(table.entries, key, &Entry::key);
+    if (found != table.entries.end()) return *found;
     Entry entry;
     entry.key = key;
     entry.position = entry.value.position = position;
@@ -81,7 +83,7 @@ Value* tableOf(Value& root, const Assignment& assignment, ProblemList& problems)
                                 : fmt::format("the scene has only {} [[{}]], counted from 0", count, key.table));
         return nullptr;
     }
-    Value& value = findEntry(root, key.table)->value;
+    Value& value = findOrAdd(root, key.table, assignment.position).value;
     if (!isArray) return &value;
     if (key.index) return &value.items[*key.index];
     problems.add(assignment.position, fmt::format("{} is a list, write {}[0].{}", key.table, key.table, key.name));

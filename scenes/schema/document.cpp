@@ -25,11 +25,7 @@ constexpr int kMaxDepth = 256;
 constexpr std::string_view kInvalidMarker = "\x7Finvalid";
 
 SourcePosition positionOf(const toml::source_region& region) {
-    return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
-}
-
-bool isBefore(const SourcePosition& a, const SourcePosition& b) {
-    return a.line != b.line ? a.line < b.line : a.column < b.column;
+    return {.line = static_cast<int>(region.begin.line), .column = static_cast<int>(region.begin.column)};
 }
 
 Value valueOf(const toml::node& node, int depth);
@@ -41,8 +37,7 @@ std::vector<Entry> entriesOf(const toml::table& table, int depth = 0) {
     if (depth > kMaxDepth) return entries;
     for (auto&& [key, node] : table)
         entries.push_back({std::string(key.str()), positionOf(key.source()), valueOf(node, depth + 1)});
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return isBefore(a.position, b.position); });
+    std::ranges::stable_sort(entries, {}, &Entry::position);
     return entries;
 }
 
@@ -84,11 +79,7 @@ struct RepairableText {
     explicit RepairableText(std::string_view text)
         : lines(splitLines(text)), statements(splitStatements(lines)), repairCounts(statements.size(), 0) {}
 
-    std::string text() const {
-        std::string joined;
-        for (const std::string& line : lines) joined += line + '\n';
-        return joined;
-    }
+    std::string text() const { return fmt::format("{}\n", fmt::join(lines, "\n")); }
 };
 
 void blank(RepairableText& source, std::size_t firstLine, std::size_t lastLine) {
@@ -149,11 +140,10 @@ bool isDuplicate(const RepairableText& source, std::size_t index, const toml::pa
 
 void report(const RepairableText& source, std::size_t index, const toml::parse_error& error, ProblemList& problems) {
     const Statement& statement = source.statements[index];
-    const SourcePosition start{static_cast<int>(statement.firstLine) + 1, statement.column};
     if (isDuplicate(source, index, error))
-        problems.add(start, duplicateMessage(source, index));
+        problems.add(statement.position, duplicateMessage(source, index));
     else if (!statement.isClosed)
-        problems.add(start, fmt::format("the value of \"{}\" is never closed", statement.name));
+        problems.add(statement.position, fmt::format("the value of \"{}\" is never closed", statement.name));
     else
         problems.add(positionOf(error.source()), parserMessage(error.description()));
 }
@@ -189,8 +179,7 @@ void repair(RepairableText& source, std::size_t index, bool isRepeated) {
 void removeDeepKeys(RepairableText& source, ProblemList& problems) {
     for (const Statement& statement : source.statements) {
         if (std::ranges::count(statement.name, '.') < kMaxDepth) continue;
-        problems.add({static_cast<int>(statement.firstLine) + 1, statement.column},
-                     fmt::format("the key has more than {} parts", kMaxDepth));
+        problems.add(statement.position, fmt::format("the key has more than {} parts", kMaxDepth));
         blank(source, statement.firstLine, statement.lastLine);
         source.hasOmissions = true;
     }
@@ -234,7 +223,7 @@ Value parseOverrideValue(const std::string& text, int overrideIndex) {
         // It is an unquoted string.
     }
     const auto relocate = [&](const auto& self, Value& part) -> void {
-        part.position = {0, 0, overrideIndex};
+        part.position = {.overrideIndex = overrideIndex};
         for (Value& item : part.items) self(self, item);
         for (Entry& entry : part.entries) {
             entry.position = part.position;

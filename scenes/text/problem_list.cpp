@@ -2,7 +2,6 @@
 #include "scenes/text/problem_list.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace scenes {
@@ -33,10 +32,7 @@ void ProblemList::add(const SourcePosition& position, const InputError& error) {
 void ProblemList::throwIfAny() const {
     if (items_.empty()) return;
     std::vector<Item> sorted = items_;
-    std::stable_sort(sorted.begin(), sorted.end(), [](const Item& a, const Item& b) {
-        return std::tie(a.position.overrideIndex, a.position.line, a.position.column) <
-               std::tie(b.position.overrideIndex, b.position.line, b.position.column);
-    });
+    std::ranges::stable_sort(sorted, {}, &Item::position);
     std::vector<Problem> problems;
     for (const Item& item : sorted) {
         if (item.position.overrideIndex < 0)

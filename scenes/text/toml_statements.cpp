@@ -136,7 +136,7 @@ std::vector<Statement> splitStatements(const std::vector<std::string>& lines) {
         Statement statement = isHeader ? headerAt(lines[index], first) : keyValueAt(lines, index, first);
         statement.firstLine = index;
         if (isHeader) statement.lastLine = index;
-        statement.column = static_cast<int>(first) + 1;
+        statement.position = {.line = static_cast<int>(index) + 1, .column = static_cast<int>(first) + 1};
         index = statement.lastLine;
         statements.push_back(std::move(statement));
     }

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/text/value.h"
+
 namespace scenes {
 
 enum class StatementKind {
@@ -23,7 +25,7 @@ struct Statement {
     bool isClosed = true;            ///< every bracket and quote of the value is closed
     std::size_t firstLine = 0;       ///< index into the lines
     std::size_t lastLine = 0;
-    int column = 1;  ///< of its first character, from 1
+    SourcePosition position;  ///< position of the statement's first character
 };
 
 /// The lines of a text, without their line feeds.

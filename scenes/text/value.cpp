@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scenes {
@@ -10,13 +11,6 @@ namespace {
 
 /// Longer strings are cut off in messages, bytes.
 constexpr std::size_t kMaxQuotedLength = 40;
-
-template <class Table>
-auto* findIn(Table& table, std::string_view key) {
-    for (auto& entry : table.entries)
-        if (entry.key == key) return &entry;
-    return static_cast<decltype(table.entries.data())>(nullptr);
-}
 
 /// Cuts a long string off, never within the bytes of one UTF-8 character.
 std::string shortened(const std::string& text) {
@@ -29,10 +23,8 @@ std::string shortened(const std::string& text) {
 }  // namespace
 
 const Entry* findEntry(const Value& table, std::string_view key) {
-    return findIn(table, key);
-}
-Entry* findEntry(Value& table, std::string_view key) {
-    return findIn(table, key);
+    const auto found = std::ranges::find(table.entries, key, &Entry::key);
+    return found == table.entries.end() ? nullptr : &*found;
 }
 
 std::string describe(const Value& value) {

@@ -2,6 +2,7 @@
 // works on these; schema/document.cpp alone knows the TOML library that they are parsed with.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -9,13 +10,14 @@
 
 namespace scenes {
 
-/// Where something was written: in the scene file, or in one of the overrides.
+/// Where something was written: in the scene file, or in one of the overrides. Positions are ordered: those in the file
+/// come before those in the overrides.
 struct SourcePosition {
-    int line = 0;  ///< from 1; 0 stands for the file as a whole
-    int column = 0;
     int overrideIndex = -1;  ///< index of the override that wrote the value; -1: the file did
+    int line = 0;            ///< from 1; 0 stands for the file as a whole
+    int column = 0;
 
-    bool operator==(const SourcePosition&) const = default;
+    auto operator<=>(const SourcePosition&) const = default;
 };
 
 enum class ValueKind {
@@ -57,7 +59,6 @@ struct Entry {
 
 /// The entry of a table with the given key; nullptr if there is none.
 const Entry* findEntry(const Value& table, std::string_view key);
-Entry* findEntry(Value& table, std::string_view key);
 
 /// The value as messages show it: `"big" (a string)`, `3`, `a list of 2`.
 std::string describe(const Value& value);
