@@ -9,28 +9,21 @@
 #include "scenes/text/color.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 namespace scenes {
 namespace {
 
 using engine::Vec3;
 
-/// Value of a hexadecimal digit; -1 if the character is none.
-int hexDigit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-/// A point of OKLab's chromatic plane: a runs from green to red, b from blue to yellow.
-struct Chroma {
-    double a = 0.0;
-    double b = 0.0;
-};
+/// A point of OKLab's chromatic plane: a, from green to red, and b, from blue to yellow.
+using Chroma = glm::dvec2;
 
 struct MapCurve {
     std::string_view name;
@@ -55,16 +48,16 @@ const std::vector<MapCurve>& curves() {
 
 Vec3 linearFromOklab(double lightness, const Chroma& chroma) {
     const auto cube = [](double x) { return x * x * x; };
-    const double l = cube(lightness + 0.3963377774 * chroma.a + 0.2158037573 * chroma.b);
-    const double m = cube(lightness - 0.1055613458 * chroma.a - 0.0638541728 * chroma.b);
-    const double s = cube(lightness - 0.0894841775 * chroma.a - 1.2914855480 * chroma.b);
+    const double l = cube(lightness + 0.3963377774 * chroma.x + 0.2158037573 * chroma.y);
+    const double m = cube(lightness - 0.1055613458 * chroma.x - 0.0638541728 * chroma.y);
+    const double s = cube(lightness - 0.0894841775 * chroma.x - 1.2914855480 * chroma.y);
     return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
             -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
             -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
 Chroma lerp(const Chroma& from, const Chroma& to, double t) {
-    return {from.a + (to.a - from.a) * t, from.b + (to.b - from.b) * t};
+    return from + (to - from) * t;
 }
 
 /// The point at parameter t of a Bezier curve, by de Casteljau's algorithm.
@@ -85,10 +78,8 @@ Polyline polylineOf(const MapCurve& curve) {
     Polyline line{{curve.controlPoints.front()}, {0.0}};
     for (int k = 1; k <= kSegmentCount; ++k) {
         const Chroma next = bezierPoint(curve.controlPoints, static_cast<double>(k) / kSegmentCount);
-        const double da = next.a - line.points.back().a;
-        const double db = next.b - line.points.back().b;
+        line.arcLengths.push_back(line.arcLengths.back() + distance(line.points.back(), next));
         line.points.push_back(next);
-        line.arcLengths.push_back(line.arcLengths.back() + std::sqrt(da * da + db * db));
     }
     return line;
 }
@@ -107,15 +98,11 @@ double linearFromSrgb(double component) {
 
 std::optional<Vec3> colorFromHex(std::string_view text) {
     if (text.size() != 7 || text[0] != '#') return std::nullopt;
-    Vec3 color = Vec3::Zero();
-    for (int channel = 0; channel < 3; ++channel) {
-        const auto offset = static_cast<std::size_t>(1 + 2 * channel);
-        const int high = hexDigit(text[offset]);
-        const int low = hexDigit(text[offset + 1]);
-        if (high < 0 || low < 0) return std::nullopt;
-        color[channel] = linearFromSrgb((16 * high + low) / 255.0);
-    }
-    return color;
+    unsigned code = 0;
+    const char* const end = text.data() + text.size();
+    if (std::from_chars(text.data() + 1, end, code, 16).ptr != end) return std::nullopt;
+    const auto channel = [&](unsigned shift) { return linearFromSrgb((code >> shift & 0xFFU) / 255.0); };
+    return Vec3(channel(16), channel(8), channel(0));
 }
 
 Vec3 rampColor(const std::vector<Vec3>& colors, double parameter) {
