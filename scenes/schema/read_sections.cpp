@@ -12,15 +12,6 @@
 namespace scenes {
 namespace {
 
-/// What a table is read from.
-struct TableSource {
-    const TableInfo& info;
-    std::string path;                   ///< "body[0]"
-    const Value& value;                 ///< a table; an empty one if the scene has none
-    bool hasOmissions = false;          ///< part of the file could not be read: missing keys are not reported
-    const Section* previous = nullptr;  ///< the item before this one, where the table inherits from it
-};
-
 /// The constant default of a key; nullptr if it has none. Defaults are validated like any value, and a row of the
 /// schema whose default violates its own range is a bug, which throws.
 const TypedValue* defaultOf(const Key& key) {
@@ -41,8 +32,11 @@ const TypedValue* defaultOf(const Key& key) {
 
 /// The state of reading one table.
 struct TableReader {
-    const TableSource& source;
+    const TableInfo& info;
+    const Value& value;  ///< a table; an empty one if the scene has none
+    bool hasOmissions;   ///< part of the file could not be read: missing keys are not reported
     ProblemList& problems;
+    const Section* previous;  ///< the item before this one, where the table inherits from it
     Section section;
     std::string variant = {};  ///< value of the table's discriminator key; empty if unknown
     SourcePosition variantPosition = {};
@@ -66,7 +60,7 @@ std::string pathInAnyTable(std::string_view name) {
 }
 
 void reportUnknown(TableReader& reader, const Entry& entry) {
-    const TableInfo& info = reader.source.info;
+    const TableInfo& info = reader.info;
     std::vector<std::string> names;
     for (const Key* key : keysOf(info.name)) names.emplace_back(key->name);
     std::string hint = nearestName(entry.key, names);
@@ -85,7 +79,7 @@ void reportUnknown(TableReader& reader, const Entry& entry) {
 /// The value that a key takes from the previous item of the list, where the table inherits; nullptr if none. A key
 /// without a constant default, such as the time of a camera, is not inherited.
 const TypedValue* inheritedBy(const TableReader& reader, const Key& key) {
-    const Section* previous = reader.source.previous;
+    const Section* previous = reader.previous;
     const std::string_view name = key.name;
     return previous != nullptr && !key.defaultValue.empty() && previous->has(name) ? &previous->typed(name) : nullptr;
 }
@@ -98,14 +92,14 @@ bool applies(const TableReader& reader, const Key& key) {
 void reportInapplicable(TableReader& reader, const Entry& entry, const Key& key) {
     // Where an override changes the shape, the file's keys of the former shape are ignored.
     if (reader.variantPosition.overrideIndex >= 0 && entry.position.overrideIndex < 0) return;
-    reader.problems.add(entry.position, fmt::format("{} does not apply to {} {}, only to {}", entry.key,
-                                                    reader.source.info.discriminator, tomlString(reader.variant),
-                                                    fmt::join(key.appliesTo, ", ")));
+    reader.problems.add(entry.position,
+                        fmt::format("{} does not apply to {} {}, only to {}", entry.key, reader.info.discriminator,
+                                    tomlString(reader.variant), fmt::join(key.appliesTo, ", ")));
     reader.section.markInvalid();
 }
 
 void readEntry(TableReader& reader, const Entry& entry) {
-    const Key* key = findKey(reader.source.info.name, entry.key);
+    const Key* key = findKey(reader.info.name, entry.key);
     if (key == nullptr) return reportUnknown(reader, entry);
     if (!reader.variant.empty() && !applies(reader, *key)) return reportInapplicable(reader, entry, *key);
     if (auto typed = validateValue(*key, entry.value, reader.problems))
@@ -117,11 +111,11 @@ void readEntry(TableReader& reader, const Entry& entry) {
 /// Finds the value of the table's discriminator key, on which it depends which other keys apply. Problems of the
 /// discriminator itself are reported by readEntry.
 void findVariant(TableReader& reader) {
-    const std::string_view name = reader.source.info.discriminator;
+    const std::string_view name = reader.info.discriminator;
     if (name.empty()) return;
-    const Key& key = *findKey(reader.source.info.name, name);
+    const Key& key = *findKey(reader.info.name, name);
     ProblemList ignored("", {});
-    if (const Entry* entry = findEntry(reader.source.value, name)) {
+    if (const Entry* entry = findEntry(reader.value, name)) {
         reader.variantPosition = entry->position;
         if (const auto typed = validateValue(key, entry->value, ignored)) reader.variant = typed->string;
     } else if (const TypedValue* inherited = inheritedBy(reader, key)) {
@@ -133,7 +127,7 @@ void findVariant(TableReader& reader) {
 
 void reportMissing(TableReader& reader, const Key& key) {
     reader.section.markInvalid();
-    if (!reader.source.hasOmissions) reader.problems.add(reader.section.position(), missingText(reader.section, key));
+    if (!reader.hasOmissions) reader.problems.add(reader.section.position(), missingText(reader.section, key));
 }
 
 void completeKey(TableReader& reader, const Key& key) {
@@ -147,21 +141,6 @@ void completeKey(TableReader& reader, const Key& key) {
         reportMissing(reader, key);
 }
 
-/// The validated table, with inherited values and the schema's defaults.
-Section readTable(const TableSource& source, ProblemList& problems) {
-    TableReader reader{source, problems, Section(source.info, source.path, source.value.position)};
-    findVariant(reader);
-    for (const Entry& entry : source.value.entries) {
-        // The tables of a scene are entries of its root, too; readSections reads them.
-        const bool isTop = source.info.name.empty();
-        const bool isTable = isTableOrList(entry.value);
-        if (isTop && (isTableName(entry.key) || (isTable && findKey("", entry.key) == nullptr))) continue;
-        readEntry(reader, entry);
-    }
-    for (const Key* key : keysOf(source.info.name)) completeKey(reader, *key);
-    return std::move(reader.section);
-}
-
 /// The state of reading all tables.
 struct SectionsReader {
     const Document& document;
@@ -169,9 +148,25 @@ struct SectionsReader {
     bool mayBeIncomplete = false;
 };
 
-Section readOne(const SectionsReader& reader, const TableInfo& info, std::string path, const Value& value,
+/// The validated table, with inherited values and the schema's defaults.
+Section readOne(const SectionsReader& all, const TableInfo& info, std::string path, const Value& value,
                 const Section* previous = nullptr) {
-    return readTable({info, std::move(path), value, reader.document.hasOmissions, previous}, reader.problems);
+    TableReader reader{.info = info,
+                       .value = value,
+                       .hasOmissions = all.document.hasOmissions,
+                       .problems = all.problems,
+                       .previous = previous,
+                       .section = Section(info, std::move(path), value.position)};
+    findVariant(reader);
+    for (const Entry& entry : value.entries) {
+        // The tables of a scene are entries of its root, too; readSections reads them.
+        const bool isTop = info.name.empty();
+        const bool isTable = isTableOrList(entry.value);
+        if (isTop && (isTableName(entry.key) || (isTable && findKey("", entry.key) == nullptr))) continue;
+        readEntry(reader, entry);
+    }
+    for (const Key* key : keysOf(info.name)) completeKey(reader, *key);
+    return std::move(reader.section);
 }
 
 /// A table that is not written.
@@ -190,9 +185,8 @@ Section readSingle(SectionsReader& reader, const char* name) {
     if (entry->value.kind == ValueKind::invalid) return defaultSection(reader, info);
     reader.problems.add(entry->value.position,
                         fmt::format("{} is {}, must be one table: [{}]", name, describe(entry->value), name));
-    const bool hasTable = entry->value.kind == ValueKind::array && !entry->value.items.empty() &&
-                          entry->value.items[0].kind == ValueKind::table;
-    return hasTable ? readOne(reader, info, name, entry->value.items[0]) : defaultSection(reader, info);
+    return isTableOrList(entry->value) ? readOne(reader, info, name, entry->value.items[0])
+                                       : defaultSection(reader, info);
 }
 
 /// A table without defaults.
