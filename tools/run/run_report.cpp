@@ -9,9 +9,9 @@
 
 #include "engine/error_control/error_estimate.h"
 #include "engine/error_control/long_error_estimate.h"
+#include "engine/forces/simd_forces.h"
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/steppers.h"
-#include "render/cpu/metaballs/metaball_cast.h"
 #include "render/picture/system_error.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"
@@ -133,7 +133,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     Json json = sceneIdentity(scene);
     json["source"] = scene.sourceName;
     json["threads"] = report.threads;
-    json["instruction_set"] = render::castInstructionSet();
+    json["instruction_set"] = engine::simdInstructionSet();
     json["gl_renderer"] = report.glRenderer.empty() ? Json(nullptr) : Json(report.glRenderer);
     json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);

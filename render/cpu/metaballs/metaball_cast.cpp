@@ -243,10 +243,6 @@ void castBlock(const MetaballScene& scene, std::size_t tile, RayBlock& block) {
     }
 }
 
-const char* castInstructionSet() {
-    return hwy::TargetName(HWY_TARGET);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace render
 HWY_AFTER_NAMESPACE();
@@ -256,14 +252,9 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 
 HWY_EXPORT(castBlock);
-HWY_EXPORT(castInstructionSet);
 
 void castBlock(const MetaballScene& scene, std::size_t tile, RayBlock& block) {
     HWY_DYNAMIC_DISPATCH(castBlock)(scene, tile, block);
-}
-
-const char* castInstructionSet() {
-    return HWY_DYNAMIC_DISPATCH(castInstructionSet)();
 }
 
 }  // namespace render

@@ -34,7 +34,4 @@ struct RayBlock {
 /// adds exactly 0, and multiplications and additions are never fused.
 void castBlock(const MetaballScene& scene, std::size_t tile, RayBlock& block);
 
-/// Name of the instruction set that castBlock uses on this machine, e.g. "AVX2".
-const char* castInstructionSet();
-
 }  // namespace render
