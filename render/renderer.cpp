@@ -78,11 +78,8 @@ struct Renderer::Parts {
           pixels(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height)) {}
 
     void cast(const View& view, const Sampling& sampling) {
-        StageClock clock;
-        pass.castShadow(view, sampling);
-        clock.add(times.shadow);
-        pass.castMetaballs(sampling);
-        clock.add(times.cast);
+        timed(times.shadow, [&] { pass.castShadow(view, sampling); });
+        timed(times.cast, [&] { pass.castMetaballs(sampling); });
     }
 
     void color(const View& view) {
@@ -103,7 +100,6 @@ struct Renderer::Parts {
     }
 
     Image readBack(Image image) {
-        StageClock clock;
         image.width = size.width;
         image.height = size.height;
         image.rgb.resize(image.byteCount());
@@ -117,7 +113,6 @@ struct Renderer::Parts {
         }
         packing.wait();
         checkGl(context.gl(), "drawing a frame");
-        clock.add(times.readBack);
         return image;
     }
 
@@ -170,7 +165,8 @@ Image Renderer::draw(const View& view, Image old) {
     parts_->prepare(view);
     parts_->color(view);
     timed(parts_->times.openGl, [&] { parts_->target.put(parts_->pixels); });
-    Image image = parts_->readBack(std::move(old));
+    Image image;
+    timed(parts_->times.readBack, [&] { image = parts_->readBack(std::move(old)); });
     drawOverlay(image, view.overlay, view.camera);
     return image;
 }

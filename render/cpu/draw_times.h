@@ -19,25 +19,12 @@ struct DrawTimes {
     double readBack = 0.0;
 };
 
-/// A stopwatch: add() adds the seconds since the last call, or since construction, to a stage.
-class StageClock {
- public:
-    void add(double& seconds) {
-        const auto now = std::chrono::steady_clock::now();
-        seconds += std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-    }
-
- private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// Adds the seconds that some work takes to a stage.
+/// Adds the seconds that work() takes to the time of a stage.
 template <typename Work>
 void timed(double& seconds, const Work& work) {
-    StageClock clock;
+    const auto start = std::chrono::steady_clock::now();
     work();
-    clock.add(seconds);
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace render
