@@ -53,16 +53,17 @@ HWY_INLINE VI encodeSrgb(V linear) {
     return hn::ConvertTo(DI(), value * splat(255.0F) + splat(0.5F));
 }
 
-/// Writes a vector of pixels as PixelColor has them. @param color  linear, from 0 to 1
-HWY_INLINE void storeSrgb(const Vec3& color, std::uint32_t* pixels) {
+HWY_INLINE Vec3 clampUnit(const Vec3& color) {
+    return {clamp(color.x, 0.0F, 1.0F), clamp(color.y, 0.0F, 1.0F), clamp(color.z, 0.0F, 1.0F)};
+}
+
+/// Clamps linear colors to [0, 1] and writes them to a vector of pixels as sRGB.
+HWY_INLINE void storeSrgb(const Vec3& linear, PixelColor* pixels) {
+    const Vec3 color = clampUnit(linear);
     const VI packed = hn::Or(encodeSrgb(color.x),
                              hn::Or(hn::ShiftLeft<8>(encodeSrgb(color.y)), hn::ShiftLeft<16>(encodeSrgb(color.z))));
     const hn::RebindToUnsigned<D> du;
     hn::StoreU(hn::BitCast(du, packed), du, pixels);
-}
-
-HWY_INLINE Vec3 clampUnit(const Vec3& color) {
-    return {clamp(color.x, 0.0F, 1.0F), clamp(color.y, 0.0F, 1.0F), clamp(color.z, 0.0F, 1.0F)};
 }
 
 /// A vector of points with what their shading depends on.
@@ -200,22 +201,25 @@ ShadingInputs loadInputs(const ShadingGeometry& geometry, const ShadingPoints& p
             particleSky.z};
 }
 
+/// Linear colors of the background at heights y on the picture, in pixels from its top.
+HWY_INLINE Vec3 backgroundAt(const ShadingGeometry& geometry, const Shading& shading, V y) {
+    return lerp(shading.background.top, shading.background.bottom,
+                y * splat(1.0F / static_cast<float>(geometry.frame.height)));
+}
+
 void shade(const Shading& shading, const ShadingGeometry& geometry, const ShadingPoints& points,
            const LightVisibility* visibility, PointColors& colors) {
     const D d;
-    const Background& background = shading.background;
-    const float height = static_cast<float>(geometry.frame.height);
     for (std::size_t first = 0; first < points.count; first += hn::Lanes(d)) {
         const VI hitId = loadInt(&points.hitId[first]);
         Vec3 color = surfaceColor(shading, loadInputs(geometry, points, visibility, hitId, first));
         const M isGround = floatMask(hitId == splatInt(kHitGround));
         const M isBackground = floatMask(hitId == splatInt(kHitBackground));
         if (!none(hn::Or(isGround, isBackground))) {
-            const V down = load(&points.y[first]) * splat(1.0F / height);
             const V fade = hn::IfThenElseZero(
                 isGround, groundFade(loadVec3(points.position, first), shading.groundCenter, shading.fadeDistance));
             const V share = hn::IfThenElse(isBackground, splat(1.0F), fade);
-            color = lerp(color, lerp(background.top, background.bottom, down), share);
+            color = lerp(color, backgroundAt(geometry, shading, load(&points.y[first])), share);
         }
         storeVec3(clampUnit(color), colors.rgb, first);
     }
@@ -227,11 +231,6 @@ glm::vec3 openGroundColor(const Shading& shading, glm::vec3 albedo) {
     const Vec3 up = splat({0.0F, 1.0F, 0.0F});
     const Vec3 color = surfaceColor(shading, {up, splat(albedo), up, splat(0.0F), one, one, one, one});
     return {hn::GetLane(color.x), hn::GetLane(color.y), hn::GetLane(color.z)};
-}
-
-Vec3 backgroundAt(const ShadingGeometry& geometry, const Shading& shading, V y) {
-    return lerp(shading.background.top, shading.background.bottom,
-                y * splat(1.0F / static_cast<float>(geometry.frame.height)));
 }
 
 Vec3 openGroundAt(const ShadingGeometry& geometry, const Shading& shading, V x, V y) {
@@ -251,7 +250,7 @@ void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading
         for (int row = 0; row < kTileSize; ++row) {
             const V y = splat(static_cast<float>(target.corner.y + row) + 0.5F);
             for (int column = 0; column < kTileSize; column += lanes)
-                storeSrgb(clampUnit(openGroundAt(geometry, shading, middlesFrom(target.corner.x + column), y)),
+                storeSrgb(openGroundAt(geometry, shading, middlesFrom(target.corner.x + column), y),
                           rowOf(row) + column);
         }
         return;
@@ -259,19 +258,15 @@ void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading
     // The background has one color in each row: a vector holds the colors of several rows.
     for (int first = 0; first < kTileSize; first += lanes) {
         std::array<PixelColor, kTileSize> colors;
-        storeSrgb(clampUnit(backgroundAt(geometry, shading, middlesFrom(target.corner.y + first))), colors.data());
+        storeSrgb(backgroundAt(geometry, shading, middlesFrom(target.corner.y + first)), colors.data());
         for (int row = 0; row < lanes; ++row)
             std::fill_n(rowOf(first + row), kTileSize, colors[static_cast<std::size_t>(row)]);
     }
 }
 
 void encodeColors(const PointColors& colors, PixelColor* pixels) {
-    const V one = splat(1.0F);
-    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(D())) {
-        const Vec3 color = loadVec3(colors.rgb, first);
-        // The mean of several colors of 1 may be above 1 by rounding.
-        storeSrgb({hn::Min(color.x, one), hn::Min(color.y, one), hn::Min(color.z, one)}, pixels + first);
-    }
+    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(D()))
+        storeSrgb(loadVec3(colors.rgb, first), pixels + first);
 }
 
 }  // namespace HWY_NAMESPACE
