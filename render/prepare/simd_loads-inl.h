@@ -70,25 +70,19 @@ HWY_INLINE Float4 gather4(const float* numbers, VI indices) {
 #endif
 }
 
-/// Six integers per lane.
-struct Int6 {
-    VI of[6];
-};
-
 /// The six numbers from each index on.
 /// @pre two more numbers follow them, which are read as well
-HWY_INLINE Int6 gather6(const std::uint16_t* numbers, VI indices) {
+HWY_INLINE std::array<VI, 6> gather6(const std::uint16_t* numbers, VI indices) {
 #if HWY_TARGET == HWY_SCALAR
     const std::uint16_t* six = numbers + hn::GetLane(indices);
-    return {
-        {splatInt(six[0]), splatInt(six[1]), splatInt(six[2]), splatInt(six[3]), splatInt(six[4]), splatInt(six[5])}};
+    return {splatInt(six[0]), splatInt(six[1]), splatInt(six[2]), splatInt(six[3]), splatInt(six[4]), splatInt(six[5])};
 #else
     const DI di;
     const Float4 pairs = gatherBlocks(numbers, indices);
     const hn::RebindToUnsigned<D> du;
     const auto first = [&](V pair) { return hn::And(hn::BitCast(di, pair), splatInt(0xffff)); };
     const auto second = [&](V pair) { return hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, pair))); };
-    return {{first(pairs.x), second(pairs.x), first(pairs.y), second(pairs.y), first(pairs.z), second(pairs.z)}};
+    return {first(pairs.x), second(pairs.x), first(pairs.y), second(pairs.y), first(pairs.z), second(pairs.z)};
 #endif
 }
 

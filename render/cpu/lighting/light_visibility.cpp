@@ -195,8 +195,7 @@ V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receiver
 /// Weights of six heights in a row, which stand half a texel apart: a quadratic B-spline three texels wide around a
 /// point that lies `behind` (0 to 1 of these steps) the third height.
 struct HeightWeights {
-    static constexpr std::size_t kCount = 6;
-    V of[kCount];
+    std::array<V, 6> of;
 
     explicit HeightWeights(V behind) {
         const V half = splat(0.5F);
@@ -219,10 +218,10 @@ struct HeightWeights {
 V weightAbove(const DepthMap& map, VI start, const HeightWeights& across, const HeightWeights& down, VI height) {
     V coverage = splat(0.0F);
     for (const V& weight : down.of) {
-        const Int6 heights = gather6(map.heights.data(), start);
+        const std::array<VI, 6> heights = gather6(map.heights.data(), start);
         V sum = splat(0.0F);
-        for (std::size_t k = 0; k < HeightWeights::kCount; ++k)
-            sum = sum + hn::IfThenElseZero(floatMask(heights.of[k] > height), across.of[k]);
+        for (std::size_t k = 0; k < heights.size(); ++k)
+            sum = sum + hn::IfThenElseZero(floatMask(heights[k] > height), across.of[k]);
         coverage = coverage + weight * sum;
         start = start + splatInt(2 * map.columns);
     }
