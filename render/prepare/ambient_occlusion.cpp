@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -111,20 +110,16 @@ void forCorners(const SkyVisibilityGrid& grid, const TrilinearCell& at, const Vi
 
 /// Sets the origin, side and number of cubes of a grid around the particles.
 void fitToParticles(std::span<const Sphere> particles, SkyVisibilityGrid& grid) {
-    glm::vec3 low(std::numeric_limits<float>::max());
-    glm::vec3 high(std::numeric_limits<float>::lowest());
-    for (const Sphere& particle : particles) {
-        low = min(low, particle.center);
-        high = max(high, particle.center);
-    }
+    Bounds<glm::vec3> bounds;
+    for (const Sphere& particle : particles) bounds.add(particle.center);
     grid.side = cubeSide(particles);
     const auto cellsAlong = [&](int axis) {
-        return std::floor(double(high[axis]) / double(grid.side)) - std::floor(double(low[axis]) / double(grid.side)) +
-               2.0 * kMargin + 1.0;
+        return std::floor(double(bounds.high[axis]) / double(grid.side)) -
+               std::floor(double(bounds.low[axis]) / double(grid.side)) + 2.0 * kMargin + 1.0;
     };
     while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > kMostCells) grid.side *= 2.0F;
     for (int axis = 0; axis < 3; ++axis) {
-        const double first = std::floor(double(low[axis]) / double(grid.side)) - kMargin;
+        const double first = std::floor(double(bounds.low[axis]) / double(grid.side)) - kMargin;
         grid.origin[axis] = static_cast<float>((first + 0.5) * double(grid.side));
         grid.cells[axis] = static_cast<int>(cellsAlong(axis));
     }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -41,12 +40,11 @@ LightBasis lightBasis(glm::vec3 toLight) {
     return basis;
 }
 
-LightBounds lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres) {
-    LightBounds bounds{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
+Bounds<glm::vec3> lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres) {
+    Bounds<glm::vec3> bounds;
     for (const ViewSphere& sphere : spheres) {
         const glm::vec3 at = basis.toLightSpace(sphere.center);
-        bounds.low = min(bounds.low, at - sphere.radius);
-        bounds.high = max(bounds.high, at + sphere.radius);
+        bounds.add(at - sphere.radius, at + sphere.radius);
     }
     return bounds;
 }
@@ -60,16 +58,15 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
     std::vector<glm::vec3> centers(spheres.size());  // in light space
     std::vector<float> keys(spheres.size());
-    glm::vec2 low(std::numeric_limits<float>::max());
-    glm::vec2 high(std::numeric_limits<float>::lowest());
+    Bounds<glm::vec2> bounds;
     for (std::size_t k = 0; k < spheres.size(); ++k) {
         const glm::vec3 at = basis.toLightSpace(spheres[k].center);
         const float radius = spheres[k].radius;
         centers[k] = at;
         keys[k] = -(at.z + radius);
-        low = min(low, glm::vec2(at) - margin * radius);
-        high = max(high, glm::vec2(at) + margin * radius);
+        bounds.add(glm::vec2(at) - margin * radius, glm::vec2(at) + margin * radius);
     }
+    const auto& [low, high] = bounds;
     grid.origin = low;
     grid.cellSize = wantedCellSize(spheres, high - low);
     grid.columns = std::clamp(static_cast<int>((high.x - low.x) / grid.cellSize) + 1, 1, kMostCellsPerSide);

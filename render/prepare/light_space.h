@@ -50,11 +50,6 @@ struct LightGrid {
 LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness);
 
 /// Bounds of spheres in light space.
-struct LightBounds {
-    glm::vec3 low{0.0F};
-    glm::vec3 high{0.0F};
-};
-
-LightBounds lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres);
+Bounds<glm::vec3> lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres);
 
 }  // namespace render

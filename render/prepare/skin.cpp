@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include <tbb/parallel_for.h>
@@ -163,17 +162,16 @@ namespace {
 /// Cells as wide as the longest reach, wider where there would be too many.
 void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
     constexpr double kMostCells = 4e6;  // chosen: 16 MB
-    glm::vec3 high(std::numeric_limits<float>::lowest());
-    cells.low = glm::vec3(std::numeric_limits<float>::max());
+    Bounds<glm::vec3> bounds;
     float largestRadius = 1e-6F;
     for (const Sphere& particle : particles) {
-        cells.low = min(cells.low, particle.center);
-        high = max(high, particle.center);
+        bounds.add(particle.center);
         largestRadius = std::max(largestRadius, particle.radius);
     }
+    cells.low = bounds.low;
     cells.side = reach * largestRadius;
     const auto countAlong = [&](int axis) {
-        return std::floor(double(high[axis] - cells.low[axis]) / cells.side) + 1.0;
+        return std::floor(double(bounds.high[axis] - bounds.low[axis]) / cells.side) + 1.0;
     };
     while (countAlong(0) * countAlong(1) * countAlong(2) > kMostCells) cells.side *= 2.0F;
     for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(countAlong(axis));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,19 @@ inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
 
 /// A vector for each pixel of a tile, component by component.
 using TileVec3 = std::array<std::array<float, kTilePixels>, 3>;
+
+/// An axis-aligned rectangle or box, empty at first.
+template <typename Vector>
+struct Bounds {
+    Vector low{std::numeric_limits<float>::max()};
+    Vector high{std::numeric_limits<float>::lowest()};
+
+    void add(Vector first, Vector last) {
+        low = min(low, first);
+        high = max(high, last);
+    }
+    void add(Vector point) { add(point, point); }
+};
 
 /// A list of items for each cell, row by row, one list after another.
 struct CellLists {

@@ -47,7 +47,7 @@ constexpr float kMaxSteps = 65535.0F;
 /// Texels lie at multiples of their size in the world, so that a map that grows by a row, or a camera that moves,
 /// leaves the others where they were.
 /// @param eye  of the camera in light space
-DepthMap emptyMap(const LightBounds& bounds, glm::vec3 eye, float texelSize, int maxTexels) {
+DepthMap emptyMap(const Bounds<glm::vec3>& bounds, glm::vec3 eye, float texelSize, int maxTexels) {
     DepthMap map;
     const glm::vec3 extent = bounds.high - bounds.low;
     map.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(maxTexels - 7), texelSize);
@@ -231,7 +231,7 @@ DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const
         smallest = std::min(smallest, radius);
     }
     if (kernels.empty()) return {};
-    const LightBounds bounds = lightBounds(basis, kernels);
+    const Bounds<glm::vec3> bounds = lightBounds(basis, kernels);
     // A soft edge is filtered over three texels, each of half the softness (shading_model.h).
     const auto mean = static_cast<float>(meanRadius(view.particles));
     const float softness = view.light.softness;
