@@ -175,19 +175,15 @@ std::array<std::int32_t, kTilePixels> uniformHits(std::int32_t hitId) {
     return hitIds;
 }
 
-BackgroundCache::TileKind kindOf(const TileContents& contents, std::size_t tile) {
-    if (contents.hasLines(tile)) return BackgroundCache::TileKind::other;
-    if (contents.isBackground(tile)) return BackgroundCache::TileKind::background;
-    const bool isOpenGround = contents.isGround(tile) && contents.ground[tile].kind == GroundKind::open;
-    return isOpenGround ? BackgroundCache::TileKind::openGround : BackgroundCache::TileKind::other;
+/// Whether the colors of a tile follow from the camera, the background and the ground alone.
+bool isUnoccluded(TileKind kind) {
+    return kind == TileKind::background || kind == TileKind::openGround;
 }
 
 void colorTile(const PictureJob& job, std::size_t tile, const PictureMean& mean, const TileTarget& target) {
     const TileContents& contents = job.contents;
-    const bool hasLines = contents.hasLines(tile);
-    const bool isGround = !hasLines && contents.isGround(tile);
     TileColors colors(job, tile);
-    if (isGround) {
+    if (contents.kindOf(tile) == TileKind::occludedGround) {
         colors.colorPixels(uniformHits(kHitGround));
     } else {
         const TileSamples samples(contents, job.offsets, tile);
@@ -195,7 +191,7 @@ void colorTile(const PictureJob& job, std::size_t tile, const PictureMean& mean,
         thread_local TileEdges edges;
         samples.findEdges(edges);
         if (!edges.pixels.empty()) colors.colorEdges(edges);
-        if (hasLines) colors.addLines(samples.rays());
+        if (contents.hasLines(tile)) colors.addLines(samples.rays());
     }
     if (mean.count == 1) {
         writeTile(colors.colors(), target);
@@ -215,12 +211,12 @@ void BackgroundCache::begin(const ShadingGeometry& geometry, const Shading& shad
     Key key{geometry.frame,     geometry.ground,      shading.background,
             shading.openGround, shading.groundCenter, shading.fadeDistance};
     key.frame.eye = glm::vec3(0.0F);  // all positions are relative to it
-    if (key != key_ || kinds_.size() != tileCount) kinds_.assign(tileCount, TileKind::other);
+    if (key != key_ || kinds_.size() != tileCount) kinds_.assign(tileCount, TileKind::mixed);
     key_ = key;
 }
 
 bool BackgroundCache::keeps(std::size_t tile, TileKind kind) {
-    return std::exchange(kinds_[tile], kind) == kind && kind != TileKind::other;
+    return std::exchange(kinds_[tile], kind) == kind && isUnoccluded(kind);
 }
 
 void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache& cache, std::span<PixelColor> pixels) {
@@ -229,13 +225,13 @@ void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache
     if (mean.count > 1) mean.sums.resize(tileCount);
     cache.begin(job.geometry, job.shading, tileCount);
     tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
-        const BackgroundCache::TileKind kind = kindOf(job.contents, tile);
+        const TileKind kind = job.contents.kindOf(tile);
         if (cache.keeps(tile, kind)) return;
         const TileTarget target = targetOf(tiles, tile, pixels);
-        if (kind == BackgroundCache::TileKind::other)
-            colorTile(job, tile, mean, target);
+        if (isUnoccluded(kind))
+            colorBackgroundTile(job.geometry, job.shading, kind == TileKind::openGround, target);
         else
-            colorBackgroundTile(job.geometry, job.shading, kind == BackgroundCache::TileKind::openGround, target);
+            colorTile(job, tile, mean, target);
     });
 }
 

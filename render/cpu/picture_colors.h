@@ -36,8 +36,6 @@ struct PictureMean {
 /// the time to draw a frame is saved (measured by perf on `globular bench --filter "draw frame solid"`).
 class BackgroundCache {
  public:
-    enum class TileKind : std::uint8_t { other, background, openGround };
-
     /// Starts a picture, and forgets all tiles if anything is new that their colors are computed from.
     void begin(const ShadingGeometry& geometry, const Shading& shading, std::size_t tileCount);
 

@@ -41,17 +41,9 @@ bool TileContents::hasLines(std::size_t tile) const {
     return hasItems(lines.tiles, tile);
 }
 
-bool TileContents::hasOnlyGround(std::size_t tile) const {
-    return !hasSpheres(tile) && boxes[tile] == 0 && !hasMetaballs(tile);
-}
-
-bool TileContents::isBackground(std::size_t tile) const {
-    return hasOnlyGround(tile) && ground[tile].kind == GroundKind::none;
-}
-
-bool TileContents::isGround(std::size_t tile) const {
-    const GroundKind kind = ground[tile].kind;
-    return hasOnlyGround(tile) && (kind == GroundKind::open || kind == GroundKind::occluded);
+TileKind TileContents::kindOf(std::size_t tile) const {
+    const bool hasObjects = hasSpheres(tile) || boxes[tile] != 0 || hasMetaballs(tile) || hasLines(tile);
+    return hasObjects ? TileKind::mixed : ground[tile].kind;
 }
 
 TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile)
@@ -72,7 +64,7 @@ void TileSamples::findHits() {
         addMetaballs();
         return;
     }
-    const FlatGeometry flats{contents_.ground[tile_].kind != GroundKind::none, hasBoxes};
+    const FlatGeometry flats{contents_.ground[tile_].kind != TileKind::background, hasBoxes};
     for (TileRays& rays : samples_) findFlatHits(geometry, flats, rays);
     if (hasMetaballs) addMetaballs();
     if (contents_.hasSpheres(tile_)) findSphereHits(geometry, tile_, samples_);

@@ -28,13 +28,7 @@ struct TileContents {
     bool hasSpheres(std::size_t tile) const;
     bool hasLines(std::size_t tile) const;
     bool hasMetaballs(std::size_t tile) const { return metaballs != nullptr && metaballs->slots[tile] >= 0; }
-
-    /// Whether a tile shows nothing but background, or nothing but ground, apart from lines.
-    bool isBackground(std::size_t tile) const;
-    bool isGround(std::size_t tile) const;
-
- private:
-    bool hasOnlyGround(std::size_t tile) const;
+    TileKind kindOf(std::size_t tile) const;
 };
 
 /// Positions of the samples within a pixel, from its middle: one, or kFourSamples.

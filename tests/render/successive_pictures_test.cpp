@@ -167,7 +167,7 @@ TEST_CASE("Tiles of background and of open ground are colored where they stand")
 }
 
 TEST_CASE("A tile of background is kept while it shows the same in front of the same camera") {
-    using Kind = render::BackgroundCache::TileKind;
+    using Kind = render::TileKind;
     render::BackgroundCache cache;
     render::ShadingGeometry geometry;
     render::Shading shading;
@@ -178,13 +178,13 @@ TEST_CASE("A tile of background is kept while it shows the same in front of the 
     CHECK(keeps(Kind::background, Kind::openGround) == std::array{false, false});
     CHECK(keeps(Kind::background, Kind::openGround) == std::array{true, true});
     CHECK(keeps(Kind::openGround, Kind::openGround) == std::array{false, true});
-    CHECK(keeps(Kind::other, Kind::other) == std::array{false, false});
-    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, false});
-    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, true});
+    CHECK(keeps(Kind::mixed, Kind::mixed) == std::array{false, false});
+    CHECK(keeps(Kind::mixed, Kind::openGround) == std::array{false, false});
+    CHECK(keeps(Kind::mixed, Kind::openGround) == std::array{false, true});
     shading.fadeDistance = 2.0F;
-    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, false});
+    CHECK(keeps(Kind::mixed, Kind::openGround) == std::array{false, false});
     geometry.frame.up.x = 0.1F;
-    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, false});
+    CHECK(keeps(Kind::mixed, Kind::openGround) == std::array{false, false});
     geometry.frame.eye.x = 3.0F;  // everything else is relative to the eye
-    CHECK(keeps(Kind::other, Kind::openGround) == std::array{false, true});
+    CHECK(keeps(Kind::mixed, Kind::openGround) == std::array{false, true});
 }

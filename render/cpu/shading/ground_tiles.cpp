@@ -9,28 +9,18 @@ namespace render {
 
 namespace {
 
-/// An axis-aligned rectangle; empty at first.
-struct Bounds {
-    glm::vec2 low{std::numeric_limits<float>::max()};
-    glm::vec2 high{std::numeric_limits<float>::lowest()};
+using Rectangle = Bounds<glm::vec2>;
 
-    void add(glm::vec2 first, glm::vec2 last) {
-        low = min(low, first);
-        high = max(high, last);
-    }
-    void add(glm::vec2 point) { add(point, point); }
-
-    /// Whether it overlaps another, or almost touches it: far away single precision is coarse.
-    bool overlaps(const Bounds& other) const {
-        const glm::vec2 slack = 1e-4F * (max(abs(low), abs(high)) + 1.0F);
-        return other.low.x <= other.high.x && all(lessThanEqual(low - slack, other.high)) &&
-               all(greaterThanEqual(high + slack, other.low));
-    }
-};
+/// Whether two rectangles overlap or almost touch: far away single precision is coarse.
+bool overlap(const Rectangle& a, const Rectangle& b) {
+    const glm::vec2 slack = 1e-4F * (max(abs(a.low), abs(a.high)) + 1.0F);
+    return b.low.x <= b.high.x && all(lessThanEqual(a.low - slack, b.high)) &&
+           all(greaterThanEqual(a.high + slack, b.low));
+}
 
 /// Bounds of all shadows on the light's plane, soft edges included.
-Bounds shadowBounds(const Occluders& occluders) {
-    Bounds bounds;
+Rectangle shadowBounds(const Occluders& occluders) {
+    Rectangle bounds;
     if (const LightGrid* grid = occluders.spheres)
         bounds.add(grid->origin, grid->origin + grid->cellSize * glm::vec2(grid->columns, grid->rows));
     // A texel more on each side, because the map may be shifted.
@@ -51,8 +41,8 @@ Bounds shadowBounds(const Occluders& occluders) {
 }
 
 /// Bounds of the map of the ground's sky visibility, x and z relative to the eye.
-Bounds skyBounds(const Occluders& occluders) {
-    Bounds bounds;
+Rectangle skyBounds(const Occluders& occluders) {
+    Rectangle bounds;
     if (const SkyVisibilityMap* map = occluders.groundSky) {
         const glm::vec2 low = map->origin - glm::vec2(occluders.eye.x, occluders.eye.z);
         bounds.add(low, low + map->side * glm::vec2(map->columns, map->rows));
@@ -79,47 +69,29 @@ Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
     return {depth, origin + depth * direction};
 }
 
-class GroundClassifier {
- public:
-    GroundClassifier(const Occluders& occluders, bool isPerspective)
-        : light_(occluders.light),
-          shadows_(shadowBounds(occluders)),
-          sky_(skyBounds(occluders)),
-          isPerspective_(isPerspective) {}
-
-    GroundTile classify(const std::array<Corner, 4>& corners) const {
-        const GroundKind kind = kindOf(corners);
-        // In parallel projection the ground comes up to where the rays begin.
-        if (kind == GroundKind::horizon && !isPerspective_) return {kind, 0.0F};
-        // The inverse of the depth, or the depth itself, is linear on the picture: the depth is least at a corner.
-        const auto isNearer = [](const Corner& a, const Corner& b) { return a.depth < b.depth; };
-        return {kind, std::ranges::min(corners, isNearer).depth};
+/// The kind of a tile with these corners where nothing stands before the ground.
+/// @param shadows  bounds of all shadows on the light's plane
+/// @param sky      bounds of the map of the ground's sky visibility
+TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, const Rectangle& shadows,
+                const Rectangle& sky) {
+    const auto groundCorners = std::ranges::count_if(corners, &Corner::isGround);
+    if (groundCorners == 0) return TileKind::background;
+    if (groundCorners < 4) return TileKind::mixed;
+    Rectangle onLightPlane;
+    Rectangle onGround;
+    for (const Corner& corner : corners) {
+        onLightPlane.add(glm::vec2(light.toLightSpace(corner.position)));
+        onGround.add({corner.position.x, corner.position.z});
     }
-
- private:
-    GroundKind kindOf(const std::array<Corner, 4>& corners) const {
-        const auto groundCorners = std::ranges::count_if(corners, &Corner::isGround);
-        if (groundCorners == 0) return GroundKind::none;
-        if (groundCorners < 4) return GroundKind::horizon;
-        Bounds onLightPlane;
-        Bounds onGround;
-        for (const Corner& corner : corners) {
-            onLightPlane.add(glm::vec2(light_.toLightSpace(corner.position)));
-            onGround.add({corner.position.x, corner.position.z});
-        }
-        return onLightPlane.overlaps(shadows_) || onGround.overlaps(sky_) ? GroundKind::occluded : GroundKind::open;
-    }
-
-    LightBasis light_;
-    Bounds shadows_;
-    Bounds sky_;
-    bool isPerspective_;
-};
+    const bool isOccluded = overlap(onLightPlane, shadows) || overlap(onGround, sky);
+    return isOccluded ? TileKind::occludedGround : TileKind::openGround;
+}
 
 }  // namespace
 
 std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders) {
-    const GroundClassifier classifier(occluders, frame.perspective);
+    const Rectangle shadows = shadowBounds(occluders);
+    const Rectangle sky = skyBounds(occluders);
     const int columns = (frame.width + kTileSize - 1) / kTileSize;
     const int rows = (frame.height + kTileSize - 1) / kTileSize;
     std::vector<Corner> corners;
@@ -132,8 +104,14 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
         for (int column = 0; column < columns; ++column) {
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
-            tiles.push_back(
-                classifier.classify({corners[first], corners[first + 1], corners[below], corners[below + 1]}));
+            const std::array<Corner, 4> around = {corners[first], corners[first + 1], corners[below],
+                                                  corners[below + 1]};
+            const TileKind kind = kindOf(around, occluders.light, shadows, sky);
+            // The inverse of the depth, or the depth itself, is linear on the picture: the depth is least at a corner.
+            // In parallel projection ground that reaches the horizon comes up to where the rays begin.
+            const bool startsAtEye = kind == TileKind::mixed && !frame.perspective;
+            const float nearest = std::ranges::min(around, {}, &Corner::depth).depth;
+            tiles.push_back({kind, startsAtEye ? 0.0F : nearest});
         }
     }
     return tiles;

@@ -13,16 +13,16 @@
 
 namespace render {
 
-/// What of the ground may be seen in a tile where nothing hides it.
-enum class GroundKind : std::uint8_t {
-    none,      ///< no ground
-    open,      ///< only ground, out of reach of all shadows and of the map of sky visibility
-    occluded,  ///< only ground
-    horizon    ///< ground in a part of the tile
+/// What a tile of the picture shows.
+enum class TileKind : std::uint8_t {
+    background,      ///< nothing but the background
+    openGround,      ///< nothing but ground, out of reach of all shadows and with the whole sky visible
+    occludedGround,  ///< nothing but ground that may be shadowed or see only a part of the sky
+    mixed            ///< anything else
 };
 
 struct GroundTile {
-    GroundKind kind = GroundKind::none;
+    TileKind kind = TileKind::background;  ///< kind of the tile as long as nothing stands before the ground
     float nearest = std::numeric_limits<float>::infinity();  ///< least view depth of the ground in the tile, m
 };
 
