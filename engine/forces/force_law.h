@@ -8,6 +8,7 @@
 #include "engine/law/obstacles.h"
 #include "engine/law/pair_law.h"
 #include "engine/state/particles.h"
+#include "engine/state/setup.h"
 
 namespace engine {
 
@@ -17,6 +18,11 @@ struct ForceLaw {
     Vec3 gravity = Vec3::Zero();  ///< m/s^2
     Obstacles obstacles;
 };
+
+/// The part of a setup that acts on particles.
+inline ForceLaw lawOf(const Setup& setup) {
+    return {setup.materials, setup.gravity, setup.obstacles};
+}
 
 /// What the pairs of a set of particles need. Their kernel is compiled without all other terms.
 struct ForceTerms {

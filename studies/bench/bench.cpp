@@ -48,10 +48,6 @@ double measured(const Work& work, const BenchSettings& settings) {
     return median(std::move(rounds));
 }
 
-engine::ForceLaw lawOf(const engine::Setup& setup) {
-    return {setup.materials, setup.gravity, setup.obstacles};
-}
-
 std::string hashOf(const std::vector<Vec3>& vectors) {
     std::uint64_t hash = engine::fnv1a("");
     for (const Vec3& v : vectors)

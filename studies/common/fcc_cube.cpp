@@ -35,7 +35,7 @@ engine::Setup fccCube(const std::string& material, std::size_t count, const FccC
 }
 
 double meanNeighbors(const engine::Setup& setup, const engine::Particles& particles) {
-    const engine::ForceLaw law{setup.materials, setup.gravity, setup.obstacles};
+    const engine::ForceLaw law = lawOf(setup);
     engine::PairTraversal pairs(law, engine::Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<std::uint32_t> neighbors(particles.count());

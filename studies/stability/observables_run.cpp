@@ -108,8 +108,7 @@ double momentumDrift(const ObservableInput& input) {
 /// a kinetic energy: the larger one of the two frames plus slowKinetic(), as the engine's audit of the steps counts it.
 /// The scene must be closed, without births.
 double energyRise(const ObservableInput& input) {
-    const engine::Setup& setup = input.scene.setup;
-    engine::ForceEvaluator evaluator({setup.materials, setup.gravity, setup.obstacles}, setup.forces);
+    engine::ForceEvaluator evaluator(lawOf(input.scene.setup), input.scene.setup.forces);
     double worst = 0.0;
     engine::Energy earlier = engine::energy(evaluator, input.run.frames.front());
     for (std::size_t k = 1; k < input.run.frames.size(); ++k) {

@@ -19,10 +19,6 @@ namespace {
 using engine::Simulation;
 using engine::StepperKind;
 
-engine::ForceLaw lawOf(const engine::Setup& setup) {
-    return {setup.materials, setup.gravity, setup.obstacles};
-}
-
 /// The explicit stepper whose step bound is measured: the scene's own if it is explicit, else velocity Verlet.
 StepperKind explicitStepper(const scenes::Scene& scene) {
     const StepperKind own = scene.setup.stepper;

@@ -51,8 +51,7 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
     engine::StepperKind stepper = scene.setup.stepper;
     for (const engine::StepperKind kind : engine::kSteppers)
         if (engine::nameOf(kind) == stepperName) stepper = kind;
-    const auto bound = engine::stepBound({scene.setup.materials, scene.setup.gravity, scene.setup.obstacles},
-                                         scene.setup.initial, stepper);
+    const auto bound = engine::stepBound(lawOf(scene.setup), scene.setup.initial, stepper);
     if (!bound) return nullptr;
     return {{"seconds", bound->seconds},
             {"limited_by", bound->byDamping ? "damping" : "stiffness"},
@@ -67,8 +66,7 @@ Json materialJson(const engine::Material& material) {
 }
 
 Json checkJson(const scenes::Scene& scene) {
-    const engine::ForceTerms terms =
-        engine::termsFor({scene.setup.materials, scene.setup.gravity, scene.setup.obstacles}, everyKind(scene));
+    const engine::ForceTerms terms = engine::termsFor(lawOf(scene.setup), everyKind(scene));
     const std::uint64_t births = plannedBirths(scene);
     const std::uint64_t most = scene.setup.initial.count() + births;
     const int frames = scenes::frameCount(scene);
