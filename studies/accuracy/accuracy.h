@@ -109,6 +109,6 @@ enum class CostAxis {
 
 /// A gnuplot script for a work-precision diagram, error against cost on logarithmic axes, as SVG on standard output.
 /// Only resolved runs are drawn; the key says how many runs of a stepper did not finish.
-std::string plotScript(const SceneAccuracy& scene, CostAxis axis);
+std::string accuracyPlot(const SceneAccuracy& scene, CostAxis axis);
 
 }  // namespace studies

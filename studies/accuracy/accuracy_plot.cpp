@@ -1,4 +1,4 @@
-// Work-precision diagrams as gnuplot scripts, see plotScript() in accuracy.h.
+// Work-precision diagrams as gnuplot scripts, see accuracyPlot() in accuracy.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,17 +47,12 @@ double costOf(const AccuracyRow& row, CostAxis axis) {
 Curve curveOf(const SceneAccuracy& scene, const CurveStyle& style, CostAxis axis) {
     Curve curve{nameOf(style.variant),
                 fmt::format("linespoints linecolor rgb \"{}\" linewidth {} pointtype {} pointsize {}", style.color,
-                            style.lineWidth, style.pointType, style.pointSize),
-                "", ""};
-    // The errors asked of the automatic stepper are written beside its points.
-    if (style.variant.stepper == engine::StepperKind::automatic)
-        curve.labelStyle = fmt::format("offset 1.2,0.6 left font \",12\" textcolor rgb \"{}\"", style.color);
+                            style.lineWidth, style.pointType, style.pointSize)};
     int unfinished = 0;
     for (const AccuracyRow& row : scene.rows) {
         if (!isOf(row.run.variant, style.variant.stepper, style.variant.precision)) continue;
         if (row.run.ending != Ending::finished) ++unfinished;
-        if (row.resolved)
-            curve.points += fmt::format("{:.6g} {:.6g} {:g}\n", costOf(row, axis), row.error, row.run.variant.asked);
+        if (row.resolved) curve.points += fmt::format("{:.6g} {:.6g}\n", costOf(row, axis), row.error);
     }
     if (unfinished > 0) curve.title += fmt::format(" ({} failed)", unfinished);
     return curve;
@@ -104,7 +99,7 @@ std::string ticks(const Range& range) {
     return list;
 }
 
-/// Ranges of the axes, with room for the outermost points and their labels.
+/// Ranges of the axes, with room for the outermost points.
 std::string ranges(const SceneAccuracy& scene, CostAxis axis) {
     Range costs;
     Range errors;
@@ -121,10 +116,10 @@ std::string ranges(const SceneAccuracy& scene, CostAxis axis) {
 
 }  // namespace
 
-std::string plotScript(const SceneAccuracy& scene, CostAxis axis) {
+std::string accuracyPlot(const SceneAccuracy& scene, CostAxis axis) {
     std::vector<Curve> curves;
     for (const CurveStyle& style : kCurveStyles) curves.push_back(curveOf(scene, style, axis));
-    return std::string(kPlotHeader) + kKey + axes(scene, axis) + ranges(scene, axis) + plotCommand(curves);
+    return plotScript(kKey + axes(scene, axis) + ranges(scene, axis), curves);
 }
 
 }  // namespace studies

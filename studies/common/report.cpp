@@ -10,14 +10,14 @@ std::string csvText(std::string_view text) {
     return quoted + '"';
 }
 
-const char* const kPlotHeader = R"(set terminal svg size 860,600 enhanced font "DejaVu Sans,15" background "white"
+std::string plotScript(const std::string& settings, const std::vector<Curve>& curves) {
+    constexpr const char* kHeader =
+        R"(set terminal svg size 860,600 enhanced font "DejaVu Sans,15" background "white"
 set logscale xy
 set grid xtics ytics mxtics mytics linewidth 1 linecolor rgb "#d9d9d9", linewidth 0.5 linecolor rgb "#eeeeee"
 set border linecolor rgb "#444444"
 set lmargin 11
 )";
-
-std::string plotCommand(const std::vector<Curve>& curves) {
     std::string data;
     std::string list;
     for (std::size_t k = 0; k < curves.size(); ++k) {
@@ -27,7 +27,7 @@ std::string plotCommand(const std::vector<Curve>& curves) {
                             curves[k].title);
     }
     // gnuplot refuses a plot command without curves.
-    return data + "plot " + (list.empty() ? "1 notitle linecolor rgb \"white\"" : list) + "\n";
+    return kHeader + settings + data + "plot " + (list.empty() ? "1 notitle linecolor rgb \"white\"" : list) + "\n";
 }
 
 }  // namespace studies

@@ -42,15 +42,12 @@ std::string csvFields(const Fields&... fields) {
 /// One curve of a plot.
 struct Curve {
     std::string title;
-    std::string style;       ///< gnuplot's "with ..." clause, without "with"
-    std::string points;      ///< a line "x y" or "x y label" for each point; an empty line interrupts the curve
-    std::string labelStyle;  ///< gnuplot's options for the labels; empty if the points have none
+    std::string style;        ///< gnuplot's "with ..." clause, without "with"
+    std::string points = "";  ///< a line "x y" for each point of the curve; an empty line interrupts the curve
 };
 
-/// The beginning of every script: SVG output, logarithmic axes, a grid, a border.
-extern const char* const kPlotHeader;
-
-/// A gnuplot plot command with the points as inline data. Curves without points are left out.
-std::string plotCommand(const std::vector<Curve>& curves);
+/// A gnuplot script that draws curves as SVG on logarithmic axes with a grid. Curves without points are left out.
+/// @param settings  gnuplot commands for the axes, the title and the key, each with a line end
+std::string plotScript(const std::string& settings, const std::vector<Curve>& curves);
 
 }  // namespace studies

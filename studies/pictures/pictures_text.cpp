@@ -28,7 +28,7 @@ std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& po
     std::vector<Curve> curves;
     for (const render::Style style : kStyles) {
         for (const render::Quality quality : kQualities) {
-            Curve curve{fmt::format("{}, {}", nameOf(style), nameOf(quality)), curveStyle(style, quality), "", ""};
+            Curve curve{fmt::format("{}, {}", nameOf(style), nameOf(quality)), curveStyle(style, quality)};
             for (const PictureRow& row : rows)
                 if (row.style == style && row.quality == quality && hasFirstSize(rows, row)) curve.points += point(row);
             curves.push_back(curve);
@@ -90,32 +90,30 @@ std::string smoothingCsv(const std::vector<SmoothingRow>& rows) {
 std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& smoothing) {
     std::vector<Curve> curves =
         curvesOf(rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw); });
-    Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2", "", ""};
+    Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2"};
     for (const PictureRow& row : rows)
         if (row.style == render::Style::spheres && row.quality == render::Quality::draft && hasFirstSize(rows, row))
             quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
     curves.push_back(quads);
-    Curve plain{"metaballs, normal, plain skin", "linespoints pointtype 4 linecolor rgb '#e69f00' dashtype 3", "", ""};
+    Curve plain{"metaballs, normal, plain skin", "linespoints pointtype 4 linecolor rgb '#e69f00' dashtype 3"};
     for (const SmoothingRow& row : smoothing)
         if (row.skin == render::Skin::plain) plain.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw);
     curves.push_back(plain);
-    return std::string(kPlotHeader) +
-           fmt::format(
-               "set xlabel \"particles\"\nset ylabel \"milliseconds a frame\"\n"
-               "set title \"A frame of {} x {}, drawn and read back\"\n"
-               "set key top left reverse Left samplen 2 font \",13\"\n",
-               rows.front().size.width, rows.front().size.height) +
-           plotCommand(curves);
+    return plotScript(fmt::format("set xlabel \"particles\"\nset ylabel \"milliseconds a frame\"\n"
+                                  "set title \"A frame of {} x {}, drawn and read back\"\n"
+                                  "set key top left reverse Left samplen 2 font \",13\"\n",
+                                  rows.front().size.width, rows.front().size.height),
+                      curves);
 }
 
 std::string pictureErrorsPlot(const std::vector<PictureRow>& rows) {
-    return std::string(kPlotHeader) +
-           "set xlabel \"milliseconds a frame\"\nset ylabel \"1 - SSIM\"\n"
-           "set title \"Error against the exact picture, and what it costs\"\n"
-           "set key top right samplen 2 font \",13\"\n" +
-           plotCommand(curvesOf(rows, [](const PictureRow& row) {
-               return fmt::format("{:.6g} {:.6g}\n", 1e3 * row.draw, 1.0 - row.error.ssim);
-           }));
+    return plotScript(
+        "set xlabel \"milliseconds a frame\"\nset ylabel \"1 - SSIM\"\n"
+        "set title \"Error against the exact picture, and what it costs\"\n"
+        "set key top right samplen 2 font \",13\"\n",
+        curvesOf(rows, [](const PictureRow& row) {
+            return fmt::format("{:.6g} {:.6g}\n", 1e3 * row.draw, 1.0 - row.error.ssim);
+        }));
 }
 
 }  // namespace studies

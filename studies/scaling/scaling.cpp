@@ -16,14 +16,21 @@
 
 namespace studies {
 
-const std::vector<PublishedRow> kTable2 = {{100, 2.3},    {1000, 11.9},  {1100, 21.7},  {1200, 124.5},
-                                           {1300, 436.4}, {1400, 494.9}, {1500, 569.5}, {2000, 627.4}};
-
 namespace {
 
 using engine::ForceMethod;
 using engine::Precision;
 using engine::Simulation;
+
+/// A row of Table 2: time per frame of the paper's program, which takes one step per frame.
+struct PublishedRow {
+    std::size_t particles = 0;
+    double milliseconds = 0.0;
+};
+
+/// Source: Cote 2024, Table 2 (GeForce RTX 4080, Ryzen 7 at 3.4 GHz).
+constexpr PublishedRow kTable2[] = {{100, 2.3},    {1000, 11.9},  {1100, 21.7},  {1200, 124.5},
+                                    {1300, 436.4}, {1400, 494.9}, {1500, 569.5}, {2000, 627.4}};
 
 /// The paper's step, s.
 constexpr double kStep = 0.01;
@@ -105,14 +112,6 @@ ScalingRow measureFrom(const std::string& subject, const Simulation& from, const
     return row;
 }
 
-void addFit(std::vector<ScalingFit>& fits, const std::string& subject, const std::string& method,
-            const std::vector<PowerLawPoint>& points) {
-    const std::optional<double> exponent = powerLawExponent(points);
-    if (!exponent) return;
-    const auto size = [](double particles) { return static_cast<std::size_t>(particles); };
-    fits.push_back({subject, method, size(points.front().x), size(points.back().x), *exponent});
-}
-
 /// Fits begin at these numbers of particles, from which on the times are powers of the number. Chosen: the work per
 /// step outweighs constant costs for every pair early, and for lists once they no longer fit the caches.
 constexpr std::size_t kPairsFrom = 1000;
@@ -174,20 +173,19 @@ std::vector<ScalingRow> measureCubes(const std::string& material, const ScalingS
 
 std::vector<ScalingFit> fitsOf(const std::vector<ScalingRow>& rows) {
     std::vector<ScalingFit> fits;
-    std::vector<PowerLawPoint> everyPair;
-    std::vector<PowerLawPoint> list;
-    std::vector<PowerLawPoint> inFloat;
-    for (const ScalingRow& row : rows) {
-        const auto particles = static_cast<double>(row.particles);
-        if (row.everyPair && row.particles >= kPairsFrom) everyPair.push_back({particles, *row.everyPair});
-        if (row.particles < kListsFrom) continue;
-        list.push_back({particles, row.list});
-        inFloat.push_back({particles, row.listInFloat});
-    }
-    const std::string subject = rows.empty() ? "" : rows.front().subject;
-    addFit(fits, subject, "every pair", everyPair);
-    addFit(fits, subject, "list", list);
-    addFit(fits, subject, "list in float", inFloat);
+    const auto addFit = [&](const char* method, std::size_t from, auto time) {
+        std::vector<PowerLawPoint> points;
+        for (const ScalingRow& row : rows)
+            if (const std::optional<double> seconds = row.*time; seconds && row.particles >= from)
+                points.push_back({static_cast<double>(row.particles), *seconds});
+        const std::optional<double> exponent = powerLawExponent(points);
+        if (!exponent) return;
+        const auto size = [](const PowerLawPoint& point) { return static_cast<std::size_t>(point.x); };
+        fits.push_back({rows.front().subject, method, size(points.front()), size(points.back()), *exponent});
+    };
+    addFit("every pair", kPairsFrom, &ScalingRow::everyPair);
+    addFit("list", kListsFrom, &ScalingRow::list);
+    addFit("list in float", kListsFrom, &ScalingRow::listInFloat);
     return fits;
 }
 
@@ -208,10 +206,10 @@ std::string fitsCsv(const std::vector<ScalingFit>& fits) {
 }
 
 std::string scalingPlot(const std::vector<ScalingRow>& rows) {
-    Curve published{"Table 2 (the paper's machine)", "lines linewidth 2 linecolor rgb '#7f7f7f' dashtype 2", "", ""};
-    Curve everyPair{"every pair, here", "linespoints pointtype 5 pointsize 0.7 linecolor rgb '#d62728'", "", ""};
-    Curve list{"neighbor lists", "linespoints pointtype 7 pointsize 0.8 linecolor rgb '#0072b2'", "", ""};
-    Curve inFloat{"neighbor lists in float", "linespoints pointtype 6 pointsize 1 linecolor rgb '#56b4e9'", "", ""};
+    Curve published{"Table 2 (the paper's machine)", "lines linewidth 2 linecolor rgb '#7f7f7f' dashtype 2"};
+    Curve everyPair{"every pair, here", "linespoints pointtype 5 pointsize 0.7 linecolor rgb '#d62728'"};
+    Curve list{"neighbor lists", "linespoints pointtype 7 pointsize 0.8 linecolor rgb '#0072b2'"};
+    Curve inFloat{"neighbor lists in float", "linespoints pointtype 6 pointsize 1 linecolor rgb '#56b4e9'"};
     std::string subject;
     for (const ScalingRow& row : rows) {
         // An empty line interrupts the curve between two scenes or materials.
@@ -223,7 +221,7 @@ std::string scalingPlot(const std::vector<ScalingRow>& rows) {
         addPoint(list, row, row.list);
         addPoint(inFloat, row, row.listInFloat);
     }
-    return std::string(kPlotHeader) + kAxes + plotCommand({published, everyPair, list, inFloat});
+    return plotScript(kAxes, {published, everyPair, list, inFloat});
 }
 
 }  // namespace studies

@@ -13,15 +13,6 @@
 
 namespace studies {
 
-/// A row of Table 2: time per frame of the paper's program, which takes one step per frame.
-struct PublishedRow {
-    std::size_t particles = 0;
-    double milliseconds = 0.0;
-};
-
-/// Source: Cote 2024, Table 2 (GeForce RTX 4080, Ryzen 7 at 3.4 GHz).
-extern const std::vector<PublishedRow> kTable2;
-
 /// Particles of LAMMPS' periodic cube, mean number of neighbors within its cutoff (about as many as in our cubes), and
 /// steps of the run that is timed.
 inline constexpr std::size_t kPeerParticles = 32000;
@@ -99,13 +90,11 @@ std::string lammpsError(const std::string& output);
 /// The speed of one force of LAMMPS.
 struct PeerRow {
     std::string name;
-    std::size_t particles = kPeerParticles;
-    double neighbors = kPeerNeighbors;
     double secondsPerStep = 0.0;
     double ratio = 0.0;         ///< our particle-steps per second over LAMMPS', in double precision
     double ratioInFloat = 0.0;  ///< the same ratio with our forces in single precision
 
-    double particleStepsPerSecond() const { return static_cast<double>(particles) / secondsPerStep; }
+    double particleStepsPerSecond() const { return kPeerParticles / secondsPerStep; }
 };
 
 }  // namespace studies

@@ -149,7 +149,7 @@ TEST_CASE("A run that blows up is reported as unstable", "[studies]") {
           std::string::npos);
     accuracy.rows.push_back(accuracy.rows[0]);
     accuracy.rows[1].resolved = true;  // so that the plot has a curve and a key
-    CHECK(studies::plotScript(accuracy, studies::CostAxis::forceEvaluations).find("symplectic-euler (2 failed)") !=
+    CHECK(studies::accuracyPlot(accuracy, studies::CostAxis::forceEvaluations).find("symplectic-euler (2 failed)") !=
           std::string::npos);
 }
 
@@ -259,7 +259,7 @@ TEST_CASE("The tables have a line for each row and a field for each column", "[s
 
 TEST_CASE("A plot has a curve for each stepper with resolved runs, and its title quoted", "[studies]") {
     SceneAccuracy accuracy = dozenStudied();
-    const std::string script = studies::plotScript(accuracy, studies::CostAxis::forceEvaluations);
+    const std::string script = studies::accuracyPlot(accuracy, studies::CostAxis::forceEvaluations);
     INFO(script);
     CHECK(script.find("it''s a dozen") != std::string::npos);
     CHECK(script.find("title \"velocity-verlet\"") != std::string::npos);
@@ -268,7 +268,7 @@ TEST_CASE("A plot has a curve for each stepper with resolved runs, and its title
             row.resolved = false;
             row.run.ending = studies::Ending::unstable;
         }
-    CHECK(studies::plotScript(accuracy, studies::CostAxis::seconds).find("velocity-verlet") == std::string::npos);
+    CHECK(studies::accuracyPlot(accuracy, studies::CostAxis::seconds).find("velocity-verlet") == std::string::npos);
 }
 
 TEST_CASE("A window that begins before the first birth is measured", "[studies]") {

@@ -160,8 +160,8 @@ void writeTables(const fs::path& folder, const std::vector<studies::SceneAccurac
 }
 
 AccuracySection sectionOf(const fs::path& folder, const studies::SceneAccuracy& accuracy) {
-    AccuracySection section{accuracy, drawPlot(studies::plotScript(accuracy, studies::CostAxis::seconds)),
-                            drawPlot(studies::plotScript(accuracy, studies::CostAxis::forceEvaluations))};
+    AccuracySection section{accuracy, drawPlot(studies::accuracyPlot(accuracy, studies::CostAxis::seconds)),
+                            drawPlot(studies::accuracyPlot(accuracy, studies::CostAxis::forceEvaluations))};
     writeFile(folder / (accuracy.name + "-seconds.svg"), section.secondsPlot);
     writeFile(folder / (accuracy.name + "-evaluations.svg"), section.evaluationsPlot);
     return section;

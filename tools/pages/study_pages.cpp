@@ -61,7 +61,8 @@ std::string accuracyText(const AccuracyRun& run) {
 std::string peerTable(const std::vector<studies::PeerRow>& peers) {
     std::vector<Cells> cells;
     for (const studies::PeerRow& row : peers)
-        cells.push_back({row.name, fmt::format("{}", row.particles), fmt::format("{:.1f}", row.neighbors),
+        cells.push_back({row.name, fmt::format("{}", studies::kPeerParticles),
+                         fmt::format("{:.1f}", studies::kPeerNeighbors),
                          fmt::format("{:.2f}", 1e-6 * row.particleStepsPerSecond()), fmt::format("{:.2f}", row.ratio),
                          fmt::format("{:.2f}", row.ratioInFloat)});
     return htmlTable({{"program and force", "particles", "neighbors", "million particle-steps a second",
