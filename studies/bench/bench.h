@@ -54,17 +54,12 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
 /// finds none.
 std::string benchRowsText();
 
-/// A scene and its name in the library.
-struct NamedScene {
-    std::string name;
-    scenes::Scene scene;
-};
-
 /// Two rows, kSimulateFrame and kDrawFrame: medians over the `rounds` frames that follow the scene's still, drawn with
 /// the scene's own appearance and size at normal quality. The hash is that of the last state.
 /// @param context  to draw with; without one the first row is the only one
 /// @throws engine::InstabilityError, render::SystemError
-std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* context, int rounds);
+std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& scene, render::Context* context,
+                                  int rounds);
 
 /// Multiplies and adds in registers, with as many lanes as the machine's vectors have, on the given number of threads.
 /// @param sink  receives a result, so that the compiler cannot drop the work

@@ -11,8 +11,8 @@
 
 namespace studies {
 
-std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* context, int rounds) {
-    const scenes::Scene& scene = subject.scene;
+std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& scene, render::Context* context,
+                                  int rounds) {
     engine::Simulation simulation = engine::start(scene.setup);
     int frame = scenes::stillFrame(scene);
     scenes::advanceToFrame(scene, simulation, frame);
@@ -26,14 +26,14 @@ std::vector<BenchRow> benchFrames(const NamedScene& subject, render::Context* co
     std::vector<double> drawn;
     for (int round = 0; round < rounds; ++round) {
         ++frame;
-        simulated.push_back(secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); }, 1));
+        simulated.push_back(secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); }));
         if (!renderer) continue;
         const render::View view = scenes::frameView(scene, simulation);
-        drawn.push_back(secondsOf([&] { renderer->draw(view); }, 1));
+        drawn.push_back(secondsOf([&] { renderer->draw(view); }));
     }
     BenchRow row;
     row.name = kSimulateFrame;
-    row.material = subject.name;
+    row.material = name;
     row.particles = simulation.particles.count();
     row.neighbors = meanNeighbors(scene.setup, simulation.particles);
     row.precision = scene.setup.precision;

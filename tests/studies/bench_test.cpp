@@ -57,8 +57,7 @@ TEST_CASE("bench computes the same hashes on any number of threads", "[bench]") 
 }
 
 TEST_CASE("bench simulates and draws whole frames of a scene, the same on any number of threads", "[bench]") {
-    const studies::NamedScene subject{"drop",
-                                      scenes::readScene(R"(
+    const scenes::Scene drop = scenes::readScene(R"(
 title = "drop"
 duration = 1.0
 fps = 30
@@ -74,14 +73,14 @@ radius = 0.6
 [[obstacle]]
 shape = "plane"
 )",
-                                                        "drop.toml", {"still.time=0.1", "look.size=[160, 90]"})};
+                                                 "drop.toml", {"still.time=0.1", "look.size=[160, 90]"});
     std::vector<std::string> hashes;
     for (const int threads : {1, 3}) {
         tbb::task_arena arena(threads);
         std::vector<BenchRow> rows;
         arena.execute([&] {
             render::Context context(render::Backend::osmesa);
-            rows = studies::benchFrames(subject, &context, 2);
+            rows = studies::benchFrames("drop", drop, &context, 2);
         });
         REQUIRE(rows.size() == 2);
         CHECK(rows[0].name == studies::kSimulateFrame);
@@ -97,7 +96,7 @@ shape = "plane"
         CHECK(rows[1].nanosecondsPerPair() == 0.0);
     }
     for (const std::string& hash : hashes) CHECK(hash == hashes.front());
-    const std::vector<BenchRow> undrawn = studies::benchFrames(subject, nullptr, 2);
+    const std::vector<BenchRow> undrawn = studies::benchFrames("drop", drop, nullptr, 2);
     REQUIRE(undrawn.size() == 1);
     CHECK(undrawn[0].stateHash == hashes.front());
 }

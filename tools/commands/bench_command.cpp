@@ -76,8 +76,9 @@ void benchFrames(const BenchOptions& options, int threads,
         const bool draws = settings.wants(studies::kDrawFrame, name);
         if (!draws && !settings.wants(studies::kSimulateFrame, name)) continue;
         if (draws && !context) context.emplace(openContext(backendOf(options.draw), threads));
-        const studies::NamedScene subject{name, scenes::loadScene(scenes::resolveScene(name, sceneFolders()), {})};
-        for (const studies::BenchRow& row : studies::benchFrames(subject, draws ? &*context : nullptr, settings.rounds))
+        const scenes::Scene scene = scenes::loadScene(scenes::resolveScene(name, sceneFolders()), {});
+        for (const studies::BenchRow& row :
+             studies::benchFrames(name, scene, draws ? &*context : nullptr, settings.rounds))
             if (settings.wants(row.name, name)) listener(row);
     }
 }
