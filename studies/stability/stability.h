@@ -2,7 +2,6 @@
 // with the scene's own, and the observable is compared with the limit. Called by `globular study stability`.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,19 +66,14 @@ CaseResult runCase(const CaseOptions& options);
 
 // The results as text: the rows of the table on the terminal and the page, and CSV.
 
-inline constexpr std::array kStabilityColumns = {"#",     "case",  "paper's stepper", "ours",  "observable",
-                                                 "value", "limit", "result",          "steps", "seconds"};
-
-using StabilityRow = std::array<std::string, kStabilityColumns.size()>;
+inline const std::vector<std::string> kStabilityColumns = {"#",     "case",  "paper's stepper", "ours",  "observable",
+                                                           "value", "limit", "result",          "steps", "seconds"};
 
 /// A case as a row of the table, by its worst variant for each of the two steppers.
-StabilityRow rowOf(const CaseResult& result);
+std::vector<std::string> rowOf(const CaseResult& result);
 
 /// For example "exploded at 0.12 s", "3.1: fails" or "0.002: passes".
 std::string outcomeText(const Outcome& outcome);
-
-/// For example "0.03", or "1.9 to 2.1".
-std::string limitText(const scenes::Study& study);
 
 /// A line for each variant that did not come out as it must; empty if all did.
 std::string stabilityProblems(const std::vector<CaseResult>& results);

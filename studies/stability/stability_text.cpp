@@ -18,6 +18,11 @@ std::string valueText(const Outcome& outcome) {
                            : fmt::format("{:.3g}", outcome.value);
 }
 
+/// For example "0.03", or "1.9 to 2.1".
+std::string limitText(const scenes::Study& study) {
+    return study.atLeast ? fmt::format("{:g} to {:g}", *study.atLeast, study.limit) : fmt::format("{:g}", study.limit);
+}
+
 /// An outcome as the fields of a CSV line.
 std::string csvOutcome(const Outcome& outcome) {
     const engine::StepStatistics& steps = outcome.steps;
@@ -44,16 +49,12 @@ std::string paperText(const VariantResult& worst, scenes::Observable rowObservab
 
 }  // namespace
 
-std::string limitText(const scenes::Study& study) {
-    return study.atLeast ? fmt::format("{:g} to {:g}", *study.atLeast, study.limit) : fmt::format("{:g}", study.limit);
-}
-
 std::string outcomeText(const Outcome& outcome) {
     if (outcome.failure) return valueText(outcome);
     return fmt::format("{}: {}", valueText(outcome), outcome.passes ? "passes" : "fails");
 }
 
-StabilityRow rowOf(const CaseResult& result) {
+std::vector<std::string> rowOf(const CaseResult& result) {
     const VariantResult& ours = worstOfOurs(result);
     const char* verdict = !oursPasses(result) ? "FAIL" : !paperIsAsExpected(result) ? "paper passes" : "pass";
     return {fmt::format("{}", result.study.number),

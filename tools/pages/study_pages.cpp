@@ -148,11 +148,8 @@ std::string scalingPage(const ScalingResults& results, const std::string& comman
 }
 
 Table stabilityTable(const std::vector<studies::CaseResult>& results) {
-    Table table{{studies::kStabilityColumns.begin(), studies::kStabilityColumns.end()}, {}};
-    for (const studies::CaseResult& result : results) {
-        const studies::StabilityRow row = studies::rowOf(result);
-        table.rows.emplace_back(row.begin(), row.end());
-    }
+    Table table{studies::kStabilityColumns, {}};
+    for (const studies::CaseResult& result : results) table.rows.push_back(studies::rowOf(result));
     return table;
 }
 
