@@ -23,14 +23,7 @@ Indices sortedWithoutDuplicates(Indices found) {
 
 }  // namespace
 
-BallGrid BallGrid::withoutCells(std::size_t ballCount) {
-    BallGrid grid;
-    grid.hasCells_ = false;
-    grid.ballCount_ = static_cast<std::uint32_t>(ballCount);
-    return grid;
-}
-
-BallGrid::BallGrid(const std::vector<Extent>& balls) : ballCount_(static_cast<std::uint32_t>(balls.size())) {
+BallGrid::BallGrid(const std::vector<Extent>& balls) {
     if (balls.empty()) return;
     dvec3 high(-kInfinity);
     low_ = dvec3(kInfinity);
@@ -42,7 +35,7 @@ BallGrid::BallGrid(const std::vector<Extent>& balls) : ballCount_(static_cast<st
     }
     const dvec3 extent = high - low_;
     // Cells are as wide as the mean ball, but there are at most 129 of them along an axis. Chosen for speed.
-    cellSize_ = std::max({2.0 * sum / ballCount_, std::max({extent.x, extent.y, extent.z}) / 128.0, 1e-9});
+    cellSize_ = std::max({2.0 * sum / static_cast<double>(balls.size()), std::max({extent.x, extent.y, extent.z}) / 128.0, 1e-9});
     for (std::size_t axis = 0; axis < 3; ++axis)
         cellCounts_[axis] = static_cast<int>(extent[static_cast<int>(axis)] / cellSize_) + 1;
     begin_.assign(cellIndex({0, 0, cellCounts_[2]}) + 1, 0);
@@ -51,7 +44,7 @@ BallGrid::BallGrid(const std::vector<Extent>& balls) : ballCount_(static_cast<st
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     lists_.resize(begin_.back());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t k = 0; k < ballCount_; ++k)
+    for (std::uint32_t k = 0; k < balls.size(); ++k)
         forCells(balls[k].center, safeRadius(balls[k]), [&](std::size_t cell) { lists_[next[cell]++] = k; });
 }
 
@@ -80,12 +73,7 @@ void BallGrid::forCells(const dvec3& point, double halfSide, const Visit& visit)
 
 Indices BallGrid::along(const Ray& ray) const {
     Indices found;
-    if (!hasCells_) {
-        found.resize(ballCount_);
-        std::iota(found.begin(), found.end(), 0U);
-        return found;
-    }
-    if (ballCount_ == 0) return found;
+    if (lists_.empty()) return found;
     const BoxInterval inside =
         boxInterval(ray, low_, low_ + cellSize_ * dvec3(cellCounts_[0], cellCounts_[1], cellCounts_[2]));
     const double enter = std::max(inside.enter, 0.0);

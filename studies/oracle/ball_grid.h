@@ -27,19 +27,14 @@ class BallGrid {
  public:
     explicit BallGrid(const std::vector<Extent>& balls);
 
-    /// A grid without cells, which returns every ball for every ray.
-    static BallGrid withoutCells(std::size_t ballCount);
-
     /// All balls that the ray may cross, and perhaps others.
     Indices along(const Ray& ray) const;
     /// All balls that may reach into a cube around a point, and perhaps others.
-    /// @pre the grid has cells
     Indices within(const dvec3& point, double halfSide) const;
 
  private:
     using Cell = std::array<int, 3>;
 
-    BallGrid() = default;
     std::size_t cellIndex(const Cell& cell) const;
     /// The cell of a coordinate along an axis, or the nearest cell of the grid.
     int cellAlong(std::size_t axis, double coordinate) const;
@@ -47,8 +42,6 @@ class BallGrid {
     template <typename Visit>
     void forCells(const dvec3& point, double halfSide, const Visit& visit) const;
 
-    bool hasCells_ = true;
-    std::uint32_t ballCount_ = 0;
     dvec3 low_{0.0};
     double cellSize_ = 1.0;                   ///< m
     std::array<int, 3> cellCounts_{0, 0, 0};  ///< along each axis

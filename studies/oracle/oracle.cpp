@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -136,7 +137,7 @@ void keepNearer(Hit& best, Hit candidate, Hit::Kind kind, const glm::vec3& color
 Hit traceCasters(const Scene& scene, const Ray& ray) {
     const render::View& view = scene.view;
     Hit best;
-    const Indices near = scene.grid.along(ray);
+    const Indices near = scene.ballsAlong(ray);
     if (view.style == render::Style::metaballs) {
         keepNearer(best, hitField(scene, near, ray));
     } else {
@@ -229,8 +230,7 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
 
 }  // namespace
 
-Scene::Scene(const render::View& view_, bool bruteForce)
-    : view(view_), balls(ballsOf(view_)), grid(BallGrid::withoutCells(view_.particles.size())), sky(view_) {
+Scene::Scene(const render::View& view_, bool bruteForce) : view(view_), balls(ballsOf(view_)), sky(view_) {
     if (bruteForce) return;
     std::vector<Extent> extents;
     for (std::size_t k = 0; k < balls.size(); ++k) {
@@ -238,7 +238,14 @@ Scene::Scene(const render::View& view_, bool bruteForce)
         const double sphere = double(view.particles[k].radius) * (1.0 + 0.5 * double(view.light.softness));
         extents.push_back({balls[k].center, view.style == render::Style::metaballs ? balls[k].reach : sphere});
     }
-    grid = BallGrid(extents);
+    grid.emplace(extents);
+}
+
+Indices Scene::ballsAlong(const Ray& ray) const {
+    if (grid) return grid->along(ray);
+    Indices all(balls.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
 }
 
 std::vector<Ball> ballsOf(const render::View& view) {
@@ -332,14 +339,14 @@ double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& norm
     const ShadedPoint shaded{point, normal, unitToLight(view), double(view.light.softness)};
     double cover = 0.0;
     if (view.style == render::Style::spheres) {
-        for (const std::uint32_t k : scene.grid.along({point, shaded.toLight}))
+        for (const std::uint32_t k : scene.ballsAlong({point, shaded.toLight}))
             cover += coverOfSphere(shaded, dvec3(view.particles[k].center), double(view.particles[k].radius));
     } else {
         double met = 0.0;
         const std::vector<dvec3> origins = fieldShadowOrigins(shaded, meanRadius(view));
         for (const dvec3& origin : origins) {
             const Ray ray{origin, shaded.toLight};
-            met += firstFieldDistance(scene, scene.grid.along(ray), ray) < kInfinity ? 1.0 : 0.0;
+            met += firstFieldDistance(scene, scene.ballsAlong(ray), ray) < kInfinity ? 1.0 : 0.0;
         }
         cover += met / static_cast<double>(origins.size());
     }

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -41,8 +42,11 @@ struct Scene {
 
     const render::View& view;
     std::vector<Ball> balls;
-    BallGrid grid;
+    std::optional<BallGrid> grid;  ///< empty: every ball is tried for every ray
     SkyVisibility sky;
+
+    /// All balls that the ray may cross, and perhaps others.
+    Indices ballsAlong(const Ray& ray) const;
 };
 
 /// A part of a picture, whose top left pixel is (x, y).

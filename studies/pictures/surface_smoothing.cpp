@@ -33,7 +33,7 @@ Box boxAround(const oracle::Scene& scene) {
 
 /// Number of samples inside the surface along a vertical line.
 long insideAlong(const oracle::Scene& scene, const Box& box, double x, double z, double step) {
-    const oracle::Indices near = scene.grid.along({{x, box.high.y, z}, {0.0, -1.0, 0.0}});
+    const oracle::Indices near = scene.ballsAlong({{x, box.high.y, z}, {0.0, -1.0, 0.0}});
     const double threshold = oracle::fieldThreshold(scene.view);
     long inside = 0;
     if (near.empty()) return inside;

@@ -55,7 +55,7 @@ TEST_CASE("The oracle finds the same hits with its grid as without", "[pictures]
             REQUIRE(hit.distance == expected.distance);
             REQUIRE(hit.normal == expected.normal);
             hits += expected.kind == oracle::Hit::Kind::particle ? 1 : 0;
-            most = std::max(most, scene.grid.along(ray).size());
+            most = std::max(most, scene.ballsAlong(ray).size());
         }
         CHECK(hits > 50);
         CHECK(most < 750);  // of 1500: most are left out
