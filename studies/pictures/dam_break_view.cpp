@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/core/random.h"
+
 namespace studies {
 namespace {
 
@@ -13,20 +15,19 @@ constexpr double kLength = 11.0;   // m, of the tank
 constexpr double kDepth = 3.6;     // m, of the tank
 constexpr double kSplash = 0.025;  // share of the particles that are in the air
 
-/// Pseudorandom numbers: the finalizer of SplitMix64 applied to a counter.
+/// The pseudorandom numbers of SplitMix64 with the seed 0.
 class Random {
  public:
     /// Uniform in [0, 1).
     double next() {
-        std::uint64_t z = (counter_ += 0x9e3779b97f4a7c15ULL);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+        const std::uint64_t bits = engine::scatter(state_);
+        state_ += 0x9e3779b97f4a7c15ULL;
+        return static_cast<double>(bits >> 11) * 0x1p-53;
     }
     double between(double low, double high) { return low + (high - low) * next(); }
 
  private:
-    std::uint64_t counter_ = 0;
+    std::uint64_t state_ = 0;
 };
 
 /// Height of the liquid, m: high on the left, a slope, low on the right, a small rise at the far wall.

@@ -21,9 +21,9 @@ render::View shifted(render::View view, const FlickerSettings& settings, int fra
     return view;
 }
 
-/// Change and jerk of successive pictures. The other fields of the row are left to the caller.
-FlickerRow flickerOf(const std::vector<render::Image>& frames) {
-    FlickerRow row;
+/// Change and jerk of successive pictures of a subject.
+FlickerRow flickerOf(const PictureSubject& subject, const std::vector<render::Image>& frames) {
+    FlickerRow row{subject};
     const auto count = static_cast<double>(frames.front().rgb.size());
     for (std::size_t k = 1; k < frames.size(); ++k) {
         double changes = 0.0;
@@ -43,22 +43,16 @@ FlickerRow flickerOf(const std::vector<render::Image>& frames) {
 }  // namespace
 
 std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const RowsListener<FlickerRow>& listener) {
-    render::Context context(settings.backend);
+    render::Context context(render::Backend::osmesa);
     std::vector<FlickerRow> rows;
-    for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
+    for (const render::Style style : kStyles) {
         const render::View view = damBreakView(settings.particles, style);
-        for (const render::Quality quality :
-             {render::Quality::draft, render::Quality::normal, render::Quality::final}) {
+        for (const render::Quality quality : kQualities) {
             render::Renderer renderer(context, settings.size, quality);
             std::vector<render::Image> frames;
             for (int frame = 0; frame < settings.frames; ++frame)
                 frames.push_back(renderer.draw(shifted(view, settings, frame)));
-            FlickerRow row = flickerOf(frames);
-            row.style = style;
-            row.particles = settings.particles;
-            row.size = settings.size;
-            row.quality = quality;
-            rows.push_back(row);
+            rows.push_back(flickerOf({style, settings.particles, settings.size, quality}, frames));
             listener(rows);
         }
     }

@@ -22,8 +22,6 @@ namespace studies {
 namespace {
 
 using render::DrawTimes;
-using render::Quality;
-using render::Style;
 
 /// Frames in which the particles move to the right before a camera at rest.
 std::vector<render::View> framesAtRest(const render::View& view, int count) {
@@ -119,14 +117,6 @@ std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const ren
     return windows;
 }
 
-/// A combination of style, number of particles and size, which is measured in every quality.
-struct Subject {
-    Style style;
-    std::size_t particles;
-    render::PictureSize size;
-    const render::View& fewest;  ///< the view with the smallest number of particles in the study
-};
-
 /// Median times over some frames, s.
 struct DrawingTimes {
     double baseline = 0.0;
@@ -155,54 +145,51 @@ DrawingTimes measureDrawing(QuadBaseline& quads, render::Renderer& renderer, con
     return {median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline), median(draw), medianStages(times)};
 }
 
-PictureRow measureQuality(const PictureSettings& settings, render::Context& context, const Subject& subject,
-                          Quality quality, const std::vector<render::View>& frames) {
-    PictureRow row;
-    row.style = subject.style;
-    row.particles = subject.particles;
-    row.size = subject.size;
-    row.quality = quality;
-    render::Renderer renderer(context, subject.size, quality);
+/// What is drawn to time the pictures of one style and one number of particles.
+struct TimedViews {
+    std::vector<render::View> frames;  ///< the camera moves from frame to frame
+    const render::View& fewest;        ///< the view with the smallest number of particles in the study
+};
+
+/// Measures all times of a row, whose subject is set.
+void measureTimes(const PictureSettings& settings, render::Context& context, const TimedViews& views, PictureRow& row) {
+    render::Renderer renderer(context, row.size, row.quality);
     {
-        QuadBaseline quads(context, subject.size);
-        const DrawingTimes moving = measureDrawing(quads, renderer, frames, &subject.fewest);
+        QuadBaseline quads(context, row.size);
+        const DrawingTimes moving = measureDrawing(quads, renderer, views.frames, &views.fewest);
         row.baseline = moving.baseline;
         row.fewestBaseline = moving.fewestBaseline;
         row.draw = moving.draw;
         row.stages = moving.stages;
-        const DrawingTimes resting = measureDrawing(quads, renderer, framesAtRest(frames.front(), settings.frames));
+        const DrawingTimes resting =
+            measureDrawing(quads, renderer, framesAtRest(views.frames.front(), settings.frames));
         row.atRestBaseline = resting.baseline;
         row.atRest = resting.draw;
     }
-    measureEncoding(settings, frames, renderer, row);
-    return row;
-}
-
-void measureSubject(const PictureSettings& settings, render::Context& context, const Subject& subject,
-                    const RowsListener<PictureRow>& listener, std::vector<PictureRow>& rows) {
-    const render::View view = damBreakView(subject.particles, subject.style);
-    const std::vector<render::View> frames = framesOf(view, settings.frames);
-    const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
-    for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
-        PictureRow row = measureQuality(settings, context, subject, quality, frames);
-        render::Renderer renderer(context, subject.size, quality);
-        row.error = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
-        rows.push_back(row);
-        listener(rows);
-    }
+    measureEncoding(settings, views.frames, renderer, row);
 }
 
 }  // namespace
 
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, const RowsListener<PictureRow>& listener) {
-    render::Context context(settings.backend);
+    render::Context context(render::Backend::osmesa);
     std::vector<PictureRow> rows;
-    if (settings.particles.empty()) return rows;
-    for (const Style style : {Style::spheres, Style::metaballs}) {
+    for (const render::Style style : kStyles) {
         const render::View fewest = damBreakView(std::ranges::min(settings.particles), style);
         for (const render::PictureSize size : settings.sizes)
-            for (const std::size_t particles : settings.particles)
-                measureSubject(settings, context, {style, particles, size, fewest}, listener, rows);
+            for (const std::size_t particles : settings.particles) {
+                const render::View view = damBreakView(particles, style);
+                const TimedViews views{framesOf(view, settings.frames), fewest};
+                const std::vector<ExactWindow> exact = exactWindows(settings, view, size);
+                for (const render::Quality quality : kQualities) {
+                    PictureRow row{{style, particles, size, quality}};
+                    measureTimes(settings, context, views, row);
+                    render::Renderer renderer(context, size, quality);
+                    row.error = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
+                    rows.push_back(row);
+                    listener(rows);
+                }
+            }
     }
     return rows;
 }

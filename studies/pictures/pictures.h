@@ -43,24 +43,32 @@ struct ExactWindow {
 PictureError errorOf(const render::Image& image, std::span<const render::VisiblePoint> surfaces,
                      const render::View& view, std::span<const ExactWindow> exact);
 
-/// The measurements for one style, number of particles, size and quality. All times are in seconds.
-struct PictureRow {
+inline constexpr render::Style kStyles[] = {render::Style::spheres, render::Style::metaballs};
+inline constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal,
+                                                 render::Quality::final};
+
+/// A picture of the dam break that is measured.
+struct PictureSubject {
     render::Style style = render::Style::spheres;
     std::size_t particles = 0;
-    render::PictureSize size;
+    render::PictureSize size{0, 0};
     render::Quality quality = render::Quality::normal;
-    render::DrawTimes stages;     ///< medians over the frames
-    double png = 0.0;             ///< encoding a frame as PNG
-    double mp4 = 0.0;             ///< encoding a frame of a video
-    double mp4Once = 0.0;         ///< what a video takes besides its frames
-    double draw = 0.0;            ///< drawing a frame and reading it back, the camera moving; median
-    double atRest = 0.0;          ///< drawing a frame and reading it back, the particles moving before a still camera
-    double atRestBaseline = 0.0;  ///< the baseline for the frames of atRest
-    double withPng = 0.0;         ///< per frame, if one is encoded while the next is drawn
-    double withMp4 = 0.0;         ///< per frame, if one is encoded while the next is drawn
-    double baseline = 0.0;        ///< QuadBaseline for the frames of draw, drawn by turns with them; median
-    double fewestBaseline = 0.0;  ///< QuadBaseline for the smallest number of particles in the study
-    PictureError error;
+};
+
+/// The measurements of one picture. All times are in seconds.
+struct PictureRow : PictureSubject {
+    render::DrawTimes stages = {};  ///< medians over the frames
+    double png = 0.0;               ///< encoding a frame as PNG
+    double mp4 = 0.0;               ///< encoding a frame of a video
+    double mp4Once = 0.0;           ///< what a video takes besides its frames
+    double draw = 0.0;              ///< drawing a frame and reading it back, the camera moving; median
+    double atRest = 0.0;            ///< drawing a frame and reading it back, the particles moving before a still camera
+    double atRestBaseline = 0.0;    ///< the baseline for the frames of atRest
+    double withPng = 0.0;           ///< per frame, if one is encoded while the next is drawn
+    double withMp4 = 0.0;           ///< per frame, if one is encoded while the next is drawn
+    double baseline = 0.0;          ///< QuadBaseline for the frames of draw, drawn by turns with them; median
+    double fewestBaseline = 0.0;    ///< QuadBaseline for the smallest number of particles in the study
+    PictureError error = {};
 
     double ratio() const { return draw / baseline; }
     double ratioToFewest() const { return draw / fewestBaseline; }
@@ -68,7 +76,7 @@ struct PictureRow {
 };
 
 struct PictureSettings {
-    std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};
+    std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};  ///< at least one number
     std::vector<render::PictureSize> sizes = {{1280, 720}, {1920, 1080}};
     int frames = 11;         ///< that medians are taken of
     int encodedFrames = 20;  ///< of the runs with encoding
@@ -77,7 +85,6 @@ struct PictureSettings {
     int windowSide = 32;     ///< pixels
     int samplesPerAxis = 4;  ///< of a pixel of the exact picture
     std::string videoPath;   ///< of the video that encoding is timed with; overwritten
-    render::Backend backend = render::Backend::osmesa;
 };
 
 /// Called with all rows so far after each new row.
@@ -90,11 +97,7 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, const R
 
 /// How steady pictures of a still scene are while the camera moves slowly. With I_k the picture of frame k, in steps of
 /// an 8-bit channel:
-struct FlickerRow {
-    render::Style style = render::Style::spheres;
-    std::size_t particles = 0;
-    render::PictureSize size{0, 0};
-    render::Quality quality = render::Quality::normal;
+struct FlickerRow : PictureSubject {
     double change = 0.0;  ///< mean over the frames of the RMS of I_(k+1) - I_k, which contains the motion
     double jerk = 0.0;    ///< mean over the frames of the RMS of I_(k+1) - 2 I_k + I_(k-1), which is small for a motion
 };
@@ -104,7 +107,6 @@ struct FlickerSettings {
     render::PictureSize size{640, 360};
     int frames = 8;                 ///< at least 3
     double pixelsPerFrame = 0.125;  ///< motion of the center of the picture
-    render::Backend backend = render::Backend::osmesa;
 };
 
 /// Measures every style and quality.
@@ -126,7 +128,6 @@ struct SmoothingSettings {
     render::PictureSize size{1280, 720};
     int frames = 7;         ///< that medians are taken of
     double spacing = 0.25;  ///< of the points that volumes are sampled at, mean radii
-    render::Backend backend = render::Backend::osmesa;
 };
 
 /// Measures surfaces without and with smoothing, for each number of particles.

@@ -7,9 +7,6 @@
 namespace studies {
 namespace {
 
-constexpr render::Style kStyles[] = {render::Style::spheres, render::Style::metaballs};
-constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal, render::Quality::final};
-
 /// gnuplot's style of a curve: the color shows the style, the point type the quality.
 std::string curveStyle(render::Style style, render::Quality quality) {
     const char* color = style == render::Style::spheres ? "#0072b2" : "#d55e00";
@@ -37,6 +34,12 @@ std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& po
     return curves;
 }
 
+/// The fields of a CSV line that say what was measured.
+std::string subjectFields(const PictureSubject& subject) {
+    return csvFields(nameOf(subject.style), subject.particles, subject.size.width, subject.size.height,
+                     nameOf(subject.quality));
+}
+
 }  // namespace
 
 const char* nameOf(render::Style style) {
@@ -58,7 +61,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
         "fewest_baseline_ms,ratio,ratio_at_rest,ratio_to_fewest,rmse,ssim,wrong_hits,depth_error_radii,"
         "normal_error_degrees\n";
     for (const PictureRow& row : rows) {
-        csv += csvFields(nameOf(row.style), row.particles, row.size.width, row.size.height, nameOf(row.quality));
+        csv += subjectFields(row);
         for (const double seconds :
              {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.color,
               row.stages.openGl, row.stages.readBack, row.png, row.mp4, row.mp4Once, row.draw, row.atRest, row.withPng,
@@ -73,10 +76,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
 
 std::string flickerCsv(const std::vector<FlickerRow>& rows) {
     std::string csv = "style,particles,width,height,quality,change,jerk\n";
-    for (const FlickerRow& row : rows)
-        csv += csvFields(nameOf(row.style), row.particles, row.size.width, row.size.height, nameOf(row.quality),
-                         row.change, row.jerk) +
-               "\n";
+    for (const FlickerRow& row : rows) csv += subjectFields(row) + "," + csvFields(row.change, row.jerk) + "\n";
     return csv;
 }
 

@@ -83,13 +83,6 @@ double bumpsOf(render::Renderer& renderer, const render::View& pool) {
     return std::sqrt(squares / static_cast<double>(std::max(hits, 1L))) * 180.0 / std::numbers::pi;
 }
 
-/// A single particle with a radius of 1 m.
-render::View loneView(const render::View& appearance) {
-    render::View view = appearance;
-    view.particles = {{glm::vec3(0.0F), 1.0F, glm::vec3(0.8F)}};
-    return view;
-}
-
 /// The columns of a row that do not depend on the number of particles.
 SmoothingRow shapeOf(const SmoothingSettings& settings, render::Context& context, render::Skin skin) {
     SmoothingRow row;
@@ -98,8 +91,8 @@ SmoothingRow shapeOf(const SmoothingSettings& settings, render::Context& context
     view.field.skin = skin;
     const render::View pool = levelPool(view);
     row.volume = fieldVolume(pool, settings.spacing) / kPoolVolume;
-    const render::View lone = loneView(view);
-    row.lone = fieldVolume(lone, 0.2 * settings.spacing) / (4.0 / 3.0 * std::numbers::pi);
+    view.particles = {{glm::vec3(0.0F), 1.0F, glm::vec3(0.8F)}};  // a single one with a radius of 1 m
+    row.lone = fieldVolume(view, 0.2 * settings.spacing) / (4.0 / 3.0 * std::numbers::pi);
     // At final quality a ray is cast for every pixel; otherwise some normals are interpolated.
     render::Renderer renderer(context, settings.size, render::Quality::final);
     row.bumps = bumpsOf(renderer, pool);
@@ -138,7 +131,7 @@ double fieldVolume(const render::View& view, double spacing) {
 
 std::vector<SmoothingRow> measureSmoothing(const SmoothingSettings& settings,
                                            const RowsListener<SmoothingRow>& listener) {
-    render::Context context(settings.backend);
+    render::Context context(render::Backend::osmesa);
     std::vector<SmoothingRow> rows;
     for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
         SmoothingRow row = shapeOf(settings, context, skin);
