@@ -1,6 +1,4 @@
 // Builds the particles that exist from the start: [[body]].
-#include <fmt/format.h>
-
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -49,8 +47,8 @@ void checkPoints(Section& section, BuildContext& context) {
     const std::size_t expected = section.vectors("positions").size();
     const std::size_t found = section.vectors("velocities").size();
     if (found != expected)
-        report(section, "velocities",
-               fmt::format("velocities has {} entries, must have {} like positions", found, expected), context);
+        report(section, "velocities", context, "velocities has {} entries, must have {} like positions", found,
+               expected);
 }
 
 engine::Packing packingOf(const Body& body, const BuildContext& context) {
@@ -133,11 +131,9 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
             if (file.hasMaterial && !section.has("material") &&
                 file.particles.material[index] >= body.materials.list.size())
                 return report(
-                    section, "file",
-                    fmt::format(
-                        "{}: particle {} is of material {}, the scene has {} (counted from 0); name one with material",
-                        path, index, file.particles.material[index], body.materials.list.size()),
-                    context);
+                    section, "file", context,
+                    "{}: particle {} is of material {}, the scene has {} (counted from 0); name one with material",
+                    path, index, file.particles.material[index], body.materials.list.size());
             appendFileParticle(body, file, index, particles);
         }
     } catch (const InputError& error) {

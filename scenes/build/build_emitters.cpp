@@ -1,6 +1,4 @@
 // Builds emitters, with their points of emission and their schedules: [[emitter]].
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -25,10 +23,8 @@ void checkSchedule(Section& section, BuildContext& context) {
         !section.isGiven("rate"))
         reportMissing(section, "interval", context);
     if (section.has("start") && section.has("until") && section.number("until") <= section.number("start"))
-        report(section, "until",
-               fmt::format("until is {}, must be after start, {} (seconds)", section.canonical("until"),
-                           section.canonical("start")),
-               context);
+        report(section, "until", context, "until is {}, must be after start, {} (seconds)", section.canonical("until"),
+               section.canonical("start"));
 }
 
 /// The unit normal of a disc: the given direction, or that of the velocity.
@@ -36,7 +32,7 @@ std::optional<Vec3> discNormal(Section& section, BuildContext& context) {
     if (section.has("direction")) return directionFrom(section, "direction", context);
     if (section.isGiven("direction") || !section.has("velocity")) return std::nullopt;
     const auto normal = unitVector(section.vector("velocity"));
-    if (!normal) report(section, "direction", "direction is missing, a disc whose velocity is zero needs it", context);
+    if (!normal) report(section, "direction", context, "direction is missing, a disc whose velocity is zero needs it");
     if (normal) section.derive("direction", TypedValue::ofVector(*normal));
     return normal;
 }
@@ -45,10 +41,8 @@ std::optional<Vec3> discNormal(Section& section, BuildContext& context) {
 std::vector<Vec3> discSitesOf(Section& section, const Vec3& normal, BuildContext& context) {
     const double across = 2.0 * section.number("radius") / section.number("spacing") + 1.0;
     if (across * across > context.limits.particles) {
-        report(section, "spacing",
-               fmt::format("the disc would have about {:.2g} points of emission, {}", across * across,
-                           allowedText("particles", context.limits.particles)),
-               context);
+        report(section, "spacing", context, "the disc would have about {:.2g} points of emission, {}", across * across,
+               allowedText("particles", context.limits.particles));
         return {};
     }
     return engine::discSites(section.vector("position"), normal, section.number("radius"), section.number("spacing"));

@@ -1,6 +1,4 @@
 // Builds materials: a preset, with the values that the scene gives instead of the preset's: [material].
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -60,8 +58,7 @@ void completeMaterial(Section& section) {
 void checkName(Section& section, const Materials& previous, BuildContext& context) {
     for (const engine::Material& material : previous.list)
         if (material.name == section.string("name"))
-            report(section, "name", fmt::format("there are two materials with the name {}", tomlString(material.name)),
-                   context);
+            report(section, "name", context, "there are two materials with the name {}", tomlString(material.name));
 }
 
 }  // namespace

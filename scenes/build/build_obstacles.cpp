@@ -1,6 +1,4 @@
 // Builds obstacles, and how they are drawn: [[obstacle]].
-#include <fmt/format.h>
-
 #include "scenes/build/builders.h"
 
 namespace scenes {
@@ -16,8 +14,8 @@ void completeCorners(Section& section, BuildContext& context) {
     const bool hasCorners = section.isGiven("minimum") || section.isGiven("maximum");
     const bool hasCenter = section.isGiven("center") || section.isGiven("size");
     if (hasCorners && hasCenter)
-        return report(section, section.isGiven("size") ? "size" : "center",
-                      "give either minimum and maximum, or center and size", context);
+        return report(section, section.isGiven("size") ? "size" : "center", context,
+                      "give either minimum and maximum, or center and size");
     for (const char* name : {hasCenter ? "center" : "minimum", hasCenter ? "size" : "maximum"})
         if (!section.isGiven(name)) reportMissing(section, name, context);
     if (!section.isValid()) return;

@@ -1,6 +1,4 @@
 // Builds what is drawn: [camera], or the [[camera]] list that makes a path, [look] and [overlay].
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -19,9 +17,9 @@ constexpr double kParallel = 1e-12;
 void checkCamera(Section& section, BuildContext& context) {
     const auto forward = unitVector(section.vector("target") - section.vector("eye"));
     const auto up = directionFrom(section, "up", context);
-    if (!forward) report(section, "target", "target is where eye is, must be another point", context);
+    if (!forward) report(section, "target", context, "target is where eye is, must be another point");
     if (forward && up && engine::squaredLength(forward->cross(*up)) < kParallel)
-        report(section, "up", "up lies along the direction of view, must point across it", context);
+        report(section, "up", context, "up lies along the direction of view, must point across it");
 }
 
 /// Checks what concerns several cameras together: times must increase, and the projection cannot change, because there
@@ -32,15 +30,11 @@ void checkPath(std::vector<Section>& sections, BuildContext& context) {
         if (!section.isGiven("time")) reportMissing(section, "time", context);
         if (previous != nullptr && previous->has("time") && section.has("time") &&
             section.number("time") <= previous->number("time"))
-            report(section, "time",
-                   fmt::format("time is {}, must be after that of the camera before, {} (seconds)",
-                               section.canonical("time"), previous->canonical("time")),
-                   context);
+            report(section, "time", context, "time is {}, must be after that of the camera before, {} (seconds)",
+                   section.canonical("time"), previous->canonical("time"));
         if (previous != nullptr && section.string("projection") != previous->string("projection"))
-            report(section, "projection",
-                   fmt::format("projection is {}, must stay {} along the path", section.canonical("projection"),
-                               previous->canonical("projection")),
-                   context);
+            report(section, "projection", context, "projection is {}, must stay {} along the path",
+                   section.canonical("projection"), previous->canonical("projection"));
         previous = &section;
     }
 }
@@ -136,11 +130,10 @@ void checkScaleBar(Section& section, const Section& look, const CameraPath& came
     for (const CameraKey& key : camera.keys) {
         const double share = widthShare(section.number("scale_bar"), key.placement, look);
         if (share <= kMaxShare) continue;
-        report(section, "scale_bar",
-               fmt::format("scale_bar is {}, {:.2g} of the picture's width at the camera's target, must be at most {} "
-                           "of it (meters)",
-                           section.canonical("scale_bar"), share, kMaxShare),
-               context);
+        report(section, "scale_bar", context,
+               "scale_bar is {}, {:.2g} of the picture's width at the camera's target, must be at most {} "
+               "of it (meters)",
+               section.canonical("scale_bar"), share, kMaxShare);
         return;
     }
 }
@@ -185,9 +178,8 @@ Look buildLook(Section& section, BuildContext& context) {
 Overlay buildOverlay(Section& section, const Section& look, const CameraPath& camera, BuildContext& context) {
     const bool isByMaterial = look.string("color_by") == "material";
     if (look.isValid() && isByMaterial && section.boolean("color_bar"))
-        report(section, "color_bar",
-               "color_bar is true, but colors by material have no scale; it needs look.color_by \"speed\" or \"age\"",
-               context);
+        report(section, "color_bar", context,
+               "color_bar is true, but colors by material have no scale; it needs look.color_by \"speed\" or \"age\"");
     if (section.number("scale_bar") > 0.0) checkScaleBar(section, look, camera, context);
     if (!isByMaterial) section.derive("color_label", TypedValue::ofString(look.string("color_by")));
     section.derive("ink", TypedValue::ofVector(contrastingInk(look)));

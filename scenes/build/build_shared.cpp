@@ -8,11 +8,6 @@
 
 namespace scenes {
 
-void report(Section& section, std::string_view name, const std::string& message, BuildContext& context) {
-    section.markInvalid();
-    context.problems.add(section.position(name), message);
-}
-
 void reportMissing(Section& section, std::string_view name, BuildContext& context) {
     section.markInvalid();
     if (!context.hasOmissions)
@@ -22,7 +17,7 @@ void reportMissing(Section& section, std::string_view name, BuildContext& contex
 bool reportConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context) {
     if (!section.isGiven(one) || !section.isGiven(other)) return false;
     const std::string_view later = section.position(other) < section.position(one) ? one : other;
-    report(section, later, fmt::format("{} and {} exclude each other, give one", one, other), context);
+    report(section, later, context, "{} and {} exclude each other, give one", one, other);
     return true;
 }
 
@@ -34,9 +29,8 @@ void addExpectedParticles(Section& section, std::string_view name, double partic
     const std::string together = context.expectedParticles > particles
                                      ? fmt::format(", {:.2g} with those before", context.expectedParticles)
                                      : "";
-    report(section, name,
-           fmt::format("{} about {:.2g} particles{}, {}", what, particles, together, allowedText("particles", most)),
-           context);
+    report(section, name, context, "{} about {:.2g} particles{}, {}", what, particles, together,
+           allowedText("particles", most));
 }
 
 std::string allowedText(std::string_view limit, double most) {
@@ -50,10 +44,8 @@ void checkCorners(Section& section, Flatness flatness, BuildContext& context) {
         const double low = section.vector("minimum")[axis];
         const double high = section.vector("maximum")[axis];
         if (low < high || (mayBeFlat && low == high)) continue;
-        report(section, "maximum",
-               fmt::format("maximum[{}] is {}, must be {} the minimum {} (meters)", axis, formatNumber(high),
-                           mayBeFlat ? "at least" : "above", formatNumber(low)),
-               context);
+        report(section, "maximum", context, "maximum[{}] is {}, must be {} the minimum {} (meters)", axis,
+               formatNumber(high), mayBeFlat ? "at least" : "above", formatNumber(low));
     }
 }
 
@@ -69,7 +61,7 @@ std::optional<std::uint32_t> materialOf(Section& section, const Materials& mater
     const std::string nearest = nearestName(wanted, names);
     const std::string hint = nearest.empty() ? fmt::format(" (defined: {})", fmt::join(names, ", "))
                                              : fmt::format(", did you mean {}?", tomlString(nearest));
-    report(section, "material", fmt::format("material {} is not defined{}", tomlString(wanted), hint), context);
+    report(section, "material", context, "material {} is not defined{}", tomlString(wanted), hint);
     return std::nullopt;
 }
 
@@ -83,7 +75,7 @@ std::optional<engine::Vec3> unitVector(const engine::Vec3& vector) {
 
 std::optional<engine::Vec3> directionFrom(Section& section, std::string_view name, BuildContext& context) {
     const auto direction = unitVector(section.vector(name));
-    if (!direction) report(section, name, fmt::format("{} is [0, 0, 0], must not be zero", name), context);
+    if (!direction) report(section, name, context, "{} is [0, 0, 0], must not be zero", name);
     return direction;
 }
 

@@ -1,6 +1,4 @@
 // Builds the description of a stability study: [study].
-#include <fmt/format.h>
-
 #include "engine/stepping/steppers.h"
 #include "scenes/build/builders.h"
 
@@ -16,17 +14,14 @@ Observable observableOf(const Section& section) {
 void checkReference(Section& section, const Study& study, BuildContext& context) {
     const ObservableInfo& info = infoOf(study.observable);
     if (info.needsReference && !section.isGiven("reference_step"))
-        report(section, "observable",
-               fmt::format("reference_step is missing, observable {} needs it (seconds)", tomlString(info.name)),
-               context);
+        report(section, "observable", context, "reference_step is missing, observable {} needs it (seconds)",
+               tomlString(info.name));
 }
 
 void checkLimits(Section& section, const Study& study, BuildContext& context) {
     if (study.atLeast && *study.atLeast > study.limit)
-        report(section, "at_least",
-               fmt::format("at_least is {}, must be at most the limit, {}", section.canonical("at_least"),
-                           section.canonical("limit")),
-               context);
+        report(section, "at_least", context, "at_least is {}, must be at most the limit, {}",
+               section.canonical("at_least"), section.canonical("limit"));
 }
 
 }  // namespace

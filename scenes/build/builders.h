@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "scenes/build/read_scene.h"
 #include "scenes/schema/read_sections.h"
 
@@ -50,7 +52,13 @@ Study buildStudy(Section& section, BuildContext& context);
 // What several builders need (build_shared.cpp).
 
 /// Records a problem with a key of a section, and marks the section as invalid.
-void report(Section& section, std::string_view name, const std::string& message, BuildContext& context);
+/// @param message  a format string for the values
+template <class... Values>
+void report(Section& section, std::string_view name, BuildContext& context,
+            fmt::format_string<const Values&...> message, const Values&... values) {
+    section.markInvalid();
+    context.problems.add(section.position(name), fmt::format(message, values...));
+}
 
 /// Records that a key is missing from a section, and marks the section as invalid.
 void reportMissing(Section& section, std::string_view name, BuildContext& context);

@@ -72,15 +72,11 @@ std::vector<double> stripTimes(Sections& sections, BuildContext& context) {
     const std::vector<double> times = still.numbers("strip");
     for (std::size_t k = 0; k < times.size(); ++k) {
         if (k > 0 && times[k] <= times[k - 1])
-            report(still, "strip",
-                   fmt::format("strip[{}] is {}, must be after the time before, {} (seconds)", k,
-                               formatNumber(times[k]), formatNumber(times[k - 1])),
-                   context);
+            report(still, "strip", context, "strip[{}] is {}, must be after the time before, {} (seconds)", k,
+                   formatNumber(times[k]), formatNumber(times[k - 1]));
         if (times[k] > end && sections.top.has("duration"))
-            report(still, "strip",
-                   fmt::format("strip[{}] is {}, must be at most the duration, {} (seconds)", k, formatNumber(times[k]),
-                               sections.top.canonical("duration")),
-                   context);
+            report(still, "strip", context, "strip[{}] is {}, must be at most the duration, {} (seconds)", k,
+                   formatNumber(times[k]), sections.top.canonical("duration"));
     }
     return times;
 }
@@ -89,10 +85,8 @@ void readStill(Sections& sections, BuildContext& context, Scene& scene) {
     Section& still = sections.still;
     still.derive("time", TypedValue::ofNumber(0.5 * context.duration));
     if (still.has("time") && sections.top.has("duration") && still.number("time") > context.duration)
-        report(still, "time",
-               fmt::format("time is {}, must be at most the duration, {} (seconds)", still.canonical("time"),
-                           sections.top.canonical("duration")),
-               context);
+        report(still, "time", context, "time is {}, must be at most the duration, {} (seconds)",
+               still.canonical("time"), sections.top.canonical("duration"));
     if (still.has("time")) scene.stillTime = still.number("time");
     scene.stripTimes = stripTimes(sections, context);
 }
@@ -112,18 +106,15 @@ void checkSize(Sections& sections, BuildContext& context) {
     if (top.has("duration") && top.has("fps")) {
         const double frames = top.number("duration") * static_cast<double>(top.integer("fps"));
         if (frames > context.limits.frames)
-            report(top, top.isGiven("duration") ? "duration" : "fps",
-                   fmt::format("the animation would have about {:.7g} frames, {}", frames,
-                               allowedText("frames", context.limits.frames)),
-                   context);
+            report(top, top.isGiven("duration") ? "duration" : "fps", context,
+                   "the animation would have about {:.7g} frames, {}", frames,
+                   allowedText("frames", context.limits.frames));
     }
     if (!sections.look.has("size")) return;
     const double pixels = sections.look.numbers("size")[0] * sections.look.numbers("size")[1];
     if (pixels > context.limits.pixels)
-        report(sections.look, "size",
-               fmt::format("a picture would have about {:.7g} pixels, {}", pixels,
-                           allowedText("pixels", context.limits.pixels)),
-               context);
+        report(sections.look, "size", context, "a picture would have about {:.7g} pixels, {}", pixels,
+               allowedText("pixels", context.limits.pixels));
 }
 
 std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
