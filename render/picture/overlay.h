@@ -1,5 +1,5 @@
 // What is written over a picture, as plain data: a time stamp, a scale bar and a color bar. Part of a View, filled in
-// by scenes/view/overlay_view.cpp; render/overlay/draw_overlay.h draws it over the finished picture.
+// by scenes/build/build_picture.cpp; render/overlay/draw_overlay.h draws it over the finished picture.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // Builds obstacles, and how they are drawn: [[obstacle]].
 #include "scenes/build/builders.h"
+#include "scenes/model/to_float.h"
 
 namespace scenes {
 namespace {
@@ -43,19 +44,42 @@ engine::Obstacle obstacleFrom(Section& section, BuildContext& context) {
     return engine::Sphere{section.vector("center"), section.number("radius"), section.string("repulsor") == "literal"};
 }
 
-ObstacleLook appearanceOf(Section& section, const Section& look) {
+/// A corner by its number from 0 to 7: bits 0, 1 and 2 select the maximum in x, y and z.
+glm::vec3 cornerOf(const render::BoxObstacle& box, unsigned corner) {
+    return {(corner & 1U) != 0 ? box.maximum.x : box.minimum.x, (corner & 2U) != 0 ? box.maximum.y : box.minimum.y,
+            (corner & 4U) != 0 ? box.maximum.z : box.minimum.z};
+}
+
+/// Adds twelve edges: from every corner along each axis in which it is at the minimum.
+void addEdges(const render::BoxObstacle& box, const glm::vec3& color, float width, render::View& view) {
+    for (unsigned corner = 0; corner < 8; ++corner)
+        for (unsigned axis = 1; axis < 8; axis *= 2)
+            if ((corner & axis) == 0)
+                view.edges.push_back({cornerOf(box, corner), cornerOf(box, corner | axis), color, width});
+}
+
+/// Adds an obstacle to what is drawn. Planes are not drawn; boxes and containers may have edges.
+void addToView(Section& section, const Section& look, render::View& view) {
     const std::string& shape = section.string("shape");
-    if (shape == "plane") return {.isVisible = false};
+    if (shape == "plane") return;
     const bool isContainer = shape == "container";
     if (shape != "sphere") section.derive("edges", TypedValue::ofBoolean(isContainer));
     section.derive("color", TypedValue::ofVector(isContainer ? look.vector("edge_color") : kObstacleColor));
-    return {section.boolean("visible"), shape != "sphere" && section.boolean("edges"), section.vector("color")};
+    if (!section.boolean("visible")) return;
+    const glm::vec3 color = toFloat(section.vector("color"));
+    if (shape == "sphere") {
+        view.sphereObstacles.push_back({toFloat(section.vector("center")), toFloat(section.number("radius")), color});
+        return;
+    }
+    const render::BoxObstacle box{toFloat(section.vector("minimum")), toFloat(section.vector("maximum")), color};
+    if (!isContainer) view.boxObstacles.push_back(box);
+    const glm::vec3 edgeColor = isContainer ? color : toFloat(look.vector("edge_color"));
+    if (section.boolean("edges")) addEdges(box, edgeColor, toFloat(look.number("edge_width")), view);
 }
 
 }  // namespace
 
-Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, BuildContext& context) {
-    Obstacles obstacles;
+void buildObstacles(std::vector<Section>& sections, const Section& look, Scene& scene, BuildContext& context) {
     for (Section& section : sections) {
         if (!section.has("shape")) continue;
         const std::string& shape = section.string("shape");
@@ -65,10 +89,9 @@ Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, Bu
         }
         if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
         if (!section.isValid()) continue;
-        obstacles.shapes.push_back(obstacleFrom(section, context));
-        obstacles.looks.push_back(appearanceOf(section, look));
+        scene.setup.obstacles.shapes.push_back(obstacleFrom(section, context));
+        addToView(section, look, scene.look.common);
     }
-    return obstacles;
 }
 
 }  // namespace scenes

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "scenes/build/builders.h"
+#include "scenes/build/overlay_text.h"
 #include "scenes/model/to_float.h"
 #include "scenes/text/color.h"
 
@@ -74,8 +75,6 @@ void chooseRamp(Section& section, BuildContext& context) {
 void readColors(Section& section, const BuildContext& context, Look& look) {
     const std::string& colorBy = section.string("color_by");
     look.colorBy = colorBy == "speed" ? ColorBy::speed : colorBy == "age" ? ColorBy::age : ColorBy::material;
-    look.edgeColor = toFloat(section.vector("edge_color"));
-    look.edgeWidth = toFloat(section.number("edge_width"));
     if (look.colorBy == ColorBy::material) return;
     // 5 m/s is chosen: about the speed of a fall from 1.3 m.
     const double high = look.colorBy == ColorBy::speed ? 5.0 : context.duration;
@@ -150,6 +149,14 @@ Vec3 contrastingInk(const Section& look) {
     return background > kMiddleGray ? Vec3(0.01, 0.01, 0.01) : Vec3(0.93, 0.93, 0.93);
 }
 
+render::ColorBar colorBarOf(const Section& section, const Look& look) {
+    render::ColorBar bar;
+    for (const Vec3& color : look.ramp) bar.colors.push_back(toFloat(color));
+    bar.title = fmt::format("{} ({})", section.string("color_label"), look.colorBy == ColorBy::age ? "s" : "m/s");
+    bar.ticks = ticksBetween(look.rampLow, look.rampHigh);
+    return bar;
+}
+
 }  // namespace
 
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
@@ -175,23 +182,22 @@ Look buildLook(Section& section, BuildContext& context) {
     return look;
 }
 
-Overlay buildOverlay(Section& section, const Section& look, const CameraPath& camera, BuildContext& context) {
+void buildOverlay(Section& section, const Section& look, Scene& scene, BuildContext& context) {
     const bool isByMaterial = look.string("color_by") == "material";
     if (look.isValid() && isByMaterial && section.boolean("color_bar"))
         report(section, "color_bar", context,
                "color_bar is true, but colors by material have no scale; it needs look.color_by \"speed\" or \"age\"");
-    if (section.number("scale_bar") > 0.0) checkScaleBar(section, look, camera, context);
+    const double scaleBar = section.number("scale_bar");
+    if (scaleBar > 0.0) checkScaleBar(section, look, scene.camera, context);
     if (!isByMaterial) section.derive("color_label", TypedValue::ofString(look.string("color_by")));
     section.derive("ink", TypedValue::ofVector(contrastingInk(look)));
-    Overlay overlay;
-    if (!section.isValid()) return overlay;
-    overlay.time = section.boolean("time");
-    overlay.scaleBar = section.number("scale_bar");
-    overlay.colorBar = section.boolean("color_bar");
-    if (section.has("color_label")) overlay.colorLabel = section.string("color_label");
-    overlay.ink = section.vector("ink");
-    overlay.size = section.number("size");
-    return overlay;
+    if (!section.isValid() || !look.isValid()) return;
+    scene.look.hasTimeStamp = section.boolean("time");
+    render::Overlay& overlay = scene.look.common.overlay;
+    if (scaleBar > 0.0) overlay.scaleBar = render::ScaleBar{toFloat(scaleBar), lengthText(scaleBar)};
+    if (section.boolean("color_bar")) overlay.colorBar = colorBarOf(section, scene.look);
+    overlay.ink = toFloat(section.vector("ink"));
+    overlay.size = toFloat(section.number("size"));
 }
 
 }  // namespace scenes

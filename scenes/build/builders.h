@@ -38,15 +38,12 @@ engine::Particles buildBodies(std::vector<Section>& sections, const Materials& m
 std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const Materials& materials,
                                            BuildContext& context);
 
-struct Obstacles {
-    std::vector<engine::Obstacle> shapes;
-    std::vector<ObstacleLook> looks;
-};
-
-Obstacles buildObstacles(std::vector<Section>& sections, const Section& look, BuildContext& context);
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
 Look buildLook(Section& section, BuildContext& context);
-Overlay buildOverlay(Section& section, const Section& look, const CameraPath& camera, BuildContext& context);
+/// Adds the obstacles to the simulation and to the look of the scene.
+void buildObstacles(std::vector<Section>& sections, const Section& look, Scene& scene, BuildContext& context);
+/// Adds the overlay to the look of the scene, which already has its cameras.
+void buildOverlay(Section& section, const Section& look, Scene& scene, BuildContext& context);
 Study buildStudy(Section& section, BuildContext& context);
 
 // What several builders need (build_shared.cpp).

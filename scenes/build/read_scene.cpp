@@ -154,10 +154,10 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.setup.world = buildWorld(sections.world, context);
     scene.setup.initial = buildBodies(sections.bodies, materials, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
-    Obstacles obstacles = buildObstacles(sections.obstacles, sections.look, context);
     scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, context);
-    scene.overlay = buildOverlay(sections.overlay, sections.look, scene.camera, context);
+    buildObstacles(sections.obstacles, sections.look, scene, context);
+    buildOverlay(sections.overlay, sections.look, scene, context);
     readStill(sections, context, scene);
     checkSize(sections, context);
     if (sections.study) scene.study = buildStudy(*sections.study, context);
@@ -165,8 +165,6 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     checkWorld(sections.world, scene.setup, context);
     scene.setup.materials = std::move(materials.list);
     scene.materialColors = std::move(materials.colors);
-    scene.setup.obstacles.shapes = std::move(obstacles.shapes);
-    scene.obstacleLooks = std::move(obstacles.looks);
 }
 
 }  // namespace

@@ -31,10 +31,8 @@ struct Scene {
     std::uint64_t seed = 1;
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB, one for each material of the setup
-    std::vector<ObstacleLook> obstacleLooks;   ///< one for each obstacle of the setup
     CameraPath camera;
     Look look;
-    Overlay overlay;
     render::PictureSize size;
     double stillTime = 0.5;          ///< s
     std::vector<double> stripTimes;  ///< s, increasing

@@ -1,12 +1,13 @@
-// Particles are colored by material, speed or age. Planes are not drawn, except for the ground of the look; boxes and
-// containers may have edges.
+// Everything that is the same in all frames has been built with the scene; what is added here changes from frame to
+// frame: the camera, the particles with their colors, and the time stamp.
 #include "scenes/view/frame_view.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
 #include "scenes/model/to_float.h"
 #include "scenes/text/color.h"
-#include "scenes/view/overlay_view.h"
 
 namespace scenes {
 namespace {
@@ -24,42 +25,6 @@ Vec3 particleColor(const Scene& scene, const engine::Particles& particles, std::
     if (look.colorBy == ColorBy::material) return scene.materialColors.at(particles.material[index]);
     const double quantity = shownQuantity(look, particles, index, time);
     return rampColor(look.ramp, (quantity - look.rampLow) / (look.rampHigh - look.rampLow));
-}
-
-struct BoxExtent {
-    glm::vec3 minimum{0.0F};
-    glm::vec3 maximum{0.0F};
-};
-
-/// A corner by its number from 0 to 7: bits 0, 1 and 2 select the maximum in x, y and z.
-glm::vec3 cornerOf(const BoxExtent& box, unsigned corner) {
-    return {(corner & 1U) != 0 ? box.maximum.x : box.minimum.x, (corner & 2U) != 0 ? box.maximum.y : box.minimum.y,
-            (corner & 4U) != 0 ? box.maximum.z : box.minimum.z};
-}
-
-/// Adds twelve edges: from every corner along each axis in which it is at the minimum.
-void addEdges(const BoxExtent& box, const glm::vec3& color, float width, render::View& view) {
-    for (unsigned corner = 0; corner < 8; ++corner)
-        for (unsigned axis = 1; axis < 8; axis *= 2)
-            if ((corner & axis) == 0)
-                view.edges.push_back({cornerOf(box, corner), cornerOf(box, corner | axis), color, width});
-}
-
-void addObstacle(const Scene& scene, std::size_t index, render::View& view) {
-    const ObstacleLook& appearance = scene.obstacleLooks.at(index);
-    const engine::Obstacle& obstacle = scene.setup.obstacles.shapes[index];
-    if (!appearance.isVisible) return;
-    const float width = scene.look.edgeWidth;
-    if (const auto* sphere = std::get_if<engine::Sphere>(&obstacle)) {
-        view.sphereObstacles.push_back({toFloat(sphere->center), toFloat(sphere->radius), toFloat(appearance.color)});
-    } else if (const auto* box = std::get_if<engine::Box>(&obstacle)) {
-        const BoxExtent extent{toFloat(box->minimum), toFloat(box->maximum)};
-        view.boxObstacles.push_back({extent.minimum, extent.maximum, toFloat(appearance.color)});
-        if (appearance.hasEdges) addEdges(extent, scene.look.edgeColor, width, view);
-    } else if (const auto* container = std::get_if<engine::Container>(&obstacle)) {
-        const BoxExtent extent{toFloat(container->minimum), toFloat(container->maximum)};
-        if (appearance.hasEdges) addEdges(extent, toFloat(appearance.color), width, view);
-    }
 }
 
 render::Camera cameraOf(const CameraPlacement& placement) {
@@ -81,14 +46,18 @@ void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int fram
     for (int next = current + 1; next <= frame; ++next) engine::advance(simulation, frameTime(scene, next));
 }
 
+std::string timeText(const Scene& scene, double time) {
+    // Frames are 1/fps apart: two decimals distinguish them up to 100 frames per second.
+    return fmt::format("t = {:.{}f} s", time, scene.fps > 100 ? 3 : 2);
+}
+
 render::View frameView(const Scene& scene, const engine::Particles& particles, double time) {
     render::View view = scene.look.common;
     const CameraPlacement camera = cameraAt(scene.camera, time);
     view.camera = cameraOf(camera);
     // The ground fades with the distance from the point below the camera's target.
     if (view.ground) view.ground->center = {view.camera.target.x, view.ground->height, view.camera.target.z};
-    view.overlay = overlayOf(scene, time);
-    for (std::size_t index = 0; index < scene.obstacleLooks.size(); ++index) addObstacle(scene, index, view);
+    if (scene.look.hasTimeStamp) view.overlay.stamp = timeText(scene, time);
     view.particles.reserve(particles.count());
     for (std::size_t index = 0; index < particles.count(); ++index)
         view.particles.push_back({toFloat(particles.position[index]), toFloat(particles.radius[index]),

@@ -2,6 +2,8 @@
 // it. Double becomes float on this side of the program only.
 #pragma once
 
+#include <string>
+
 #include "engine/run/advance.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
@@ -13,6 +15,9 @@ namespace scenes {
 /// that does.
 /// @throws engine::InstabilityError
 void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int frame);
+
+/// "t = 1.25 s", with as many decimals as distinguish the frames of the scene, at least two.
+std::string timeText(const Scene& scene, double time);
 
 /// The view of the scene with the given particles: particles, obstacles, camera, lights and overlay.
 /// @param time  s; determines the camera, and the colors where they show the particles' age

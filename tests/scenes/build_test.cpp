@@ -214,12 +214,12 @@ TEST_CASE("obstacles become shapes of the engine") {
 }
 
 TEST_CASE("the keys of an obstacle determine how it is drawn") {
-    CHECK(!obstacleScene("shape = \"plane\"\n").obstacleLooks.at(0).isVisible);
+    const auto drawn = [](const std::string& text) { return obstacleScene(text).look.common; };
+    CHECK(drawn("shape = \"plane\"\n").boxObstacles.empty());
     const std::string box = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
-    CHECK(!obstacleScene("shape = \"box\"\n" + box).obstacleLooks.at(0).hasEdges);
-    CHECK(obstacleScene("shape = \"container\"\n" + box).obstacleLooks.at(0).hasEdges);
-    CHECK(obstacleScene("shape = \"container\"\n" + box).obstacleLooks.at(0).color == Vec3(1.0, 0.9, 0.0));
-    CHECK(obstacleScene("shape = \"box\"\nedges = true\ncolor = [0.1, 0.2, 0.3]\n" + box).obstacleLooks.at(0).color ==
-          Vec3(0.1, 0.2, 0.3));
-    CHECK(!obstacleScene("shape = \"box\"\nvisible = false\n" + box).obstacleLooks.at(0).isVisible);
+    CHECK(drawn("shape = \"box\"\n" + box).edges.empty());
+    CHECK(drawn("shape = \"container\"\n" + box).edges.at(0).color == glm::vec3(1.0F, 0.9F, 0.0F));
+    CHECK(drawn("shape = \"box\"\nedges = true\ncolor = [0.1, 0.2, 0.3]\n" + box).boxObstacles.at(0).color ==
+          glm::vec3(0.1F, 0.2F, 0.3F));
+    CHECK(drawn("shape = \"box\"\nvisible = false\n" + box).boxObstacles.empty());
 }

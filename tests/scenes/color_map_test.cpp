@@ -180,7 +180,7 @@ TEST_CASE("a scene refers to a map by name, and particles have its colors") {
     for (int channel = 0; channel < 3; ++channel)
         CHECK(color[channel] == Approx(middle[channel]).margin(1e-4));  // between two of 256 colors
     CHECK(sceneOf(point, {"look.color_map=dusk"}).look.ramp == colorMap("dusk"));
-    CHECK(sceneOf(point, {"look.color_map=dusk", "overlay.color_bar=true"}).overlay.colorBar);
+    CHECK(sceneOf(point, {"look.color_map=dusk", "overlay.color_bar=true"}).look.common.overlay.colorBar);
 }
 
 TEST_CASE("a color map and explicit colors exclude each other, and unknown names are rejected") {

@@ -1,8 +1,8 @@
 // Tests the overlay of a scene: its keys, texts and ticks, and mistakes in it.
 #include "tests/catch.h"
 
+#include "scenes/build/overlay_text.h"
 #include "scenes/view/frame_view.h"
-#include "scenes/view/overlay_view.h"
 #include "tests/scenes/scene_text.h"
 
 using scenes_test::kBall;

@@ -12,7 +12,6 @@
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "scenes/view/frame_view.h"
-#include "scenes/view/overlay_view.h"
 #include "tools/run/threads.h"
 
 namespace tools {

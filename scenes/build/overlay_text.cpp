@@ -1,5 +1,5 @@
 // Formats the numbers of the overlay, and places the ticks of the color bar.
-#include "scenes/view/overlay_view.h"
+#include "scenes/build/overlay_text.h"
 
 #include <fmt/format.h>
 
@@ -34,32 +34,7 @@ std::string tickText(double value, double step) {
     return fmt::format("{:.{}e}", value, std::max(0, exponentOf(std::abs(value)) - last));
 }
 
-render::ColorBar colorBarOf(const Scene& scene) {
-    render::ColorBar bar;
-    for (const engine::Vec3& color : scene.look.ramp) bar.colors.push_back(toFloat(color));
-    bar.title = fmt::format("{} ({})", scene.overlay.colorLabel, scene.look.colorBy == ColorBy::age ? "s" : "m/s");
-    bar.ticks = ticksBetween(scene.look.rampLow, scene.look.rampHigh);
-    return bar;
-}
-
 }  // namespace
-
-render::Overlay overlayOf(const Scene& scene, double time) {
-    const Overlay& settings = scene.overlay;
-    render::Overlay overlay;
-    if (settings.time) overlay.stamp = timeText(scene, time);
-    if (settings.scaleBar > 0.0)
-        overlay.scaleBar = render::ScaleBar{toFloat(settings.scaleBar), lengthText(settings.scaleBar)};
-    if (settings.colorBar) overlay.colorBar = colorBarOf(scene);
-    overlay.ink = toFloat(settings.ink);
-    overlay.size = toFloat(settings.size);
-    return overlay;
-}
-
-std::string timeText(const Scene& scene, double time) {
-    // Frames are 1/fps apart: two decimals distinguish them up to 100 frames per second.
-    return fmt::format("t = {:.{}f} s", time, scene.fps > 100 ? 3 : 2);
-}
 
 std::string lengthText(double meters) {
     if (meters >= 1000.0) return fmt::format("{:.4g} km", meters / 1000.0);
