@@ -1,4 +1,4 @@
-// Checks one group of members after the other.
+// Each function checks one part of the state: particles, emitters, time steps.
 #include "engine/run/state_validation.h"
 
 #include <algorithm>
@@ -12,16 +12,11 @@
 namespace engine {
 namespace {
 
-bool areFinite(const std::vector<Vec3>& vectors) {
-    return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& vector) { return vector.allFinite(); });
-}
-
 bool haveEqualLengths(const Simulation& simulation) {
-    const Particles& particles = simulation.particles;
-    const std::size_t count = particles.count();
-    return particles.velocity.size() == count && particles.radius.size() == count && particles.mass.size() == count &&
-           particles.birthTime.size() == count && particles.material.size() == count && particles.id.size() == count &&
-           (!simulation.cache->forcesCurrent || simulation.cache->forces.size() == count);
+    const std::size_t count = simulation.particles.count();
+    bool areEqual = !simulation.cache->forcesCurrent || simulation.cache->forces.size() == count;
+    forEachArray(simulation.particles, [&](const auto& array) { areEqual &= array.size() == count; });
+    return areEqual;
 }
 
 /// Whether a particle has the radius, mass and material that the set-up gives it, at the start or by an emitter.
@@ -66,22 +61,21 @@ bool areStepsPossible(const Simulation& simulation) {
     const bool isKnown = simulation.setup.stepper == StepperKind::automatic
                              ? isReachable(simulation.automatic, simulation.stepper)
                              : simulation.stepper == simulation.setup.stepper;
-    // A NaN fails.
+    // A NaN restriction fails the comparison.
     return isKnown && restriction.seconds >= 0.5 * kShortestStep && isLimit(restriction.reason);
 }
 
 }  // namespace
 
 bool isInWorld(const std::vector<Vec3>& positions) {
-    return areFinite(positions) && std::all_of(positions.begin(), positions.end(), [](const Vec3& position) {
-               return position.cwiseAbs().maxCoeff() <= kWorldLimit;
-           });
+    return std::ranges::all_of(positions, [](const Vec3& position) { return areBelow(position, kWorldLimit); });
 }
 
 const char* stateError(const Simulation& simulation) {
     if (!haveEqualLengths(simulation)) return "its arrays are of different lengths";
     if (!isInWorld(simulation.particles.position)) return "a particle is not in the world";
-    if (!areFinite(simulation.particles.velocity)) return "a velocity is not finite";
+    if (!std::ranges::all_of(simulation.particles.velocity, [](const Vec3& v) { return v.allFinite(); }))
+        return "a velocity is not finite";
     if (!(simulation.time >= 0.0) || !std::isfinite(simulation.time)) return "its time is not finite";
     if (!areOfSetup(simulation)) return "its particles are not the scene's";
     if (!areOnSchedule(simulation)) return "a birth is not on its schedule";

@@ -1,4 +1,4 @@
-// Appending is the only way a particle enters; it keeps the arrays of equal length and the ids in order of birth.
+// Adding and removing particles, with arrays of equal length and ids in order of birth.
 #include "engine/state/particles.h"
 
 namespace engine {
@@ -15,13 +15,7 @@ void append(Particles& particles, const NewParticle& particle) {
 
 void truncate(Particles& particles, std::size_t count) {
     if (count < particles.count()) particles.nextId = particles.id[count];
-    particles.position.resize(count);
-    particles.velocity.resize(count);
-    particles.radius.resize(count);
-    particles.mass.resize(count);
-    particles.birthTime.resize(count);
-    particles.material.resize(count);
-    particles.id.resize(count);
+    forEachArray(particles, [&](auto& array) { array.resize(count); });
 }
 
 }  // namespace engine

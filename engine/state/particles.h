@@ -1,5 +1,5 @@
-// The state of all particles as a structure of arrays, in order of birth. Index and id agree until a particle has left;
-// code that needs identity uses the id.
+// The state of all particles as a structure of arrays, in order of birth. A particle's index in the arrays equals its
+// id until an earlier particle is removed; what identifies a particle throughout a run is its id.
 #pragma once
 
 #include <cstddef>
@@ -16,47 +16,53 @@ struct Particles {
     std::vector<double> radius;           ///< m
     std::vector<double> mass;             ///< kg
     std::vector<double> birthTime;        ///< s
-    std::vector<std::uint32_t> material;  ///< index into the materials of the set-up
-    std::vector<std::uint32_t> id;        ///< ascending: 0, 1, 2, ... in order of birth
+    std::vector<std::uint32_t> material;  ///< index of the particle's material in the list of the set-up
+    std::vector<std::uint32_t> id;        ///< particles are numbered 0, 1, 2, ... in order of birth
     std::uint32_t nextId = 0;
 
     std::size_t count() const { return position.size(); }
 };
 
-/// One particle on its way into Particles.
+/// Calls visit(array) for each array of the particles, in the order of their declaration. The arrays are const where
+/// the particles are.
+template <class ParticleArrays, class Visit>
+void forEachArray(ParticleArrays& particles, Visit&& visit) {
+    visit(particles.position);
+    visit(particles.velocity);
+    visit(particles.radius);
+    visit(particles.mass);
+    visit(particles.birthTime);
+    visit(particles.material);
+    visit(particles.id);
+}
+
+/// A particle to append. The material is an index into the materials of the set-up.
 struct NewParticle {
-    Vec3 position = Vec3::Zero();
-    Vec3 velocity = Vec3::Zero();
-    double radius = 0.15;
-    double mass = 1.0;
-    double birthTime = 0.0;
+    Vec3 position = Vec3::Zero();  ///< m
+    Vec3 velocity = Vec3::Zero();  ///< m/s
+    double radius = 0.15;          ///< m
+    double mass = 1.0;             ///< kg
+    double birthTime = 0.0;        ///< s
     std::uint32_t material = 0;
 };
 
 /// Appends a particle with the next id.
 void append(Particles& particles, const NewParticle& particle);
 
-/// Keeps the first `count` particles; the ids of the others may be given again.
+/// Removes all but the first `count` particles; the next particles get the ids of the removed ones.
 void truncate(Particles& particles, std::size_t count);
 
-/// Keeps the particles for whose index stays(index) is true; it is called once for each index in ascending order.
+/// Removes the particles for whose index stays(index) is false; no later particle gets their ids. stays() is called
+/// once for each index, in ascending order.
 template <class Stays>
 void keepWhere(Particles& particles, const Stays& stays) {
-    std::size_t saved = 0;
+    std::size_t kept = 0;
     for (std::size_t p = 0; p < particles.count(); ++p) {
         if (!stays(p)) continue;
-        particles.position[saved] = particles.position[p];
-        particles.velocity[saved] = particles.velocity[p];
-        particles.radius[saved] = particles.radius[p];
-        particles.mass[saved] = particles.mass[p];
-        particles.birthTime[saved] = particles.birthTime[p];
-        particles.material[saved] = particles.material[p];
-        particles.id[saved] = particles.id[p];
-        ++saved;
+        forEachArray(particles, [&](auto& array) { array[kept] = array[p]; });
+        ++kept;
     }
-    const std::uint32_t nextId = particles.nextId;
-    truncate(particles, saved);
-    particles.nextId = nextId;  // ids are not used again
+    forEachArray(particles, [&](auto& array) { array.resize(kept); });
 }
 
 }  // namespace engine
