@@ -1,4 +1,5 @@
-// One function lists what is stored, for both directions. What is read is checked before anything is indexed by it.
+// Encodes and decodes checkpoints. The same functions list the stored members for writing and for reading. A state that
+// was read is validated before any of its numbers is used as an index.
 #include "engine/run/checkpoint.h"
 
 #include <bit>
@@ -16,36 +17,43 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-/// Changed whenever what is stored changes.
-constexpr std::uint64_t kFormat = 0x35504B434C424C47;  // "GLBLCKP5"
+/// Version of the checkpoint format: "GLBLCKP5" in ASCII, with another digit for every change of what is stored.
+constexpr std::uint64_t kFormat = 0x35504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
-/// Smallest reach of a neighbor list that is accepted, m: in cells any smaller the world would not fit the cell grid's
-/// numbers.
+/// Smallest reach of a neighbor list that a checkpoint may have, m. With smaller cells the indices of the cell grid
+/// could not span the world.
 constexpr double kLeastReach = 1e-9;
 
+template <class Value>
+concept Number = std::is_arithmetic_v<Value> || std::is_enum_v<Value>;
+
+/// Appends the bytes of values to a buffer.
 class Writer {
  public:
     static constexpr bool kReads = false;
 
-    template <class Number>
-    requires std::is_arithmetic_v<Number> || std::is_enum_v<Number>
-    void operator()(const Number& number) { append(&number, sizeof number); }
-
-    template <class Item>
-    void operator()(const std::vector<Item>& items) {
-        static_assert(std::is_same_v<Item, Vec3> || std::is_arithmetic_v<Item>);
-        (*this)(static_cast<std::uint64_t>(items.size()));
-        append(items.data(), items.size() * sizeof(Item));
+    template <class... Values>
+    void operator()(const Values&... values) {
+        (write(values), ...);
     }
 
     std::vector<std::uint8_t> finish() {
-        (*this)(fnv1aOf(bytes_));
+        write(fnv1aOf(bytes_));
         return std::move(bytes_);
     }
 
  private:
+    void write(const Number auto& number) { append(&number, sizeof number); }
+
+    template <class Item>
+    void write(const std::vector<Item>& items) {
+        static_assert(std::is_same_v<Item, Vec3> || std::is_arithmetic_v<Item>);
+        write(std::uint64_t{items.size()});
+        append(items.data(), items.size() * sizeof(Item));
+    }
+
     void append(const void* from, std::size_t size) {
         const auto* const first = static_cast<const std::uint8_t*>(from);
         bytes_.insert(bytes_.end(), first, first + size);
@@ -54,6 +62,7 @@ class Writer {
     std::vector<std::uint8_t> bytes_;
 };
 
+/// Takes the values back from the bytes, in the order in which they were written.
 class Reader {
  public:
     static constexpr bool kReads = true;
@@ -66,25 +75,9 @@ class Reader {
         if (checksum != fnv1aOf(bytes_)) throw CheckpointError("its checksum is wrong: it is damaged or truncated");
     }
 
-    template <class Number>
-    requires std::is_arithmetic_v<Number> || std::is_enum_v<Number>
-    void operator()(Number& number) {
-        if constexpr (std::is_same_v<Number, bool>) {
-            std::uint8_t byte = 0;
-            take(&byte, 1);
-            number = byte != 0;
-        } else {
-            take(&number, sizeof number);
-        }
-    }
-
-    template <class Item>
-    void operator()(std::vector<Item>& items) {
-        std::uint64_t count = 0;
-        (*this)(count);
-        if (count > bytes_.size() / sizeof(Item)) throw CheckpointError("it is truncated");
-        items.resize(static_cast<std::size_t>(count));
-        take(items.data(), items.size() * sizeof(Item));
+    template <class... Values>
+    void operator()(Values&... values) {
+        (read(values), ...);
     }
 
     void finish() const {
@@ -92,6 +85,24 @@ class Reader {
     }
 
  private:
+    void read(Number auto& number) { take(&number, sizeof number); }
+
+    /// No other byte than 0 or 1 is a bool, whatever a damaged file contains.
+    void read(bool& truth) {
+        std::uint8_t byte = 0;
+        read(byte);
+        truth = byte != 0;
+    }
+
+    template <class Item>
+    void read(std::vector<Item>& items) {
+        std::uint64_t count = 0;
+        read(count);
+        if (count > bytes_.size() / sizeof(Item)) throw CheckpointError("it is truncated");
+        items.resize(static_cast<std::size_t>(count));
+        take(items.data(), items.size() * sizeof(Item));
+    }
+
     void take(void* to, std::size_t size) {
         if (size > bytes_.size()) throw CheckpointError("it is truncated");
         if (size > 0) std::memcpy(to, bytes_.data(), size);
@@ -101,6 +112,9 @@ class Reader {
     std::span<const std::uint8_t> bytes_;
 };
 
+// The functions below pass every member of the state to an archive, which is a Reader or a Writer. The part of the
+// state is const where the archive writes.
+
 template <class Archive, class Optional>
 void exchangeOptional(Archive& archive, Optional& value) {
     bool exists = value.has_value();
@@ -109,89 +123,46 @@ void exchangeOptional(Archive& archive, Optional& value) {
     if (exists) archive(*value);
 }
 
-template <class Archive, class Items>
-void exchangeEach(Archive& archive, Items& items) {
-    for (auto& item : items) archive(item);
-}
-
-template <class Archive, class Of>
-void exchangeParticles(Archive& archive, Of& particles) {
-    archive(particles.position);
-    archive(particles.velocity);
-    archive(particles.radius);
-    archive(particles.mass);
-    archive(particles.birthTime);
-    archive(particles.material);
-    archive(particles.id);
-    archive(particles.nextId);
-}
-
 /// The set-up determines the numbers of emitters and schedules, so these are not stored.
-template <class Archive, class Of>
-void exchangeEmitters(Archive& archive, Of& emitters) {
+template <class Archive, class Emitters>
+void exchangeEmitters(Archive& archive, Emitters& emitters) {
     for (auto& emitter : emitters) {
-        for (auto& schedule : emitter.schedules) {
-            archive(schedule.origin);
-            archive(schedule.due);
-            archive(schedule.births);
-            archive(schedule.delayed);
-        }
-        archive(emitter.births);
-        archive(emitter.refusals);
+        for (auto& schedule : emitter.schedules)
+            archive(schedule.origin, schedule.due, schedule.births, schedule.delayed);
+        archive(emitter.births, emitter.refusals);
     }
 }
 
-template <class Archive, class Of>
-void exchangeAutomatic(Archive& archive, Of& state) {
-    for (auto& choice : state.choices) {
-        archive(choice.step);
-        archive(choice.cost);
-        archive(choice.reason);
-        archive(choice.growth);
-        archive(choice.followed);
-    }
-    archive(state.intervalCount);
-    archive(state.nextEstimate);
-    archive(state.estimateCount);
-    archive(state.errorSum);
-    archive(state.largestError);
-    archive(state.rmsAcceleration);
-    archive(state.estimateCost);
+template <class Archive, class State>
+void exchangeAutomatic(Archive& archive, State& state) {
+    for (auto& choice : state.choices) archive(choice.step, choice.cost, choice.reason, choice.growth, choice.followed);
+    archive(state.intervalCount, state.nextEstimate, state.estimateCount, state.errorSum, state.largestError);
+    archive(state.rmsAcceleration, state.estimateCost);
 }
 
-template <class Archive, class Of>
-void exchangeStatistics(Archive& archive, Of& steps) {
-    archive(steps.count);
-    archive(steps.shortest);
-    archive(steps.longest);
-    archive(steps.forceEvaluations);
-    archive(steps.products);
-    archive(steps.rejected);
-    exchangeEach(archive, steps.limitedBy);
-    exchangeEach(archive, steps.takenBy);
+template <class Archive, class Statistics>
+void exchangeStatistics(Archive& archive, Statistics& steps) {
+    archive(steps.count, steps.shortest, steps.longest, steps.forceEvaluations, steps.products, steps.rejected);
+    for (auto& count : steps.limitedBy) archive(count);
+    for (auto& count : steps.takenBy) archive(count);
 }
 
-/// Everything but the neighbor list. Of is Simulation, const where the archive writes.
-template <class Archive, class Of>
-void exchange(Archive& archive, Of& simulation) {
-    exchangeParticles(archive, simulation.particles);
+/// Passes on everything but the neighbor list.
+template <class Archive, class State>
+void exchange(Archive& archive, State& simulation) {
+    forEachArray(simulation.particles, archive);
+    archive(simulation.particles.nextId);
     exchangeEmitters(archive, simulation.emitters);
-    archive(simulation.removedCount);
-    archive(simulation.largestCountBeforeRemoval);
-    archive(simulation.time);
-    archive(simulation.stepper);
-    archive(simulation.cache->forces);
-    archive(simulation.cache->forcesCurrent);
+    archive(simulation.removedCount, simulation.largestCountBeforeRemoval, simulation.time, simulation.stepper);
+    archive(simulation.cache->forces, simulation.cache->forcesCurrent);
     exchangeOptional(archive, simulation.cache->energy);
     archive(simulation.cache->kinetic);
-    archive(simulation.restriction.seconds);
-    archive(simulation.restriction.reason);
-    archive(simulation.restriction.passed);
+    archive(simulation.restriction.seconds, simulation.restriction.reason, simulation.restriction.passed);
     exchangeAutomatic(archive, simulation.automatic);
     exchangeStatistics(archive, simulation.steps);
 }
 
-/// A hash that is equal for set-ups whose states have the same layout.
+/// Hash of the numbers of materials, emitters and schedules: a checkpoint fits a set-up only if the hashes agree.
 std::uint64_t shapeOf(const Simulation& simulation) {
     std::uint64_t hash = fnv1a(simulation.setup.materials.size(), kFormat);
     for (const EmitterState& state : simulation.emitters) hash = fnv1a(state.schedules.size(), hash);
@@ -206,11 +177,10 @@ void require(bool condition, const char* otherwise) {
 
 std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation) {
     Writer writer;
-    writer(kFormat);
-    writer(shapeOf(simulation));
+    writer(kFormat, shapeOf(simulation));
     exchange(writer, simulation);
-    writer(simulation.cache->evaluator.list().builtAt);
-    writer(simulation.cache->evaluator.list().reach);
+    const NeighborList& list = simulation.cache->evaluator.list();
+    writer(list.builtAt, list.reach);
     return writer.finish();
 }
 
@@ -227,8 +197,7 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     if (const char* const flaw = stateError(simulation)) throw CheckpointError(flaw);
     std::vector<Vec3> builtAt;
     double reach = 0.0;
-    reader(builtAt);
-    reader(reach);
+    reader(builtAt, reach);
     reader.finish();
     require(isInWorld(builtAt) && (builtAt.empty() || (std::isfinite(reach) && reach > kLeastReach)),
             "it has a corrupt neighbor list");
