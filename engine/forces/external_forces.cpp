@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 // The formulas of the law, compiled for this instruction set.
 #include "engine/law/pair_formulas-inl.h"
 
-/// contactForce() for as many particles as D has lanes, with the operations of obstacle_surfaces.h in the same order.
+/// The force of sumContacts() for as many particles as D has lanes, with the operations of obstacle_surfaces.h in the same order.
 /// The test mayReach() of the scalar path is left out for all shapes but boxes: it saves work and changes no result.
 template <class D>
 class SimdContacts {

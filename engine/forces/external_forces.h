@@ -10,7 +10,7 @@
 namespace engine {
 
 /// Adds weight and obstacle forces to the forces (N) on particles begin to end - 1. The result has the bits of the
-/// weight and contactForce() added one after the other, on any instruction set and for any split into ranges.
+/// weight and the force of sumContacts() added one after the other, on any instruction set and for any split into ranges.
 /// @param velocities  seen by the damping and the friction, in m/s
 void addExternalForces(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                        std::size_t begin, std::size_t end, std::vector<Vec3>& forces);

@@ -12,29 +12,14 @@ std::size_t contactGrain(const Obstacles& obstacles) {
     return obstacles.shapes.empty() ? kParticleGrain : kContactGrain;
 }
 
-Vec3 contactForce(const Obstacles& obstacles, const Probe& probe) {
-    Vec3 force = Vec3::Zero();
-    forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
-        addForce(surface, contactWith(surface, obstacles.law, probe), probe, force);
-    });
-    return force;
-}
-
-double contactEnergy(const Obstacles& obstacles, const Probe& probe) {
-    double energy = 0.0;
-    forEachTouched(obstacles, probe.position, probe.radius,
-                   [&](const Surface& surface) { energy += surfaceEnergy(surface, obstacles.law, probe); });
-    return energy;
-}
-
-ContactAnswer contactForceAndEnergy(const Obstacles& obstacles, const Probe& probe) {
-    ContactAnswer answer;
+ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe) {
+    ContactSums sums;
     forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
         const Contact contact = contactWith(surface, obstacles.law, probe);
-        addForce(surface, contact, probe, answer.force);
-        answer.energy += contactEnergy(contact);
+        addForce(surface, contact, probe, sums.force);
+        sums.energy += contactEnergy(contact);
     });
-    return answer;
+    return sums;
 }
 
 }  // namespace engine

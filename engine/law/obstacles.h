@@ -63,20 +63,14 @@ struct Probe {
     double friction = 0.0;         ///< mu of its material
 };
 
-/// Force of all obstacles on a particle, in newtons; zero where it touches none. Planes push along their normal however
-/// deep the particle is. Source: section 3.2.
-Vec3 contactForce(const Obstacles& obstacles, const Probe& probe);
-
-/// Energy of the conservative part of contactForce, in joules.
-double contactEnergy(const Obstacles& obstacles, const Probe& probe);
-
-/// What all obstacles do to a particle.
-struct ContactAnswer {
+/// Force of the obstacles on a particle, and the particle's energy at them.
+struct ContactSums {
     Vec3 force = Vec3::Zero();  ///< N
-    double energy = 0.0;        ///< J
+    double energy = 0.0;        ///< energy of the conservative part of the force, J
 };
 
-/// contactForce() and contactEnergy() from one pass over the surfaces.
-ContactAnswer contactForceAndEnergy(const Obstacles& obstacles, const Probe& probe);
+/// Sums over all obstacles that a particle touches; zero where it touches none. Planes push along their normal however
+/// deep the particle is. Source: section 3.2.
+ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe);
 
 }  // namespace engine

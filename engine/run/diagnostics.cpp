@@ -18,7 +18,7 @@ Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
         const Vec3& v = particles.velocity[p];
         sum.kinetic += 0.5 * particles.mass[p] * squaredLength(v);
         sum.gravity -= particles.mass[p] * dot(law.gravity, x);
-        sum.contacts += contactEnergy(law.obstacles, {x, v, particles.radius[p], 1.0});
+        sum.contacts += sumContacts(law.obstacles, {x, v, particles.radius[p]}).energy;
     }
     return sum;
 }

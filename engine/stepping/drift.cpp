@@ -81,19 +81,12 @@ void driftSwept(Simulation& simulation, std::size_t p, double h) {
     simulation.cache->clearance[p] = kUnknown;
 }
 
-Vec3 resolvedContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
-    const Obstacles& obstacles = simulation.setup.obstacles;
-    if (obstacles.shapes.empty() || simulation.cache->swept[p] || isClearOfObstacles(simulation, p))
-        return Vec3::Zero();
-    return contactForce(obstacles, probeOf(simulation, p, velocity));
-}
-
-ContactAnswer resolvedContact(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
+ContactSums resolvedContacts(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
     const Obstacles& obstacles = simulation.setup.obstacles;
     if (obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return {};
-    ContactAnswer answer = contactForceAndEnergy(obstacles, probeOf(simulation, p, velocity));
-    if (simulation.cache->swept[p]) answer.force = Vec3::Zero();
-    return answer;
+    ContactSums contacts = sumContacts(obstacles, probeOf(simulation, p, velocity));
+    if (simulation.cache->swept[p]) contacts.force = Vec3::Zero();
+    return contacts;
 }
 
 void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {

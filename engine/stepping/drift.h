@@ -31,11 +31,9 @@ inline void drift(Simulation& simulation, std::size_t p, double h) {
     if (hasObstacles) simulation.cache->clearance[p] -= std::sqrt(squaredLength(displacement));
 }
 
-/// The obstacles' force (N) on a particle that has this velocity (m/s); zero where its contact is swept.
-Vec3 resolvedContactForce(const Simulation& simulation, std::size_t p, const Vec3& velocity);
-
-/// The obstacles' force (N) as above, and the contacts' energy (J), which a swept contact has too.
-ContactAnswer resolvedContact(const Simulation& simulation, std::size_t p, const Vec3& velocity);
+/// Force of the obstacles on a particle that has this velocity (m/s), and its energy at them. Where the contact is
+/// swept, the force is zero, but not the energy.
+ContactSums resolvedContacts(const Simulation& simulation, std::size_t p, const Vec3& velocity);
 
 /// Adds the obstacles' damping and stiffness on particles whose contacts are not swept to the matrix of a step of h
 /// seconds. Both are added whatever the matrix holds of the pairs: the weight of a heap makes contacts stiffer than

@@ -38,7 +38,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
                                                                    simulation.cache->implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
     inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
-        simulation.cache->forces[p] += resolvedContactForce(simulation, p, particles.velocity[p]);
+        simulation.cache->forces[p] += resolvedContacts(simulation, p, particles.velocity[p]).force;
     });
     addContacts(simulation, h, simulation.cache->implicit.matrix);
     solveForChange(simulation, h);

@@ -20,7 +20,7 @@ constexpr double kRounding = 1e-13;
 double contactEnergyOf(const Simulation& simulation, std::size_t p) {
     if (simulation.setup.obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return 0.0;
     const Particles& particles = simulation.particles;
-    return contactEnergy(simulation.setup.obstacles, {particles.position[p], Vec3::Zero(), particles.radius[p], 1.0});
+    return sumContacts(simulation.setup.obstacles, {particles.position[p], Vec3::Zero(), particles.radius[p]}).energy;
 }
 
 /// Pair energy of a new particle with all particles that were there before it, J.

@@ -17,7 +17,7 @@ struct BallisticState {
 struct Contacts {
     double gap = 0.0;           ///< distance from its surface to the nearest obstacle's, m; negative in contact
     bool needsSweep = false;    ///< whether the step is too long for them to act as forces
-    Vec3 force = Vec3::Zero();  ///< sum over the contacts as contactForce() has it, N
+    Vec3 force = Vec3::Zero();  ///< sum over the contacts as sumContacts() has it, N
 };
 
 /// The contacts of a step of this duration (s). They need a sweep where the particle may cover more than a fraction of

@@ -50,9 +50,9 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     const double pairEnergy = evaluateForces(simulation, predicted, h);
     // The second half of the kick, and each particle's energy after it, in one loop.
     const ParticleEnergy own = sumOver<ParticleEnergy>(particles.count(), [&](std::size_t p) {
-        const ContactAnswer contact = resolvedContact(simulation, p, predicted[p]);
-        particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contact.force);
-        return particleEnergy(simulation, p, contact.energy);
+        const ContactSums contacts = resolvedContacts(simulation, p, predicted[p]);
+        particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contacts.force);
+        return particleEnergy(simulation, p, contacts.energy);
     });
     simulation.cache->forcesCurrent = true;
     recordEnergy(simulation, own, pairEnergy);

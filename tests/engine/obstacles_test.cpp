@@ -15,11 +15,11 @@ using namespace engine;
 namespace {
 
 Vec3 forceAt(const Obstacles& obstacles, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
-    return contactForce(obstacles, {position, velocity, 0.15, 2.0});
+    return sumContacts(obstacles, {position, velocity, 0.15, 2.0}).force;
 }
 
 double energyAt(const Obstacles& obstacles, const Vec3& position) {
-    return contactEnergy(obstacles, {position, Vec3::Zero(), 0.15, 2.0});
+    return sumContacts(obstacles, {position, Vec3::Zero(), 0.15, 2.0}).energy;
 }
 
 /// Force of a repulsor of radius rho at distance D, b1 = 10, c_r = 1.
