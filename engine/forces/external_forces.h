@@ -1,5 +1,5 @@
 // The forces on particles that do not come from other particles, as the paper has them: their weight and the repulsors
-// of obstacles. Called by ForceEvaluator::evaluate() and by the paper's stepper, symplectic Euler.
+// of obstacles. Called by the paper's stepper, symplectic Euler.
 #pragma once
 
 #include <cstddef>

@@ -1,25 +1,15 @@
-// The total force: pairs, gravity and obstacles, by either method.
+// Pair forces and gravity by either method, and what steppers ask of the neighbor list.
 #include "engine/forces/forces.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "engine/forces/external_forces.h"
 #include "engine/forces/pair_sums.h"
 
 namespace engine {
 
 ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision)
     : law_(std::move(law)), method_(method), pairs_(law_, precision) {}
-
-void ForceEvaluator::evaluate(const Particles& particles, const std::vector<Vec3>& velocities,
-                              std::vector<Vec3>& forces, double step) {
-    evaluatePairs(particles, velocities, forces, step);
-    if (law_.obstacles.shapes.empty()) return addGravity(particles, forces);
-    inRanges(particles.count(), contactGrain(law_.obstacles), [&](std::size_t begin, std::size_t end) {
-        addExternalForces(law_, particles, velocities, begin, end, forces);
-    });
-}
 
 void ForceEvaluator::evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities,
                                    std::vector<Vec3>& forces, double step) {
@@ -62,6 +52,11 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
 
 void ForceEvaluator::renewList(const Particles& particles) {
     if (needsList()) pairs_.renewList(law_, particles, particles.velocity);
+}
+
+void ForceEvaluator::forgetList() {
+    pairs_.list.builtAt.clear();
+    pairs_.list.sortedIndexOf.clear();
 }
 
 bool ForceEvaluator::hasNoNeighborWithin(const std::vector<Vec3>& positions, double cutoff, std::size_t p,

@@ -33,11 +33,7 @@ class ForceEvaluator {
     ForceEvaluator() = default;
     ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision = Precision::doubles);
 
-    /// Total force on every particle, in newtons: pairs, gravity and obstacles.
-    void evaluate(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
-                  double step = 0.0);
-
-    /// The pair forces of equation 1 alone; evaluate() adds addExternalForces() to them.
+    /// The pair forces of equation 1 alone. The paper's stepper adds addExternalForces() to them.
     void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                        double step = 0.0);
 
@@ -61,11 +57,13 @@ class ForceEvaluator {
     /// Brings the neighbor list up to date if the method needs one.
     void renewList(const Particles& particles);
 
-    /// Discards the neighbor list, since particles have other indices now.
-    void forgetList() { pairs_.forgetList(); }
+    /// Discards the neighbor list. To be called when particles have got other indices.
+    void forgetList();
 
-    /// Brings back the list of a resumed run, which was built for these positions (m) and reached this far (m).
-    void restoreList(const std::vector<Vec3>& builtAt, double reach) { pairs_.restoreList(builtAt, reach); }
+    /// Rebuilds the neighbor list of a resumed run.
+    /// @param builtAt  positions that the list was built for, m
+    /// @param reach    distance within which it lists neighbors (cutoff and skin together), m
+    void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(pairs_.list, builtAt, reach, 0.0); }
 
     /// Whether no particle in p's row of the list is within a cutoff (m) at these positions (m). If the list covers the
     /// positions, that is every particle. False for a particle emitted since the list was built: it has no row.

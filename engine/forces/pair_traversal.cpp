@@ -53,11 +53,6 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     packFloats(list, particles, velocities, unit, packedFloat);
 }
 
-void PairTraversal::forgetList() {
-    list.builtAt.clear();
-    list.sortedIndexOf.clear();
-}
-
 void PairTraversal::packParticles(const Particles& particles, const std::vector<Vec3>& velocities) {
     if (!isPacked) packDoubles(list, particles, velocities, packed);
     isPacked = true;

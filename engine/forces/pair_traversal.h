@@ -45,14 +45,8 @@ struct PairTraversal {
     void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
-    /// Discards the list, since particles have other indices now.
-    void forgetList();
-
     /// After prepare() with the same arguments: packs the particles in double if only float was needed so far.
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
-
-    /// Brings back the list that was built for these positions (m) with this cutoff and skin together (m).
-    void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(list, builtAt, reach, 0.0); }
 
     PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {
         return pairConstants<double>(pairMaterials[p.material * materialCount + i.material], p.radius + i.radius);

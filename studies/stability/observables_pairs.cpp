@@ -33,7 +33,7 @@ class Pair {
     /// Force at a distance (m), N; positive where the particles repel each other.
     double force(double distance) {
         particles_.position[1].x() = distance;
-        evaluator_.evaluate(particles_, particles_.velocity, forces_);
+        evaluator_.evaluatePairs(particles_, particles_.velocity, forces_);
         return forces_[1].x();
     }
 

@@ -5,6 +5,7 @@
 #include <set>
 #include "tests/catch.h"
 
+#include "engine/forces/external_forces.h"
 #include "tests/engine/clouds.h"
 #include "tests/engine/rounding.h"
 
@@ -206,7 +207,7 @@ TEST_CASE("A single change among the radii is found, wherever threads divide the
     }
 }
 
-TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") {
+TEST_CASE("Gravity and obstacles add to the pair forces of either method", "[forces]") {
     ForceLaw law = clouds::lawOf("liquid");
     law.gravity = Vec3(0, -9.8, 0);
     law.obstacles.shapes = {Plane{}};
@@ -216,7 +217,8 @@ TEST_CASE("Evaluation adds gravity and obstacles to either method", "[forces]") 
     for (const ForceMethod method : {ForceMethod::grid, ForceMethod::reference}) {
         ForceEvaluator evaluator(law, method);
         std::vector<Vec3> forces;
-        evaluator.evaluate(particles, particles.velocity, forces);
+        evaluator.evaluatePairs(particles, particles.velocity, forces);
+        addExternalForces(law, particles, particles.velocity, 0, particles.count(), forces);
         const Vec3 contact = sumContacts(law.obstacles, {particles.position[0], Vec3::Zero(), 0.15, 2.0}).force;
         CHECK(contact.y() > 0.0);
         CHECK(forces[0].y() == Approx(-19.6 + contact.y()).epsilon(4 * kEps));  // two sums
@@ -248,9 +250,9 @@ TEST_CASE("Whether a particle has a neighbor depends on positions, not on the li
     for (const double step : {0.0, 1e-6, 0.01}) {
         ForceEvaluator evaluator(law, ForceMethod::grid);
         std::vector<Vec3> forces;
-        evaluator.evaluate(particles, particles.velocity, forces);
+        evaluator.evaluatePairs(particles, particles.velocity, forces);
         particles.position[2].y() += 10.0;  // needs a new list
-        evaluator.evaluate(particles, particles.velocity, forces, step);
+        evaluator.evaluatePairs(particles, particles.velocity, forces, step);
         reaches.insert(evaluator.list().reach);
         std::vector<Vec3> positions = particles.position;
         // The answer does not depend on the cached neighbor.
