@@ -1,63 +1,39 @@
 // Table 1 of the paper, the substances that it names, and the symmetric mixture of two materials.
 #include "engine/law/material.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace engine {
-namespace {
-
-struct Row {
-    std::string_view name;
-    double radius, mass, b1, bd, cr, cd;
-    double friction = 0.0;
-};
 
 /// Table 1, row by row, with the published masses of 1 kg; then the substances that the paper names without constants.
 /// The substances were chosen by their appearance at g = 9.81 m/s^2: b_d over the mass sets the viscosity,
 /// b1 / (D0^4 m g) how far a pile is compressed by its own weight (at 5 to 10 it levels like a liquid, at 20 it keeps
 /// the slope of a crystal), c_r the cohesion; c_r stays below 1.8, above which matter collapses under its own
 /// attraction.
-constexpr std::array<Row, 11> kPresets = {{
-    {"liquid", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
-    {"solid", 0.15, 1.0, 0.8, 4.0, 2.0, 2.0},
-    {"powder", 0.15, 1.0, 0.8, 4.0, 1.0, 1.0},
-    {"fountain", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
-    {"honey", 0.08, 0.05, 0.003, 8.0, 1.1, 2.0},
-    {"jam", 0.1, 0.1, 0.012, 25.0, 1.25, 1.5, 0.12},
-    {"oil", 0.08, 0.05, 0.0015, 0.25, 1.1, 2.0},
-    {"lava", 0.12, 0.3, 0.12, 20.0, 1.2, 1.5, 0.03},
-    {"mud", 0.12, 0.2, 0.08, 15.0, 1.2, 1.5, 0.1},
-    {"molten-metal", 0.06, 0.06, 0.0015, 0.1, 1.1, 1.5},
-    {"sand", 0.08, 0.015, 0.03, 1.2, 1.0, 1.0, 0.3},
-}};
-
-}  // namespace
-
-std::optional<Material> materialPreset(std::string_view name) {
-    for (const Row& row : kPresets) {
-        if (row.name != name) continue;
-        Material material;
-        material.name = row.name;
-        material.radius = row.radius;
-        material.mass = row.mass;
-        material.repulsion = row.b1;
-        material.damping = row.bd;
-        material.repulsionReach = row.cr;
-        material.dampingReach = row.cd;
-        material.friction = row.friction;
-        return material;
-    }
-    return std::nullopt;
+/// Columns: name, radius, mass, b1, b_d, c_r, c_d and, where there is friction, mu.
+std::span<const Material> materialPresets() {
+    static const std::array<Material, 11> presets = {{
+        {"liquid", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
+        {"solid", 0.15, 1.0, 0.8, 4.0, 2.0, 2.0},
+        {"powder", 0.15, 1.0, 0.8, 4.0, 1.0, 1.0},
+        {"fountain", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},
+        {"honey", 0.08, 0.05, 0.003, 8.0, 1.1, 2.0},
+        {"jam", 0.1, 0.1, 0.012, 25.0, 1.25, 1.5, 0.12},
+        {"oil", 0.08, 0.05, 0.0015, 0.25, 1.1, 2.0},
+        {"lava", 0.12, 0.3, 0.12, 20.0, 1.2, 1.5, 0.03},
+        {"mud", 0.12, 0.2, 0.08, 15.0, 1.2, 1.5, 0.1},
+        {"molten-metal", 0.06, 0.06, 0.0015, 0.1, 1.1, 1.5},
+        {"sand", 0.08, 0.015, 0.03, 1.2, 1.0, 1.0, 0.3},
+    }};
+    return presets;
 }
 
-const std::vector<std::string>& materialPresetNames() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list;
-        for (const Row& row : kPresets) list.emplace_back(row.name);
-        return list;
-    }();
-    return names;
+std::optional<Material> materialPreset(std::string_view name) {
+    const std::span<const Material> presets = materialPresets();
+    const auto preset = std::ranges::find(presets, name, &Material::name);
+    return preset == presets.end() ? std::nullopt : std::optional(*preset);
 }
 
 Material mixed(const Material& a, const Material& b) {

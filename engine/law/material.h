@@ -4,9 +4,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace engine {
 
@@ -23,12 +23,12 @@ struct Material {
     double coreFraction = 0.25;   ///< core distance in rest lengths: below it the force is linear in D
 };
 
-/// A row of Table 1 (liquid, solid, powder, fountain) or a substance that the paper names (honey, jam, oil, lava, mud,
-/// molten-metal, sand); empty for any other name.
-std::optional<Material> materialPreset(std::string_view name);
+/// All presets: the rows of Table 1 in its order (liquid, solid, powder, fountain), then the substances that the paper
+/// names (honey, jam, oil, lava, mud, molten-metal, sand).
+std::span<const Material> materialPresets();
 
-/// The names of all presets: those of Table 1 in its order, then the substances.
-const std::vector<std::string>& materialPresetNames();
+/// The preset of this name; empty if there is none.
+std::optional<Material> materialPreset(std::string_view name);
 
 /// The material of a pair of unlike particles: geometric means of b1, b_d and mu, arithmetic means of the reaches and
 /// of the core. It is the same for either order of the arguments, so that the pair conserves momentum. Radius and mass

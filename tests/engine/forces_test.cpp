@@ -60,10 +60,10 @@ void checkGridAgainstReference(const ForceLaw& law, const Particles& particles) 
 }  // namespace
 
 TEST_CASE("The grid agrees with the reference for every preset", "[forces]") {
-    for (const std::string& name : materialPresetNames()) {
-        INFO(name);
-        checkGridAgainstReference(clouds::lawOf(name.c_str()), clouds::strewn(400, 1.1));
-        checkGridAgainstReference(clouds::lawOf(name.c_str()), clouds::strewnUnequal(400, 1.1));
+    for (const Material& material : materialPresets()) {
+        INFO(material.name);
+        checkGridAgainstReference(clouds::lawOf(material), clouds::strewn(400, 1.1));
+        checkGridAgainstReference(clouds::lawOf(material), clouds::strewnUnequal(400, 1.1));
     }
 }
 

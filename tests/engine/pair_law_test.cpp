@@ -29,15 +29,14 @@ double radialForce(double d, const PairConstants<double>& c) {
 }  // namespace
 
 TEST_CASE("The factored coefficient is equation 2 as printed", "[pair_law]") {
-    for (const std::string& name : materialPresetNames()) {
-        const Material material = *materialPreset(name);
+    for (const Material& material : materialPresets()) {
         const auto c = pairConstants<double>(material, 0.3);
         for (double d = 0.08; d < 0.7; d += 0.0137) {
             const double approach = 0.3 * d;
             const double printed = printedCoefficient(d, approach, material, 0.3);
             // Largest term of the unfactored form times a dozen roundings: cancellation happens among its terms.
             const double largest = material.repulsion / std::pow(d, 5) + material.damping;
-            INFO(name << " D = " << d);
+            INFO(material.name << " D = " << d);
             CHECK(std::abs(pairCoefficient<kAll>(d * d, approach, c) - printed) <= 12 * kEps * largest);
             if (material.repulsionReach == material.dampingReach)
                 CHECK(std::abs(pairCoefficient<kEqualReach>(d * d, approach, c) - printed) <= 12 * kEps * largest);
@@ -108,8 +107,8 @@ TEST_CASE("Known values of Table 1", "[pair_law]") {
 }
 
 TEST_CASE("A pair at rest length and beyond the cutoff", "[pair_law]") {
-    for (const std::string& name : materialPresetNames()) {
-        const auto c = pairConstants<double>(*materialPreset(name), 0.3);
+    for (const Material& material : materialPresets()) {
+        const auto c = pairConstants<double>(material, 0.3);
         const double cutoff = std::sqrt(c.cutoffSq);
         CHECK(std::abs(radialForce(0.3, c)) <= 32 * kEps * c.b1 / std::pow(0.3, 4));  // zero to rounding at D0
         for (const double beyond : {c.cutoffSq, c.cutoffSq * 1.0001, 4.0 * c.cutoffSq})
