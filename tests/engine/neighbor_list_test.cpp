@@ -8,8 +8,8 @@
 #include <set>
 #include "tests/catch.h"
 
-#include "engine/core/instruction_sets.h"
 #include "tests/engine/clouds.h"
+#include "tests/engine/on_instruction_set.h"
 
 using namespace engine;
 

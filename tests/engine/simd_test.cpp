@@ -6,7 +6,6 @@
 
 #include "tests/catch.h"
 
-#include "engine/core/instruction_sets.h"
 #include "engine/forces/external_forces.h"
 #include "engine/forces/packed_particles.h"
 #include "engine/forces/pair_sums.h"
@@ -15,6 +14,7 @@
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/steppers.h"
+#include "tests/engine/on_instruction_set.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -251,8 +251,7 @@ TEST_CASE("A step has the same bits with an obstacle out of reach as without obs
 }
 
 TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
-    for (const std::string& preset : materialPresetNames()) {
-        Material material = *materialPreset(preset);
+    for (Material material : materialPresets()) {
         ForceLaw law = clouds::lawOf(material);
         ForceEvaluator lanes(law, ForceMethod::grid);
         const Particles particles = block(material, Vec3(1.0, 2.0, 3.0));
@@ -266,7 +265,7 @@ TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
         std::vector<Vec3> expected;
         lanes.evaluatePairs(particles, particles.velocity, actual);
         scalar.evaluatePairs(particles, particles.velocity, expected);
-        INFO(preset);
+        INFO(material.name);
         CHECK(actual == expected);
         const double energy = lanes.evaluateFree(particles, particles.velocity, actual);
         CHECK(energy != 0.0);
