@@ -85,8 +85,7 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         const double stop = nextStop(simulation, time);
         const double remaining = stop - simulation.time;
         const double allowed = std::min(longest, restriction.seconds);
-        // The smallest whole number of steps; the slack keeps 0.02 s at steps of 0.01 s from becoming three.
-        const double count = std::max(1.0, std::ceil(remaining / allowed * (1.0 - 1e-9)));
+        const double count = stepCount(remaining, allowed);
         const double h = remaining / count;
         history.add(simulation);
         takeStep(simulation, h);

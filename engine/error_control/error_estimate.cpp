@@ -59,7 +59,7 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
     trial.spent = forceEvaluationsOf(there);
     if (!trial.finished) return trial;
     const auto meanStep = [&] { return interval / static_cast<double>(there.steps.count); };
-    trial.asked = interval / std::ceil(interval / trialRun.step * (1.0 - 1e-9));
+    trial.asked = interval / stepCount(interval, trialRun.step);
     trial.step = meanStep();
     trial.cost = forceEvaluationsOf(there) / interval;
     trial.restricted = there.steps.rejected > 0 || there.restriction.seconds < trialRun.step;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/stepping/steppers.h"
+
 namespace engine {
 namespace {
 
@@ -40,7 +42,7 @@ double interpolatedStep(const Trial& less, const Trial& more, double wanted) {
 
 LongEstimate estimateLongError(const Simulation& simulation, StepperKind stepper, double step, double interval) {
     const double wanted = simulation.setup.error;
-    const double intervalCount = std::min(kMostIntervals, std::ceil(kLongEstimateSeconds / interval * (1.0 - 1e-9)));
+    const double intervalCount = std::min(kMostIntervals, stepCount(kLongEstimateSeconds, interval));
     LongEstimate estimate;
     const auto measureAt = [&](double asked) {
         // The horizon is 0: what a wrong velocity leads to happens within the trial.

@@ -1,4 +1,4 @@
-// The steppers by name and by order.
+// The choice among the functions that take a step, and tables of names and orders.
 #include "engine/stepping/steppers.h"
 
 #include <cmath>
@@ -8,6 +8,28 @@
 #include "engine/stepping/velocity_verlet.h"
 
 namespace engine {
+namespace {
+
+struct NameAndOrder {
+    std::string_view name;
+    int order;
+};
+
+/// Names and orders of convergence of the steppers, by StepperKind.
+constexpr std::array<NameAndOrder, kSteppers.size()> kNamesAndOrders = {{
+    {"symplectic-euler", 1},
+    {"velocity-verlet", 2},
+    {"leapfrog", 1},
+    {"implicit-damping", 2},
+    {"linearly-implicit", 2},
+    {"auto", 2},
+}};
+
+/// Names of what limits a step, by StepLimit.
+constexpr std::array<std::string_view, kStepLimits> kLimitNames = {"given step", "wanted error", "displacement limit",
+                                                                   "energy audit", "frame"};
+
+}  // namespace
 
 void takeStep(Simulation& simulation, double h) {
     switch (simulation.stepper) {
@@ -28,41 +50,15 @@ void takeStep(Simulation& simulation, double h) {
 }
 
 std::string_view nameOf(StepperKind stepper) {
-    switch (stepper) {
-        case StepperKind::symplecticEuler:
-            return "symplectic-euler";
-        case StepperKind::velocityVerlet:
-            return "velocity-verlet";
-        case StepperKind::leapfrog:
-            return "leapfrog";
-        case StepperKind::implicitDamping:
-            return "implicit-damping";
-        case StepperKind::linearlyImplicit:
-            return "linearly-implicit";
-        case StepperKind::automatic:
-            return "auto";
-    }
-    return {};
+    return kNamesAndOrders[static_cast<std::size_t>(stepper)].name;
 }
 
 std::string_view nameOf(StepLimit limit) {
-    switch (limit) {
-        case StepLimit::fixed:
-            return "given step";
-        case StepLimit::error:
-            return "wanted error";
-        case StepLimit::displacement:
-            return "displacement limit";
-        case StepLimit::audit:
-            return "energy audit";
-        case StepLimit::frame:
-            return "frame";
-    }
-    return {};
+    return kLimitNames[static_cast<std::size_t>(limit)];
 }
 
 int orderOf(StepperKind stepper) {
-    return stepper == StepperKind::symplecticEuler || stepper == StepperKind::leapfrog ? 1 : 2;
+    return kNamesAndOrders[static_cast<std::size_t>(stepper)].order;
 }
 
 double errorRatio(StepperKind stepper, double stepRatio) {

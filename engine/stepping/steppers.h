@@ -2,7 +2,9 @@
 // caller's.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "engine/state/simulation.h"
@@ -11,6 +13,12 @@ namespace engine {
 
 /// Moves the particles by one step of h seconds with the simulation's stepper in use. The caller advances the time.
 void takeStep(Simulation& simulation, double h);
+
+/// The smallest number of equal steps, at least one, that last a duration (s) and are each no longer than a bound (s).
+/// The slack keeps 0.02 s at steps of 0.01 s from becoming three.
+inline double stepCount(double duration, double longest) {
+    return std::max(1.0, std::ceil(duration / longest * (1.0 - 1e-9)));
+}
 
 /// All steppers, the automatic one last.
 inline constexpr std::array kSteppers = {StepperKind::symplecticEuler,  StepperKind::velocityVerlet,

@@ -1,9 +1,6 @@
 // The forces on all particles, then one kick and drift of each.
 #include "engine/stepping/symplectic_euler.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
 #include "engine/forces/external_forces.h"
@@ -11,6 +8,7 @@
 #include "engine/stepping/population.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_cache.h"
+#include "engine/stepping/steppers.h"
 
 namespace engine {
 
@@ -27,18 +25,18 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .gravity = evaluator.law().gravity,
                          .forces = simulation.cache->forces,
                          .hasWeight = hasObstacles};
-    return holdsInRanges(particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
-        // Pairs, weight, obstacles: the order is part of the bits.
-        if (hasObstacles)
-            addExternalForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
-        return kickAndDrift(step, begin, end, particles);
-    });
+    return holdsInRanges(
+        particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
+            // Pairs, weight, obstacles: the order is part of the bits.
+            if (hasObstacles)
+                addExternalForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
+            return kickAndDrift(step, begin, end, particles);
+        });
 }
 
 void advanceInEqualSteps(Simulation& simulation, double time) {
     const double from = simulation.time;
-    // The smallest whole number of steps; the slack keeps 0.02 s at steps of 0.01 s from becoming three.
-    const double count = std::max(1.0, std::ceil((time - from) / simulation.setup.step * (1.0 - 1e-9)));
+    const double count = stepCount(time - from, simulation.setup.step);
     const double h = (time - from) / count;
     if (simulation.steps.count == 0) requireValid(simulation, h);  // every later step is checked at its end
     for (double step = 0.0; step < count; step += 1.0) {
