@@ -8,6 +8,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/random.h"
+#include "engine/neighbors/linked_cells.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
@@ -21,29 +22,32 @@ constexpr double kTriesPerInterval = 4.0;
 /// What a random number is for: its stream within the emitter.
 enum class Purpose : std::uint64_t { site = 0, jitterFirst = 1, jitterSecond = 2 };
 
-/// Identifies one emission of an emitter.
+/// The index of an emitter in the set-up, of one of its schedules, and of an emission of that schedule.
 struct Emission {
+    std::uint64_t emitter = 0;
     std::uint64_t schedule = 0;
     std::uint64_t number = 0;
 };
 
-std::uint64_t drawBits(const EmissionContext& context, const Emission& emission, Purpose purpose) {
+std::uint64_t drawBits(const Setup& setup, const Emission& emission, Purpose purpose) {
     const std::uint64_t stream =
-        (context.emitterIndex << 40) ^ (emission.schedule << 2) ^ static_cast<std::uint64_t>(purpose);
-    return randomBits(context.seed, stream, emission.number);
+        (emission.emitter << 40) ^ (emission.schedule << 2) ^ static_cast<std::uint64_t>(purpose);
+    return randomBits(setup.seed, stream, emission.number);
 }
 
-Vec3 siteOf(const Emitter& emitter, const EmissionContext& context, const Emission& emission) {
+Vec3 siteOf(const Setup& setup, const Emission& emission) {
+    const Emitter& emitter = setup.emitters[emission.emitter];
     if (emitter.pick == Pick::all) return emitter.sites[emission.schedule];
-    return emitter.sites[drawBits(context, emission, Purpose::site) % emitter.sites.size()];
+    return emitter.sites[drawBits(setup, emission, Purpose::site) % emitter.sites.size()];
 }
 
-/// Random displacement across the velocity, in units of the emitter's jitter.
-Vec3 jitterOf(const Emitter& emitter, const EmissionContext& context, const Emission& emission) {
+/// Random displacement across the emitter's velocity, in units of the emitter's jitter.
+Vec3 jitterOf(const Setup& setup, const Emission& emission) {
+    const Emitter& emitter = setup.emitters[emission.emitter];
     if (emitter.jitter == 0.0) return Vec3::Zero();
     const PlaneAxes plane = axesAcross(emitter.velocity);
-    return symmetricUnit(drawBits(context, emission, Purpose::jitterFirst)) * plane.first +
-           symmetricUnit(drawBits(context, emission, Purpose::jitterSecond)) * plane.second;
+    return symmetricUnit(drawBits(setup, emission, Purpose::jitterFirst)) * plane.first +
+           symmetricUnit(drawBits(setup, emission, Purpose::jitterSecond)) * plane.second;
 }
 
 bool hasRoom(const Particles& particles, const LinkedCells& cells, const NewParticle& added, double clearance) {
@@ -56,20 +60,22 @@ bool hasRoom(const Particles& particles, const LinkedCells& cells, const NewPart
     return hasRoom;
 }
 
-NewParticle particleOf(const Emitter& emitter, const EmissionContext& context, const Material& material,
-                       const Emission& emission) {
+/// The particle of an emission that happens at a time (s), at its site.
+NewParticle particleOf(const Setup& setup, const Emission& emission, double time) {
+    const Emitter& emitter = setup.emitters[emission.emitter];
+    const Material& material = setup.materials[emitter.material];
     NewParticle particle;
-    particle.position =
-        siteOf(emitter, context, emission) + emitter.jitter * material.radius * jitterOf(emitter, context, emission);
+    particle.position = siteOf(setup, emission) + emitter.jitter * material.radius * jitterOf(setup, emission);
     particle.velocity = emitter.velocity;
     particle.radius = material.radius;
     particle.mass = material.mass;
-    particle.birthTime = context.time;
+    particle.birthTime = time;
     particle.material = emitter.material;
     return particle;
 }
 
-/// Moves a particle along the free flight it has had since it was due, this many seconds ago.
+/// Moves a particle along the free flight under gravity (m/s^2) that it has had since it was due, `duration` seconds
+/// ago.
 void flyFreely(NewParticle& particle, const Vec3& gravity, double duration) {
     particle.position += duration * particle.velocity + 0.5 * duration * duration * gravity;
     particle.velocity += duration * gravity;
@@ -98,32 +104,28 @@ double cellWidthFor(const Simulation& simulation) {
     const double largestRadius = largestRadiusOf(simulation);
     double width = simulation.cache->energy ? cutoffRatio(simulation.setup.materials) * 2.0 * largestRadius : 0.0;
     for (const Emitter& emitter : simulation.setup.emitters)
-        width = std::max(width, clearanceDistance(emitter, largestRadius));
+        width = std::max(width, emitter.clearance * 2.0 * largestRadius);
     return width;
 }
 
-}  // namespace
-
-double clearanceDistance(const Emitter& emitter, double largestRadius) {
-    return emitter.clearance * 2.0 * largestRadius;
-}
-
-std::size_t emit(const Emitter& emitter, EmitterState& state, const EmissionContext& context, const Material& material,
-                 Particles& particles, LinkedCells& cells) {
-    std::size_t emittedCount = 0;
+/// Emits what the emitter of this index has due, and adds the new particles to the cells.
+void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
+    const Setup& setup = simulation.setup;
+    const Emitter& emitter = setup.emitters[index];
+    EmitterState& state = simulation.emitters[index];
     for (std::size_t s = 0; s < state.schedules.size(); ++s) {
         Schedule& schedule = state.schedules[s];
-        while (schedule.due <= context.time + kSameMoment && schedule.due < emitter.until - kSameMoment &&
+        while (schedule.due <= simulation.time + kSameMoment && schedule.due < emitter.until - kSameMoment &&
                state.births < emitter.limit) {
-            NewParticle particle = particleOf(emitter, context, material, {s, schedule.births});
-            flyFreely(particle, context.gravity, std::max(0.0, context.time - schedule.due));
-            if (!hasRoom(particles, cells, particle, emitter.clearance)) {
+            NewParticle particle = particleOf(setup, {index, s, schedule.births}, simulation.time);
+            flyFreely(particle, setup.gravity, std::max(0.0, simulation.time - schedule.due));
+            if (!hasRoom(simulation.particles, cells, particle, emitter.clearance)) {
                 if (!schedule.delayed) ++state.refusals;
                 schedule.delayed = true;
                 schedule.due += emitter.interval / kTriesPerInterval;
                 continue;
             }
-            append(particles, particle);
+            append(simulation.particles, particle);
             cells.add(particle.position);
             // A delay shifts the schedule, or the particles that had to wait would come in a burst.
             ++schedule.births;
@@ -132,11 +134,11 @@ std::size_t emit(const Emitter& emitter, EmitterState& state, const EmissionCont
             schedule.due = dueTime(emitter, schedule);
             schedule.delayed = false;
             ++state.births;
-            ++emittedCount;
         }
     }
-    return emittedCount;
 }
+
+}  // namespace
 
 void emitDue(Simulation& simulation) {
     if (!isEmissionDue(simulation)) return;
@@ -144,12 +146,7 @@ void emitDue(Simulation& simulation) {
     const double width = cellWidthFor(simulation);
     LinkedCells cells;
     if (width > 0.0) cells = LinkedCells(width, simulation.particles.position);
-    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) {
-        const Emitter& emitter = simulation.setup.emitters[e];
-        const EmissionContext context{simulation.time, simulation.setup.gravity, simulation.setup.seed, e};
-        emit(emitter, simulation.emitters[e], context, simulation.setup.materials[emitter.material],
-             simulation.particles, cells);
-    }
+    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) emitFrom(e, simulation, cells);
     if (simulation.particles.count() == first) return;
     requireValid(simulation, 0.0);  // an emitter may stand anywhere
     simulation.cache->forcesCurrent = false;

@@ -19,14 +19,19 @@ Emitter pointEmitter(double interval, const Vec3& velocity) {
 
 /// Runs an emitter alone, moving its particles freely without gravity.
 struct Run {
-    Emitter emitter;
-    EmitterState state = initialState(emitter);
-    Particles particles = {};
+    Simulation simulation;
 
-    void until(double end, double step, std::uint64_t seed = 1) {
+    explicit Run(const Emitter& emitter) {
+        simulation.setup.gravity = Vec3::Zero();
+        simulation.setup.emitters = {emitter};
+        simulation.emitters = {initialState(emitter)};
+    }
+
+    void until(double end, double step) {
+        Particles& particles = simulation.particles;
         for (int k = 0; k * step < end; ++k) {
-            LinkedCells cells(2.0, particles.position);
-            emit(emitter, state, {k * step, Vec3::Zero(), seed, 0}, Material{}, particles, cells);
+            simulation.time = k * step;
+            emitDue(simulation);
             for (std::size_t p = 0; p < particles.count(); ++p) particles.position[p] += step * particles.velocity[p];
         }
     }
@@ -38,21 +43,21 @@ TEST_CASE("A point nozzle emits at its interval, evenly spaced whatever the step
     for (const double step : {0.01, 0.004, 0.0137}) {
         Run run{pointEmitter(0.1, Vec3(0, 10, 0))};
         run.until(0.95, step);
-        REQUIRE(run.particles.count() == 10);
+        REQUIRE(run.simulation.particles.count() == 10);
         for (std::size_t p = 1; p < 10; ++p) {
-            const double gap = run.particles.position[p - 1].y() - run.particles.position[p].y();
+            const double gap = run.simulation.particles.position[p - 1].y() - run.simulation.particles.position[p].y();
             CHECK(gap == Approx(1.0).epsilon(1e-12));  // sums of a hundred steps
         }
-        CHECK(run.state.refusals == 0);
+        CHECK(run.simulation.emitters[0].refusals == 0);
     }
 }
 
 TEST_CASE("A particle that is emitted late has fallen with gravity", "[emitters]") {
-    const Emitter emitter = pointEmitter(1.0, Vec3(2, 0, 0));
-    EmitterState state = initialState(emitter);
-    Particles particles = {};
-    LinkedCells cells;
-    emit(emitter, state, {0.5, Vec3(0, -8, 0), 1, 0}, Material{}, particles, cells);
+    Run run{pointEmitter(1.0, Vec3(2, 0, 0))};
+    run.simulation.setup.gravity = Vec3(0, -8, 0);
+    run.simulation.time = 0.5;
+    emitDue(run.simulation);
+    const Particles& particles = run.simulation.particles;
     REQUIRE(particles.count() == 1);
     CHECK(particles.position[0] == Vec3(1.0, -1.0, 0.0));
     CHECK(particles.velocity[0] == Vec3(2.0, -4.0, 0.0));
@@ -62,11 +67,12 @@ TEST_CASE("A particle that is emitted late has fallen with gravity", "[emitters]
 TEST_CASE("An emission without room waits and is counted once", "[emitters]") {
     Run run{pointEmitter(0.1, Vec3(0, 1, 0))};  // 0.1 m per interval, 0.3 m needed
     run.until(2.0, 0.01);
-    for (std::size_t p = 1; p < run.particles.count(); ++p)
-        CHECK((run.particles.position[p] - run.particles.position[p - 1]).norm() >= 0.3 - 1e-12);  // rounding of sums
-    CHECK(run.particles.count() == 7);                                                             // every 0.3 s
-    CHECK(run.state.refusals == 7);  // all but the first had to wait, and the eighth still does
-    CHECK(run.state.births == 7);
+    for (std::size_t p = 1; p < run.simulation.particles.count(); ++p)
+        CHECK((run.simulation.particles.position[p] - run.simulation.particles.position[p - 1]).norm() >=
+              0.3 - 1e-12);                           // rounding of sums
+    CHECK(run.simulation.particles.count() == 7);     // every 0.3 s
+    CHECK(run.simulation.emitters[0].refusals == 7);  // all but the first had to wait, and the eighth still does
+    CHECK(run.simulation.emitters[0].births == 7);
 }
 
 TEST_CASE("Clearance zero allows overlaps, as published", "[emitters]") {
@@ -74,8 +80,8 @@ TEST_CASE("Clearance zero allows overlaps, as published", "[emitters]") {
     emitter.clearance = 0.0;
     Run run{emitter};
     run.until(0.95, 0.01);
-    CHECK(run.particles.count() == 10);
-    CHECK(run.state.refusals == 0);
+    CHECK(run.simulation.particles.count() == 10);
+    CHECK(run.simulation.emitters[0].refusals == 0);
 }
 
 TEST_CASE("Start, until and limit bound the emissions", "[emitters]") {
@@ -84,12 +90,12 @@ TEST_CASE("Start, until and limit bound the emissions", "[emitters]") {
     emitter.until = 0.65;
     Run timed{emitter};
     timed.until(2.0, 0.01);
-    CHECK(timed.particles.count() == 4);  // 0.25 0.35 0.45 0.55
+    CHECK(timed.simulation.particles.count() == 4);  // 0.25 0.35 0.45 0.55
     emitter.until = 1e9;
     emitter.limit = 3;
     Run limited{emitter};
     limited.until(2.0, 0.01);
-    CHECK(limited.particles.count() == 3);
+    CHECK(limited.simulation.particles.count() == 3);
 }
 
 TEST_CASE("Random choice is seeded and reaches every site", "[emitters]") {
@@ -98,9 +104,10 @@ TEST_CASE("Random choice is seeded and reaches every site", "[emitters]") {
     emitter.pick = Pick::random;
     const auto columns = [&](std::uint64_t seed) {
         Run run{emitter};
-        run.until(2.0, 0.01, seed);
+        run.simulation.setup.seed = seed;
+        run.until(2.0, 0.01);
         std::vector<double> x;
-        for (const Vec3& position : run.particles.position) x.push_back(position.x());
+        for (const Vec3& position : run.simulation.particles.position) x.push_back(position.x());
         return x;
     };
     const auto first = columns(1);
@@ -125,10 +132,10 @@ TEST_CASE("All sites of a disc emit on their own schedules", "[emitters]") {
     Emitter emitter = pointEmitter(0.1, Vec3(0, 10, 0));
     emitter.sites = discSites(Vec3::Zero(), emitter.velocity, 0.3, 0.3);
     Run run{emitter};
-    append(run.particles, {.position = emitter.sites[0]});  // blocks one of the seven for ever
+    append(run.simulation.particles, {.position = emitter.sites[0]});  // blocks one of the seven for ever
     run.until(0.55, 0.01);
-    CHECK(run.particles.count() == 1 + 6 * 6);
-    CHECK(run.state.refusals == 1);
+    CHECK(run.simulation.particles.count() == 1 + 6 * 6);
+    CHECK(run.simulation.emitters[0].refusals == 1);
 }
 
 TEST_CASE("Jitter displaces particles across the velocity only", "[emitters]") {
@@ -137,8 +144,9 @@ TEST_CASE("Jitter displaces particles across the velocity only", "[emitters]") {
     Run run{emitter};
     run.until(0.95, 0.01);
     double largest = 0.0;
-    for (std::size_t p = 0; p < run.particles.count(); ++p) {
-        largest = std::max({largest, std::abs(run.particles.position[p].x()), std::abs(run.particles.position[p].z())});
+    for (std::size_t p = 0; p < run.simulation.particles.count(); ++p) {
+        largest = std::max({largest, std::abs(run.simulation.particles.position[p].x()),
+                            std::abs(run.simulation.particles.position[p].z())});
     }
     CHECK(largest > 0.005);
     CHECK(largest <= 0.2 * 0.15);
