@@ -1,17 +1,17 @@
-// Writes and reads PLY bytes one at a time, so that the byte order of the machine does not matter. The reader is
-// strict: whatever it does not know is an error, because a particle in the wrong place is harder to notice than a
-// message.
+// The reader of PLY files is strict: whatever it does not know is an error, because a particle in the wrong place is
+// harder to notice than a message.
 #include "scenes/model/particle_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <optional>
-#include <utility>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "engine/stepping/state_checks.h"
@@ -20,11 +20,33 @@
 namespace scenes {
 namespace {
 
+static_assert(std::endian::native == std::endian::little, "particle files are little-endian");
+
 /// The type of a property.
 struct PlyType {
-    std::size_t size = 8;  ///< bytes
-    bool isReal = true;    ///< a floating-point number; otherwise an unsigned integer
+    std::string_view name;
+    std::size_t size = 8;                   ///< bytes of a value
+    bool isReal = true;                     ///< values are floating-point numbers, otherwise unsigned integers
+    double (*read)(const char*) = nullptr;  ///< the value at an address
 };
+
+template <class Number>
+double numberAt(const char* bytes) {
+    Number number{};
+    std::memcpy(&number, bytes, sizeof number);
+    return static_cast<double>(number);
+}
+
+template <class Number>
+constexpr PlyType plyType(std::string_view name) {
+    return {name, sizeof(Number), std::is_floating_point_v<Number>, numberAt<Number>};
+}
+
+constexpr std::array kTypes = {plyType<float>("float"),          plyType<float>("float32"),
+                               plyType<double>("double"),        plyType<double>("float64"),
+                               plyType<std::uint8_t>("uchar"),   plyType<std::uint8_t>("uint8"),
+                               plyType<std::uint16_t>("ushort"), plyType<std::uint16_t>("uint16"),
+                               plyType<std::uint32_t>("uint"),   plyType<std::uint32_t>("uint32")};
 
 struct PlyProperty {
     std::string name;
@@ -45,11 +67,6 @@ struct PlyHeader {
 
 /// Chosen: ten times the longest header that is written or understood here.
 constexpr std::size_t kMaxHeaderBytes = 65536;
-
-const std::vector<std::pair<std::string_view, PlyType>> kTypes = {
-    {"float", {4, true}},  {"float32", {4, true}}, {"double", {8, true}},  {"float64", {8, true}},
-    {"uchar", {1, false}}, {"uint8", {1, false}},  {"ushort", {2, false}}, {"uint16", {2, false}},
-    {"uint", {4, false}},  {"uint32", {4, false}}};
 
 const std::vector<std::string_view> kRealProperties = {"x", "y", "z", "vx", "vy", "vz", "radius", "mass"};
 const std::vector<std::string_view> kIndexProperties = {"material", "id"};
@@ -107,17 +124,16 @@ void readElement(HeaderReader& reader, const std::vector<std::string>& words) {
 void readProperty(HeaderReader& reader, const std::vector<std::string>& words) {
     if (!reader.hasElement) fail(reader, "property before its element");
     if (words.size() != 3) fail(reader, "a property must be a type and a name; lists are not supported");
-    const auto type =
-        std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& known) { return known.first == words[1]; });
+    const auto* const type = std::ranges::find(kTypes, words[1], &PlyType::name);
     const std::string& name = words[2];
     if (!contains(kRealProperties, name) && !contains(kIndexProperties, name))
         fail(reader, fmt::format("unknown property \"{}\" (known: {}, {})", name, fmt::join(kRealProperties, ", "),
                                  fmt::join(kIndexProperties, ", ")));
     if (reader.header.has(name)) fail(reader, fmt::format("property \"{}\" is given twice", name));
-    if (type == kTypes.end() || type->second.isReal != contains(kRealProperties, name))
+    if (type == kTypes.end() || type->isReal != contains(kRealProperties, name))
         fail(reader, fmt::format("property \"{}\" has type {}, must be {}", name, words[1],
                                  contains(kRealProperties, name) ? "float or double" : "uchar, ushort or uint"));
-    reader.header.properties.push_back({name, type->second});
+    reader.header.properties.push_back({name, *type});
 }
 
 void readStatement(HeaderReader& reader, const std::vector<std::string>& words) {
@@ -175,31 +191,9 @@ PlyHeader readPlyHeader(std::string_view bytes, const std::string& fileName) {
     return reader.header;
 }
 
-void putBytes(std::string& bytes, std::uint64_t bits, std::size_t count) {
-    for (std::size_t byte = 0; byte < count; ++byte)
-        bytes += static_cast<char>(static_cast<unsigned char>(bits >> (8 * byte)));
-}
-
-void putDouble(std::string& bytes, double number) {
-    putBytes(bytes, std::bit_cast<std::uint64_t>(number), 8);
-}
-
-void putVector(std::string& bytes, const engine::Vec3& vector) {
-    for (int axis = 0; axis < 3; ++axis) putDouble(bytes, vector[axis]);
-}
-
-std::uint64_t bitsAt(std::string_view bytes, std::size_t at, std::size_t count) {
-    std::uint64_t bits = 0;
-    for (std::size_t byte = 0; byte < count; ++byte)
-        bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[at + byte])) << (8 * byte);
-    return bits;
-}
-
-double numberAt(std::string_view bytes, std::size_t at, PlyType type) {
-    const std::uint64_t bits = bitsAt(bytes, at, type.size);
-    if (!type.isReal) return static_cast<double>(bits);
-    if (type.size == 4) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
-    return std::bit_cast<double>(bits);
+template <class Value>
+void put(std::string& bytes, const Value& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 /// Stores one value of a row. The property "id" is ignored: ids follow the order of the rows.
@@ -232,16 +226,15 @@ std::string violatedRule(const std::string& name, double value) {
 std::string encodeParticles(const engine::Particles& particles) {
     std::string bytes = fmt::format(
         "ply\nformat binary_little_endian 1.0\ncomment globular particles\nelement vertex {}\n", particles.count());
-    for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "radius", "mass"})
-        bytes += fmt::format("property double {}\n", name);
+    for (const std::string_view name : kRealProperties) bytes += fmt::format("property double {}\n", name);
     bytes += "property uint material\nproperty uint id\nend_header\n";
     for (std::size_t index = 0; index < particles.count(); ++index) {
-        putVector(bytes, particles.position[index]);
-        putVector(bytes, particles.velocity[index]);
-        putDouble(bytes, particles.radius[index]);
-        putDouble(bytes, particles.mass[index]);
-        putBytes(bytes, particles.material[index], 4);
-        putBytes(bytes, particles.id[index], 4);
+        put(bytes, particles.position[index]);
+        put(bytes, particles.velocity[index]);
+        put(bytes, particles.radius[index]);
+        put(bytes, particles.mass[index]);
+        put(bytes, particles.material[index]);
+        put(bytes, particles.id[index]);
     }
     return bytes;
 }
@@ -249,7 +242,6 @@ std::string encodeParticles(const engine::Particles& particles) {
 ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName) {
     const PlyHeader header = readPlyHeader(bytes, fileName);
     ParticleFile file;
-    file.hasVelocity = header.has("vx");
     file.hasRadius = header.has("radius");
     file.hasMass = header.has("mass");
     file.hasMaterial = header.has("material");
@@ -258,7 +250,7 @@ ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName
         engine::NewParticle particle;
         particle.radius = particle.mass = 0.0;
         for (const PlyProperty& property : header.properties) {
-            const double value = numberAt(bytes, at, property.type);
+            const double value = property.type.read(&bytes[at]);
             at += property.type.size;
             if (const std::string rule = violatedRule(property.name, value); !rule.empty())
                 throw InputError(

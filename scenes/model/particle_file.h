@@ -21,7 +21,6 @@ namespace scenes {
 /// The contents of a particle file. Arrays that the file leaves out hold zeros. Ids are always 0, 1, 2, ...
 struct ParticleFile {
     engine::Particles particles;
-    bool hasVelocity = false;
     bool hasRadius = false;
     bool hasMass = false;
     bool hasMaterial = false;

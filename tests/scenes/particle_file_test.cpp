@@ -57,7 +57,6 @@ const std::string kOrigin(24, '\0');
 TEST_CASE("a particle file preserves every bit") {
     const engine::Particles before = sample();
     const scenes::ParticleFile file = scenes::decodeParticles(scenes::encodeParticles(before), "a.ply");
-    CHECK(file.hasVelocity);
     CHECK(file.hasRadius);
     CHECK(file.hasMass);
     CHECK(file.hasMaterial);
@@ -102,7 +101,6 @@ TEST_CASE("properties may come in any order and precision, and velocities may be
     CHECK(file.particles.velocity.at(0) == Vec3(0.0, 0.0, 0.0));
     CHECK(file.particles.material.at(0) == 2);
     CHECK(file.hasMaterial);
-    CHECK(!file.hasVelocity);
     CHECK(!file.hasRadius);
     CHECK(!file.hasMass);
 }
