@@ -15,7 +15,7 @@ namespace {
 
 using engine::Vec3;
 
-/// A body that is being built.
+/// A [[body]] table of a scene, from which particles are being made.
 struct Body {
     Section& section;
     std::size_t index = 0;
@@ -32,7 +32,7 @@ double latticeCount(const Vec3& halfExtent, double spacing) {
     return count;
 }
 
-/// Upper bound of the number of particles in a packed body.
+/// Upper bound of the number of particles in a body of shape box, ball or grid.
 double maxParticleCount(const Section& section) {
     const std::string& shape = section.string("shape");
     if (shape == "ball") return latticeCount(Vec3::Constant(section.number("radius")), section.number("spacing"));
@@ -70,7 +70,7 @@ std::vector<Vec3> packedPositions(const Body& body, const BuildContext& context)
     return engine::gridPositions(section.vector("center"), {count(0), count(1), count(2)}, packing);
 }
 
-/// A particle of the body's material, with the velocity, radius and mass that the body gives.
+/// A particle of the body's material, with the velocity, radius and mass that are given for the body.
 engine::NewParticle prototypeOf(const Body& body) {
     const engine::Material& material = body.materials.list[body.material];
     body.section.derive("particle_radius", TypedValue::ofNumber(material.radius));
@@ -102,7 +102,8 @@ void appendPoints(const Body& body, engine::Particles& particles) {
     }
 }
 
-/// Appends a particle of a file. The keys of the body take precedence over the file, and the file over the material.
+/// Appends one particle of a PLY file. Where radius, mass or material of a particle are given more than once, the keys
+/// of the [[body]] take precedence over the file, and the file over the material.
 void appendFileParticle(const Body& body, const ParticleFile& file, std::size_t index, engine::Particles& particles) {
     const Section& section = body.section;
     const bool usesFileMaterial = file.hasMaterial && !section.has("material");

@@ -1,4 +1,5 @@
-// Builds emitters, with their points of emission and their schedules: [[emitter]].
+// Makes the emitters of the simulation, with their points of emission and times of emission, from the [[emitter]]
+// tables of a scene.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +28,8 @@ void checkSchedule(Section& section, BuildContext& context) {
                section.canonical("start"));
 }
 
-/// The unit normal of a disc: the given direction, or that of the velocity.
+/// The unit normal of a disc of emission: the key direction, scaled to length 1, or without it the direction of the
+/// velocity.
 std::optional<Vec3> discNormal(Section& section, BuildContext& context) {
     if (section.has("direction")) return directionFrom(section, "direction", context);
     if (section.isGiven("direction") || !section.has("velocity")) return std::nullopt;
@@ -37,7 +39,7 @@ std::optional<Vec3> discNormal(Section& section, BuildContext& context) {
     return normal;
 }
 
-/// Points of emission of a disc; empty, with the problem recorded, if there are too many.
+/// Points of emission that fill a disc; none, with the problem recorded, if there would be too many.
 std::vector<Vec3> discSitesOf(Section& section, const Vec3& normal, BuildContext& context) {
     const double across = 2.0 * section.number("radius") / section.number("spacing") + 1.0;
     if (across * across > context.limits.particles) {
@@ -57,8 +59,8 @@ std::vector<Vec3> sitesOf(Section& section, BuildContext& context) {
     return section.has("positions") ? section.vectors("positions") : std::vector<Vec3>{section.vector("position")};
 }
 
-/// Derives the rate from the interval, or the interval from the rate. Each of n schedules emits one particle per
-/// interval.
+/// Derives the rate of an emitter from its interval, or the interval from the rate. An emitter has one schedule for
+/// each point of emission, or a single one if it picks points at random; each schedule emits one particle per interval.
 void completeSchedule(Section& section, double scheduleCount) {
     if (section.has("interval"))
         section.derive("rate", TypedValue::ofNumber(scheduleCount / section.number("interval")));
@@ -69,7 +71,7 @@ void completeSchedule(Section& section, double scheduleCount) {
 /// Checks that the particles emitted by the end of the scene are not too many.
 void checkEmissionCount(Section& section, BuildContext& context) {
     const double until = section.has("until") ? std::min(section.number("until"), context.duration) : context.duration;
-    // Each schedule emits at its start, too, which adds one interval.
+    // Each schedule emits its first particle at the start, not after one interval, which adds one interval to the time.
     const double time = until - section.number("start");
     double count = time > 0.0 ? section.number("rate") * (time + section.number("interval")) : 0.0;
     if (section.has("count")) count = std::min(count, static_cast<double>(section.integer("count")));

@@ -1,4 +1,5 @@
-// Builds materials: a preset, with the values that the scene gives instead of the preset's: [material].
+// Makes the materials of particles from the [material] tables of a scene: a preset, in which the keys that are given
+// replace the preset's values.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -13,7 +14,7 @@ struct PresetColor {
     std::string_view preset, hex;
 };
 
-/// Chosen: easy to tell apart on light and dark backgrounds.
+/// Colors of particles by preset of their material, sRGB. Chosen: easy to tell apart on light and dark backgrounds.
 constexpr std::array<PresetColor, 11> kPresetColors = {{{"liquid", "#3f86c8"},
                                                         {"solid", "#c8794a"},
                                                         {"powder", "#d8b878"},
@@ -32,7 +33,7 @@ engine::Vec3 presetColor(const std::string& preset) {
     return *colorFromHex(row == kPresetColors.end() ? kPresetColors.front().hex : row->hex);
 }
 
-/// A key that is a number of the engine's material.
+/// A key of [material] and the number of engine::Material that it sets.
 struct MaterialKey {
     std::string_view name;
     double engine::Material::*member;
@@ -47,7 +48,7 @@ constexpr std::array<MaterialKey, 8> kMaterialKeys = {{{"radius", &engine::Mater
                                                        {"friction", &engine::Material::friction},
                                                        {"core", &engine::Material::coreFraction}}};
 
-/// Gives the keys that the scene leaves out the values of the preset.
+/// Sets the keys of [material] that the scene leaves out to the values of the preset.
 void completeMaterial(Section& section) {
     const engine::Material preset = *engine::materialPreset(section.string("preset"));
     section.derive("name", TypedValue::ofString(preset.name));

@@ -1,4 +1,4 @@
-// Builds obstacles, and how they are drawn: [[obstacle]].
+// Makes the obstacles of the simulation, and what is drawn of them, from the [[obstacle]] tables of a scene.
 #include "scenes/build/builders.h"
 #include "scenes/model/to_float.h"
 
@@ -7,10 +7,10 @@ namespace {
 
 using engine::Vec3;
 
-/// Chosen: a gray that shows light and shade; linear RGB.
+/// Default color of boxes and spheres, linear RGB. Chosen: a gray that shows light and shade.
 const Vec3 kObstacleColor(0.5, 0.5, 0.5);
 
-/// Derives center and size of a box from its corners, or its corners from center and size.
+/// Derives center and size of a box or container from its two corners, or the corners from center and size.
 void completeCorners(Section& section, BuildContext& context) {
     const bool hasCorners = section.isGiven("minimum") || section.isGiven("maximum");
     const bool hasCenter = section.isGiven("center") || section.isGiven("size");
@@ -44,13 +44,13 @@ engine::Obstacle obstacleFrom(Section& section, BuildContext& context) {
     return engine::Sphere{section.vector("center"), section.number("radius"), section.string("repulsor") == "literal"};
 }
 
-/// A corner by its number from 0 to 7: bits 0, 1 and 2 select the maximum in x, y and z.
+/// A corner of a box by its number from 0 to 7: bits 0, 1 and 2 of the number select the maximum in x, y and z.
 glm::vec3 cornerOf(const render::BoxObstacle& box, unsigned corner) {
     return {(corner & 1U) != 0 ? box.maximum.x : box.minimum.x, (corner & 2U) != 0 ? box.maximum.y : box.minimum.y,
             (corner & 4U) != 0 ? box.maximum.z : box.minimum.z};
 }
 
-/// Adds twelve edges: from every corner along each axis in which it is at the minimum.
+/// Adds a box's twelve edges, each once: from every corner along each axis in which the corner is at the minimum.
 void addEdges(const render::BoxObstacle& box, const glm::vec3& color, float width, render::View& view) {
     for (unsigned corner = 0; corner < 8; ++corner)
         for (unsigned axis = 1; axis < 8; axis *= 2)

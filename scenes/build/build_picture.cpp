@@ -1,4 +1,5 @@
-// Builds what is drawn: [camera], or the [[camera]] list that makes a path, [look] and [overlay].
+// Makes cameras, look and overlay of a scene from its tables [camera], [look] and [overlay]. A list of [[camera]]
+// tables is a path of the camera.
 #include <cmath>
 #include <numbers>
 
@@ -23,8 +24,8 @@ void checkCamera(Section& section, BuildContext& context) {
         report(section, "up", context, "up lies along the direction of view, must point across it");
 }
 
-/// Checks what concerns several cameras together: times must increase, and the projection cannot change, because there
-/// is nothing to interpolate between the two.
+/// Checks the cameras of a path together: their times must increase, and the projection must not change, because
+/// perspective and orthographic projection cannot be interpolated.
 void checkPath(std::vector<Section>& sections, BuildContext& context) {
     const Section* previous = nullptr;
     for (Section& section : sections) {
@@ -54,14 +55,15 @@ CameraPlacement placementFrom(const Section& section) {
     return camera;
 }
 
-/// Whether an override gives `key` while the scene file gives `other`.
+/// Whether an override of the command line gives `key` while the scene file gives `other`.
 bool overrides(const Section& section, std::string_view key, std::string_view other) {
     return section.isGiven(key) && section.position(key).overrideIndex >= 0 &&
            section.position(other).overrideIndex < 0;
 }
 
-/// Chooses between colors and a color map where both are given: an override takes precedence over the file, and the
-/// other is then removed from the values of the scene. Otherwise it is a mistake to give both.
+/// Chooses between the keys colors and color_map where both are given. If one of them comes from the command line, it
+/// takes precedence, and the one in the scene file is removed from the values of the scene; otherwise a problem is
+/// recorded.
 void chooseRamp(Section& section, BuildContext& context) {
     if (!section.isGiven("colors") || !section.isGiven("color_map")) return;
     if (overrides(section, "color_map", "colors"))
@@ -76,7 +78,7 @@ void readColors(Section& section, const BuildContext& context, Look& look) {
     const std::string& colorBy = section.string("color_by");
     look.colorBy = colorBy == "speed" ? ColorBy::speed : colorBy == "age" ? ColorBy::age : ColorBy::material;
     if (look.colorBy == ColorBy::material) return;
-    // 5 m/s is chosen: about the speed of a fall from 1.3 m.
+    // The speed of the last color, 5 m/s, is chosen: about the speed of a fall from 1.3 m.
     const double high = look.colorBy == ColorBy::speed ? 5.0 : context.duration;
     section.derive("color_range", TypedValue::ofNumbers({0.0, high}));
     look.ramp = section.has("color_map") ? colorMap(section.string("color_map")) : section.vectors("colors");
@@ -125,7 +127,7 @@ double widthShare(double length, const CameraPlacement& camera, const Section& l
 }
 
 void checkScaleBar(Section& section, const Section& look, const CameraPath& camera, BuildContext& context) {
-    constexpr double kMaxShare = 0.8;  // chosen: leaves room for margins at any size of the picture
+    constexpr double kMaxShare = 0.8;  // share of the picture's width; chosen: leaves room for margins at any size
     for (const CameraKey& key : camera.keys) {
         const double share = widthShare(section.number("scale_bar"), key.placement, look);
         if (share <= kMaxShare) continue;
@@ -141,9 +143,9 @@ double luminance(const Vec3& linear) {
     return linear.dot(Vec3(0.2126, 0.7152, 0.0722));
 }
 
-/// Dark on a light background, light on a dark one.
+/// Color of the text of an overlay, linear RGB: dark on a light background, light on a dark one.
 Vec3 contrastingInk(const Section& look) {
-    constexpr double kMiddleGray = 0.18;  // looks half as bright as white
+    constexpr double kMiddleGray = 0.18;  // linear light that looks half as bright as white
     const double background =
         0.5 * (luminance(look.vector("background_top")) + luminance(look.vector("background_bottom")));
     return background > kMiddleGray ? Vec3(0.01, 0.01, 0.01) : Vec3(0.93, 0.93, 0.93);

@@ -1,4 +1,4 @@
-// Reports and checks that several builders share.
+// Checks of tables of a scene, and records of problems in them, that several of the build_*.cpp files share.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ std::optional<std::uint32_t> materialOf(Section& section, const Materials& mater
     const std::string& wanted = section.string("material");
     std::vector<std::string> names;
     for (std::uint32_t index = 0; index < materials.list.size(); ++index) {
-        // A material whose name could not be read may be the one that is referred to.
+        // A material whose name could not be read may be the one that the body or emitter refers to.
         if (materials.list[index].name == wanted || materials.list[index].name.empty()) return index;
         names.push_back(materials.list[index].name);
     }
@@ -68,7 +68,7 @@ std::optional<std::uint32_t> materialOf(Section& section, const Materials& mater
 std::optional<engine::Vec3> unitVector(const engine::Vec3& vector) {
     const double largest = vector.cwiseAbs().maxCoeff();
     if (largest == 0.0) return std::nullopt;
-    // Scaled first, so that no square overflows or underflows.
+    // The vector is scaled to a largest component of 1 first, so that no square overflows or underflows.
     const engine::Vec3 scaled = vector / largest;
     return scaled / std::sqrt(engine::squaredLength(scaled));
 }

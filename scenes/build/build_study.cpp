@@ -1,4 +1,4 @@
-// Builds the description of a stability study: [study].
+// Makes the description of a stability study from the [study] table of a scene.
 #include "engine/stepping/steppers.h"
 #include "scenes/build/builders.h"
 

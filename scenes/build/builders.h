@@ -1,6 +1,7 @@
-// Builders: one for each kind of table, which turns a validated section into a part of the scene. Each reports what the
-// schema alone cannot tell (keys that contradict each other, undefined names, files that cannot be read), and builds
-// its part only if the section is valid. Called by read_scene.cpp.
+// One function for each kind of table in a scene file, which turns the validated keys and values of a table (its
+// Section) into a part of the scene. Each records the problems that the schema alone cannot tell (keys that contradict
+// each other, undefined names, files that cannot be read), and makes its part only if there are none. Called by
+// read_scene.cpp.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@
 
 namespace scenes {
 
-/// Materials by index, with the colors that the engine does not need.
+/// The materials of a scene in the order of its [[material]] tables, and their particles' colors, which the engine does
+/// not need.
 struct Materials {
     std::vector<engine::Material> list;
     std::vector<engine::Vec3> colors;  ///< linear RGB
@@ -24,13 +26,14 @@ struct Materials {
 /// What the builders share.
 struct BuildContext {
     ProblemList& problems;
-    std::string folder;     ///< the folder that file names are relative to
+    std::string folder;     ///< the scene file's folder, which file names in it are relative to
     double duration = 1.0;  ///< s
     std::uint64_t seed = 1;
-    bool hasOmissions = false;  ///< part of the file could not be read, so what seems to be missing may be in it
-    std::uint64_t contentHash;  ///< of the files that the scene refers to
+    bool hasOmissions =
+        false;  ///< a part of the scene file could not be read, so keys that seem to be missing may be in it
+    std::uint64_t contentHash;  ///< hash over the contents of the files that the scene refers to
     Limits limits = {};
-    double expectedParticles = 0.0;  ///< of the bodies and emitters so far
+    double expectedParticles = 0.0;  ///< number of particles of the bodies and emitters built so far
 };
 
 Materials buildMaterials(std::vector<Section>& sections, BuildContext& context);
@@ -42,11 +45,12 @@ CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
 Look buildLook(Section& section, BuildContext& context);
 /// Adds the obstacles to the simulation and to the look of the scene.
 void buildObstacles(std::vector<Section>& sections, const Section& look, Scene& scene, BuildContext& context);
-/// Adds the overlay to the look of the scene, which already has its cameras.
+/// Adds the overlay to the look of the scene. The cameras have to be built before, because a scale bar must fit into
+/// the picture of each of them.
 void buildOverlay(Section& section, const Section& look, Scene& scene, BuildContext& context);
 Study buildStudy(Section& section, BuildContext& context);
 
-// What several builders need (build_shared.cpp).
+// The functions below are in build_shared.cpp and used by several of the functions above.
 
 /// Records a problem with a key of a section, and marks the section as invalid.
 /// @param message  a format string for the values
@@ -63,29 +67,30 @@ void reportMissing(Section& section, std::string_view name, BuildContext& contex
 /// Records a problem if two keys that exclude each other were both written. Returns whether they were.
 bool reportConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context);
 
-/// Adds to the number of particles that the scene will have, and records a problem with a key if it becomes too large.
-/// @param what  "the body would have", for the message
+/// Adds to the number of particles that the scene will have, and records a problem with a key of the section if that
+/// number exceeds the limit.
+/// @param what  beginning of the message, "the body would have"
 void addExpectedParticles(Section& section, std::string_view name, double particles, std::string_view what,
                           BuildContext& context);
 
-/// "at most 2e+06 are allowed; --limit particles=N allows more"
+/// End of a message about a limit that is exceeded: "at most 2e+06 are allowed; --limit particles=N allows more".
 std::string allowedText(std::string_view limit, double most);
 
-/// Whether a box may have an extent of zero.
+/// Whether a box may have the same minimum and maximum along an axis.
 enum class Flatness { allowed, forbidden };
 
-/// Records a problem if maximum is below minimum along any axis, or, for a box that must not be flat, equal to it. Does
-/// nothing unless the section has both.
+/// Records a problem if the key maximum is below the key minimum along any axis, or equal to it where the box must not
+/// be flat. Does nothing unless the section has both keys.
 void checkCorners(Section& section, Flatness flatness, BuildContext& context);
 
-/// Index of the material that a section refers to, 0 if it refers to none; nothing, with the problem recorded, if it is
-/// not defined.
+/// Index of the material that a body or emitter names, 0 if it names none; nothing, with the problem recorded, if there
+/// is no material of that name.
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context);
 
 /// The vector scaled to length 1; nothing for the zero vector.
 std::optional<engine::Vec3> unitVector(const engine::Vec3& vector);
 
-/// The direction that a key gives, with length 1; nothing, with the problem recorded, if it is the zero vector.
+/// The vector that a key gives, scaled to length 1; nothing, with the problem recorded, for the zero vector.
 std::optional<engine::Vec3> directionFrom(Section& section, std::string_view name, BuildContext& context);
 
 }  // namespace scenes

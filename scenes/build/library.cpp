@@ -1,4 +1,4 @@
-// Finds scene files by scanning folders. Nothing is cached, because there are few.
+// Finds scene files by scanning folders each time, because there are few scenes.
 #include "scenes/build/library.h"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ std::string lastPart(const std::string& name) {
     return name.substr(name.find_last_of('/') + 1);
 }
 
-/// The title of a scene file. The rest of the file is not validated.
+/// The title of a scene file, empty if it cannot be read. The rest of the file is not validated.
 std::string titleOf(const std::string& path) {
     try {
         ProblemList problems(path, {});

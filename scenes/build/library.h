@@ -8,8 +8,8 @@
 namespace scenes {
 
 struct LibraryEntry {
-    std::string name;   ///< path relative to its root, without .toml: "liquid", "paper/figure-2"
-    std::string title;  ///< empty if the file cannot be read
+    std::string name;   ///< path of the scene file below its root folder, without .toml: "liquid", "paper/figure-2"
+    std::string title;  ///< title of the scene; empty if the file cannot be read
     std::string path;
 };
 

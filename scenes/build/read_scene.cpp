@@ -1,5 +1,5 @@
-// Text to scene in five steps: parse, apply the overrides, validate against the schema, build the parts of the scene,
-// and throw if there were problems.
+// Makes a scene from the text of its file in five steps: parse, apply the overrides of the command line, validate
+// against the schema, build the parts of the scene, and throw if there were problems.
 #include "scenes/build/read_scene.h"
 
 #include <fmt/format.h>
@@ -91,7 +91,7 @@ void readStill(Sections& sections, BuildContext& context, Scene& scene) {
     scene.stripTimes = stripTimes(sections, context);
 }
 
-/// Checks that there is at least one particle to simulate.
+/// Records a problem if the scene has neither particles nor emitters.
 void checkPopulation(const Sections& sections, const engine::Setup& setup, BuildContext& context) {
     if (sections.mayBeIncomplete || !sections.emitters.empty()) return;
     if (sections.bodies.empty())
@@ -130,7 +130,8 @@ std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
     return values;
 }
 
-/// The hash that identifies a scene. It is equal for scenes that are equivalent, however they are written.
+/// Hash of the values of all keys and of the files that the scene refers to. It is equal for scenes that mean the same,
+/// however they are written.
 std::string hashOf(const std::vector<EffectiveValue>& values, std::uint64_t contentHash) {
     std::uint64_t hash = contentHash;
     for (const EffectiveValue& value : values)
@@ -142,13 +143,14 @@ BuildContext contextOf(const Sections& sections, const std::string& fileName, Pr
     BuildContext context{.problems = problems,
                          .folder = std::filesystem::path(fileName).parent_path().string(),
                          .contentHash = engine::fnv1a({})};
-    // Without a valid duration the scene is an error, and what is built with the default of the context is discarded.
+    // Without a valid duration the scene is rejected in the end; the default serves to find the problems in the other
+    // tables.
     if (sections.top.has("duration")) context.duration = sections.top.number("duration");
     context.seed = static_cast<std::uint64_t>(sections.top.integer("seed"));
     return context;
 }
 
-/// Builds all parts of a scene. They are complete only if no problem was recorded.
+/// Builds the parts of a scene from its tables. They are complete only if no problem was recorded.
 void build(Sections& sections, BuildContext& context, Scene& scene) {
     Materials materials = buildMaterials(sections.materials, context);
     scene.setup.world = buildWorld(sections.world, context);

@@ -11,21 +11,21 @@
 namespace scenes {
 
 /// The largest scene that is accepted, so that a mistyped number does not exhaust the memory or fill the disk. The
-/// command line raises a limit with --limit. The defaults are chosen.
+/// option --limit raises a limit. The defaults are chosen.
 struct Limits {
-    double particles = 2e6;         ///< of bodies and emitters together; a particle takes about a kilobyte
-    double frames = 1e5;            ///< an hour at 30 frames per second
-    double pixels = 3840.0 * 2160;  ///< of a picture; at final quality a pixel takes about 150 bytes
+    double particles = 2e6;         ///< particles of bodies and emitters together; one takes about a kilobyte
+    double frames = 1e5;            ///< frames of the animation: an hour at 30 frames per second
+    double pixels = 3840.0 * 2160;  ///< pixels of a picture; at final quality one takes about 150 bytes
 };
 
-/// Reads a scene from TOML text. Files that it refers to are looked for in the folder of fileName.
-/// @param fileName  opens the message of each problem
-/// @throws InputError with all mistakes: those of the text by position, then those of the overrides in order
+/// Reads a scene from TOML text.
+/// @param fileName  name at the beginning of each message; files that the scene refers to are looked for in its folder
+/// @throws InputError with all mistakes: those in the text by position, then those in the overrides in order
 Scene readScene(std::string_view text, const std::string& fileName, const Overrides& overrides,
                 const Limits& limits = {});
 
 /// Reads a scene from a file.
-/// @throws InputError as readScene does, and also if the file cannot be read
+/// @throws InputError with all mistakes of the scene, or if the file cannot be read
 Scene loadScene(const std::string& path, const Overrides& overrides, const Limits& limits = {});
 
 }  // namespace scenes
