@@ -11,7 +11,7 @@ namespace {
 
 using engine::Vec3;
 
-/// All the numbers of a placement that are interpolated.
+/// The numbers that place a camera: coordinates of eye, target and up, angle of view and half height.
 using Numbers = std::array<double, 11>;
 
 Numbers numbersOf(const CameraPlacement& camera) {
@@ -28,9 +28,10 @@ CameraPlacement placementOf(const Numbers& numbers, render::Projection projectio
             .halfHeight = numbers[10]};
 }
 
-/// Derivatives at a key (1/s): zero at the ends of the path, where the camera is at rest, and where a number has an
-/// extremum; otherwise the harmonic mean of the slopes on both sides, weighted by their lengths. It is at most three
-/// times the smaller slope, which keeps the cubics on both sides monotone.
+/// Time derivatives of a camera's numbers at a key of its path (per second): zero at the ends of the path, where the
+/// camera is at rest, and for a number that has an extremum at the key; otherwise the weighted harmonic mean of the
+/// slopes to the keys before and after. The mean is at most three times the smaller slope, which keeps the cubics on
+/// both sides monotone.
 Numbers slopesAt(const CameraPath& path, std::size_t key) {
     Numbers slopes{};
     if (key == 0 || key + 1 == path.keys.size()) return slopes;
@@ -66,7 +67,7 @@ CameraPlacement cameraAt(const CameraPath& path, double time) {
     const Numbers slopesFrom = slopesAt(path, index - 1);
     const Numbers slopesTo = slopesAt(path, index);
     Numbers now{};
-    // The Hermite cubic, written so that a number that does not change keeps its bits.
+    // The Hermite cubic, written such that a number which is the same at both keys keeps its bits.
     for (std::size_t k = 0; k < now.size(); ++k)
         now[k] = from[k] + (to[k] - from[k]) * (u * u * (3.0 - 2.0 * u)) +
                  length * u * (1.0 - u) * ((1.0 - u) * slopesFrom[k] - u * slopesTo[k]);

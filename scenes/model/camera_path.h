@@ -12,16 +12,16 @@ struct CameraKey {
     CameraPlacement placement;
 };
 
-/// A fixed camera (one key), or a path that it moves along. There is at least one key, times increase, and all keys
-/// have the same projection.
+/// A fixed camera (one key), or the path of a moving one. There is at least one key, the times of the keys increase,
+/// and all have the same projection.
 struct CameraPath {
     std::vector<CameraKey> keys;
 };
 
-/// The placement at a time in s: that of a key at the key's time, of the first key before it and of the last key after
-/// it. Between two keys every coordinate of eye, target and up, the angle of view and the half height follow a monotone
-/// cubic: values and first derivatives are continuous, no value leaves the interval between those of the adjacent keys,
-/// and the derivatives vanish at the first and the last key.
+/// Where the camera is at a time in s. Before the first key of the path it is placed as at that key, after the last as
+/// at the last. Between two keys every coordinate of eye, target and up, the angle of view and the half height follow a
+/// monotone cubic: values and first derivatives are continuous, no value leaves the interval between its values at the
+/// two keys, and the derivatives vanish at the first and the last key.
 /// Fritsch and Butland 1984, A Method for Constructing Local Monotone Piecewise Cubic Interpolants.
 CameraPlacement cameraAt(const CameraPath& path, double time);
 

@@ -1,4 +1,5 @@
-// How a scene is drawn. view/frame_view.cpp combines it with the particles of a moment into the renderer's input.
+// How a scene is drawn: cameras, colors, lights, obstacles and overlay. view/frame_view.cpp adds the particles of a
+// moment, which makes the renderer's input.
 #pragma once
 
 #include <vector>
@@ -27,9 +28,9 @@ struct Look {
     render::View common;
     bool hasTimeStamp = false;
     ColorBy colorBy = ColorBy::material;
-    std::vector<engine::Vec3> ramp;  ///< linear RGB from low to high speed or age; empty for colors by material
-    double rampLow = 0.0;            ///< speed (m/s) or age (s) of the first color
-    double rampHigh = 1.0;           ///< speed (m/s) or age (s) of the last color
+    std::vector<engine::Vec3> ramp;  ///< linear RGB for low to high speed or age; empty for colors by material
+    double rampLow = 0.0;            ///< speed (m/s) or age (s) of the first color of the ramp
+    double rampHigh = 1.0;           ///< speed (m/s) or age (s) of the last color of the ramp
 };
 
 }  // namespace scenes

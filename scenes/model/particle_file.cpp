@@ -22,12 +22,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "particle files are little-endian");
 
-/// The type of a property.
+/// A type that numbers of a PLY file may have.
 struct PlyType {
     std::string_view name;
-    std::size_t size = 8;                   ///< bytes of a value
-    bool isReal = true;                     ///< values are floating-point numbers, otherwise unsigned integers
-    double (*read)(const char*) = nullptr;  ///< the value at an address
+    std::size_t size = 8;                   ///< bytes of a number of this type
+    bool isReal = true;                     ///< floating point, otherwise unsigned integer
+    double (*read)(const char*) = nullptr;  ///< reads a number of this type from its bytes
 };
 
 template <class Number>
@@ -53,11 +53,11 @@ struct PlyProperty {
     PlyType type;
 };
 
-/// What the header says of the rows that follow it.
+/// The header of a PLY file, which describes the rows of numbers that follow. A row has one number for each property.
 struct PlyHeader {
     std::uint64_t rowCount = 0;
-    std::vector<PlyProperty> properties;  ///< of each row, in order
-    std::size_t size = 0;                 ///< bytes of the header
+    std::vector<PlyProperty> properties;  ///< names and types of the numbers of a row, in order
+    std::size_t size = 0;                 ///< bytes of the header itself
 
     bool has(std::string_view name) const {
         return std::any_of(properties.begin(), properties.end(),
@@ -65,7 +65,7 @@ struct PlyHeader {
     }
 };
 
-/// Chosen: ten times the longest header that is written or understood here.
+/// Largest size of a PLY header. Chosen: ten times the longest header that this program writes or understands.
 constexpr std::size_t kMaxHeaderBytes = 65536;
 
 const std::vector<std::string_view> kRealProperties = {"x", "y", "z", "vx", "vy", "vz", "radius", "mass"};
@@ -75,7 +75,7 @@ bool contains(const std::vector<std::string_view>& names, std::string_view name)
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The state of reading a header.
+/// The header of a PLY file while it is read line by line.
 struct HeaderReader {
     std::string_view bytes;
     const std::string& fileName;
@@ -161,7 +161,8 @@ void checkComplete(HeaderReader& reader) {
         fail(reader, "velocities need all of vx, vy and vz");
 }
 
-/// Checks that the rows fill the file exactly. Divides rather than multiplies, so that no row count overflows.
+/// Checks that the rows announced in the header fill the rest of the file exactly. Divides rather than multiplies, so
+/// that no row count overflows.
 void checkLength(HeaderReader& reader) {
     std::size_t stride = 0;
     for (const PlyProperty& property : reader.header.properties) stride += property.type.size;
@@ -173,7 +174,7 @@ void checkLength(HeaderReader& reader) {
         fail(reader, fmt::format("{} bytes follow the last particle", rest - reader.header.rowCount * stride));
 }
 
-/// Reads the header of a file whose rows fill the rest of the bytes exactly.
+/// Reads the header of a PLY file, and checks that the rows announced in it fill the rest of the file exactly.
 PlyHeader readPlyHeader(std::string_view bytes, const std::string& fileName) {
     HeaderReader reader{bytes, fileName};
     if (bytes.substr(0, 3) != "ply" || nextLine(reader) != "ply") {
@@ -196,7 +197,8 @@ void put(std::string& bytes, const Value& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Stores one value of a row. The property "id" is ignored: ids follow the order of the rows.
+/// Stores one number of a row in a particle. The property "id" is ignored, because the particles get new ids in the
+/// order of the rows.
 void setProperty(engine::NewParticle& particle, const std::string& name, double value) {
     if (name == "x" || name == "y" || name == "z")
         particle.position[name[0] - 'x'] = value;
@@ -210,8 +212,8 @@ void setProperty(engine::NewParticle& particle, const std::string& name, double 
         particle.material = static_cast<std::uint32_t>(value);
 }
 
-/// What a value would have to be; empty if it is valid. Positions and velocities have the bounds that they have in
-/// scene files.
+/// What the value of a property must be, for the message; empty if the value is valid. Positions and velocities have
+/// the same bounds as in scene files.
 std::string violatedRule(const std::string& name, double value) {
     if (!std::isfinite(value)) return "must be finite";
     if (name == "radius" || name == "mass") return value > 0.0 ? "" : "must be > 0";

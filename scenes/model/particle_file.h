@@ -18,7 +18,8 @@
 
 namespace scenes {
 
-/// The contents of a particle file. Arrays that the file leaves out hold zeros. Ids are always 0, 1, 2, ...
+/// The contents of a particle file. Properties that the file leaves out are zero for all particles. Ids are always 0,
+/// 1, 2, ...
 struct ParticleFile {
     engine::Particles particles;
     bool hasRadius = false;
@@ -26,11 +27,11 @@ struct ParticleFile {
     bool hasMaterial = false;
 };
 
-/// The bytes of a particle file with all properties above.
+/// The bytes of a PLY file with position, velocity, radius, mass, material and id of all particles.
 std::string encodeParticles(const engine::Particles& particles);
 
-/// The particles in the bytes of a file. Properties may come in any order, as float or double; all but x, y and z may
-/// be left out, velocities only together. The memory taken is proportional to the number of bytes.
+/// Reads particles from the bytes of a PLY file. Properties may come in any order, as float or double; all but x, y and
+/// z may be left out, vx, vy and vz only together. The memory taken is proportional to the number of bytes.
 /// @throws InputError that names the file, the particle and what is wrong
 ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName);
 

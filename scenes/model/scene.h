@@ -15,7 +15,7 @@
 
 namespace scenes {
 
-/// The value that a key of the scene has, after overrides and defaults.
+/// The value of a key of a scene after overrides and defaults, for reports and for the hash of the scene.
 struct EffectiveValue {
     std::string path;  ///< "body[0].radius"
     std::string toml;  ///< the value as TOML text
@@ -30,15 +30,15 @@ struct Scene {
     int fps = 30;           ///< frames per second
     std::uint64_t seed = 1;
     engine::Setup setup;
-    std::vector<engine::Vec3> materialColors;  ///< linear RGB, one for each material of the setup
+    std::vector<engine::Vec3> materialColors;  ///< linear RGB of the particles, one for each of the setup's materials
     CameraPath camera;
     Look look;
     render::PictureSize size;
     double stillTime = 0.5;          ///< s
     std::vector<double> stripTimes;  ///< s, increasing
-    std::optional<Study> study;      ///< only scenes of `globular study stability` have one
+    std::optional<Study> study;      ///< the [study] table, which only scenes of `globular study stability` have
     std::string sourceName;          ///< the file it was read from
-    std::string sceneHash;           ///< 16 hexadecimal digits over all effective values and the files they name
+    std::string sceneHash;  ///< 16 hexadecimal digits: hash over the values of all keys and the files that they name
     std::vector<EffectiveValue> values;
 };
 
@@ -48,10 +48,11 @@ int frameCount(const Scene& scene);
 /// The time that a frame shows, in seconds: frame / fps, never accumulated. Frame 0 is the start.
 double frameTime(const Scene& scene, int frame);
 
-/// The frame of the animation closest to the scene's still.
+/// The frame of the animation whose time is closest to the time of the still, the picture that represents the scene.
 int stillFrame(const Scene& scene);
 
-/// The frames of the animation closest to the times of the scene's strip, without repetitions.
+/// The frames of the animation closest to the times of the strip, a row of pictures that represents the scene. None is
+/// repeated.
 std::vector<int> stripFrames(const Scene& scene);
 
 }  // namespace scenes

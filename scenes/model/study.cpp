@@ -1,4 +1,4 @@
-// The observables with their names, units and descriptions, and variants as overrides.
+// The table of all observables of the stability study, and the variants of a scene as overrides of its keys.
 #include "scenes/model/study.h"
 
 #include <algorithm>

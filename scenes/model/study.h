@@ -1,5 +1,5 @@
 // The [study] table of a scene: which observable `globular study stability` measures, the limits that it has to stay
-// within, and what is varied. studies/stability measures it.
+// within, and which keys of the scene are varied. studies/stability does the measuring.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,8 @@
 
 namespace scenes {
 
-/// What is measured of a run. studies/stability/observables.h says how.
+/// The quantities that a stability study can measure of a run. study.cpp describes each;
+/// studies/stability/observables.h measures them.
 enum class Observable {
     pairLaw,
     momentumDrift,
@@ -38,12 +39,12 @@ enum class Observable {
 struct ObservableInfo {
     Observable observable = Observable::positionError;
     std::string_view name;        ///< as in scene files
-    std::string_view unit;        ///< of the value and its limits; empty: dimensionless; "r": particle radii
-    bool needsReference = false;  ///< it is compared with a run of the same scene at the reference step
+    std::string_view unit;        ///< unit of the observable and its limits; empty: dimensionless; "r": particle radii
+    bool needsReference = false;  ///< the run is compared with one of the same scene at the reference step
     std::string_view help;        ///< one line
 };
 
-/// All observables in the order of the enumeration.
+/// All observables, each at the index that is its number in the enumeration.
 const std::vector<ObservableInfo>& observables();
 
 const ObservableInfo& infoOf(Observable observable);
@@ -51,20 +52,21 @@ const ObservableInfo& infoOf(Observable observable);
 struct Study {
     int number = 1;  ///< row in the study's table
     Observable observable = Observable::positionError;
-    double limit = 0.0;                   ///< the largest value that passes
-    std::optional<double> atLeast;        ///< the smallest value that passes
-    bool paperMustFail = false;           ///< the paper's stepper is expected to fail
+    double limit = 0.0;                   ///< the largest value of the observable that passes
+    std::optional<double> atLeast;        ///< the smallest value of the observable that passes
+    bool paperMustFail = false;           ///< the study expects the paper's stepper to fail
     double paperStep = 0.01;              ///< time step of the paper's stepper, s
     std::optional<double> referenceStep;  ///< time step of the reference run, s
     engine::StepperKind referenceStepper = engine::StepperKind::velocityVerlet;
-    std::vector<std::string> vary;   ///< variants as KEY=VALUE; KEY=VALUE; none: the scene as it is
-    std::vector<std::string> quick;  ///< the variants that --quick runs
+    std::vector<std::string> vary;   ///< variants of the scene, "KEY=VALUE; KEY=VALUE"; none: the scene as it is
+    std::vector<std::string> quick;  ///< those variants that `--quick` runs; none: all
 };
 
-/// The overrides of a variant such as "a=1; b=2".
+/// The overrides that a variant of a scene consists of; the text "a=1; b=2" has two.
 Overrides overridesOf(std::string_view variant);
 
-/// The variants that a run of the study goes through; a single empty one where the study lists none.
+/// The variants of the scene that a study runs; a single empty text, for the scene as it is, where the study lists
+/// none.
 std::vector<std::string> variantsOf(const Study& study, bool isQuick);
 
 }  // namespace scenes

@@ -1,4 +1,4 @@
-// Double to single precision, for what goes to the renderer. The simulation itself never uses it.
+// Converts the simulation's double precision to the renderer's single precision. The simulation itself never uses it.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace scenes {
 
-/// The nearest float. A number beyond the range of float, which no picture can show, becomes the largest float.
+/// The float nearest to a double. Numbers beyond the range of float, which no picture can show, become the largest
+/// float.
 inline float toFloat(double number) {
     constexpr double kLargest = std::numeric_limits<float>::max();
     return static_cast<float>(std::clamp(number, -kLargest, kLargest));

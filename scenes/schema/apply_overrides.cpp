@@ -1,4 +1,5 @@
-// Splits the key of an override into table, index and name, finds the table, and stores the value there.
+// Applies overrides, such as body[0].radius=0.5: splits the key into table, index and name, finds the table in the
+// scene, and stores the value there.
 #include "scenes/schema/document.h"
 
 #include <fmt/format.h>
@@ -19,13 +20,13 @@ struct OverrideKey {
 };
 
 std::optional<std::size_t> wholeNumber(const std::string& text) {
-    // Longer numbers could overflow, and no scene has a million tables.
+    // Numbers of more than six digits could overflow, and no scene has a million tables.
     if (text.empty() || text.size() > 6 || text.find_first_not_of("0123456789") != std::string::npos)
         return std::nullopt;
     return static_cast<std::size_t>(std::stoul(text));
 }
 
-/// The parts of a path between dots, where body[0] counts as body.0; empty if brackets are misplaced.
+/// The parts of the key of an override between dots, where body[0] counts as body.0; none if brackets are misplaced.
 std::vector<std::string> partsOf(const std::string& path) {
     std::vector<std::string> parts(1);
     for (std::size_t at = 0; at < path.size(); ++at) {
@@ -66,7 +67,7 @@ struct Assignment {
     SourcePosition position;
 };
 
-/// The table that an override writes to; nullptr, with the problem recorded, if the scene has none.
+/// The table of the scene that an override writes to; nullptr, with the problem recorded, if there is no such table.
 Value* tableOf(Value& root, const Assignment& assignment, ProblemList& problems) {
     const OverrideKey& key = assignment.key;
     if (key.table.empty()) return &root;
@@ -95,7 +96,7 @@ void apply(Value& root, const Assignment& assignment, ProblemList& problems) {
     if (table == nullptr) return;
     const OverrideKey& key = assignment.key;
     if (table->kind != ValueKind::table) {
-        // Where the schema expects a table, the validation reports what was found instead.
+        // Where the schema expects a table, the later validation reports what the scene has instead.
         if (findTable(key.table) == nullptr)
             problems.add(assignment.position,
                          fmt::format("{} is not a table, {} has no key {}", key.table, key.table, key.name));

@@ -15,13 +15,14 @@
 namespace scenes {
 namespace {
 
-/// Chosen: bounds the time spent on a file that is not a scene at all. A statement is repaired at most twice.
+/// How often a text is parsed at most. Chosen: bounds the time spent on a file that is not a scene at all. A statement
+/// is repaired at most twice.
 constexpr int kMaxParses = 200;
 
 /// Largest number of parts of a dotted key, and depth of nested tables: as deep as toml++ allows nested values.
 constexpr int kMaxDepth = 256;
 
-/// Takes the place of a value that could not be parsed. No scene contains the control character.
+/// The string that replaces a value which could not be parsed. No scene contains its control character.
 constexpr std::string_view kInvalidMarker = "\x7Finvalid";
 
 SourcePosition positionOf(const toml::source_region& region) {
@@ -30,8 +31,8 @@ SourcePosition positionOf(const toml::source_region& region) {
 
 Value valueOf(const toml::node& node, int depth);
 
-/// The entries of a table in the order written; none below kMaxDepth. No key of a scene is that deep, so that the key
-/// at the top of such nesting is reported as unknown.
+/// The entries of a TOML table in the order in which they are written; none below kMaxDepth. No key of a scene is
+/// nested that deep, so that the key at the top of such nesting is reported as unknown.
 std::vector<Entry> entriesOf(const toml::table& table, int depth = 0) {
     std::vector<Entry> entries;
     if (depth > kMaxDepth) return entries;
@@ -69,7 +70,7 @@ Value valueOf(const toml::node& node, int depth = 0) {
     return value;
 }
 
-/// A text that is being repaired, line by line.
+/// The text of a scene file while syntax errors in it are repaired, line by line.
 struct RepairableText {
     std::vector<std::string> lines;
     std::vector<Statement> statements;
@@ -86,8 +87,9 @@ void blank(RepairableText& source, std::size_t firstLine, std::size_t lastLine) 
     for (std::size_t line = firstLine; line <= lastLine; ++line) source.lines[line].clear();
 }
 
-/// Index of the statement that caused a parse error on a line (from 1). The parser notices an unclosed value only in
+/// Index of the statement that caused a parse error in a line. The parser notices a value that is never closed only in
 /// the statement after it.
+/// @param line  counted from 1
 std::size_t statementAt(const RepairableText& source, std::size_t line) {
     std::size_t index = 0;
     while (index + 1 < source.statements.size() && source.statements[index + 1].firstLine + 1 <= line) ++index;
@@ -102,7 +104,8 @@ std::size_t sectionEnd(const RepairableText& source, std::size_t header) {
     return source.lines.size() - 1;
 }
 
-/// Index of the statement that a duplicate repeats; its own index if none is found.
+/// Index of the earlier statement that a duplicate key or table repeats; index of the duplicate itself if none is
+/// found.
 std::size_t firstDefinition(const RepairableText& source, std::size_t index) {
     const Statement& statement = source.statements[index];
     for (std::size_t earlier = index; earlier-- > 0;) {
@@ -125,14 +128,14 @@ std::string duplicateMessage(const RepairableText& source, std::size_t index) {
     return message;
 }
 
-/// The description of a parse error without its preamble.
+/// The message for a parse error of toml++, whose descriptions open with a preamble that is left out.
 std::string parserMessage(std::string_view description) {
     for (const std::string_view preamble : {"Error while parsing ", "Encountered "})
         if (description.substr(0, preamble.size()) == preamble) description.remove_prefix(preamble.size());
     return "syntax error: " + std::string(description);
 }
 
-/// Whether a statement repeats an earlier one. A key that is repeated within an inline table does not count.
+/// Whether a statement repeats an earlier key or table. A key that is repeated within an inline table does not count.
 bool isDuplicate(const RepairableText& source, std::size_t index, const toml::parse_error& error) {
     if (error.description().find("cannot redefine") == std::string_view::npos) return false;
     return source.statements[index].kind == StatementKind::tableHeader || firstDefinition(source, index) != index;
@@ -148,8 +151,9 @@ void report(const RepairableText& source, std::size_t index, const toml::parse_e
         problems.add(positionOf(error.source()), parserMessage(error.description()));
 }
 
-/// Rewrites a header in the form that the schema gives its table. A duplicate, or one whose name cannot be read, is
-/// left out with all keys below it, so that these are not mistaken for keys of the table before.
+/// Rewrites the header of a table as [name] or [[name]], as the schema asks for it. The header of a duplicate, or one
+/// whose name cannot be read, is left out with all keys below it, so that these are not mistaken for keys of the table
+/// before.
 void repairHeader(RepairableText& source, std::size_t index, bool isRepeated) {
     const Statement& statement = source.statements[index];
     const TableInfo* table = findTable(statement.name);
@@ -163,7 +167,8 @@ void repairHeader(RepairableText& source, std::size_t index, bool isRepeated) {
         isList ? fmt::format("[[{}]]", statement.name) : fmt::format("[{}]", statement.name);
 }
 
-/// Replaces a value that cannot be parsed by a marker. A duplicate, or a statement that is still in error, is left out.
+/// Repairs a statement with a syntax error: replaces a value that cannot be parsed by a marker. A duplicate, or a
+/// statement in error for the second time, is left out.
 void repair(RepairableText& source, std::size_t index, bool isRepeated) {
     const Statement& statement = source.statements[index];
     const bool wasRepaired = source.repairCounts[index]++ > 0;
@@ -175,7 +180,7 @@ void repair(RepairableText& source, std::size_t index, bool isRepeated) {
         source.hasOmissions = true;
 }
 
-/// Leaves out keys of so many parts that the parser, which has no limit for them, would overflow the stack.
+/// Leaves out dotted keys with so many parts that toml++, which does not limit their number, would overflow the stack.
 void removeDeepKeys(RepairableText& source, ProblemList& problems) {
     for (const Statement& statement : source.statements) {
         if (std::ranges::count(statement.name, '.') < kMaxDepth) continue;
@@ -220,7 +225,7 @@ Value parseOverrideValue(const std::string& text, int overrideIndex) {
         const toml::table parsed = toml::parse("v = " + text);
         if (const toml::node* node = parsed.get("v"); node != nullptr && parsed.size() == 1) value = valueOf(*node);
     } catch (const toml::parse_error&) {
-        // It is an unquoted string.
+        // Text that is not a TOML value is an unquoted string.
     }
     const auto relocate = [&](const auto& self, Value& part) -> void {
         part.position = {.overrideIndex = overrideIndex};

@@ -11,11 +11,11 @@ namespace scenes {
 
 struct Document {
     Value root;                 ///< a table
-    bool hasOmissions = false;  ///< statements had to be left out, so a key that is missing may be in one of them
+    bool hasOmissions = false;  ///< statements had to be left out, and a missing key may be in one of them
 };
 
-/// Parses a TOML text. Syntax errors and duplicate keys are recorded, one for each statement, and the statement is left
-/// out: its key gets a value of kind ValueKind::invalid.
+/// Parses a TOML text. Syntax errors and duplicate keys are recorded, at most one for each statement. A key whose value
+/// cannot be parsed gets a value of kind ValueKind::invalid.
 Document parseDocument(std::string_view text, ProblemList& problems);
 
 /// Parses the value of an override. Text that is not a TOML value is taken as a string, so that

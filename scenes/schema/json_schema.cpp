@@ -1,5 +1,6 @@
-// The schema as JSON Schema, draft-07 (https://json-schema.org/draft-07). Where a table has a discriminator, such as
-// the shape of a body, each of its values gets an alternative with just the keys that apply to it.
+// The schema of scene files as JSON Schema, draft-07 (https://json-schema.org/draft-07). Where one key of a table
+// determines which of the others apply, such as the shape of a body, each of its values gets an alternative with just
+// the keys that apply to it.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@
 namespace scenes {
 namespace {
 
-/// Keeps the order in which members are added, so that the file reads in the order of the schema.
+/// JSON whose members keep the order in which they are added, so that the file reads in the order of the schema.
 using Json = nlohmann::ordered_json;
 
 Json numberSchema(const char* type, const Range& range) {
@@ -21,7 +22,8 @@ Json numberSchema(const char* type, const Range& range) {
     return json;
 }
 
-/// @param length  number of items; 0: at least one
+/// The JSON Schema of a list.
+/// @param length  number of items; 0: one or more
 Json arraySchema(Json items, int length) {
     Json json = {{"type", "array"}, {"items", std::move(items)}, {"minItems", std::max(1, length)}};
     if (length > 0) json["maxItems"] = length;
@@ -78,7 +80,7 @@ Json keySchema(const Key& key) {
     return json;
 }
 
-/// A table with the given keys and no others.
+/// The JSON Schema of a table with the given keys and no others.
 Json objectSchema(const std::vector<const Key*>& keys) {
     Json json = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
     Json required = Json::array();
@@ -90,7 +92,7 @@ Json objectSchema(const std::vector<const Key*>& keys) {
     return json;
 }
 
-/// A table for one value of its discriminator.
+/// The JSON Schema of a table for one value of its discriminator, the key that determines which of the others apply.
 Json variantSchema(const TableInfo& table, const Key& discriminator, std::string_view variant) {
     std::vector<const Key*> keys;
     for (const Key* key : keysOf(table.name))
@@ -99,8 +101,8 @@ Json variantSchema(const TableInfo& table, const Key& discriminator, std::string
     Json& choice = json["properties"][std::string(discriminator.name)];
     choice.erase("enum");
     choice["const"] = variant;
-    // Where the discriminator may be left out, only the variant that is its default does without it. An item of a list
-    // that inherits takes it from the item before, which a JSON Schema cannot follow, so that every variant may.
+    // If the discriminator has a default, it may be left out in the variant of that default only. A camera takes it
+    // from the camera before, which a JSON Schema cannot follow, so that it may be left out in every variant.
     const bool isDefault = discriminator.defaultValue == tomlString(variant);
     if (!discriminator.isRequired && !isDefault && !table.inheritsPrevious)
         json["required"].push_back(discriminator.name);
@@ -116,14 +118,14 @@ Json tableSchema(const TableInfo& table) {
     return {{"anyOf", variants}};
 }
 
-/// A table in every form that it may be written in: [name], [[name]] or both.
+/// The JSON Schema of a table in every form in which it may be written: [name], [[name]] or both.
 Json tableValueSchema(const TableInfo& table) {
     const Json reference = {{"$ref", "#/definitions/" + std::string(table.name)}};
     Json forms = Json::array();
     if (table.allowsSingle) forms.push_back(reference);
     if (table.allowsList) forms.push_back({{"type", "array"}, {"items", reference}});
     Json json = forms.size() == 1 ? forms[0] : Json{{"anyOf", forms}};
-    // In draft-07 a "$ref" hides the members beside it.
+    // In draft-07 the members beside a "$ref" are ignored.
     if (json.contains("$ref")) json = {{"allOf", Json::array({json})}};
     json["description"] = table.help;
     return json;

@@ -1,4 +1,5 @@
-// The rows of the schema by subject, and what they share. Included by the schema's own files only.
+// The keys of each table of a scene file, and the ranges that they share. Included by the schema*.cpp and keys_*.cpp
+// files only.
 #pragma once
 
 #include "engine/stepping/state_checks.h"
@@ -10,10 +11,11 @@ inline constexpr Range kPositive{.low = 0.0, .isLowExcluded = true};
 inline constexpr Range kNotNegative{.low = 0.0};
 inline constexpr Range kUnitInterval{.low = 0.0, .high = 1.0};
 inline constexpr Range kOpenUnitInterval{.low = 0.0, .high = 1.0, .isLowExcluded = true, .isHighExcluded = true};
-/// Coordinates (m) and, for want of a tighter bound, velocities (m/s): a particle further out counts as lost.
+/// Range of coordinates (m): a particle further out counts as lost. It also serves for velocities (m/s), which have no
+/// tighter bound.
 inline constexpr Range kWithinWorld{.low = -engine::kWorldLimit, .high = engine::kWorldLimit};
 
-/// A key before its range, default and so on are added.
+/// A key of a scene file, to which range, default and so on are added by its member functions.
 inline Key key(std::string_view name, Type type, std::string_view unit, std::string_view help) {
     return {.name = name, .type = type, .unit = unit, .help = help};
 }

@@ -8,7 +8,7 @@ std::vector<Key> topKeys() {
     return {
         key("title", Type::string, "", "what the scene shows").required(),
         key("description", Type::string, "", "more about the scene").defaultsTo("\"\""),
-        // A million seconds keeps every frame number within 32 bits.
+        // A duration of at most a million seconds keeps every frame number within 32 bits.
         key("duration", Type::number, "s", "length of the animation").required().within({0.0, 1e6, true}),
         key("fps", Type::integer, "1/s", "frames per second; frame k shows the time k / fps")
             .defaultsTo("30")

@@ -6,7 +6,7 @@
 namespace scenes {
 namespace {
 
-/// Light may be brighter than 1. The upper bound is chosen to catch typing mistakes.
+/// Range of the color of a light, which may be brighter than 1. The upper bound is chosen to catch typing mistakes.
 constexpr Range kLight{.low = 0.0, .high = 100.0};
 
 void append(std::vector<Key>& keys, std::vector<Key> more) {
@@ -92,7 +92,7 @@ std::vector<Key> lightKeys() {
     };
 }
 
-/// How the particles respond to light, apart from their color.
+/// Keys of [look] on how the particles reflect, transmit and emit light.
 std::vector<Key> surfaceKeys() {
     return {
         key("reflection", Type::number, "",

@@ -12,8 +12,8 @@
 namespace scenes {
 namespace {
 
-/// The constant default of a key; nullptr if it has none. Defaults are validated like any value, and a row of the
-/// schema whose default violates its own range is a bug, which throws.
+/// The constant default of a key; nullptr if it has none. Defaults are validated like any value, and a default outside
+/// the range of its key is a bug, which throws.
 const TypedValue* defaultOf(const Key& key) {
     static const std::map<const Key*, TypedValue> kDefaults = [] {
         std::map<const Key*, TypedValue> defaults;
@@ -30,15 +30,15 @@ const TypedValue* defaultOf(const Key& key) {
     return found == kDefaults.end() ? nullptr : &found->second;
 }
 
-/// The state of reading one table.
+/// One table of a scene file while it is read.
 struct TableReader {
     const TableInfo& info;
-    const Value& value;  ///< a table; an empty one if the scene has none
-    bool hasOmissions;   ///< part of the file could not be read: missing keys are not reported
+    const Value& value;  ///< the table as it is written; empty if the scene does not have it
+    bool hasOmissions;   ///< a part of the file could not be read: missing keys are not reported
     ProblemList& problems;
-    const Section* previous;  ///< the item before this one, where the table inherits from it
+    const Section* previous;  ///< the table before in the list, if this one inherits from it
     Section section;
-    std::string variant = {};  ///< value of the table's discriminator key; empty if unknown
+    std::string variant = {};  ///< value of the key that determines which others apply; empty if unknown
     SourcePosition variantPosition = {};
 };
 
@@ -46,13 +46,13 @@ std::string fullName(const TableInfo& info, std::string_view key) {
     return info.name.empty() ? std::string(key) : fmt::format("{}.{}", info.name, key);
 }
 
-/// Whether a value is a table or a list of tables.
+/// Whether a value of a TOML file is a table or a list of tables.
 bool isTableOrList(const Value& value) {
     return value.kind == ValueKind::table ||
            (value.kind == ValueKind::array && !value.items.empty() && value.items[0].kind == ValueKind::table);
 }
 
-/// The path of a key of this name in any table; empty if there is none.
+/// The path of the first key of this name in any table of the schema, such as "physics.step"; empty if there is none.
 std::string pathInAnyTable(std::string_view name) {
     for (const Key& key : schema())
         if (key.name == name) return pathOf(key);
@@ -65,7 +65,7 @@ void reportUnknown(TableReader& reader, const Entry& entry) {
     for (const Key* key : keysOf(info.name)) names.emplace_back(key->name);
     std::string hint = nearestName(entry.key, names);
     if (!hint.empty()) {
-        // The suggested key is what was meant, so it is not reported as missing, too.
+        // The suggested key is probably what was meant, so it counts as written and is not reported as missing, too.
         reader.section.putInvalid(hint, entry.position);
         hint = fmt::format(", did you mean {}?", tomlString(hint));
     } else if (const std::string path = pathInAnyTable(entry.key); !path.empty()) {
@@ -76,8 +76,8 @@ void reportUnknown(TableReader& reader, const Entry& entry) {
     reader.section.markInvalid();
 }
 
-/// The value that a key takes from the previous item of the list, where the table inherits; nullptr if none. A key
-/// without a constant default, such as the time of a camera, is not inherited.
+/// The value that a table takes for a key from the table before in its list, as the cameras of a path do; nullptr if it
+/// takes none. A key without a constant default, such as the time of a camera, is not inherited.
 const TypedValue* inheritedBy(const TableReader& reader, const Key& key) {
     const Section* previous = reader.previous;
     const std::string_view name = key.name;
@@ -90,7 +90,8 @@ bool applies(const TableReader& reader, const Key& key) {
 }
 
 void reportInapplicable(TableReader& reader, const Entry& entry, const Key& key) {
-    // Where an override changes the shape, the file's keys of the former shape are ignored.
+    // Where an override of the command line changes the shape, the keys that the file gives for the former shape are
+    // ignored.
     if (reader.variantPosition.overrideIndex >= 0 && entry.position.overrideIndex < 0) return;
     reader.problems.add(entry.position,
                         fmt::format("{} does not apply to {} {}, only to {}", entry.key, reader.info.discriminator,
@@ -108,8 +109,8 @@ void readEntry(TableReader& reader, const Entry& entry) {
         reader.section.putInvalid(entry.key, entry.value.position);
 }
 
-/// Finds the value of the table's discriminator key, on which it depends which other keys apply. Problems of the
-/// discriminator itself are reported by readEntry.
+/// Finds the value of a table's discriminator, the key that determines which others apply. Problems with that key
+/// itself are reported by readEntry.
 void findVariant(TableReader& reader) {
     const std::string_view name = reader.info.discriminator;
     if (name.empty()) return;
@@ -141,14 +142,14 @@ void completeKey(TableReader& reader, const Key& key) {
         reportMissing(reader, key);
 }
 
-/// The state of reading all tables.
+/// All tables of a scene file while they are read.
 struct SectionsReader {
     const Document& document;
     ProblemList& problems;
     bool mayBeIncomplete = false;
 };
 
-/// The validated table, with inherited values and the schema's defaults.
+/// Validates a table, and completes it with inherited values and the schema's defaults.
 Section readOne(const SectionsReader& all, const TableInfo& info, std::string path, const Value& value,
                 const Section* previous = nullptr) {
     TableReader reader{.info = info,
@@ -159,7 +160,7 @@ Section readOne(const SectionsReader& all, const TableInfo& info, std::string pa
                        .section = Section(info, std::move(path), value.position)};
     findVariant(reader);
     for (const Entry& entry : value.entries) {
-        // The tables of a scene are entries of its root, too; readSections reads them.
+        // The root of a TOML file has the keys above the first table and all tables. Only the keys are read here.
         const bool isTop = info.name.empty();
         const bool isTable = isTableOrList(entry.value);
         if (isTop && (isTableName(entry.key) || (isTable && findKey("", entry.key) == nullptr))) continue;
@@ -169,12 +170,12 @@ Section readOne(const SectionsReader& all, const TableInfo& info, std::string pa
     return std::move(reader.section);
 }
 
-/// A table that is not written.
+/// A table that the scene does not have, with all defaults.
 Section defaultSection(const SectionsReader& reader, const TableInfo& info) {
     return readOne(reader, info, std::string(info.name), Value{});
 }
 
-/// A table that is written at most once. If it is written as a list, its first item is read nevertheless, in order to
+/// A table that may be written once. If it is written as a list, its first item is read nevertheless, in order to
 /// report the problems in it.
 Section readSingle(SectionsReader& reader, const char* name) {
     const TableInfo& info = *findTable(name);
@@ -237,7 +238,7 @@ void reportUnknownTables(SectionsReader& reader) {
         if (!isTable || isTableName(entry.key) || findKey("", entry.key) != nullptr) continue;
         reader.mayBeIncomplete = true;
         const std::string nearest = nearestName(entry.key, names);
-        // The position of the value is that of the table's header.
+        // The position of a table as a value is that of the table's header.
         reader.problems.add(entry.value.position,
                             fmt::format("unknown table {}{}", tomlString(entry.key),
                                         nearest.empty() ? "" : fmt::format(", did you mean {}?", tomlString(nearest))));

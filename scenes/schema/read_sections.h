@@ -10,7 +10,7 @@
 
 namespace scenes {
 
-/// The tables of a scene. Those that are not written hold their defaults.
+/// The validated tables of a scene. A table that is not written holds the defaults of its keys.
 struct Sections {
     Section top;
     Section physics;
@@ -24,17 +24,17 @@ struct Sections {
     std::vector<Section> obstacles;
     std::vector<Section> cameras;  ///< at least one
     std::optional<Section> study;  ///< only if it is written
-    bool mayBeIncomplete = false;  ///< a table could not be read, so what seems to be missing may be in it
+    bool mayBeIncomplete = false;  ///< a table could not be read, and may have what seems to be missing
 
-    /// All sections in the order of the schema.
+    /// All tables in the order of the schema.
     std::vector<const Section*> all() const;
 };
 
-/// Reads all tables. Records every problem that the schema alone can tell: unknown, missing, invalid and inapplicable
-/// keys.
+/// Reads all tables of a scene. Records every problem that the schema alone can tell: unknown and missing keys, invalid
+/// values, and keys that do not apply.
 Sections readSections(const Document& document, ProblemList& problems);
 
-/// "radius is missing, a body of shape "ball" needs it (meters)".
+/// The message about a missing key, such as "radius is missing, a body of shape "ball" needs it (meters)".
 std::string missingText(const Section& section, const Key& key);
 
 }  // namespace scenes

@@ -1,4 +1,4 @@
-// The tables of a scene file, look-ups in the schema, and the words that messages use for its types and units.
+// The tables of a scene file, look-ups of tables and keys, and the words that messages use for types and units.
 #include "scenes/schema/schema.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,8 @@ namespace {
 struct TypeWords {
     Type type = Type::number;
     std::string_view name;
-    std::string_view expected;  ///< what a value must be; of a choice it depends on the key
+    std::string_view
+        expected;  ///< what a value must be, for messages; empty for a choice, whose values depend on the key
 };
 
 const TypeWords& wordsOf(Type type) {

@@ -1,6 +1,6 @@
 // The schema: every table and key that a scene file may contain, each described once. Parsing, validation, defaults,
-// messages, `globular schema` and docs/scenes.md all come from it. To add a key, add a row to one of the keys_*.cpp
-// files and read it in the builder of its table in build/.
+// messages, `globular schema` and docs/scenes.md all follow from it. To add a key, add a row to one of the keys_*.cpp
+// files, and read its value in scenes/build/.
 #pragma once
 
 #include <limits>
@@ -36,20 +36,21 @@ struct Range {
     bool isHighExcluded = false;
 };
 
-/// A key of a table. All texts are static. The functions return a changed copy, so that a key is written as
-/// `key("fps", Type::integer, "1/s", "frames per second").within({1, 240}).defaultsTo("30")`.
+/// A key of a table in a scene file. All texts are static. The member functions return a changed copy, so that a key is
+/// written as `key("fps", Type::integer, "1/s", "frames per second").within({1, 240}).defaultsTo("30")`.
 struct Key {
-    std::string_view table{};  ///< empty for keys above the first table
+    std::string_view table{};  ///< name of the table; empty for keys above the first table
     std::string_view name{};
     Type type = Type::number;
-    std::string_view unit{};  ///< symbol, e.g. "m/s"; empty for none
+    std::string_view unit{};  ///< symbol of the unit, e.g. "m/s"; empty for none
     std::string_view help{};  ///< one line
     Range range{};
     std::vector<std::string_view> choices{};
-    std::string_view defaultValue{};            ///< constant default as TOML text; empty for none
-    std::string_view derivedDefault{};          ///< in words, a default that depends on other keys; empty for none
-    bool isRequired = false;                    ///< in every table that it applies to
-    std::vector<std::string_view> appliesTo{};  ///< values of the table's discriminator; empty: all
+    std::string_view defaultValue{};    ///< constant default as TOML text; empty for none
+    std::string_view derivedDefault{};  ///< a default that depends on other keys, in words; empty for none
+    bool isRequired = false;            ///< the key must be given in every table that it applies to
+    std::vector<std::string_view>
+        appliesTo{};  ///< those values of the table's discriminator for which the key applies; empty: all
 
     Key within(const Range& allowed) && {
         range = allowed;
@@ -82,18 +83,18 @@ struct TableInfo {
     std::string_view name{};
     std::string_view subject{};  ///< in messages: "a body"
     std::string_view help{};
-    bool allowsSingle = true;          ///< may be written [name]
-    bool allowsList = false;           ///< may be written [[name]]
-    bool inheritsPrevious = false;     ///< an item inherits what it leaves out from the item before it
-    std::string_view discriminator{};  ///< the key that determines which of the others apply
+    bool allowsSingle = true;          ///< the table may be written once, as [name]
+    bool allowsList = false;           ///< the table may be written several times, as [[name]]
+    bool inheritsPrevious = false;     ///< a table in a list takes what it leaves out from the one before
+    std::string_view discriminator{};  ///< the key that determines which others apply, e.g. "shape"; empty for none
 };
 
 const std::vector<TableInfo>& tables();
 
-/// All keys, in the order of tables().
+/// All keys of all tables, in the order of tables().
 const std::vector<Key>& schema();
 
-/// The table of a name; nullptr if there is none.
+/// The table with the given name; nullptr if there is none.
 const TableInfo* findTable(std::string_view name);
 
 /// Whether [name] or [[name]] is a table of a scene file.
@@ -101,25 +102,25 @@ inline bool isTableName(std::string_view name) {
     return !name.empty() && findTable(name) != nullptr;
 }
 
-/// The key of a table; nullptr if there is none.
+/// The key with the given name in a table; nullptr if there is none.
 const Key* findKey(std::string_view table, std::string_view name);
 
-/// The keys of a table, in order.
+/// The keys of a table, in the order of the schema.
 std::vector<const Key*> keysOf(std::string_view table);
 
-/// "title", "physics.gravity", "body[].shape".
+/// The name of a key with its table: "title", "physics.gravity", "body[].shape".
 std::string pathOf(const Key& key);
 
-/// "> 0", "1 to 240", ">= 0 and < 1"; empty for an unbounded range.
+/// A range as messages show it: "> 0", "1 to 240", ">= 0 and < 1"; empty for an unbounded one.
 std::string rangeText(const Range& range);
 
-/// What a key's value must be: "a number", "true or false", `"all" or "random"`.
+/// What the value of a key must be, for messages: "a number", "true or false", `"all" or "random"`.
 std::string expectedText(const Key& key);
 
 /// The name of a type in lists of keys: "number", "list of [x, y, z]".
 std::string typeText(Type type);
 
-/// The name of a unit where it is spelled out in messages ("meters" for "m"), otherwise its symbol.
+/// A unit as messages show it: spelled out if it is common ("meters" for "m"), otherwise its symbol.
 std::string unitWords(std::string_view unit);
 
 }  // namespace scenes

@@ -34,7 +34,7 @@ SchemaRow rowOf(const Key& key) {
     return row;
 }
 
-/// All columns but the key and the help, e.g. "number, m, > 0, default 0.15".
+/// Type, unit, range, default and condition of a key in one line: "number, m, > 0, default 0.15".
 std::string factsOf(const SchemaRow& row) {
     std::string facts = row.type;
     if (!row.unit.empty()) facts += fmt::format(", {}", row.unit);

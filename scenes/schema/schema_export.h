@@ -7,14 +7,14 @@
 
 namespace scenes {
 
-/// A key as columns of text.
+/// A key of the schema as columns of text.
 struct SchemaRow {
     std::string key;
     std::string type;
     std::string unit;
-    std::string defaultText;  ///< as TOML, or in words in parentheses, or "required"
-    std::string range;        ///< bounds or choices
-    std::string appliesTo;    ///< e.g. "shape ball, grid"; empty: always
+    std::string defaultText;  ///< the default as TOML, or in words in parentheses, or "required"
+    std::string range;        ///< bounds of a number, or choices
+    std::string appliesTo;    ///< when the key applies, e.g. "shape ball, grid"; empty: always
     std::string help;
 };
 
@@ -23,11 +23,11 @@ std::vector<SchemaRow> schemaRows();
 /// The whole schema as text for a terminal.
 std::string schemaText();
 
-/// The whole schema as Markdown: a section for each table, with a table of its keys.
+/// The whole schema as Markdown: for each table of a scene file a section with a table of its keys.
 std::string schemaMarkdown();
 
-/// The whole schema as JSON Schema, draft-07, which taplo and Even Better TOML read. It accepts every valid scene;
-/// rules about several keys, such as "position or positions", are left to the reader of scenes.
+/// The whole schema as JSON Schema, draft-07, which taplo and Even Better TOML read. It accepts every valid scene.
+/// Rules about several keys, such as "either position or positions", are not part of it.
 std::string jsonSchema();
 
 }  // namespace scenes

@@ -1,4 +1,4 @@
-// Storage of validated values.
+// Storage for the validated values of a table of a scene.
 #include "scenes/schema/section.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ const Section::Slot& Section::slot(std::string_view name) const {
 }
 
 void Section::put(std::string_view name, TypedValue value, SourcePosition position, ValueOrigin origin) {
-    // A default may take the place of an invalid value; a valid written value replaces it.
+    // A valid value that was written takes the place of an invalid one. A default does not.
     if (origin == ValueOrigin::given) invalid_.erase(std::string(name));
     slots_.insert_or_assign(std::string(name), Slot{std::move(value), position, origin});
 }

@@ -1,5 +1,5 @@
-// A validated table of a scene: typed values by key, with the schema's constant defaults filled in. The builders in
-// build/ read sections, and add the defaults that depend on other keys.
+// A Section is a validated table of a scene file: typed values by key, with the schema's constant defaults filled in.
+// scenes/build/ reads sections, and adds the defaults that depend on other keys.
 #pragma once
 
 #include <map>
@@ -14,28 +14,29 @@ namespace scenes {
 
 class Section {
  public:
-    /// @param path      how messages and lists of values name the table, e.g. "body[0]"
-    /// @param position  of its header
+    /// @param path      name of the table in messages and lists of values, e.g. "body[0]"
+    /// @param position  position of the table's header
     Section(const TableInfo& table, std::string path, SourcePosition position);
 
     const TableInfo& table() const { return *table_; }
     const std::string& path() const { return path_; }
 
-    /// Whether no problem was found in it; only then does every value exist that the schema says it has.
+    /// Whether no problem was found in the table. Only then does every key have a value that the schema requires or
+    /// gives a default.
     bool isValid() const { return isValid_; }
     void markInvalid() { isValid_ = false; }
 
-    /// Whether the key was written, with a valid value or not.
+    /// Whether a key was written, with a valid value or not.
     bool isGiven(std::string_view name) const;
-    /// Whether the key has a valid value, written or not.
+    /// Whether a key has a valid value, a written one or a default.
     bool has(std::string_view name) const;
     ValueOrigin origin(std::string_view name) const { return slot(name).origin; }
     /// Position of the table's header.
     const SourcePosition& position() const { return position_; }
-    /// Position of a written value; that of the header if the key was not written.
+    /// Position of a key's written value; position of the header if the key was not written.
     SourcePosition position(std::string_view name) const;
 
-    // The value of a key, which has to exist and to be of the type asked for.
+    // The functions below return the value of a key. It has to exist, and its type has to be that of the function.
     double number(std::string_view name) const { return typed(name).number; }
     std::int64_t integer(std::string_view name) const { return typed(name).integer; }
     bool boolean(std::string_view name) const { return typed(name).boolean; }
@@ -48,12 +49,12 @@ class Section {
     const TypedValue& typed(std::string_view name) const { return slot(name).value; }
 
     void put(std::string_view name, TypedValue value, SourcePosition position, ValueOrigin origin);
-    /// Records that a key was written with an invalid value. It gets its default, if it has one.
+    /// Records that a key was written with an invalid value, in whose place it may get its default.
     void putInvalid(std::string_view name, SourcePosition position);
-    /// Removes a value, as if the key had never been written.
+    /// Removes the value of a key, as if the key had never been written.
     void erase(std::string_view name);
 
-    /// Sets a default that depends on other keys, unless the key was written.
+    /// Sets the default of a key that depends on other keys, unless the key was written.
     void derive(std::string_view name, TypedValue value);
 
  private:

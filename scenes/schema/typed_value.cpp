@@ -1,4 +1,4 @@
-// Validates scalars, and lists element by element, so that every wrong element is reported.
+// Validates the values of a scene: lists element by element, so that every wrong element is reported.
 #include "scenes/schema/typed_value.h"
 
 #include <fmt/format.h>
@@ -14,12 +14,12 @@ namespace {
 
 using engine::Vec3;
 
-/// A valid value; nothing if it was rejected, and its problems recorded.
+/// A valid value; nothing if the value was rejected, with its problems recorded.
 using MaybeValue = std::optional<TypedValue>;
 
-/// What is validated: a key's value or an element of it.
+/// A value that is being validated: the value of a key, or an element of it.
 struct Subject {
-    const Key& key;  ///< for an element, the key with the type of an element
+    const Key& key;  ///< for an element, the key with its type changed to that of an element
     ProblemList& problems;
     std::string name;                          ///< what messages call the value: "gravity" or "gravity[1]"
     std::string expected = expectedText(key);  ///< what the value must be: "three numbers [x, y, z]"
@@ -42,7 +42,7 @@ bool contains(const Range& range, double number) {
            (range.isHighExcluded ? number < range.high : number <= range.high);
 }
 
-/// A finite number within the key's range.
+/// The value as a finite number within the range of the key.
 MaybeValue numberOf(const Subject& subject, const Value& value) {
     const bool isInteger = value.kind == ValueKind::integer;
     const bool isNumber = isInteger || value.kind == ValueKind::floatingPoint;
@@ -78,7 +78,7 @@ MaybeValue booleanOf(const Subject& subject, const Value& value) {
 
 MaybeValue typedOf(const Subject& subject, const Value& value);
 
-/// A list whose elements are of the given type.
+/// The value as a list whose elements are of the given type.
 MaybeValue listOf(const Subject& subject, const Value& value, Type elementType) {
     const bool mayBeEmpty = elementType == Type::string;
     if (value.kind != ValueKind::array || (value.items.empty() && !mayBeEmpty)) return reject(subject, value);
@@ -100,7 +100,7 @@ MaybeValue listOf(const Subject& subject, const Value& value, Type elementType) 
     return list;
 }
 
-/// A list of numbers of the given length.
+/// The value as a list of so many numbers.
 MaybeValue numbersOf(const Subject& subject, const Value& value, std::size_t length, Type elementType) {
     if (value.kind != ValueKind::array || value.items.size() != length) return reject(subject, value);
     return listOf(subject, value, elementType);
@@ -207,7 +207,8 @@ TypedValue TypedValue::ofVector(const Vec3& vector) {
 std::optional<TypedValue> validateValue(const Key& key, const Value& value, ProblemList& problems) {
     const Subject subject{key, problems, std::string(key.name)};
     if (value.kind == ValueKind::invalid) {
-        // Its syntax error has been reported already, unless the file itself contains the reader's internal marker.
+        // The syntax error in the value has been reported already, unless the file itself contains the marker that
+        // replaces such values.
         if (problems.empty()) reject(subject, value);
         return std::nullopt;
     }

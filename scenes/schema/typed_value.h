@@ -1,5 +1,5 @@
-// Validates a TOML value against its row of the schema: type, finiteness, range, choices. Called for every key of a
-// scene, for every override and for every default.
+// Validates a TOML value against the key of the schema that it is given for: type, finiteness, range, choices. Called
+// for every key of a scene, every override and every default.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace scenes {
 
-/// A valid value. The type of its key determines which members are set.
+/// A valid value of a key. The type of the key determines which members hold it.
 struct TypedValue {
     double number = 0.0;                ///< number
     std::int64_t integer = 0;           ///< integer
     bool boolean = false;               ///< boolean
     std::string string;                 ///< string, choice
     std::vector<std::string> strings;   ///< stringList
-    std::vector<engine::Vec3> vectors;  ///< vec3, color and counts: one; vec3List and colorList: all
-    std::vector<double> numbers;        ///< numberList: all; interval and size: two
-    std::string canonical;              ///< TOML text, equal for values that mean the same
+    std::vector<engine::Vec3> vectors;  ///< vec3, color, counts: one element; vec3List, colorList: all of the list
+    std::vector<double> numbers;        ///< interval, size: two elements; numberList: all of the list
+    std::string canonical;              ///< the value as TOML text, equal for values that mean the same
 
     static TypedValue ofNumber(double number);
     static TypedValue ofBoolean(bool boolean);
@@ -31,7 +31,7 @@ struct TypedValue {
     static TypedValue ofVector(const engine::Vec3& vector);
 };
 
-/// The value in the type of its key; nothing, with every problem recorded, if it is not valid.
+/// The value, if it is valid for the key; otherwise nothing, with every problem recorded.
 std::optional<TypedValue> validateValue(const Key& key, const Value& value, ProblemList& problems);
 
 }  // namespace scenes

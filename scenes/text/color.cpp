@@ -67,7 +67,7 @@ Chroma bezierPoint(std::vector<Chroma> points, double t) {
     return points[0];
 }
 
-/// A curve as short straight segments, with the arc length from the start to each point.
+/// A curve in the chromatic plane as short straight segments, with the arc length from its start to each point.
 struct Polyline {
     std::vector<Chroma> points;
     std::vector<double> arcLengths;
@@ -106,7 +106,7 @@ std::optional<Vec3> colorFromHex(std::string_view text) {
 }
 
 Vec3 rampColor(const std::vector<Vec3>& colors, double parameter) {
-    // The negated comparison is true for NaN, too, which therefore gives the first color.
+    // The negated comparison is true for a parameter that is NaN, which therefore gives the first color.
     if (!(parameter > 0.0) || colors.size() == 1) return colors.front();
     if (parameter >= 1.0) return colors.back();
     const double scaled = parameter * static_cast<double>(colors.size() - 1);

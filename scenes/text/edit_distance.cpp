@@ -7,7 +7,8 @@
 namespace scenes {
 namespace {
 
-/// Longer names get no suggestion. No key is nearly as long, and the time grows with the square of the length.
+/// Names longer than this get no "did you mean": no key of a scene is nearly as long, and the time grows with the
+/// square of the length.
 constexpr std::size_t kMaxNameLength = 64;
 
 /// The largest distance of a plausible typing mistake: one edit for every three characters. Chosen by trying common
@@ -41,7 +42,7 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
     std::size_t limit = maxDistance(name.size()) + 1;
     for (const std::string& candidate : known) {
         const std::size_t distance = editDistance(name, candidate);
-        // As far away as the longer name is long: the two have nothing in common, however short they are.
+        // At a distance as large as the longer name is long, two names have nothing in common, however short they are.
         if (distance >= limit || distance >= std::max(name.size(), candidate.size())) continue;
         limit = distance;
         nearest = candidate;

@@ -1,4 +1,4 @@
-// Problems as lines of text.
+// Problems with the user's input as lines of text.
 #include "scenes/text/input_error.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// The error that everything wrong with the user's input is reported as. It carries all problems of a file at once;
-// main prints one line for each.
+// The exception for everything that is wrong with the user's input. It carries all problems of a file at once; main
+// prints one line for each.
 #pragma once
 
 #include <stdexcept>
@@ -8,9 +8,9 @@
 
 namespace scenes {
 
-/// One mistake and its position. Line and column count from 1; 0 means that there is none to name.
+/// One mistake and its position. Line and column count from 1; 0 means that there is no line or column to name.
 struct Problem {
-    std::string file;  ///< or the command-line option, e.g. "--set physics.step=-1"
+    std::string file;  ///< the file, or the command-line option, e.g. "--set physics.step=-1"
     int line = 0;
     int column = 0;
     std::string message;

@@ -7,7 +7,8 @@
 
 namespace scenes {
 
-/// One assignment, and the command-line option that it came from, which problems name.
+/// An assignment to a key of a scene, and the command-line option that it comes from, which messages about problems
+/// name.
 struct Override {
     std::string assignment;  ///< "physics.step=0.005"
     std::string option;      ///< "--set physics.step=0.005"
@@ -16,7 +17,7 @@ struct Override {
     Override(std::string text) : assignment(std::move(text)), option("--set " + assignment) {}
     Override(const char* text) : Override(std::string(text)) {}
 
-    /// An override given by another option.
+    /// An override given by another option than --set.
     Override(std::string text, std::string givenBy) : assignment(std::move(text)), option(std::move(givenBy)) {}
 
     bool operator==(const Override& other) const = default;

@@ -1,4 +1,4 @@
-// Sorts problems by position and names the file or option that each is in.
+// Collects problems, then sorts them by position and names the file or command-line option that each is in.
 #include "scenes/text/problem_list.h"
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 namespace scenes {
 namespace {
 
-/// Chosen: more problems than are useful at once. It bounds the work on a file that is not a scene at all.
+/// Largest number of problems that are kept. Chosen: more than are useful at once. The limit bounds the work on a file
+/// that is not a scene at all.
 constexpr std::size_t kMaxProblems = 200;
 
 }  // namespace

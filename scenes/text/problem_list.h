@@ -13,13 +13,14 @@ namespace scenes {
 
 class ProblemList {
  public:
-    /// Problems name this file, or the option of the override that they are in.
+    /// @param file  the scene file, which messages name
+    /// @param overrides  whose command-line options messages about values in them name instead
     ProblemList(std::string file, Overrides overrides);
 
     /// Records a problem. The same message at the same position is recorded once.
     void add(const SourcePosition& position, std::string message);
 
-    /// Records the problems of a file that the scene refers to, at the position where it does.
+    /// Records the problems of a file that the scene refers to, at the position of the reference.
     void add(const SourcePosition& position, const InputError& error);
 
     bool empty() const { return items_.empty(); }

@@ -1,4 +1,4 @@
-// Reads in blocks, so that a device or a pipe without an end cannot fill the memory before the limit is noticed.
+// Reads a file in blocks, so that a device or a pipe without an end cannot fill the memory before the limit is noticed.
 #include "scenes/text/read_file.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ std::vector<std::uint8_t> readFile(const std::string& path, std::size_t limit) {
     std::ifstream file(path, std::ios::binary);
     if (!file) failToRead(path, errno == 0 ? "it cannot be opened" : std::generic_category().message(errno));
     std::vector<std::uint8_t> bytes;
-    // Spares the growing of a large file's memory. A device or a pipe has no size.
+    // Reserving the memory at once avoids copies of a large file as it grows. A device or a pipe has no size.
     const std::uintmax_t size = std::filesystem::file_size(path, noSize);
     if (!noSize) bytes.reserve(std::min<std::uintmax_t>(size, limit));
     std::vector<char> block(kBlockBytes);

@@ -11,10 +11,10 @@
 
 namespace scenes {
 
-/// Chosen: a larger file is not a scene file, bytes.
+/// Largest size of a scene file, bytes. Chosen: no scene file is larger.
 inline constexpr std::size_t kMaxSceneFileBytes = std::size_t{16} << 20U;
 
-/// Chosen: room for about 50 million particles, bytes.
+/// Largest size of a particle file, bytes. Chosen: room for about 50 million particles.
 inline constexpr std::size_t kMaxParticleFileBytes = std::size_t{4} << 30U;
 
 /// All bytes of a file.

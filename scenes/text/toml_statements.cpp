@@ -1,4 +1,4 @@
-// A scanner that knows the strings, brackets and comments of TOML, and nothing else of it.
+// A scanner that knows the strings, brackets and comments of TOML and nothing else of the language.
 #include "scenes/text/toml_statements.h"
 
 #include <cctype>
@@ -17,14 +17,14 @@ std::size_t skipBlanks(const std::string& line, std::size_t at) {
     return found == std::string::npos ? line.size() : found;
 }
 
-/// The dotted name of bare keys that starts at an index of a line; empty if there is none.
+/// The name that starts at an index of a line, such as physics or physics.step; empty if none does.
 std::string nameAt(const std::string& line, std::size_t start) {
     std::size_t end = start;
     while (end < line.size() && (isBareKeyCharacter(line[end]) || line[end] == '.')) ++end;
     return line.substr(start, end - start);
 }
 
-/// Whether a name starts at an index and, but for blanks, the given text comes after it.
+/// Whether a name starts at an index of a line and is followed, after any blanks, by the given text.
 bool isNameBefore(const std::string& line, std::size_t start, std::string_view after) {
     const std::string name = nameAt(line, start);
     if (name.empty()) return false;
@@ -37,21 +37,22 @@ bool opensStatement(const std::string& line) {
     const std::size_t first = skipBlanks(line, 0);
     if (isNameBefore(line, first, "=")) return true;
     if (line.compare(first, 2, "[[") == 0) return isNameBefore(line, skipBlanks(line, first + 2), "]]");
-    // [1] and [a], are elements of a list: a header has a name that starts with a letter, and no comma after it.
+    // A line like [1] or [a], is an element of a list: the name in a header starts with a letter, and no comma follows
+    // the header.
     return line.compare(first, 1, "[") == 0 && isNameBefore(line, skipBlanks(line, first + 1), "]") &&
            !isNameBefore(line, skipBlanks(line, first + 1), "],") &&
            std::isalpha(static_cast<unsigned char>(line[skipBlanks(line, first + 1)])) != 0;
 }
 
-/// The brackets and strings that are still open at the end of a line.
+/// The brackets and strings that are still open at the end of a line of TOML.
 struct OpenDelimiters {
     int brackets = 0;
-    std::string quote;               ///< the delimiter of a string that spans lines
-    bool hasUnclosedString = false;  ///< a string that cannot span lines did not end in its line
+    std::string quote;               ///< delimiter of a string that spans lines; empty if none is open
+    bool hasUnclosedString = false;  ///< a string of one line did not end in its line
 };
 
-/// Index after the end of a string with the given delimiter; npos if it does not end in this line.
-/// @param from  index after the opening delimiter
+/// Index behind the closing delimiter of a string; npos if the string does not end in this line.
+/// @param from  index behind the opening delimiter
 std::size_t endOfString(const std::string& line, std::size_t from, const std::string& delimiter) {
     for (std::size_t at = from; at < line.size(); ++at) {
         if (line[at] == '\\' && delimiter[0] == '"')
@@ -62,7 +63,7 @@ std::size_t endOfString(const std::string& line, std::size_t from, const std::st
     return std::string::npos;
 }
 
-/// Updates what is open with the characters of a line from an index on.
+/// Updates the open brackets and strings with the characters of a line from an index on.
 void scanLine(const std::string& line, std::size_t at, OpenDelimiters& open) {
     while (at < line.size()) {
         if (!open.quote.empty()) {
@@ -78,7 +79,7 @@ void scanLine(const std::string& line, std::size_t at, OpenDelimiters& open) {
             const bool isTriple = line.compare(at, 3, triple) == 0;
             open.quote = isTriple ? triple : std::string(1, c);
             at = endOfString(line, at + open.quote.size(), open.quote);
-            // A string in single delimiters ends with its line, closed or not.
+            // A string that opens with one quotation mark, not three, ends with its line, closed or not.
             if (at != std::string::npos || !isTriple) open.quote.clear();
             open.hasUnclosedString = open.hasUnclosedString || (at == std::string::npos && !isTriple);
             if (at == std::string::npos) return;
@@ -98,7 +99,8 @@ Statement headerAt(const std::string& line, std::size_t first) {
     return statement;
 }
 
-/// The statement of a key. A value that is never closed is taken to end with its first line.
+/// The statement key = value that starts in a line. A value whose bracket or string is never closed is taken to end
+/// with its first line.
 Statement keyValueAt(const std::vector<std::string>& lines, std::size_t index, std::size_t first) {
     Statement statement;
     statement.name = nameAt(lines[index], first);

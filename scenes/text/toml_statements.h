@@ -20,10 +20,10 @@ enum class StatementKind {
 
 struct Statement {
     StatementKind kind = StatementKind::unknown;
-    std::string name;                ///< of the key or the table, as far as it can be read
+    std::string name;                ///< name of the key or the table, as far as it can be read
     bool hasDoubleBrackets = false;  ///< the header opens with [[
-    bool isClosed = true;            ///< every bracket and quote of the value is closed
-    std::size_t firstLine = 0;       ///< index into the lines
+    bool isClosed = true;            ///< every bracket and quotation mark of the value is closed
+    std::size_t firstLine = 0;       ///< index of the statement's first line
     std::size_t lastLine = 0;
     SourcePosition position;  ///< position of the statement's first character
 };
@@ -31,7 +31,7 @@ struct Statement {
 /// The lines of a text, without their line feeds.
 std::vector<std::string> splitLines(std::string_view text);
 
-/// The statements in order. Blank lines and comments belong to none.
+/// The statements in the order in which they are written. Blank lines and comments belong to no statement.
 std::vector<Statement> splitStatements(const std::vector<std::string>& lines);
 
 }  // namespace scenes

@@ -9,10 +9,10 @@
 namespace scenes {
 namespace {
 
-/// Longer strings are cut off in messages, bytes.
+/// Length at which messages cut off the strings of a scene file, bytes.
 constexpr std::size_t kMaxQuotedLength = 40;
 
-/// Cuts a long string off, never within the bytes of one UTF-8 character.
+/// Cuts a long string off for a message, but never within the bytes of one UTF-8 character.
 std::string shortened(const std::string& text) {
     if (text.size() <= kMaxQuotedLength) return text;
     std::size_t end = kMaxQuotedLength;

@@ -1,5 +1,5 @@
-// The values of a TOML file, each with the position it was written at, and their text in messages. The whole reader
-// works on these; schema/document.cpp alone knows the TOML library that they are parsed with.
+// The values of a TOML file, each with the position where it is written, and their text in messages. The reader of
+// scenes works with these types; only schema/document.cpp knows the TOML library that parses the file.
 #pragma once
 
 #include <compare>
@@ -13,8 +13,8 @@ namespace scenes {
 /// Where something was written: in the scene file, or in one of the overrides. Positions are ordered: those in the file
 /// come before those in the overrides.
 struct SourcePosition {
-    int overrideIndex = -1;  ///< index of the override that wrote the value; -1: the file did
-    int line = 0;            ///< from 1; 0 stands for the file as a whole
+    int overrideIndex = -1;  ///< index of the override that contains the value; -1: the file does
+    int line = 0;            ///< line number from 1; 0 stands for the file as a whole
     int column = 0;
 
     auto operator<=>(const SourcePosition&) const = default;
@@ -34,7 +34,7 @@ enum class ValueKind {
 /// Where the value of a key in a built scene comes from.
 enum class ValueOrigin {
     given,          ///< the file or an override
-    schemaDefault,  ///< the schema's constant default
+    schemaDefault,  ///< the constant default of the schema
     derived         ///< a default computed from other keys
 };
 
@@ -45,7 +45,7 @@ struct Value {
     SourcePosition position;
     bool boolean = false;
     std::int64_t integer = 0;
-    double number = 0.0;  ///< of a floating-point number, and of an integer as well
+    double number = 0.0;  ///< value of a floating-point number or of an integer
     std::string string;
     std::vector<Value> items;    ///< elements of an array
     std::vector<Entry> entries;  ///< entries of a table, in the order written
@@ -53,14 +53,14 @@ struct Value {
 
 struct Entry {
     std::string key;
-    SourcePosition position;  ///< of the key
+    SourcePosition position;  ///< position of the key
     Value value;
 };
 
-/// The entry of a table with the given key; nullptr if there is none.
+/// The entry of a table that has the given key; nullptr if there is none.
 const Entry* findEntry(const Value& table, std::string_view key);
 
-/// The value as messages show it: `"big" (a string)`, `3`, `a list of 2`.
+/// A value as messages show it: `"big" (a string)`, `3`, `a list of 2`.
 std::string describe(const Value& value);
 
 /// A string as TOML text in quotes, with special characters escaped.

@@ -1,5 +1,5 @@
-// Everything that is the same in all frames has been built with the scene; what is added here changes from frame to
-// frame: the camera, the particles with their colors, and the time stamp.
+// Everything that all frames of an animation have in common has been built together with the scene. What is added here
+// changes from frame to frame: the camera, the particles with their colors, and the time stamp.
 #include "scenes/view/frame_view.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 
 using engine::Vec3;
 
-/// The speed (m/s) or age (s) of a particle, whichever its color shows.
+/// The quantity that the color of a particle shows: its speed (m/s) or age (s).
 double shownQuantity(const Look& look, const engine::Particles& particles, std::size_t index, double time) {
     if (look.colorBy == ColorBy::age) return time - particles.birthTime[index];
     return std::sqrt(engine::squaredLength(particles.velocity[index]));
@@ -41,13 +41,13 @@ render::Camera cameraOf(const CameraPlacement& placement) {
 }  // namespace
 
 void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int frame) {
-    // Frame times are frame / fps, so the current frame follows from the time.
+    // The time of a frame is its index / fps, so the index of the current frame follows from the time.
     const int current = static_cast<int>(std::lround(simulation.time * scene.fps));
     for (int next = current + 1; next <= frame; ++next) engine::advance(simulation, frameTime(scene, next));
 }
 
 std::string timeText(const Scene& scene, double time) {
-    // Frames are 1/fps apart: two decimals distinguish them up to 100 frames per second.
+    // Frames are 1/fps apart: two decimals distinguish their times up to 100 frames per second.
     return fmt::format("t = {:.{}f} s", time, scene.fps > 100 ? 3 : 2);
 }
 

@@ -10,13 +10,13 @@
 
 namespace scenes {
 
-/// Advances a simulation that is at a frame of the scene to a later frame. It passes through all frames in between,
-/// because each frame's interval is divided into steps: a run that does not draw every frame has the same bits as one
-/// that does.
+/// Advances a simulation from the time of one frame to that of a later one. It passes through the times of all frames
+/// in between, because the interval between two frames is divided into equal steps: a run that does not draw every
+/// frame has the same bits as one that does.
 /// @throws engine::InstabilityError
 void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int frame);
 
-/// "t = 1.25 s", with as many decimals as distinguish the frames of the scene, at least two.
+/// A time as a text such as "t = 1.25 s", with as many decimals as distinguish the frames of the scene, at least two.
 std::string timeText(const Scene& scene, double time);
 
 /// The view of the scene with the given particles: particles, obstacles, camera, lights and overlay.
