@@ -35,7 +35,8 @@ BallGrid::BallGrid(const std::vector<Extent>& balls) {
     }
     const dvec3 extent = high - low_;
     // Cells are as wide as the mean ball, but there are at most 129 of them along an axis. Chosen for speed.
-    cellSize_ = std::max({2.0 * sum / static_cast<double>(balls.size()), std::max({extent.x, extent.y, extent.z}) / 128.0, 1e-9});
+    cellSize_ = std::max(
+        {2.0 * sum / static_cast<double>(balls.size()), std::max({extent.x, extent.y, extent.z}) / 128.0, 1e-9});
     for (std::size_t axis = 0; axis < 3; ++axis)
         cellCounts_[axis] = static_cast<int>(extent[static_cast<int>(axis)] / cellSize_) + 1;
     begin_.assign(cellIndex({0, 0, cellCounts_[2]}) + 1, 0);

@@ -24,7 +24,7 @@ struct Ray {
     dvec3 direction{0.0, 0.0, -1.0};  ///< unit length
 };
 
-/// The first surface that a ray meets. The functions of this file leave kind, albedo and sky to the caller.
+/// The first surface that a ray meets.
 struct Hit {
     enum class Kind : std::uint8_t { none, particle, sphereObstacle, boxObstacle, ground };
     Kind kind = Kind::none;
@@ -98,12 +98,20 @@ inline BoxInterval boxInterval(const Ray& ray, const dvec3& minimum, const dvec3
     return interval;
 }
 
+/// The hit at a distance (m) along a ray. Whatever depends on the surface is left to the caller.
+inline Hit hitAt(const Ray& ray, double distance) {
+    Hit hit;
+    hit.distance = distance;
+    hit.point = ray.origin + distance * ray.direction;
+    return hit;
+}
+
+// The three functions below find the point and the normal of a hit. Kind, albedo and sky are left to the caller.
+
 inline Hit hitSphere(const Ray& ray, const dvec3& center, double radius) {
     const std::optional<Interval> inside = sphereInterval(footOf(ray, center), radius);
     if (!inside || inside->exit < 0.0) return {};
-    Hit hit;
-    hit.distance = std::max(inside->enter, 0.0);
-    hit.point = ray.origin + hit.distance * ray.direction;
+    Hit hit = hitAt(ray, std::max(inside->enter, 0.0));
     hit.normal = unitOr(hit.point - center, -ray.direction);
     return hit;
 }
@@ -126,9 +134,7 @@ inline dvec3 nearestFaceNormal(const render::BoxObstacle& box, const dvec3& poin
 inline Hit hitBox(const Ray& ray, const render::BoxObstacle& box) {
     const BoxInterval inside = boxInterval(ray, dvec3(box.minimum), dvec3(box.maximum));
     if (inside.enter > inside.exit || inside.exit < 0.0) return {};
-    Hit hit;
-    hit.distance = std::max(inside.enter, 0.0);
-    hit.point = ray.origin + hit.distance * ray.direction;
+    Hit hit = hitAt(ray, std::max(inside.enter, 0.0));
     hit.normal[inside.axis] = ray.direction[inside.axis] > 0.0 ? -1.0 : 1.0;
     if (inside.enter < 0.0) hit.normal = nearestFaceNormal(box, ray.origin);
     return hit;
@@ -137,9 +143,7 @@ inline Hit hitBox(const Ray& ray, const render::BoxObstacle& box) {
 inline Hit hitGround(const Ray& ray, const render::Ground& ground) {
     const double distance = (double(ground.height) - ray.origin.y) / ray.direction.y;
     if (!(distance > 0.0 && std::isfinite(distance))) return {};
-    Hit hit;
-    hit.distance = distance;
-    hit.point = ray.origin + distance * ray.direction;
+    Hit hit = hitAt(ray, distance);
     hit.normal = {0.0, 1.0, 0.0};
     return hit;
 }

@@ -99,10 +99,8 @@ Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
     const render::View& view = scene.view;
     const double distance = firstFieldDistance(scene, near, ray);
     if (distance == kInfinity) return {};
-    Hit hit;
+    Hit hit = hitAt(ray, distance);
     hit.kind = Hit::Kind::particle;
-    hit.distance = distance;
-    hit.point = ray.origin + distance * ray.direction;
     dvec3 downhill{0.0};
     dvec3 colorSum{0.0};
     double kernelSum = 0.0;
@@ -280,7 +278,8 @@ Ray pixelRay(const render::View& view, render::PictureSize size, double px, doub
     const dvec3 eye(camera.eye);
     const dvec3 forward = glm::normalize(dvec3(camera.target) - eye);
     const dvec3 right = glm::normalize(glm::cross(forward, dvec3(camera.up)));
-    if (!std::isfinite(right.x)) throw std::domain_error("pixelRay: the eye is at its target, or up is parallel to the view");
+    if (!std::isfinite(right.x))
+        throw std::domain_error("pixelRay: the eye is at its target, or up is parallel to the view");
     const dvec3 up = glm::cross(right, forward);
     // In units of half the picture's height, from its center.
     const double x = (2.0 * px - size.width) / size.height;

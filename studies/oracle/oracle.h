@@ -89,7 +89,8 @@ double meanRadius(const render::View& view);
 /// a point of a surface with this normal: a hard shadow. Light::shadows is ignored here; shade() respects it.
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal);
 
-/// lightVisibility of shading_model.h at a point of a surface with this normal; without softness it is 0 or 1 by isInShadow().
+/// lightVisibility of shading_model.h at a point of a surface with this normal; without softness it is 0 or 1 by
+/// isInShadow().
 double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal);
 
 /// Linear color of what a ray meets, before the clamp to [0, 1].

@@ -1,6 +1,6 @@
-// Sky visibility by section 3 of render/picture/shading_model.h, term by term in double precision. Cubes are kept in a hash
-// table that holds only those that are not empty. Used by the oracle alone. For particles so scattered that shading_model.h
-// widens the cubes the oracle is not valid.
+// Sky visibility by section 3 of render/picture/shading_model.h, term by term in double precision. Cubes are kept in a
+// hash table that holds only those that are not empty. Used by the oracle alone. For particles so scattered that
+// shading_model.h widens the cubes the oracle is not valid.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Soft shadows by section 4 of render/picture/shading_model.h: the share of the light that spheres and boxes cover, and the
-// origins of the rays to the light for metaballs. Header only: it is used by the oracle alone.
+// Soft shadows by section 4 of render/picture/shading_model.h: the share of the light that spheres and boxes cover, and
+// the origins of the rays to the light for metaballs. Header only: it is used by the oracle alone.
 #pragma once
 
 #include <algorithm>
