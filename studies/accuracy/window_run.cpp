@@ -59,16 +59,8 @@ bool isOf(const Variant& variant, engine::StepperKind stepper, engine::Precision
     return variant.stepper == stepper && variant.precision == precision;
 }
 
-std::string nameOf(Ending ending) {
-    switch (ending) {
-        case Ending::finished:
-            return "finished";
-        case Ending::unstable:
-            return "unstable";
-        case Ending::tooSlow:
-            return "too slow";
-    }
-    return {};
+std::string_view nameOf(Ending ending) {
+    return ending == Ending::finished ? "finished" : ending == Ending::unstable ? "unstable" : "too slow";
 }
 
 Window openWindow(const scenes::Scene& scene, int firstFrame, int frameCount) {

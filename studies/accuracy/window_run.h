@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/run/advance.h"
 #include "engine/run/diagnostics.h"
@@ -43,7 +44,7 @@ bool isOf(const Variant& variant, engine::StepperKind stepper,
 
 enum class Ending { finished, unstable, tooSlow };
 
-std::string nameOf(Ending ending);
+std::string_view nameOf(Ending ending);
 
 struct WindowRun {
     Variant variant;

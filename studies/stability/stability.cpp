@@ -80,13 +80,6 @@ VariantResult runVariant(const std::string& path, const std::string& changes) {
     return result;
 }
 
-/// The variant with the largest limit ratio for one of the two steppers.
-const VariantResult& worst(const CaseResult& result, const Outcome VariantResult::*stepper) {
-    return *std::max_element(result.variants.begin(), result.variants.end(), [&](const auto& a, const auto& b) {
-        return limitRatio(a.study, (a.*stepper).value) < limitRatio(b.study, (b.*stepper).value);
-    });
-}
-
 }  // namespace
 
 double limitRatio(const scenes::Study& study, double value) {
@@ -97,16 +90,14 @@ double limitRatio(const scenes::Study& study, double value) {
     return std::max(above, below);
 }
 
-const VariantResult& worstOfOurs(const CaseResult& result) {
-    return worst(result, &VariantResult::ours);
-}
-
-const VariantResult& worstOfPaper(const CaseResult& result) {
-    return worst(result, &VariantResult::paper);
+const VariantResult& worstVariant(const CaseResult& result, const Outcome VariantResult::*stepper) {
+    return *std::max_element(result.variants.begin(), result.variants.end(), [&](const auto& a, const auto& b) {
+        return limitRatio(a.study, (a.*stepper).value) < limitRatio(b.study, (b.*stepper).value);
+    });
 }
 
 bool oursPasses(const CaseResult& result) {
-    return worstOfOurs(result).ours.passes;
+    return worstVariant(result, &VariantResult::ours).ours.passes;
 }
 
 bool paperIsAsExpected(const CaseResult& result) {

@@ -44,9 +44,8 @@ struct CaseResult {
 /// value passes, infinite for NaN.
 double limitRatio(const scenes::Study& study, double value);
 
-/// The variant with the largest limit ratio for the scene's own stepper, or for the paper's.
-const VariantResult& worstOfOurs(const CaseResult& result);
-const VariantResult& worstOfPaper(const CaseResult& result);
+/// The variant with the largest limit ratio for one of the steppers, &VariantResult::ours or &VariantResult::paper.
+const VariantResult& worstVariant(const CaseResult& result, const Outcome VariantResult::*stepper);
 
 /// Whether the scene's own stepper passes in every variant.
 bool oursPasses(const CaseResult& result);

@@ -55,11 +55,11 @@ std::string outcomeText(const Outcome& outcome) {
 }
 
 std::vector<std::string> rowOf(const CaseResult& result) {
-    const VariantResult& ours = worstOfOurs(result);
+    const VariantResult& ours = worstVariant(result, &VariantResult::ours);
     const char* verdict = !oursPasses(result) ? "FAIL" : !paperIsAsExpected(result) ? "paper passes" : "pass";
     return {fmt::format("{}", result.study.number),
             result.name,
-            paperText(worstOfPaper(result), ours.study.observable),
+            paperText(worstVariant(result, &VariantResult::paper), ours.study.observable),
             ours.ours.stepper,
             observableText(ours.study),
             valueText(ours.ours),

@@ -135,7 +135,7 @@ TEST_CASE("the table shows the worst variant, the CSV all of them") {
     const SceneFile file(kPair + kStudy +
                          "limit = 10\nat_least = 1e-9\nvary = [\"\", \"physics.gravity=[0, -3, 0]\"]\n");
     const studies::CaseResult result = studies::runCase({"pair", file.path(), false});
-    CHECK(&studies::worstOfOurs(result) ==
+    CHECK(&studies::worstVariant(result, &studies::VariantResult::ours) ==
           &result.variants[result.variants[0].ours.value > result.variants[1].ours.value ? 0 : 1]);
     CHECK(studies::rowOf(result)[6] == "1e-09 to 10");
     const std::string csv = studies::stabilityCsv({result});

@@ -59,7 +59,7 @@ std::vector<studies::CaseOptions> chosenCases(const StabilityOptions& options) {
 }
 
 void reportCase(const StabilityOptions& options, const studies::CaseResult& result) {
-    const studies::VariantResult& worst = studies::worstOfOurs(result);
+    const studies::VariantResult& worst = studies::worstVariant(result, &studies::VariantResult::ours);
     reportProgress(options,
                    {{"event", "case"},
                     {"case", result.name},
