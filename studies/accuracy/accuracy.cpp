@@ -1,4 +1,5 @@
-// All runs of a scene, then the reference, then the rows; see accuracy.h.
+// Measures the accuracy of all steppers on one scene: makes and times all runs, then the reference run, and compares
+// them. See accuracy.h.
 #include "studies/accuracy/accuracy.h"
 
 #include <algorithm>
@@ -9,10 +10,11 @@
 namespace studies {
 namespace {
 
-/// s, chosen: a run this long is timed well enough by one run.
+/// Runs longer than this (s) are timed only once. Chosen: their time varies little from one run to the next.
 constexpr double kLongRun = 5.0;
 
-/// Short runs are repeated until they have taken kTimed seconds together, but at most kMostRounds times. Chosen.
+/// Short runs are repeated until all repetitions of one have taken kTimed seconds together, but at most kMostRounds
+/// times. Both numbers are chosen.
 constexpr double kTimed = 0.3;
 constexpr int kMostRounds = 12;
 
@@ -31,17 +33,18 @@ std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettin
     return variants;
 }
 
-/// Whether a run is timed once more.
-/// @param spent  seconds that its earlier runs have taken together
-/// @param round  number of rounds done, of `rounds` that were asked for
+/// Whether a run is repeated once more to time it better.
+/// @param spent  total seconds of all repetitions of the run so far
+/// @param round  number of repetitions so far
+/// @param rounds  number of repetitions that the settings ask for
 bool isTimedAgain(const WindowRun& run, double spent, int round, int rounds) {
     if (run.ending != Ending::finished || rounds == 1) return false;
     return round < rounds ? run.seconds < kLongRun : spent < kTimed;
 }
 
-/// Makes every run once, then repeats the short ones, the shortest most often. Rounds go over all runs, so that a
-/// passing load on the machine does not fall on one run alone, and the least seconds of a run count, because other load
-/// can only add to them.
+/// Makes every run once, then repeats the short ones, the shortest most often. Each round repeats all of them, so that
+/// a passing load on the machine does not slow down one run alone. The time of a run is the least of its repetitions,
+/// because other load on the machine can only add to it.
 std::vector<WindowRun> timedRuns(const Window& window, const AccuracySettings& settings, const RunListener& listener) {
     std::vector<WindowRun> runs;
     for (const Variant& variant : variantsOf(window.scene, settings)) {

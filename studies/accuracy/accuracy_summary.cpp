@@ -1,4 +1,5 @@
-// What the runs of a scene show: errors, orders, the automatic stepper beside the fixed ones. See accuracy.h.
+// Evaluates the runs of the study of accuracy: their errors, the orders of convergence, and the automatic stepper
+// beside the fixed ones. See accuracy.h.
 #include "studies/accuracy/accuracy.h"
 
 #include <algorithm>
@@ -13,12 +14,12 @@ namespace {
 
 using engine::StepperKind;
 
-// Chosen, see ordersOf().
+// Which runs an order of convergence is fitted to. Chosen; ordersOf() in accuracy.h gives the reasons.
 constexpr std::size_t kMostPoints = 4;
 constexpr std::size_t kFewestPoints = 3;
-constexpr double kAsymptoticError = 0.05;  // radii
+constexpr double kAsymptoticError = 0.05;  // largest error that may show the order, radii
 
-/// difference / scale, and 0 if the scale is 0.
+/// The difference divided by the scale; 0 if the scale is 0.
 double relative(double difference, double scale) {
     return scale > 0.0 ? difference / scale : 0.0;
 }
@@ -35,7 +36,7 @@ void addDrifts(AccuracyRow& row, const WindowRun& run, const WindowRun& referenc
     row.angularDrift = relative(drift(engine::angularMomentum), scale.angular);
 }
 
-/// Step and error of the runs that a stepper's order is fitted to, the smallest step first.
+/// Step (s) and error (radii) of the runs that a stepper's order of convergence is fitted to, the smallest step first.
 std::vector<PowerLawPoint> asymptotic(const std::vector<AccuracyRow>& rows, StepperKind stepper) {
     std::vector<PowerLawPoint> points;
     for (const AccuracyRow& row : rows)

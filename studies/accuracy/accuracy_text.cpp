@@ -14,7 +14,7 @@
 namespace studies {
 namespace {
 
-/// The value if the condition holds, else an empty field.
+/// A value for a CSV field, which stays empty unless the condition holds.
 template <typename T>
 std::optional<T> fieldIf(bool condition, const T& value) {
     return condition ? std::optional<T>(value) : std::nullopt;
@@ -36,23 +36,24 @@ std::string fieldsOf(const SceneAccuracy& scene, const AccuracyRow& row) {
                      fieldIf(isFinished, row.linearDrift), fieldIf(isFinished, row.angularDrift));
 }
 
-/// Three fields: the fixed stepper, its cost, and the automatic stepper's cost over it; empty if there is none.
+/// Three CSV fields: the best fixed stepper, its cost, and the automatic stepper's cost over it. They are empty if
+/// there is no such stepper.
 std::string comparison(const std::optional<HandPicked>& picked, double cost) {
     if (!picked) return ",,";
     return csvFields(engine::nameOf(picked->stepper), picked->cost, cost / picked->cost);
 }
 
-/// How the runs of a stepper are drawn.
+/// How the curve of a stepper's runs is drawn in the plot.
 struct CurveStyle {
     Variant variant;
     const char* color;
-    int pointType;  ///< gnuplot's number
+    int pointType;  ///< gnuplot's number of the symbol
     double pointSize;
     double lineWidth;
 };
 
-/// The colors are those of Okabe and Ito's palette, which color-blind readers can tell apart. The automatic stepper is
-/// drawn last, over the others.
+/// How the curves of all steppers are drawn. The colors are those of Okabe and Ito's palette, which color-blind readers
+/// can tell apart. The automatic stepper is drawn last, over the others.
 const std::array kCurveStyles = {
     CurveStyle{{engine::StepperKind::symplecticEuler, 0.0, {}}, "#7f7f7f", 5, 0.7, 1.6},
     CurveStyle{{engine::StepperKind::velocityVerlet, 0.0, {}}, "#0072b2", 7, 0.8, 1.8},
@@ -62,7 +63,8 @@ const std::array kCurveStyles = {
     CurveStyle{{engine::StepperKind::velocityVerlet, 0.0, {}, engine::Precision::singles}, "#56b4e9", 6, 1.0, 1.2},
     CurveStyle{{engine::StepperKind::automatic, 0.0, {}}, "#d62728", 13, 1.2, 2.6}};
 
-/// Errors above this many radii say only that a run is useless. They do not widen the plot; the curves leave it.
+/// Errors above this many radii say only that a run is useless, so the axes do not extend to them and curves leave the
+/// plot there.
 constexpr double kUselessError = 10.0;
 
 constexpr const char* kKey = R"(set format y "10^{%L}"
@@ -88,7 +90,7 @@ Curve curveOf(const SceneAccuracy& scene, const CurveStyle& style, CostAxis axis
     return curve;
 }
 
-/// Text in gnuplot's single quotes, where a quote is doubled and all else is literal, but for the end of the line.
+/// A text in single quotes for gnuplot: quotes inside are doubled, line ends become spaces, all else is literal.
 std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
@@ -119,7 +121,7 @@ struct Range {
     }
 };
 
-/// Ticks at 1, 2 and 5 of every decade within the range, because costs often span less than a decade.
+/// Ticks of the cost axis: at 1, 2 and 5 times every power of ten, because costs often span less than a decade.
 std::string ticks(const Range& range) {
     std::string list;
     for (double decade = std::pow(10.0, std::floor(std::log10(range.least))); decade <= range.most; decade *= 10.0)
@@ -129,7 +131,7 @@ std::string ticks(const Range& range) {
     return list;
 }
 
-/// Ranges of the axes, with room for the outermost points.
+/// gnuplot commands for the ranges of both axes, which leave some room around the outermost points.
 std::string ranges(const SceneAccuracy& scene, CostAxis axis) {
     Range costs;
     Range errors;

@@ -1,4 +1,5 @@
-// The stepper is chosen by the measured runs, then its step is halved until that no longer matters; see reference.h.
+// Finds the reference run of the study of accuracy: chooses the stepper by the measured runs, then halves its step
+// until the result no longer changes noticeably. See reference.h.
 #include "studies/accuracy/reference.h"
 
 #include <fmt/format.h>
@@ -12,20 +13,24 @@
 namespace studies {
 namespace {
 
-/// Radii. Chosen: small beside any error, large beside the rounding of a position (1e-16 m at radii of 0.1 m).
+/// How far the start of the twin run is displaced, radii. Chosen: small beside any error, large beside the rounding of
+/// a position (1e-16 m at radii of 0.1 m).
 constexpr double kTwinDistance = 1e-9;
 
-/// Chosen: errors of the linear solver must stay below the change by halving the step.
+/// Tolerance of the implicit steppers' linear solver in reference runs. Chosen: the solver's errors must stay below the
+/// change by halving the step.
 constexpr double kReferenceSolverTolerance = 1e-10;
 
-/// Chosen: if twins end further apart than this share of the smallest error, the motion is chaotic: positions show how
-/// rounding errors are amplified, not how good the steppers are.
+/// If two runs from nearly the same state end further apart than this share of the smallest error, the motion is
+/// chaotic: positions show how rounding errors are amplified, not how good the steppers are. Chosen.
 constexpr double kChaoticShare = 0.1;
 
-/// Chosen: the last halving may change the result by this share of the smallest error.
+/// The reference is fine enough when halving its step changes the result by at most this share of the smallest error.
+/// Chosen.
 constexpr double kSettledShare = 0.05;
 
-/// Chosen: an error of this many times the reference's last change is known to within a third.
+/// An error is resolved if it is this many times the change that the last halving of the reference's step made; it is
+/// then known to within a third. Chosen.
 constexpr double kResolvedFactor = 3.0;
 
 /// The two finest finished runs of a stepper, the finest last; empty if fewer than two finished.
@@ -37,13 +42,13 @@ std::vector<const WindowRun*> finestTwo(const std::vector<WindowRun>& runs, engi
     return {finished.end()[-2], finished.end()[-1]};
 }
 
-/// The metric for two fine runs: positions, unless even their births differ.
+/// The metric by which two fine runs are compared: positions, unless their particles were born at different times.
 ErrorMetric metricFor(const engine::Particles& a, const engine::Particles& b) {
     return sameBirths(a, b) ? ErrorMetric::positions : ErrorMetric::statistics;
 }
 
-/// A number by which two steppers of order 2 compare: the change C between the two finest runs times the square of the
-/// finer one's cost. For order 2, C ~ h^2 ~ cost^-2, so the product is the change at unit cost.
+/// A number by which steppers of order 2 are compared: the change C from the second finest run to the finest, times the
+/// square of the finest run's cost. For order 2, C ~ h^2 ~ cost^-2, so the product is the change at unit cost.
 double changeAtUnitCost(const Window& window, const std::vector<const WindowRun*>& two) {
     const double cost = two[1]->evaluationCost;
     const engine::Particles& coarse = two[0]->particles;
@@ -51,6 +56,8 @@ double changeAtUnitCost(const Window& window, const std::vector<const WindowRun*
     return difference(window, metricFor(coarse, fine), coarse, fine) * cost * cost;
 }
 
+/// The finest run of velocity Verlet or of implicit damping, whichever stepper is more accurate at the same cost.
+/// @throws engine::InstabilityError if neither finished two runs
 const WindowRun& finestOfBetterStepper(const Window& window, const std::vector<WindowRun>& runs) {
     const WindowRun* best = nullptr;
     double least = kInfinity;
@@ -69,6 +76,7 @@ const WindowRun& finestOfBetterStepper(const Window& window, const std::vector<W
         message.empty() ? "all runs were too slow" : message));
 }
 
+/// The smallest error of all finished runs against a reference, radii; infinite if no run has finished.
 double smallestError(const Window& window, ErrorMetric metric, const std::vector<WindowRun>& runs,
                      const engine::Particles& reference) {
     double smallest = kInfinity;
@@ -79,7 +87,8 @@ double smallestError(const Window& window, ErrorMetric metric, const std::vector
     return smallest;
 }
 
-/// Runs the window to its end, however long it takes. Throws engine::InstabilityError.
+/// Runs the window of the scene to its end without a time limit.
+/// @throws engine::InstabilityError
 WindowRun runWhole(const Window& window, const Variant& variant, const ReferenceBudget& budget,
                    std::string_view purpose) {
     WindowRun run = runWindow(window, variant, kInfinity);
@@ -88,6 +97,7 @@ WindowRun runWhole(const Window& window, const Variant& variant, const Reference
     return run;
 }
 
+/// Repeats a run from a start whose positions are displaced by a tiny amount.
 WindowRun runTwin(const Window& window, const Variant& variant, const ReferenceBudget& budget) {
     Window twin = window;
     twin.start.particles = displaced(std::move(twin.start.particles), kTwinDistance);

@@ -10,29 +10,31 @@
 
 namespace studies {
 
+/// How the states at the end of two runs are compared.
 enum class ErrorMetric {
-    positions,  ///< rms distance between corresponding particles, radii
+    positions,  ///< root mean square distance between corresponding particles, radii
     statistics  ///< largest difference of center of mass, radius of gyration, R90 and z90, mean radii
 };
 
 std::string_view nameOf(ErrorMetric metric);
 
-/// Distance between two states at the end of the window by a metric, radii.
+/// The difference of two states at the end of the window by the given metric, radii.
 double difference(const Window& window, ErrorMetric metric, const engine::Particles& a, const engine::Particles& b);
 
-/// Distance by ErrorMetric::statistics, in the reference's mean radii.
+/// The largest difference of center of mass, radius of gyration, R90 and z90, in mean radii of the reference's
+/// particles.
 double statisticsDifference(const engine::Particles& particles, const engine::Particles& reference);
 
-/// How good the reference is, for the report.
+/// How the reference run was made and how good it is.
 struct ReferenceFacts {
-    Variant variant;
-    ErrorMetric metric = ErrorMetric::positions;
-    double change = 0.0;          ///< of the result by the last halving of the step, radii
-    double twinSeparation = 0.0;  ///< rms distance at the end of two runs that began 1e-9 radii apart, radii
-    double resolution = 0.0;      ///< errors below this cannot be told from the reference's own, radii
-    bool birthsDiffer = false;    ///< whether births depend on the step even in the finest runs
-    bool settled = false;         ///< whether halving the step no longer matters beside the smallest measured error
-    double seconds = 0.0;         ///< wall clock of the finest run
+    Variant variant;                              ///< stepper and step of the reference run
+    ErrorMetric metric = ErrorMetric::positions;  ///< by which all runs are compared with the reference
+    double change = 0.0;                          ///< change of the result by the last halving of the step, radii
+    double twinSeparation = 0.0;  ///< distance at the end of two runs that began 1e-9 radii apart, radii
+    double resolution = 0.0;      ///< smaller errors cannot be told from the reference's own, radii
+    bool birthsDiffer = false;    ///< whether times of births depend on the step even in the finest runs
+    bool settled = false;         ///< whether the last halving changed less than 1/20 of the smallest error
+    double seconds = 0.0;         ///< wall-clock time of the finest run of the reference
 };
 
 struct Reference {
@@ -40,17 +42,20 @@ struct Reference {
     ReferenceFacts facts;
 };
 
-/// Called after every run with its purpose: "run", "again" (timed once more), "twin" or "reference".
+/// Called after every run of the study, with the purpose of the run: "run", "again" (timed once more), "twin" or
+/// "reference".
 using RunListener = std::function<void(const WindowRun&, std::string_view purpose)>;
 
+/// How long the search for the reference may take, and who is told about its runs.
 struct ReferenceBudget {
-    double seconds = 0.0;  ///< for all runs of the reference; at least two are made
+    double seconds = 0.0;  ///< wall-clock limit of all reference runs together; at least two are made
     RunListener listener;
 };
 
-/// Refines the better of velocity Verlet and implicit damping: its step is halved until the result changes by no more
-/// than a twentieth of the smallest error among the measured runs, or until the budget is spent.
-/// @param runs  runs of one stepper in the order of falling steps
+/// Finds the reference run by refining the better of velocity Verlet and implicit damping: the step is halved until the
+/// result changes by no more than a twentieth of the smallest error among the measured runs, or until the budget is
+/// spent.
+/// @param runs  the measured runs of all steppers, those of each stepper in the order of falling steps
 /// @throws engine::InstabilityError if neither stepper finished two of the runs
 Reference findReference(const Window& window, const std::vector<WindowRun>& runs, const ReferenceBudget& budget);
 

@@ -1,4 +1,5 @@
-// Copies the state, changes the setup and advances frame by frame against the clock; see window_run.h.
+// Runs a window of a scene: copies the state at its start, changes the stepper and advances frame by frame against the
+// clock. See window_run.h.
 #include "studies/accuracy/window_run.h"
 
 #include <chrono>
@@ -11,11 +12,12 @@
 namespace studies {
 namespace {
 
-/// A new simulation with the window's state at its start, but with nothing that the scene's own stepper cached.
+/// A new simulation in the state at the start of the window, with another stepper and without anything that the scene's
+/// own stepper has cached.
 engine::Simulation begin(const Window& window, const Variant& variant) {
     engine::Setup setup = window.start.setup;
     setup.initial = {};
-    setup.world.reset();  // no particle leaves: all are compared at the end
+    setup.world.reset();  // without bounds no particle is removed, so that all can be compared at the end
     setup.stepper = variant.stepper;
     setup.precision = variant.precision;
     if (variant.stepper == engine::StepperKind::automatic)

@@ -1,5 +1,5 @@
-// One run over a window of a scene, timed, from the same state with any stepper: the unit that the study of accuracy is
-// made of.
+// A timed run over a window of a scene, with any stepper, from a state that all runs have in common. The study of
+// accuracy consists of such runs.
 #pragma once
 
 #include <optional>
@@ -12,54 +12,57 @@
 
 namespace studies {
 
-/// A stretch of a scene, and the state that it begins with.
+/// A range of frames of a scene, and the simulation at the first of them.
 struct Window {
     scenes::Scene scene;
-    engine::Simulation start;  ///< the state at the first frame
+    engine::Simulation start;  ///< the simulation at the first frame
     int firstFrame = 0;
     int lastFrame = 0;
 
-    double seconds() const;  ///< length of the window
+    double seconds() const;  ///< length of the window, s of scene time
 };
 
-/// Advances the scene with its own stepper to the first frame. All runs over the window begin with that state, so the
-/// errors made before it are common to them.
+/// Advances the scene with its own stepper to the first frame of a window. All runs over the window begin with this
+/// state, so that errors made before it are the same in all of them.
 /// @throws engine::InstabilityError
 Window openWindow(const scenes::Scene& scene, int firstFrame, int frameCount);
 
-/// What a run changes of the scene's setup.
+/// What a run changes in the scene: the stepper and its step, and the precision.
 struct Variant {
     engine::StepperKind stepper = engine::StepperKind::velocityVerlet;
-    double asked = 0.0;  ///< step in s; for the automatic stepper, error in radii per second of motion
-    std::optional<double> solverTolerance;  ///< nothing: the scene's
+    double asked = 0.0;  ///< step, s; for the automatic stepper the wanted error, radii per second of motion
+    std::optional<double> solverTolerance;  ///< of the implicit steppers; nothing: the scene's
     engine::Precision precision = engine::Precision::doubles;
 };
 
-/// For example "velocity-verlet" or "velocity-verlet in float".
+/// The name of a stepper and its precision, for example "velocity-verlet" or "velocity-verlet in float".
 std::string nameOf(const Variant& variant);
 
-/// Whether the variant uses this stepper at this precision.
+/// Whether a run uses the given stepper at the given precision.
 bool isOf(const Variant& variant, engine::StepperKind stepper,
           engine::Precision precision = engine::Precision::doubles);
 
+/// How a run ended: at the end of the window, by an InstabilityError, or at the time limit.
 enum class Ending { finished, unstable, tooSlow };
 
 std::string_view nameOf(Ending ending);
 
+/// A run over a window, and its results.
 struct WindowRun {
     Variant variant;
     Ending ending = Ending::finished;
-    std::string failureMessage;  ///< of the InstabilityError
-    double seconds = 0.0;        ///< wall clock
+    std::string failureMessage;  ///< message of the InstabilityError; empty if there was none
+    double seconds = 0.0;        ///< wall-clock time of the run
     engine::StepStatistics steps;
-    engine::Particles particles;  ///< at the end, or when an unfinished run broke off
-    engine::Energy energy;        ///< at the end of a finished run
+    engine::Particles particles;  ///< particles at the end, or when an unfinished run broke off
+    engine::Energy energy;        ///< energy at the end of a finished run
 
-    double errorEstimateCost = 0.0;  ///< of the automatic stepper's error estimates, in force evaluations
-    double evaluationCost = 0.0;     ///< of all work, in force evaluations; see engine/error_control/step_cost.h
+    double errorEstimateCost = 0.0;  ///< cost of the automatic stepper's error estimates, in force evaluations
+    double evaluationCost = 0.0;     ///< cost of the whole run, in force evaluations
 };
 
-/// Runs the window once. A run that exceeds the limit (s) ends at the next frame as too slow.
+/// Runs a window of a scene once. A run that takes longer than secondsLimit (wall-clock time, s) ends at the next frame
+/// and counts as too slow.
 WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit);
 
 }  // namespace studies

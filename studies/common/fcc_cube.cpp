@@ -1,4 +1,5 @@
-// A lattice slightly too large, cut to the number of particles; see fcc_cube.h.
+// Makes cubes of particles on a face-centered cubic lattice, by cutting a lattice that is slightly too large to the
+// wanted number of particles. See fcc_cube.h.
 #include "studies/common/fcc_cube.h"
 
 #include <cmath>
@@ -18,7 +19,8 @@ engine::Setup fccCube(const std::string& material, std::size_t count, const FccC
     setup.gravity = Vec3::Zero();
     const double spacing = shape.spacing * 2.0 * setup.materials[0].radius;
     const double side = std::cbrt(static_cast<double>(count) / std::sqrt(2.0)) * spacing;
-    // The lattice has sqrt(2) particles to a cubed spacing; one spacing more makes sure that there are enough.
+    // A face-centered cubic lattice has sqrt(2) particles in a cube whose side is the distance of nearest neighbors.
+    // One spacing more makes sure that there are enough particles.
     auto positions =
         engine::boxPositions(Vec3::Zero(), Vec3::Constant(side + spacing), {.spacing = spacing, .jitter = 0.05});
     positions.resize(std::min(count, positions.size()));
@@ -39,7 +41,7 @@ double meanNeighbors(const engine::Setup& setup, const engine::Particles& partic
     engine::PairTraversal pairs(law, engine::Precision::doubles);
     pairs.prepare(law, particles, particles.velocity);
     std::vector<std::uint32_t> neighbors(particles.count());
-    // The traversal calls this from several threads, so every particle has a counter of its own.
+    // Several threads count at the same time, so every particle has a counter of its own.
     pairs.forEachParticle([&](std::size_t index) {
         pairs.forEachNeighbor(index, [&](std::uint32_t, const Vec3&, double) { ++neighbors[index]; });
     });

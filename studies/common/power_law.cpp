@@ -1,4 +1,4 @@
-// Straight lines through logarithms, see power_law.h.
+// Fits power laws by straight lines through logarithms. See power_law.h.
 #include "studies/common/power_law.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace studies {
 namespace {
 
-/// The points that no other point beats in both error and cost, by rising cost and falling error.
+/// The points that no other point beats in both error and cost, in the order of rising cost and falling error.
 std::vector<CostPoint> paretoFront(std::vector<CostPoint> points) {
     std::sort(points.begin(), points.end(), [](const CostPoint& a, const CostPoint& b) {
         return a.cost < b.cost || (a.cost == b.cost && a.error < b.error);
@@ -18,7 +18,7 @@ std::vector<CostPoint> paretoFront(std::vector<CostPoint> points) {
     return front;
 }
 
-/// Cost at an error between those of two neighbors on the front, by log-log interpolation.
+/// The cost of an error that lies between the errors of two neighbors on the Pareto front, by log-log interpolation.
 double interpolatedCost(const CostPoint& cheap, const CostPoint& expensive, double error) {
     const double share = std::log(error / cheap.error) / std::log(expensive.error / cheap.error);
     return cheap.cost * std::pow(expensive.cost / cheap.cost, share);
@@ -42,7 +42,7 @@ std::optional<double> powerLawExponent(const std::vector<PowerLawPoint>& points)
         uu += u * u;
         uv += u * (std::log(point.y) - meanV);
     }
-    constexpr double kRounding = 1e-18;  // chosen: equal x spread by roundings of 1e-16 in u, squared, stay below it
+    constexpr double kRounding = 1e-18;  // chosen: above the square of rounding errors of u, 1e-16
     if (uu <= kRounding) return std::nullopt;
     return uv / uu;
 }

@@ -1,5 +1,5 @@
-// Power laws in measured points: the order of convergence or the growth with the particle count that they show, and
-// the cost of a given error read off a Pareto front. Used by the studies of accuracy and scaling.
+// Fits power laws to measured points, for an order of convergence or for the growth of a time with the number of
+// particles, and reads the cost of a given error off a Pareto front. Used by the studies of accuracy and scaling.
 #pragma once
 
 #include <optional>
@@ -7,19 +7,19 @@
 
 namespace studies {
 
-/// A measured point, in any units.
+/// A measured pair of two quantities, in any units.
 struct PowerLawPoint {
-    double x = 0.0;  ///< for example a step or a particle count, > 0
+    double x = 0.0;  ///< for example a step or a number of particles, > 0
     double y = 0.0;  ///< for example an error or a time, > 0
 };
 
 /// The exponent k of y ~ x^k by least squares of the logarithms; nothing with fewer than two different x.
 std::optional<double> powerLawExponent(const std::vector<PowerLawPoint>& points);
 
-/// One run of a method.
+/// Error and cost of one run of a method.
 struct CostPoint {
-    double error = 0.0;  ///< any unit, > 0
-    double cost = 0.0;   ///< any unit, > 0
+    double error = 0.0;  ///< error in any unit, > 0
+    double cost = 0.0;   ///< cost in any unit, > 0
 };
 
 /// The least cost at which a method reaches an error, read off the Pareto front of its runs: points that another point

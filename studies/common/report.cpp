@@ -1,4 +1,4 @@
-// CSV fields and gnuplot scripts, see report.h.
+// Writes CSV fields and gnuplot scripts for the reports of the studies. See report.h.
 #include "studies/common/report.h"
 
 namespace studies {

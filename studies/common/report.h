@@ -1,4 +1,4 @@
-// Building blocks of what the studies write: lines of CSV tables and gnuplot scripts of log-log plots.
+// Parts of the reports that the studies write: lines of CSV tables, and gnuplot scripts of log-log plots.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,10 +11,10 @@
 
 namespace studies {
 
-/// Text as a field of a CSV line, in quotation marks if it needs them (RFC 4180).
+/// A text as a field of a CSV line, in quotation marks if it needs them (RFC 4180).
 std::string csvText(std::string_view text);
 
-/// Any value as a field of a CSV line: "yes" or "no" for a bool, six digits of a floating-point number, an empty field
+/// A value as a field of a CSV line: "yes" or "no" for a bool, six digits of a floating-point number, an empty field
 /// for an optional without a value.
 template <typename T>
 std::string csvField(const T& value) {
@@ -30,7 +30,7 @@ std::string csvField(const T& value) {
         return value ? csvField(*value) : std::string();
 }
 
-/// Values as fields of a CSV line, separated by commas.
+/// Several values as fields of a CSV line, separated by commas, without the end of the line.
 template <typename... Fields>
 std::string csvFields(const Fields&... fields) {
     std::string line;

@@ -1,5 +1,5 @@
-// How far apart two states of one scene are: particle by particle as long as the motion is predictable, and by bulk
-// statistics once it is chaotic and single positions no longer mean anything. Used by the studies of accuracy and
+// Measures how much two states of one scene differ: particle by particle as long as the motion is predictable, and by
+// bulk statistics once it is chaotic and single positions no longer mean anything. Used by the studies of accuracy and
 // stability.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace studies {
 /// The error of states that cannot be compared, and the value of an observable after a failure.
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a set of particles is, how wide and how high.
+/// Position and extent of a set of particles.
 struct BulkStatistics {
     engine::Vec3 center = engine::Vec3::Zero();  ///< center of mass, m
     double gyration = 0.0;                       ///< mass-weighted radius of gyration about the center, m
@@ -21,32 +21,34 @@ struct BulkStatistics {
     double z90 = 0.0;                            ///< height that 90 % of the particles do not exceed, m
 };
 
-/// All statistics are zero without particles.
+/// Position and extent of the particles; all numbers are 0 if there are none.
 BulkStatistics bulkStatistics(const engine::Particles& particles);
 
-/// The largest of the four differences, m; the difference of the centers is their distance.
+/// The largest difference of the four statistics of two sets of particles, m. The difference of the centers of mass is
+/// their distance.
 double largestDifference(const BulkStatistics& a, const BulkStatistics& b);
 
-/// Distances between corresponding particles, each divided by the particle's radius.
+/// Distances between corresponding particles of two states, each divided by the particle's radius.
 struct PositionError {
-    double rms = 0.0;
-    double largest = 0.0;
-    std::size_t compared = 0;  ///< number of particles
+    double rms = 0.0;          ///< root mean square distance, radii
+    double largest = 0.0;      ///< largest distance, radii
+    std::size_t compared = 0;  ///< number of particles compared
 };
 
 /// Whether two runs have the same particles, born at the same times.
 bool sameBirths(const engine::Particles& a, const engine::Particles& b);
 
-/// Compares particles of the same id.
-/// @param common  number of particles that existed when the two runs parted. Later births are compared only if both
-///                runs have the same ones at the same times: a single birth that differs shifts all later ids.
+/// The distances between particles of the same index in two runs that began with a common state.
+/// @param common  number of particles in the common state. Particles born later are compared only if both runs have the
+///                same ones at the same times: a single birth that differs shifts all later indices.
 /// @return  infinite errors if the particles differ and common is 0
 PositionError positionError(const engine::Particles& particles, const engine::Particles& reference, std::size_t common);
 
-/// The particles, each moved along every axis by up to `radii` of its own radii: pseudorandom, the same in every call.
+/// The particles, each moved along every axis by a pseudorandom distance of up to `radii` times its own radius. The
+/// distances are the same in every call.
 engine::Particles displaced(engine::Particles particles, double radii);
 
-/// Sums of the magnitudes of all momenta, which drifts of the total momenta are compared with.
+/// Sums of the magnitudes of the momenta of all particles, the scale for drifts of the total momenta.
 struct MomentumScale {
     double linear = 0.0;   ///< sum of |p|, kg m/s
     double angular = 0.0;  ///< sum of |x x p|, kg m^2/s

@@ -1,4 +1,4 @@
-// Wall-clock times and their median, for the benchmark and the studies that measure time.
+// Measures wall-clock times and takes medians. Used by the benchmark and by all studies that measure time.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@ namespace studies {
 
 using Work = std::function<void()>;
 
-/// Mean wall-clock seconds of a call over the given number of calls, at least 1.
+/// Mean wall-clock time of a call of the work, s.
+/// @param callCount  number of calls, at least 1
 inline double secondsOf(const Work& work, std::uint64_t callCount = 1) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -19,7 +20,7 @@ inline double secondsOf(const Work& work, std::uint64_t callCount = 1) {
     return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(callCount);
 }
 
-/// The middle value; of an even number of values, the upper one of the middle two.
+/// The median of the values; of an even number of values, the upper one of the middle two.
 /// @pre values is not empty.
 inline double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
