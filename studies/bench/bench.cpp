@@ -1,5 +1,5 @@
-// Measures on jittered lattices. Every time is the median of rounds, each of which is long enough for the clock.
-// See bench.h.
+// The benchmark of forces, neighbor lists and steps, on particles in jittered lattices. Every time is the median of
+// several rounds, each of which is long enough for the clock. See bench.h.
 #include "studies/bench/bench.h"
 
 #include <fmt/format.h>
@@ -24,22 +24,23 @@ using engine::Precision;
 using engine::StepperKind;
 using engine::Vec3;
 
-/// A lattice that is measured on.
+/// A lattice of particles that the benchmark measures on.
 struct Packing {
     const char* name;
     const char* material;
-    double spacing;  ///< of nearest neighbors, in rest lengths
+    double spacing;  ///< distance of nearest neighbors, in rest lengths
 };
 
-/// Lattices at the rest length, and one at the spacing of a solid that has settled under its own attraction, which was
-/// measured in scenes/library/solid.toml.
+/// The lattices: most have neighbors at the rest length, one has the spacing of a solid that has settled under its own
+/// attraction, as measured in scenes/library/solid.toml.
 constexpr std::array kPackings = {Packing{"solid", "solid", 1.0}, Packing{"settled solid", "solid", 0.76},
                                   Packing{"liquid", "liquid", 1.0}, Packing{"powder", "powder", 1.0}};
 
-/// Steps are measured up to this number of particles. Chosen: with a million, one row would take minutes.
+/// The largest number of particles that whole steps are measured with. Chosen: with a million, one measurement would
+/// take minutes.
 constexpr std::size_t kMostStepped = 100000;
 
-/// Median seconds of a call of the work, which the caller has called once to warm up.
+/// Median time of a call of the work, s. The caller has called it once before, so that its memory is allocated.
 double measured(const Work& work, const BenchSettings& settings) {
     const double once = secondsOf(work, 1);
     const auto repeats = static_cast<std::uint64_t>(std::max(1.0, std::ceil(settings.secondsPerRound / once)));
@@ -55,11 +56,11 @@ std::string hashOf(const std::vector<Vec3>& vectors) {
     return engine::hexadecimal(hash);
 }
 
-/// What the rows of one lattice have in common.
+/// A lattice of particles, and what all measurements on it have in common.
 struct Subject {
     engine::Setup setup;
     BenchRow row;
-    double rowBytes = 0.0;  ///< size of the list's rows over the number of particles
+    double rowBytes = 0.0;  ///< bytes of the neighbor list per particle
 };
 
 Subject subjectOf(const Packing& packing, std::size_t count) {
@@ -79,7 +80,7 @@ std::string stepName(StepperKind stepper) {
     return "step " + std::string(engine::nameOf(stepper));
 }
 
-/// The names of the rows that a lattice of this many particles has.
+/// The names of all measurements on a lattice with this number of particles.
 std::vector<std::string> rowNames(std::size_t count) {
     std::vector<std::string> names = {"forces", "list"};
     for (const StepperKind stepper : engine::kSteppers)
@@ -92,7 +93,7 @@ BenchRow forcesRow(const Subject& subject, Precision precision, const BenchSetti
     const engine::Particles& particles = subject.setup.initial;
     std::vector<Vec3> forces;
     const Work work = [&] { evaluator.evaluatePairs(particles, particles.velocity, forces); };
-    work();  // builds the list
+    work();  // builds the neighbor list
     BenchRow row = subject.row;
     row.name = "forces";
     row.precision = precision;
@@ -107,7 +108,7 @@ BenchRow listRow(const Subject& subject, const BenchSettings& settings) {
     const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
     engine::NeighborList list;
     const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kDefaultSkin * cutoff); };
-    work();  // allocates memory
+    work();  // allocates the memory of the list
     BenchRow row = subject.row;
     row.name = "list";
     row.seconds = measured(work, settings);
@@ -119,10 +120,10 @@ BenchRow listRow(const Subject& subject, const BenchSettings& settings) {
     return row;
 }
 
-/// Takes a fixed number of steps from the lattice, so that the hashes of their ends can be compared.
+/// Measures steps from the lattice. Their number is fixed, so that the hashes of the states at the end can be compared.
 BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precision, const BenchSettings& settings) {
     constexpr int kSteps = 20;
-    constexpr double kStep = 0.001;  // s, chosen: stable with all steppers
+    constexpr double kStep = 0.001;  // step, s; chosen: stable with all steppers
     engine::Setup setup = subject.setup;
     setup.stepper = stepper;
     setup.precision = precision;
@@ -133,7 +134,7 @@ BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precisi
     std::vector<double> rounds;
     for (int round = 0; round < settings.rounds; ++round) {
         engine::Simulation simulation = engine::start(setup);
-        engine::advance(simulation, kStep);  // builds the list
+        engine::advance(simulation, kStep);  // builds the neighbor list
         rounds.push_back(secondsOf([&] { engine::advance(simulation, (kSteps + 1) * kStep); }) / kSteps);
         row.stateHash = engine::stateHash(simulation.particles);
     }
@@ -142,7 +143,7 @@ BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precisi
 }
 
 BenchRow multiplyAddRow(const BenchSettings& settings) {
-    constexpr std::size_t kRounds = 1U << 22;  // chosen: some milliseconds
+    constexpr std::size_t kRounds = 1U << 22;  // chosen: the loop takes some milliseconds
     const std::size_t threads = engine::threadCount();
     float sink = 0.0F;
     double operations = 0.0;
@@ -171,7 +172,7 @@ BenchRow copyRow(const BenchSettings& settings) {
     return row;
 }
 
-/// Calls add(row) with every wanted row of a lattice.
+/// Makes the wanted measurements on a lattice and calls add() with each of them.
 void measureLattice(const Packing& packing, std::size_t count, const BenchSettings& settings,
                     const std::function<void(const BenchRow&)>& add) {
     const auto wants = [&](const std::string& name) { return settings.wants(name, packing.name); };

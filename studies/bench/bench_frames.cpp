@@ -1,4 +1,4 @@
-// Whole frames: a scene is run past its still, and simulating and drawing each frame are timed. See bench.h.
+// The benchmark of whole frames: runs a scene past its still, and times simulating and drawing each frame. See bench.h.
 #include "studies/bench/bench.h"
 
 #include <optional>
@@ -19,7 +19,7 @@ std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& 
     std::optional<render::Renderer> renderer;
     if (context != nullptr) {
         renderer.emplace(*context, scene.size, render::Quality::normal);
-        renderer->draw(scenes::frameView(scene, simulation));  // the first frame allocates memory
+        renderer->draw(scenes::frameView(scene, simulation));  // drawing the first frame allocates memory
     }
     const std::uint64_t stepsBefore = simulation.steps.count;
     std::vector<double> simulated;

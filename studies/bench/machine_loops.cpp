@@ -1,4 +1,5 @@
-// The benchmark's loop of multiply-adds, see multiplyAdd() in bench.h. Compiled once for each instruction set.
+// The benchmark's loop of fused multiply-adds, which measures the machine's peak of floating-point operations. Compiled
+// once for each instruction set. See multiplyAdd() in bench.h.
 #include "studies/bench/bench.h"
 
 #include <numeric>
@@ -17,7 +18,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Ten independent chains, because a fused multiply-add takes four or five cycles and two can start in each cycle.
+/// Ten independent chains of multiply-adds, because each takes four or five cycles and two can start in every cycle.
 double multiplyAddHere(std::size_t rounds, float& sink) {
     const hn::ScalableTag<float> tag;
     const auto factor = hn::Set(tag, 0.999F);

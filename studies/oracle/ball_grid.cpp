@@ -1,5 +1,5 @@
-// A counting sort of balls into cells, and the walk of Amanatides and Woo (1987) from cell to cell along a ray; see
-// ball_grid.h.
+// Sorts balls into the cells of a uniform grid by a counting sort, and walks from cell to cell along a ray (Amanatides
+// and Woo 1987). See ball_grid.h.
 #include "studies/oracle/ball_grid.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace oracle {
 namespace {
 
-/// The radius enlarged by a millionth, so that no rounding of the walk loses a ball.
+/// The radius of a ball enlarged by a millionth, so that no ball is lost to rounding errors of the walk along a ray.
 double safeRadius(const Extent& ball) {
     return ball.radius * (1.0 + 1e-6);
 }
@@ -81,7 +81,7 @@ Indices BallGrid::along(const Ray& ray) const {
     if (inside.exit < enter) return found;
     const dvec3 start = ray.origin + enter * ray.direction;
     Cell cell{};
-    std::array<double, 3> next{};  // distance along the ray from `start` at which it leaves the cell along each axis, m
+    std::array<double, 3> next{};  // distance from `start` to the cell's border along each axis, m along the ray
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const int k = static_cast<int>(axis);
         cell[axis] = cellAlong(axis, start[k]);

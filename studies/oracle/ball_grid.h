@@ -14,38 +14,40 @@
 
 namespace oracle {
 
-/// What a grid needs to know of a ball.
+/// Center and radius of a ball that is sorted into a grid, m.
 struct Extent {
     dvec3 center{0.0};
     double radius = 0.0;
 };
 
-/// Indices of balls, in rising order.
+/// Indices of some balls, in rising order.
 using Indices = std::vector<std::uint32_t>;
 
+/// A uniform grid of cells, each with a list of the balls that reach into it.
 class BallGrid {
  public:
     explicit BallGrid(const std::vector<Extent>& balls);
 
-    /// All balls that the ray may cross, and perhaps others.
+    /// The indices of all balls that a ray may cross, and perhaps of some that it misses.
     Indices along(const Ray& ray) const;
-    /// All balls that may reach into a cube around a point, and perhaps others.
+    /// The indices of all balls that may reach into a cube around a point, and perhaps of some that do not.
     Indices within(const dvec3& point, double halfSide) const;
 
  private:
     using Cell = std::array<int, 3>;
 
     std::size_t cellIndex(const Cell& cell) const;
-    /// The cell of a coordinate along an axis, or the nearest cell of the grid.
+    /// The cell number of a coordinate (m) along an axis; that of the nearest cell if the coordinate is outside the
+    /// grid.
     int cellAlong(std::size_t axis, double coordinate) const;
-    /// Calls visit(cell index) for every cell that a cube around a point touches.
+    /// Calls visit(cell index) for every cell of the grid that a cube around a point touches.
     template <typename Visit>
     void forCells(const dvec3& point, double halfSide, const Visit& visit) const;
 
     dvec3 low_{0.0};
-    double cellSize_ = 1.0;                   ///< m
-    std::array<int, 3> cellCounts_{0, 0, 0};  ///< along each axis
-    std::vector<std::uint32_t> begin_;  ///< where the list of each cell begins in lists_, and where the last one ends
+    double cellSize_ = 1.0;                   ///< side of a cell, m
+    std::array<int, 3> cellCounts_{0, 0, 0};  ///< number of cells along each axis
+    std::vector<std::uint32_t> begin_;        ///< where each cell's list begins in lists_, and where the last one ends
     Indices lists_;
 };
 

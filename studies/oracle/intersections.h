@@ -1,5 +1,5 @@
-// Where the oracle's rays meet spheres, boxes and the ground, in double precision. Header only: it is used by the
-// oracle alone.
+// Intersections of rays with spheres, boxes and the ground, in double precision, for the oracle (the exact ray caster
+// that judges the renderer). Header only.
 #pragma once
 
 #include <algorithm>
@@ -21,27 +21,27 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Ray {
     dvec3 origin{0.0};
-    dvec3 direction{0.0, 0.0, -1.0};  ///< unit length
+    dvec3 direction{0.0, 0.0, -1.0};  ///< direction of the ray, unit length
 };
 
-/// The first surface that a ray meets.
+/// The point where a ray first meets a surface, and the color of the surface there.
 struct Hit {
     enum class Kind : std::uint8_t { none, particle, sphereObstacle, boxObstacle, ground };
     Kind kind = Kind::none;
-    double distance = kInfinity;  ///< m along the ray from its origin, not a depth
+    double distance = kInfinity;  ///< distance from the origin of the ray, m; not a depth
     dvec3 point{0.0};
-    dvec3 normal{0.0};  ///< unit length, outward
+    dvec3 normal{0.0};  ///< outward normal of the surface, unit length
     dvec3 albedo{0.0};
     AxisVisibility sky = kAllVisible;
 };
 
-/// The vector at unit length, or the fallback for a zero vector.
+/// A vector scaled to unit length; the fallback if it is zero.
 inline dvec3 unitOr(const dvec3& vector, const dvec3& fallback) {
     const double length = glm::length(vector);
     return length > 0.0 ? vector / length : fallback;
 }
 
-/// The part of a ray that is inside a solid, in m along the ray; negative behind the ray's origin.
+/// The part of a ray that lies inside a solid: distances from the origin of the ray, m, negative behind it.
 struct Interval {
     double enter = 0.0;
     double exit = 0.0;
@@ -62,7 +62,8 @@ inline Foot footOf(const Ray& ray, const dvec3& center) {
     return {along, glm::dot(off, off)};
 }
 
-/// The interval inside a sphere; nothing if the ray misses or only touches it.
+/// The part of a ray that lies inside a sphere; nothing if the ray misses or only touches the sphere.
+/// @param foot  the foot of the perpendicular from the center of the sphere
 inline std::optional<Interval> sphereInterval(const Foot& foot, double radius) {
     const double halfSquared = radius * radius - foot.offSquared;
     if (halfSquared <= 0.0) return std::nullopt;
@@ -70,14 +71,16 @@ inline std::optional<Interval> sphereInterval(const Foot& foot, double radius) {
     return Interval{foot.along - half, foot.along + half};
 }
 
+/// The part of a ray that lies inside a box: distances from the origin of the ray, m.
 struct BoxInterval {
     double enter = -kInfinity;
     double exit = kInfinity;
-    int axis = 0;  ///< of the face through which the ray enters
+    int axis = 0;  ///< axis normal to the face through which the ray enters
 };
 
-/// A ray is inside an axis-aligned box where it is inside all three slabs: after the last entry and before the first
-/// exit. enter > exit if the ray misses the box.
+/// The part of a ray that lies inside an axis-aligned box. The ray is inside the box where it is inside the slabs of
+/// all three axes: after the last entry into a slab and before the first exit from one. If it misses the box, the
+/// result has enter > exit.
 inline BoxInterval boxInterval(const Ray& ray, const dvec3& minimum, const dvec3& maximum) {
     BoxInterval interval;
     for (int axis = 0; axis < 3; ++axis) {
@@ -98,7 +101,7 @@ inline BoxInterval boxInterval(const Ray& ray, const dvec3& minimum, const dvec3
     return interval;
 }
 
-/// The hit at a distance (m) along a ray. Whatever depends on the surface is left to the caller.
+/// A hit at a distance (m) along a ray, with its position but without the normal and color of the surface.
 inline Hit hitAt(const Ray& ray, double distance) {
     Hit hit;
     hit.distance = distance;
@@ -106,7 +109,8 @@ inline Hit hitAt(const Ray& ray, double distance) {
     return hit;
 }
 
-// The three functions below find the point and the normal of a hit. Kind, albedo and sky are left to the caller.
+// The three functions below find the point and the normal where a ray meets a sphere, a box or the ground. The caller
+// sets the kind of the surface, its color and its sky visibility.
 
 inline Hit hitSphere(const Ray& ray, const dvec3& center, double radius) {
     const std::optional<Interval> inside = sphereInterval(footOf(ray, center), radius);
@@ -116,6 +120,7 @@ inline Hit hitSphere(const Ray& ray, const dvec3& center, double radius) {
     return hit;
 }
 
+/// The outward normal of the face of a box that is nearest to a point inside.
 inline dvec3 nearestFaceNormal(const render::BoxObstacle& box, const dvec3& point) {
     const dvec3 toMinimum = point - dvec3(box.minimum);
     const dvec3 toMaximum = dvec3(box.maximum) - point;

@@ -14,19 +14,21 @@
 namespace oracle {
 namespace {
 
-/// 1 - d^2/R^2, the square root of the kernel, or 0 beyond the ball's reach.
+/// The square root of the metaball kernel at a point: 1 - d^2/R^2 at the distance d from the center of the ball, and 0
+/// beyond the ball's reach R.
 double kernelRoot(const Ball& ball, const dvec3& point) {
     const dvec3 offset = point - ball.center;
     const double squared = glm::dot(offset, offset);
     return squared < ball.reach * ball.reach ? 1.0 - squared / (ball.reach * ball.reach) : 0.0;
 }
 
+/// Contribution of a ball to the metaball field at a point.
 double kernel(const Ball& ball, const dvec3& point) {
     const double root = kernelRoot(ball, point);
     return ball.weight * root * root;
 }
 
-/// A ball whose reach a ray crosses, and where.
+/// A ball that a ray comes within reach of, and the part of the ray within its reach.
 struct CrossedBall {
     Foot foot;
     double reach = 0.0;
@@ -45,8 +47,8 @@ std::vector<CrossedBall> ballsCrossed(const Scene& scene, const Indices& near, c
     return crossed;
 }
 
-/// The field minus the threshold along a part of a ray that no ball begins or ends in, as a polynomial in s from -1 (at
-/// `enter`) to 1 (at `exit`). With
+/// The metaball field minus the threshold on a part of a ray, as a polynomial in a parameter s that runs from -1 (at
+/// `enter`) to 1 (at `exit`). No ball's reach begins or ends within the part. With
 ///   half = (exit - enter)/2  and  e = (enter + exit)/2 - foot.along,
 /// a ball's d^2 = offSquared + (e + half s)^2, so that
 ///   1 - d^2/R^2 = a + b s + c s^2   with   a = 1 - (offSquared + e^2)/R^2,  b = -2 e half/R^2,  c = -half^2/R^2
@@ -70,9 +72,9 @@ Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, cons
     return sum;
 }
 
-/// The smallest distance along the ray at which the field is at least the threshold; infinity if there is none. Between
-/// neighboring entries and exits of balls the field is one polynomial, of which all roots are found. There is no step
-/// length, so nothing is too thin to be found.
+/// The smallest distance along a ray at which the metaball field is at least the threshold, m; infinity if there is
+/// none. Between neighboring points where the ray enters or leaves the reach of a ball the field is one polynomial, of
+/// which all roots are found. The ray is not sampled in steps, so nothing is too thin to be found.
 double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ray) {
     const std::vector<CrossedBall> balls = ballsCrossed(scene, near, ray);
     std::vector<double> ends{0.0};
@@ -93,8 +95,8 @@ double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ra
     return kInfinity;
 }
 
-/// Where a ray meets the metaball surface. The gradient of a ball's kernel is -4 (1 - d^2/R^2) (x - c)/R^2, of which
-/// the factor 4 drops out of the normal.
+/// The point where a ray meets the metaball surface, with its normal, color and sky visibility. The gradient of a
+/// ball's kernel is -4 (1 - d^2/R^2) (x - c)/R^2, of which the factor 4 drops out of the normal.
 Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
     const render::View& view = scene.view;
     const double distance = firstFieldDistance(scene, near, ray);
@@ -121,6 +123,7 @@ Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
     return hit;
 }
 
+/// Replaces the nearest hit so far by another hit if that is nearer.
 void keepNearer(Hit& best, const Hit& candidate) {
     if (candidate.distance < best.distance) best = candidate;
 }
@@ -131,7 +134,7 @@ void keepNearer(Hit& best, Hit candidate, Hit::Kind kind, const glm::vec3& color
     keepNearer(best, candidate);
 }
 
-/// The nearest surface along a ray of those that cast shadows: all but the ground.
+/// The nearest point along a ray on a surface that casts shadows: on any surface but the ground.
 Hit traceCasters(const Scene& scene, const Ray& ray) {
     const render::View& view = scene.view;
     Hit best;
@@ -164,8 +167,8 @@ dvec3 fresnel(const render::View& view, const dvec3& albedo, double cosine) {
     return headOn + (1.0 - headOn) * std::pow(1.0 - std::max(0.0, cosine), 5.0);
 }
 
-/// highlight without the light's color and visibility.
-/// @pre n.l > 0
+/// The specular highlight of the light, without the light's color and visibility.
+/// @pre the surface faces the light
 dvec3 highlight(const render::View& view, const Hit& hit, const dvec3& toEye, const dvec3& toLight) {
     if (view.surface.specular == 0.0F && view.surface.metal == 0.0F) return dvec3{0.0};
     const dvec3 halfway = unitOr(toLight + toEye, dvec3{0.0});
@@ -191,7 +194,8 @@ dvec3 shoulder(const dvec3& color) {
     return glm::mix(kept / peak * color, dvec3(kept), 1.0 - 1.0 / (1.0 + 0.06 * (peak - kept)));
 }
 
-/// The sky visibility of a hit: the values of the particle, or those of the point on obstacles and the ground.
+/// The sky visibility where a ray meets a surface: on particles that of the particle, on obstacles and the ground that
+/// of the point.
 AxisVisibility skyVisibility(const Scene& scene, const Hit& hit) {
     return hit.kind == Hit::Kind::particle ? hit.sky : scene.sky.at(hit.point);
 }
@@ -199,7 +203,7 @@ AxisVisibility skyVisibility(const Scene& scene, const Hit& hit) {
 dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
     const render::View& view = scene.view;
     const bool isParticle = hit.kind == Hit::Kind::particle;
-    // Obstacles and the ground are matt: the terms of Surface are 0 there.
+    // Obstacles and the ground are matt: they have no highlight, reflection, translucency or glow.
     const render::Surface surface = isParticle ? view.surface : render::Surface{};
     const dvec3 toLight = unitToLight(view);
     const dvec3 toEye = -ray.direction;
@@ -232,7 +236,7 @@ Scene::Scene(const render::View& view_, bool bruteForce) : view(view_), balls(ba
     if (bruteForce) return;
     std::vector<Extent> extents;
     for (std::size_t k = 0; k < balls.size(); ++k) {
-        // A soft shadow's edge reaches beyond the sphere.
+        // A sphere's soft shadow is wider than the sphere.
         const double sphere = double(view.particles[k].radius) * (1.0 + 0.5 * double(view.light.softness));
         extents.push_back({balls[k].center, view.style == render::Style::metaballs ? balls[k].reach : sphere});
     }
@@ -252,7 +256,8 @@ std::vector<Ball> ballsOf(const render::View& view) {
         balls.push_back({dvec3(particle.center), double(view.field.reach) * double(particle.radius), 1.0});
     if (view.field.skin == render::Skin::plain || view.style == render::Style::spheres) return balls;
     std::vector<Extent> extents;
-    // A pair counts at distances below the mean of both reaches, which is where balls of half the reach overlap.
+    // Two balls influence each other below the mean of their reaches. At such distances balls of half the reach
+    // overlap.
     for (const Ball& ball : balls) extents.push_back({ball.center, 0.5 * ball.reach});
     const BallGrid grid(extents);
     std::vector<Ball> smooth = balls;
@@ -281,7 +286,7 @@ Ray pixelRay(const render::View& view, render::PictureSize size, double px, doub
     if (!std::isfinite(right.x))
         throw std::domain_error("pixelRay: the eye is at its target, or up is parallel to the view");
     const dvec3 up = glm::cross(right, forward);
-    // In units of half the picture's height, from its center.
+    // Position of the pixel relative to the center of the picture, in units of half the picture's height.
     const double x = (2.0 * px - size.width) / size.height;
     const double y = 1.0 - 2.0 * py / size.height;
     const dvec3 across = x * right + y * up;
@@ -326,8 +331,8 @@ double meanRadius(const render::View& view) {
 }
 
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal) {
-    // Lifts the origin off its own surface by about a million roundings of its coordinates, which is far below anything
-    // visible.
+    // The ray's origin is lifted off its own surface by about a million roundings of its coordinates, which is far
+    // below anything visible.
     const double lift = 1e-9 * (1.0 + glm::length(point));
     return traceCasters(scene, {point + lift * normal, unitToLight(scene.view)}).kind != Hit::Kind::none;
 }

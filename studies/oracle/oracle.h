@@ -2,7 +2,7 @@
 // the input, render/picture/view.h, and computes the model of render/picture/shading_model.h. Used by the renderer's
 // tests and by the study of pictures.
 //
-// Conventions where these leave room:
+// Conventions where the shading model leaves room:
 //   - Spheres, boxes and the metaball surface are solid: a ray that starts inside one hits it at distance 0. The normal
 //     there is a sphere's radial direction, the normal of a box's nearest face, or the negative gradient of the field;
 //     where that is zero, the normal points against the ray.
@@ -25,17 +25,18 @@
 
 namespace oracle {
 
-/// A ball of the metaball field.
+/// A ball that contributes to the metaball field.
 struct Ball {
     dvec3 center{0.0};
-    double reach = 0.0;  ///< R of view.h, m
+    double reach = 0.0;  ///< distance at which the contribution ends, m: R of shading_model.h
     double weight = 1.0;
 };
 
-/// The balls of a view, one for each particle, moved and weighted if its skin is smooth.
+/// The balls of the metaball field of a view, one for each particle. If the view asks for a smooth surface, the balls
+/// are moved and weighted.
 std::vector<Ball> ballsOf(const render::View& view);
 
-/// A view with what is computed once for all rays. The view must outlive it.
+/// A view with all that is computed once for all rays. Holds a reference to the view.
 struct Scene {
     /// @param bruteForce  try every ball for every ray, instead of sorting the balls into a grid
     explicit Scene(const render::View& view_, bool bruteForce = false);
@@ -45,11 +46,11 @@ struct Scene {
     std::optional<BallGrid> grid;  ///< empty: every ball is tried for every ray
     SkyVisibility sky;
 
-    /// All balls that the ray may cross, and perhaps others.
+    /// The indices of all balls that a ray may cross, and perhaps of some that it misses.
     Indices ballsAlong(const Ray& ray) const;
 };
 
-/// A part of a picture, whose top left pixel is (x, y).
+/// A rectangle of pixels of a picture, whose top left pixel is (x, y).
 struct Window {
     int x = 0;
     int y = 0;
@@ -57,14 +58,14 @@ struct Window {
     int height = 0;
 };
 
-/// A picture or a window of one, row by row from the top left.
+/// The pixels of a picture, or of a window of it, row by row from the top left.
 struct Picture {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgb;  ///< sRGB, 3 bytes a pixel
-    std::vector<Hit::Kind> kinds;   ///< what the ray through the pixel's center meets
-    std::vector<double> distances;  ///< its Hit::distance, infinity where it meets nothing
-    std::vector<dvec3> normals;     ///< its Hit::normal
+    std::vector<std::uint8_t> rgb;  ///< colors in sRGB, 3 bytes a pixel
+    std::vector<Hit::Kind> kinds;   ///< kind of surface that the ray through each pixel's center meets
+    std::vector<double> distances;  ///< distance of the surface at each pixel's center, m; infinity for none
+    std::vector<dvec3> normals;     ///< normal of the surface at each pixel's center
 };
 
 /// The ray through the point (px, py) of the picture in pixels: (0, 0) is the picture's top left corner, (0.5, 0.5)
@@ -72,38 +73,40 @@ struct Picture {
 /// @throws std::domain_error if the eye is at its target, or up is parallel to the view
 Ray pixelRay(const render::View& view, render::PictureSize size, double px, double py);
 
-/// The nearest surface along a ray; Kind::none if there is none. With a view in place of a scene, every ball is tried.
+/// The nearest hit along a ray; its kind is Kind::none if the ray meets nothing. With a view in place of a scene, every
+/// ball is tried.
 Hit trace(const render::View& view, const Ray& ray);
 Hit trace(const Scene& scene, const Ray& ray);
 
-/// The metaball field at a point. The surface is where it equals fieldThreshold().
+/// The metaball field of a view at a point. The metaball surface is where it equals fieldThreshold().
 double fieldAt(const render::View& view, const dvec3& point);
-/// The same sum over some of the balls.
+/// The contributions of some balls to the metaball field at a point.
 double fieldAt(const Scene& scene, const Indices& balls, const dvec3& point);
 double fieldThreshold(const render::View& view);
 
 /// Mean radius of the particles, m; 0 without particles.
 double meanRadius(const render::View& view);
 
-/// Whether particles (spheres or the metaball surface, by style) or obstacles, but not the ground, hide the light from
-/// a point of a surface with this normal: a hard shadow. Light::shadows is ignored here; shade() respects it.
+/// Whether a point of a surface with this normal lies in a hard shadow: whether particles (as spheres or as the
+/// metaball surface, by the style of the view) or obstacles hide the light. Light::shadows is ignored here; shade()
+/// respects it.
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal);
 
-/// lightVisibility of shading_model.h at a point of a surface with this normal; without softness it is 0 or 1 by
-/// isInShadow().
+/// The share of the light that reaches a point of a surface with this normal: lightVisibility in shading_model.h. If
+/// the light has no softness, it is 0 or 1 by isInShadow().
 double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal);
 
-/// Linear color of what a ray meets, before the clamp to [0, 1].
-/// @param screenT  0 at the picture's bottom edge, 1 at its top edge
+/// The linear color of the surface that a ray meets, or of the background, before it is clamped to [0, 1].
+/// @param screenT  height in the picture: 0 at the picture's bottom edge, 1 at its top edge
 dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT);
 dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT);
 
-/// A linear value to 8-bit sRGB by the formula of the standard, rounded to nearest.
+/// Converts a linear value to 8-bit sRGB by the formula of the standard, rounded to nearest.
 /// @throws std::domain_error if the value is not in [0, 1]
 std::uint8_t encodeSrgb(double linear);
 
-/// The picture. Each pixel is the mean in linear light of samplesPerAxis^2 samples on a regular grid, which are clamped
-/// to [0, 1] before.
+/// Draws a picture, or a window of it. Each pixel is the mean in linear light of samplesPerAxis^2 samples on a regular
+/// grid, each of which is clamped to [0, 1] before.
 Picture draw(const render::View& view, render::PictureSize size, int samplesPerAxis);
 Picture drawWindow(const Scene& scene, render::PictureSize size, const Window& window, int samplesPerAxis);
 

@@ -20,21 +20,21 @@ inline Quartic derivative(const Quartic& c) {
     return {c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0};
 }
 
-/// The root between low and high, where c has opposite signs. It is exact to the last bit of x, as far as the signs of
-/// valueAt() are right.
+/// The root of a polynomial between two points where it has opposite signs, by bisection. It is exact to the last bit,
+/// as far as the signs of the computed values are right.
 inline double bisect(const Quartic& c, double low, double high) {
     const bool risesFromLow = valueAt(c, low) < 0.0;
     while (true) {
         const double middle = 0.5 * (low + high);
-        if (middle <= low || middle >= high) return middle;  // low and high are neighboring doubles
+        if (middle <= low || middle >= high) return middle;  // no double lies between low and high
         const double value = valueAt(c, middle);
         if (value == 0.0) return middle;
         ((value < 0.0) == risesFromLow ? low : high) = middle;
     }
 }
 
-/// The roots of c at the knots and between them, ascending.
-/// @param knots  ascending; c must be monotone between neighboring knots
+/// The roots of a polynomial at some points and between them, ascending.
+/// @param knots  the points, ascending; the polynomial must be monotone between neighbors
 inline std::vector<double> rootsBetweenKnots(const Quartic& c, const std::vector<double>& knots) {
     std::vector<double> roots;
     for (std::size_t i = 0; i < knots.size(); ++i) {
@@ -50,16 +50,17 @@ inline std::vector<double> rootsBetweenKnots(const Quartic& c, const std::vector
     return roots;
 }
 
-/// True only if the polynomial is negative in all of [-1, 1]; false proves nothing. With s = 2 t - 1 and t in [0, 1]
-/// its value is a weighted mean of its five coefficients in the Bernstein basis, so it is negative if all of them are.
+/// A quick test whether a polynomial is negative in all of [-1, 1]: true proves it, false proves nothing. With
+/// s = 2 t - 1 and t in [0, 1] the value at s is a weighted mean of five coefficients in the Bernstein basis, so it is
+/// negative if all of them are.
 inline bool staysNegative(const Quartic& c) {
-    // Powers of t of c(2 t - 1), by Horner's rule: q <- q (2 t - 1) + c[k].
+    // The coefficients q of the powers of t in c(2 t - 1), by Horner's rule: q <- q (2 t - 1) + c[k].
     Quartic q{};
     for (std::size_t k = c.size(); k-- > 0;) {
         for (std::size_t power = q.size() - 1; power > 0; --power) q[power] = 2.0 * q[power - 1] - q[power];
         q[0] = c[k] - q[0];
     }
-    // b_k = sum over j <= k of (k choose j) / (4 choose j) q_j.
+    // The coefficients in the Bernstein basis: b_k = sum over j <= k of (k choose j) / (4 choose j) q_j.
     const double b1 = q[0] + q[1] / 4.0;
     const double b2 = q[0] + q[1] / 2.0 + q[2] / 6.0;
     const double b3 = q[0] + 3.0 * q[1] / 4.0 + q[2] / 2.0 + q[3] / 4.0;
@@ -69,8 +70,8 @@ inline bool staysNegative(const Quartic& c) {
     return q[0] < below && b1 < below && b2 < below && b3 < below && b4 < below;
 }
 
-/// All distinct roots in [low, high], ascending. A double root, where c touches zero without changing its sign, is
-/// found if valueAt() is exactly zero there.
+/// All distinct roots of a polynomial in [low, high], ascending. A double root, where the polynomial touches zero
+/// without changing its sign, is found if its computed value is exactly zero there.
 inline std::vector<double> rootsIn(const Quartic& c, double low, double high) {
     std::array<Quartic, 4> chain{c};  // c and its first three derivatives; the last one is linear, hence monotone
     for (std::size_t order = 1; order < chain.size(); ++order) chain[order] = derivative(chain[order - 1]);

@@ -1,4 +1,4 @@
-// The sums of section 3 of render/picture/shading_model.h as they are written there; see sky_visibility.h.
+// Computes sky visibility by the formulas of section 3 of render/picture/shading_model.h. See sky_visibility.h.
 #include "studies/oracle/sky_visibility.h"
 
 #include <cmath>
@@ -9,18 +9,19 @@
 namespace oracle {
 namespace {
 
-/// Whether a term of the shading model uses the sky's visibility.
+/// Whether the shading of a view depends on the visibility of the sky.
 bool isUsed(const render::View& view) {
     return view.ambient.occlusion > 0.0F || view.surface.reflection > 0.0F || view.surface.translucency > 0.0F ||
            view.surface.absorption > 0.0F;
 }
 
-/// The smallest power of 2^(1/4) m that is not below twice the mean radius; 1e-9 allows for the logarithm's rounding.
+/// Side of the cubes of the visibility grid, m: the smallest power of 2^(1/4) that is not below twice the particles'
+/// mean radius. The 1e-9 allows for the rounding of the logarithm.
 double cubeSide(const render::View& view) {
     return std::exp2(std::ceil(4.0 * std::log2(2.0 * meanRadius(view)) - 1e-9) / 4.0);
 }
 
-/// Calls visit(cube, trilinear weight) for the eight cubes whose centers surround a point.
+/// Calls visit(cube, trilinear weight) for the eight cubes of the visibility grid whose centers surround a point.
 template <typename Visit>
 void forSurrounding(const dvec3& point, double side, const Visit& visit) {
     const dvec3 at = point / side - 0.5;

@@ -14,18 +14,19 @@
 
 namespace oracle {
 
-/// The values O of a point in the directions +x, -x, +y, -y, +z, -z, from 0 (hidden) to 1 (open).
+/// The sky visibility of a point in the directions +x, -x, +y, -y, +z, -z, from 0 (hidden) to 1 (open).
 using AxisVisibility = std::array<double, 6>;
 
 inline constexpr AxisVisibility kAllVisible = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
-/// Sky visibility in a direction of unit length: the sum over the axes of d_a^2 times the value on d's side of the
-/// axis.
+/// Sky visibility in a direction d of unit length: the sum over the axes a of d_a^2 times the visibility along the axis
+/// in the direction of the sign of d_a.
 double visibilityToward(const AxisVisibility& values, const glm::dvec3& d);
 
+/// The sky visibility of every point of a view.
 class SkyVisibility {
  public:
-    /// Computes the values of every particle, if the view's shading uses them.
+    /// Computes the sky visibility of every particle, if the shading of the view depends on it.
     explicit SkyVisibility(const render::View& view);
 
     AxisVisibility at(const glm::dvec3& point) const;
@@ -40,8 +41,8 @@ class SkyVisibility {
 
     double ofCube(int axis, int sign, const Cube& cube) const;
 
-    double side_ = 1.0;  ///< of a cube, m
-    Density density_;    ///< F of shading_model.h
+    double side_ = 1.0;  ///< side of a cube of the grid, m
+    Density density_;    ///< blurred density of the particles in each cube: F of shading_model.h
     std::vector<AxisVisibility> particles_;
 };
 

@@ -15,20 +15,21 @@
 
 namespace oracle {
 
-/// A point on a surface, and the light that may reach it.
+/// A point on a surface, and the direction and softness of the light that may reach it.
 struct ShadedPoint {
     dvec3 point{0.0};
     dvec3 normal{0.0};
-    dvec3 toLight{0.0};     ///< unit length
-    double softness = 0.0;  ///< S of shading_model.h
+    dvec3 toLight{0.0};     ///< direction to the light, unit length
+    double softness = 0.0;  ///< softness of the light, S of shading_model.h
 };
 
-/// edge(x) of shading_model.h.
+/// The soft edge of a shadow, rising from 0 to 1 between x = -1/2 and 1/2: edge(x) of shading_model.h.
 inline double softEdge(double x) {
     const double t = std::clamp(x + 0.5, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 
+/// The share of the light that a sphere covers at a point.
 inline double coverOfSphere(const ShadedPoint& shaded, const dvec3& center, double radius) {
     const dvec3 off = center - shaded.point;
     const double along = glm::dot(off, shaded.toLight);
@@ -40,16 +41,17 @@ inline double coverOfSphere(const ShadedPoint& shaded, const dvec3& center, doub
     return softEdge((radius - aside) / width);
 }
 
-/// Two directions that span the light's plane. They are the renderer's, because the shape of the spline filter depends
-/// on its axes.
+/// Two directions that span the plane across the direction to the light. They are the same as in the renderer, because
+/// the shape of the filter of metaball shadows depends on its axes.
 inline std::array<dvec3, 2> lightAxes(const dvec3& toLight) {
     const dvec3 other = std::abs(toLight.x) < 0.9 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
     const dvec3 u = glm::normalize(glm::cross(other, toLight));
     return {u, glm::cross(toLight, u)};
 }
 
-/// Projects the corners of the box onto the light's plane and takes every line through two of them that has all others
-/// on its left. These lines bound the outline, so the least signed distance to them is shading_model.h's x.
+/// The share of the light that a box covers at a point. Projects the corners of the box onto the plane across the light
+/// and takes every line through two of them that has all other corners on its left. These lines bound the outline, so
+/// that the least signed distance from them is the distance x in section 4 of shading_model.h.
 inline double coverOfBox(const ShadedPoint& shaded, const render::BoxObstacle& box, double particleRadius) {
     const dvec3 minimum(box.minimum);
     const dvec3 maximum(box.maximum);
@@ -92,8 +94,8 @@ inline double splineQuantile(double share) {
     return 0.5 * (low + high);
 }
 
-/// A pseudorandom number in [0, 1) by a hash of the point. It shifts the few rays of a point, so that their sampling
-/// error averages out over a pixel.
+/// A pseudorandom number in [0, 1) by a hash of a point. It shifts the few shadow rays that start at the point, so that
+/// their sampling error averages out over a pixel.
 inline double shiftFor(const dvec3& point, std::uint64_t salt) {
     std::uint64_t z = salt;
     for (int axis = 0; axis < 3; ++axis) {
@@ -105,7 +107,8 @@ inline double shiftFor(const dvec3& point, std::uint64_t salt) {
     return static_cast<double>(z >> 11) * 0x1p-53;
 }
 
-/// Origins of rays to the light that sample the spline filter with equal weights.
+/// Origins of rays to the light for the soft shadows of metaballs. They sample a quadratic B-spline filter with equal
+/// weights.
 inline std::vector<dvec3> fieldShadowOrigins(const ShadedPoint& shaded, double particleRadius) {
     constexpr int kPerAxis = 3;
     const double step = 0.5 * shaded.softness * particleRadius;

@@ -1,4 +1,5 @@
-// A jittered cubic lattice under a curved surface, and one particle in forty in the air; see dam_break_view.h.
+// Makes the dam break of the study of pictures: particles on a jittered cubic lattice under a curved surface, and one
+// particle in forty in the air. See dam_break_view.h.
 #include "studies/pictures/dam_break_view.h"
 
 #include <algorithm>
@@ -11,14 +12,14 @@
 namespace studies {
 namespace {
 
-constexpr double kLength = 11.0;   // m, of the tank
-constexpr double kDepth = 3.6;     // m, of the tank
+constexpr double kLength = 11.0;   // length of the tank, m
+constexpr double kDepth = 3.6;     // depth of the tank, m
 constexpr double kSplash = 0.025;  // share of the particles that are in the air
 
 /// The pseudorandom numbers of SplitMix64 with the seed 0.
 class Random {
  public:
-    /// Uniform in [0, 1).
+    /// The next number, uniform in [0, 1).
     double next() {
         const std::uint64_t bits = engine::scatter(state_);
         state_ += 0x9e3779b97f4a7c15ULL;
@@ -30,14 +31,15 @@ class Random {
     std::uint64_t state_ = 0;
 };
 
-/// Height of the liquid, m: high on the left, a slope, low on the right, a small rise at the far wall.
+/// Height of the liquid surface at a distance x (m) from the left wall, m: high on the left, then a slope, low on the
+/// right, and a small rise at the far wall.
 double surfaceHeight(double x) {
     const double t = std::clamp((x - 2.0) / 5.0, 0.0, 1.0);
     const double wall = std::clamp((x - 9.0) / 2.0, 0.0, 1.0);
     return 3.6 - 2.6 * t * t * (3.0 - 2.0 * t) + 0.5 * wall * wall;
 }
 
-/// Volume of the liquid, m^3.
+/// Volume of the liquid in the tank, m^3.
 double volume() {
     constexpr int kSlices = 1000;
     double sum = 0.0;
@@ -45,6 +47,7 @@ double volume() {
     return sum / kSlices * kLength * kDepth;
 }
 
+/// Color of the particles at a distance x (m) from the left wall.
 glm::vec3 colorAt(double x) {
     constexpr std::array<glm::vec3, 4> kRamp = {
         {{0.01F, 0.13F, 0.62F}, {0.02F, 0.45F, 0.55F}, {0.55F, 0.62F, 0.05F}, {0.85F, 0.2F, 0.02F}}};
@@ -53,7 +56,7 @@ glm::vec3 colorAt(double x) {
     return glm::mix(kRamp[k], kRamp[k + 1], static_cast<float>(at - static_cast<double>(k)));
 }
 
-/// Lattice points below the surface at this spacing.
+/// The points of a cubic lattice with this spacing (m) below the surface of the liquid.
 std::vector<glm::dvec3> lattice(double spacing) {
     std::vector<glm::dvec3> points;
     for (double x = 0.5 * spacing; x < kLength; x += spacing)
@@ -84,7 +87,7 @@ void addParticles(std::size_t count, render::View& view) {
     }
 }
 
-/// The view in a frame of framesOf().
+/// The view from the camera of a frame of framesOf(), which moves on a circle.
 render::View seenFrom(render::View view, int frame) {
     const float angle = 0.002F * static_cast<float>(frame);
     const glm::vec3 off = view.camera.eye - view.camera.target;

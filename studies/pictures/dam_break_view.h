@@ -8,12 +8,12 @@
 
 namespace studies {
 
-/// The dam break with ground, soft shadows, ambient occlusion and reflections, the particles colored from left to
-/// right. The same arguments give the same view.
+/// A view of a dam break with ground, soft shadows, ambient occlusion and reflections, whose particles are colored from
+/// left to right. The same arguments give the same view.
 /// @param count  number of particles, > 0
 render::View damBreakView(std::size_t count, render::Style style);
 
-/// The view in `count` frames of a camera that moves on a circle around its target, so that no two frames are alike.
+/// A view in `count` frames, between which the camera moves on a circle around its target, so that no two are alike.
 std::vector<render::View> framesOf(const render::View& view, int count);
 
 }  // namespace studies

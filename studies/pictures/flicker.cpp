@@ -1,4 +1,5 @@
-// Flicker: differences between successive pictures under a slowly moving camera; see FlickerRow in pictures.h.
+// Measures flicker: the differences between successive pictures of a still scene while the camera moves slowly. See
+// FlickerRow in pictures.h.
 
 #include <cmath>
 
@@ -9,7 +10,7 @@
 namespace studies {
 namespace {
 
-/// The view in a frame: the camera has moved to the right by settings.pixelsPerFrame for each frame before it.
+/// The view in a frame. Between frames the camera moves to the right by settings.pixelsPerFrame.
 render::View shifted(render::View view, const FlickerSettings& settings, int frame) {
     const glm::vec3 aim = view.camera.target - view.camera.eye;
     const glm::vec3 right = glm::normalize(glm::cross(aim, view.camera.up));
@@ -21,7 +22,7 @@ render::View shifted(render::View view, const FlickerSettings& settings, int fra
     return view;
 }
 
-/// Change and jerk of successive pictures of a subject.
+/// Measures the change and the jerk of successive pictures; FlickerRow says what these are.
 FlickerRow flickerOf(const PictureSubject& subject, const std::vector<render::Image>& frames) {
     FlickerRow row{subject};
     const auto count = static_cast<double>(frames.front().rgb.size());

@@ -1,4 +1,4 @@
-// Sums over the pixels of the windows, see errorOf() in pictures.h.
+// Compares windows of the renderer's picture with the oracle's exact picture. See errorOf() in pictures.h.
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +11,18 @@
 namespace studies {
 namespace {
 
-/// Sums over the pixels of all windows, but for similarity, which is summed over the windows.
+/// Sums of errors over the pixels of all windows; similarity alone is a sum over the windows.
 struct Sums {
-    double squares = 0.0;  ///< squared differences, for each pixel the mean over its channels
-    double similarity = 0.0;
-    double depth = 0.0;   ///< mean radii
-    double normal = 0.0;  ///< degrees
-    std::size_t wrongHits = 0;
-    std::size_t rightParticleHits = 0;
+    double squares = 0.0;               ///< squared color differences, for each pixel the mean over its channels
+    double similarity = 0.0;            ///< structural similarity
+    double depth = 0.0;                 ///< errors of depth on particles, mean radii
+    double normal = 0.0;                ///< errors of the normal on particles, degrees
+    std::size_t wrongHits = 0;          ///< pixels that show another surface than the exact picture
+    std::size_t rightParticleHits = 0;  ///< pixels that show the right point of a particle
     std::size_t pixels = 0;
 };
 
-/// The window of a picture.
+/// The part of a picture inside a window.
 render::Image cropped(const render::Image& image, const oracle::Window& window) {
     render::Image part{window.width, window.height, {}};
     for (int y = window.y; y < window.y + window.height; ++y) {
@@ -32,6 +32,7 @@ render::Image cropped(const render::Image& image, const oracle::Window& window) 
     return part;
 }
 
+/// Adds the color errors inside a window to the sums.
 void addColors(const render::Image& image, const ExactWindow& exact, Sums& sums) {
     const render::Image shown = cropped(image, exact.window);
     const render::Image wanted{exact.window.width, exact.window.height, exact.picture.rgb};
@@ -40,6 +41,7 @@ void addColors(const render::Image& image, const ExactWindow& exact, Sums& sums)
     sums.similarity += metrics.ssim;
 }
 
+/// Adds the errors of the visible surfaces inside a window, their depths and their normals, to the sums.
 void addSurfaces(const render::View& view, render::PictureSize size, std::span<const render::VisiblePoint> surfaces,
                  const ExactWindow& exact, Sums& sums) {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(view.camera.target) - glm::dvec3(view.camera.eye));

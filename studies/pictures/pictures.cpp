@@ -1,5 +1,5 @@
-// The main table of the study of pictures: draws the dam break again and again, encodes it, and compares windows of it
-// with the oracle's. See pictures.h.
+// The main table of the study of pictures: times drawing a dam break and encoding it as PNG and video, and compares
+// windows of the picture with the oracle's. See pictures.h.
 #include "studies/pictures/pictures.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 using render::DrawTimes;
 
-/// Frames in which the particles move to the right before a camera at rest.
+/// A view in several frames, between which the particles move to the right and the camera is at rest.
 std::vector<render::View> framesAtRest(const render::View& view, int count) {
     std::vector<render::View> frames;
     for (int frame = 0; frame < count; ++frame) {
@@ -44,11 +44,12 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
             medianOf(&DrawTimes::readBack)};
 }
 
-/// Seconds of drawing `count` frames, each while the one before is encoded, as the render loop does.
+/// Wall-clock time of drawing and encoding `count` frames, s. Each frame is drawn while the one before is encoded, as
+/// when a scene is rendered.
 double overlapped(render::Renderer& renderer, const std::vector<render::View>& frames, int count,
                   const std::function<void(const render::Image&)>& encode) {
     constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
-    std::array<render::Image, 3> buffers;  // of the frames that are in the pipeline
+    std::array<render::Image, 3> buffers;  // images of the frames in the pipeline
     int next = 0;
     const auto drawNext = [&](tbb::flow_control& flow) -> render::Image* {
         if (next == count) {
@@ -67,7 +68,7 @@ double overlapped(render::Renderer& renderer, const std::vector<render::View>& f
     });
 }
 
-/// Seconds of a video of `count` frames, for which the images are used in turn.
+/// Wall-clock time of encoding a video of `count` frames, s. The images are used in turn.
 double secondsOfVideo(const render::VideoOptions& options, const std::vector<render::Image>& images, int count) {
     render::VideoWriter video(options);
     return secondsOf([&] {
@@ -76,11 +77,11 @@ double secondsOfVideo(const render::VideoOptions& options, const std::vector<ren
     });
 }
 
-/// Times PNG and video encoding, alone and with drawing. The time that a video takes once is found as the intercept: a
-/// video of one frame less the time per frame, which is measured by a video with many more frames.
+/// Measures the times of PNG and video encoding, alone and together with drawing. What a video costs besides its frames
+/// is the time of a video of one frame minus the time per frame, which is measured with a video of many more frames.
 void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
                      render::Renderer& renderer, PictureRow& row) {
-    // Chosen: slow frames take about the same time each, so a second and a half of them is enough.
+    // Drawing the frames takes at most about a second and a half. Chosen: slow frames take about the same time each.
     const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.draw)));
     const render::Image image = renderer.draw(frames.front());
     row.png = secondsOf([&] { render::encodePng(image); }, 3);
@@ -100,7 +101,7 @@ void measureEncoding(const PictureSettings& settings, const std::vector<render::
     row.withMp4 = std::max(0.0, seconds - row.mp4Once) / count;
 }
 
-/// The exact picture in windows that are spread evenly over the picture.
+/// The exact picture of a view, in windows that are spread evenly over the picture.
 std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const render::View& view,
                                       render::PictureSize size) {
     std::vector<ExactWindow> windows;
@@ -117,7 +118,7 @@ std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const ren
     return windows;
 }
 
-/// Median times over some frames, s.
+/// Median times of drawing a frame, s.
 struct DrawingTimes {
     double baseline = 0.0;
     double fewestBaseline = 0.0;
@@ -125,14 +126,14 @@ struct DrawingTimes {
     DrawTimes stages;
 };
 
-/// Draws every frame with the baseline and with the renderer by turns, so that changes of the machine's speed affect
-/// both alike.
-/// @param fewest  a view that the baseline draws by turns with the others, unless it is null
+/// Times drawing with the baseline and with the renderer. They draw every frame by turns, so that changes of the
+/// machine's speed affect both alike.
+/// @param fewest  another view for the baseline to draw by turns with the frames; null: none
 DrawingTimes measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
                             const render::View* fewest = nullptr) {
     std::vector<DrawTimes> times;
     std::vector<double> baseline, fewestBaseline, draw;
-    // The first frame of each compiles its shaders and allocates memory.
+    // Drawing a first frame compiles shaders and allocates memory.
     render::Image quadImage = quads.draw(frames.front());
     render::Image ours = renderer.draw(frames.front());
     for (const render::View& view : frames) {
@@ -145,13 +146,13 @@ DrawingTimes measureDrawing(QuadBaseline& quads, render::Renderer& renderer, con
     return {median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline), median(draw), medianStages(times)};
 }
 
-/// What is drawn to time the pictures of one style and one number of particles.
+/// The views that are drawn to measure the times of pictures of one style and one number of particles.
 struct TimedViews {
-    std::vector<render::View> frames;  ///< the camera moves from frame to frame
+    std::vector<render::View> frames;  ///< the view in frames between which the camera moves
     const render::View& fewest;        ///< the view with the smallest number of particles in the study
 };
 
-/// Measures all times of a row, whose subject is set.
+/// Measures all times of a picture. The row says which picture, and receives the times.
 void measureTimes(const PictureSettings& settings, render::Context& context, const TimedViews& views, PictureRow& row) {
     render::Renderer renderer(context, row.size, row.quality);
     {

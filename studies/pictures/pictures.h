@@ -22,24 +22,25 @@ const char* nameOf(render::Style style);
 const char* nameOf(render::Quality quality);
 const char* nameOf(render::Skin smoothing);
 
-/// Distance of a picture from the exact one, over all windows.
+/// How much a picture differs from the oracle's exact one, over all windows that were compared.
 struct PictureError {
-    double rmse = 0.0;       ///< steps of an 8-bit channel
-    double ssim = 0.0;       ///< mean over the windows of the structural similarity, see render::measure()
-    double wrongHits = 0.0;  ///< share of the pixels whose center shows another surface than in the exact picture
-    double depth = 0.0;      ///< mean over the right hits on particles, mean radii
-    double normal = 0.0;     ///< mean over the right hits on particles, degrees
+    double rmse = 0.0;       ///< root mean square error of the colors, in steps of an 8-bit channel
+    double ssim = 0.0;       ///< structural similarity (SSIM), mean over the windows
+    double wrongHits = 0.0;  ///< share of the pixels that show another surface than the exact picture
+    double depth = 0.0;      ///< mean error of depth over the right hits on particles, mean radii
+    double normal = 0.0;     ///< mean error of the normal over the right hits on particles, degrees
     std::size_t pixels = 0;  ///< number of pixels compared
 };
 
-/// A window of the exact picture.
+/// A window of a picture, and the oracle's exact picture inside it.
 struct ExactWindow {
     oracle::Window window;
     oracle::Picture picture;
 };
 
-/// Compares a picture of a view, and the surfaces that it shows, with the exact windows. A hit is right if its depth is
-/// exact to a tenth of the particles' mean radius.
+/// Compares a picture of a view with windows of the exact picture. A pixel is a right hit if its depth is exact to a
+/// tenth of the particles' mean radius.
+/// @param surfaces  the visible point of every pixel
 PictureError errorOf(const render::Image& image, std::span<const render::VisiblePoint> surfaces,
                      const render::View& view, std::span<const ExactWindow> exact);
 
@@ -47,7 +48,7 @@ inline constexpr render::Style kStyles[] = {render::Style::spheres, render::Styl
 inline constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal,
                                                  render::Quality::final};
 
-/// A picture of the dam break that is measured.
+/// Which picture of the dam break is measured.
 struct PictureSubject {
     render::Style style = render::Style::spheres;
     std::size_t particles = 0;
@@ -55,19 +56,19 @@ struct PictureSubject {
     render::Quality quality = render::Quality::normal;
 };
 
-/// The measurements of one picture. All times are in seconds.
+/// What the study measures of one picture. All times are in seconds.
 struct PictureRow : PictureSubject {
-    render::DrawTimes stages = {};  ///< medians over the frames
-    double png = 0.0;               ///< encoding a frame as PNG
-    double mp4 = 0.0;               ///< encoding a frame of a video
-    double mp4Once = 0.0;           ///< what a video takes besides its frames
-    double draw = 0.0;              ///< drawing a frame and reading it back, the camera moving; median
-    double atRest = 0.0;            ///< drawing a frame and reading it back, the particles moving before a still camera
-    double atRestBaseline = 0.0;    ///< the baseline for the frames of atRest
-    double withPng = 0.0;           ///< per frame, if one is encoded while the next is drawn
-    double withMp4 = 0.0;           ///< per frame, if one is encoded while the next is drawn
-    double baseline = 0.0;          ///< QuadBaseline for the frames of draw, drawn by turns with them; median
-    double fewestBaseline = 0.0;    ///< QuadBaseline for the smallest number of particles in the study
+    render::DrawTimes stages = {};  ///< times of the renderer's stages, medians over the frames
+    double png = 0.0;               ///< time to encode a frame as PNG
+    double mp4 = 0.0;               ///< time to encode a frame of a video
+    double mp4Once = 0.0;           ///< time that a video takes besides its frames
+    double draw = 0.0;              ///< median time to draw a frame and read it back, the camera moving
+    double atRest = 0.0;            ///< median time with a still camera, the particles moving
+    double atRestBaseline = 0.0;    ///< time of the baseline with a still camera
+    double withPng = 0.0;           ///< time per frame if one is encoded as PNG while the next is drawn
+    double withMp4 = 0.0;           ///< time per frame if one is encoded for a video while the next is drawn
+    double baseline = 0.0;          ///< median time of the baseline, the camera moving
+    double fewestBaseline = 0.0;    ///< time of the baseline with the smallest number of particles in the study
     PictureError error = {};
 
     double ratio() const { return draw / baseline; }
@@ -78,74 +79,75 @@ struct PictureRow : PictureSubject {
 struct PictureSettings {
     std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};  ///< at least one number
     std::vector<render::PictureSize> sizes = {{1280, 720}, {1920, 1080}};
-    int frames = 11;         ///< that medians are taken of
-    int encodedFrames = 20;  ///< of the runs with encoding
-    int windowColumns = 6;   ///< the windows in which the error is measured form a grid over the picture
-    int windowRows = 4;
-    int windowSide = 32;     ///< pixels
-    int samplesPerAxis = 4;  ///< of a pixel of the exact picture
-    std::string videoPath;   ///< of the video that encoding is timed with; overwritten
+    int frames = 11;         ///< number of frames that medians are taken of
+    int encodedFrames = 20;  ///< number of frames in measurements with encoding
+    int windowColumns = 6;   ///< columns of the grid of windows in which the error is measured
+    int windowRows = 4;      ///< rows of the grid of windows
+    int windowSide = 32;     ///< width and height of a window, pixels
+    int samplesPerAxis = 4;  ///< the exact picture has the square of this number of samples per pixel
+    std::string videoPath;   ///< file of the video that encoding is timed with; overwritten
 };
 
-/// Called with all rows so far after each new row.
+/// Called after each new row of a table, with all rows so far.
 template <typename Row>
 using RowsListener = std::function<void(const std::vector<Row>&)>;
 
-/// Measures every style, size, number of particles and quality.
+/// Measures a picture of every style, size, number of particles and quality.
 /// @throws render::SystemError
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, const RowsListener<PictureRow>& listener);
 
-/// How steady pictures of a still scene are while the camera moves slowly. With I_k the picture of frame k, in steps of
-/// an 8-bit channel:
+/// How steady pictures of a still scene are while the camera moves slowly. I_k is the picture of frame k, in steps of
+/// an 8-bit channel.
 struct FlickerRow : PictureSubject {
-    double change = 0.0;  ///< mean over the frames of the RMS of I_(k+1) - I_k, which contains the motion
-    double jerk = 0.0;    ///< mean over the frames of the RMS of I_(k+1) - 2 I_k + I_(k-1), which is small for a motion
+    double change = 0.0;  ///< mean RMS of I_(k+1) - I_k over the frames; contains the motion
+    double jerk = 0.0;    ///< mean RMS of I_(k+1) - 2 I_k + I_(k-1) over the frames; small for a motion
 };
 
 struct FlickerSettings {
     std::size_t particles = 10000;
     render::PictureSize size{640, 360};
-    int frames = 8;                 ///< at least 3
-    double pixelsPerFrame = 0.125;  ///< motion of the center of the picture
+    int frames = 8;                 ///< number of successive pictures, at least 3
+    double pixelsPerFrame = 0.125;  ///< motion of the center of the picture, pixels per frame
 };
 
-/// Measures every style and quality.
+/// Measures the flicker of pictures of every style and quality.
 /// @throws render::SystemError
 std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const RowsListener<FlickerRow>& listener);
 
-/// What a metaball surface is like with or without smoothing (render::Skin).
+/// Quality and cost of the metaball surface with or without smoothing.
 struct SmoothingRow {
     render::Skin skin = render::Skin::plain;
     std::size_t particles = 0;
     double draw = 0.0;    ///< median time to draw a frame of normal quality and read it back, s
-    double volume = 0.0;  ///< inside the surface of a level pool, over its particles' share of space: 1 is right
-    double lone = 0.0;    ///< inside the surface of a single particle, over the volume of its sphere
-    double bumps = 0.0;   ///< RMS tilt of the normals of the level pool's surface, degrees
+    double volume = 0.0;  ///< volume inside the surface of a level pool, over that of the pool; 1 is right
+    double lone = 0.0;    ///< volume inside the surface of a single particle, over that of its sphere
+    double bumps = 0.0;   ///< RMS tilt of the normals on the level pool, degrees
 };
 
 struct SmoothingSettings {
     std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};
     render::PictureSize size{1280, 720};
-    int frames = 7;         ///< that medians are taken of
-    double spacing = 0.25;  ///< of the points that volumes are sampled at, mean radii
+    int frames = 7;         ///< number of frames that medians are taken of
+    double spacing = 0.25;  ///< spacing of the points that volumes are sampled at, mean radii
 };
 
-/// Measures surfaces without and with smoothing, for each number of particles.
+/// Measures the metaball surface without and with smoothing, for each number of particles.
 /// @throws render::SystemError
 std::vector<SmoothingRow> measureSmoothing(const SmoothingSettings& settings,
                                            const RowsListener<SmoothingRow>& listener);
 
 /// Volume inside the metaball surface of a view with at least one particle, m^3: the number of points of a cubic
 /// lattice inside the surface, times the volume of a lattice cell.
-/// @param spacing  of the lattice, mean radii
+/// @param spacing  spacing of the lattice, mean radii
 double fieldVolume(const render::View& view, double spacing);
 
-/// CSV with a header line.
+/// The tables of the study as CSV with a header line.
 std::string picturesCsv(const std::vector<PictureRow>& rows);
 std::string flickerCsv(const std::vector<FlickerRow>& rows);
 std::string smoothingCsv(const std::vector<SmoothingRow>& rows);
 
-/// gnuplot scripts: milliseconds per frame against particles, and 1 - SSIM against milliseconds.
+/// gnuplot scripts for two plots: milliseconds per frame against the number of particles, and 1 - SSIM against
+/// milliseconds per frame.
 std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& smoothing);
 std::string pictureErrorsPlot(const std::vector<PictureRow>& rows);
 

@@ -1,4 +1,4 @@
-// The results of the study of pictures as text: names, CSV tables and plot scripts. See pictures.h.
+// The results of the study of pictures as text: names, CSV tables and gnuplot scripts. See pictures.h.
 #include <fmt/format.h>
 
 #include "studies/common/report.h"
@@ -14,12 +14,12 @@ std::string curveStyle(render::Style style, render::Quality quality) {
     return fmt::format("linespoints pointtype {} pointsize 0.8 linewidth 1.5 linecolor rgb '{}'", point, color);
 }
 
-/// Whether a row has the size of the first row, the only size that is plotted.
+/// Whether a picture has the size of the first picture in the table. Only pictures of this size are plotted.
 bool hasFirstSize(const std::vector<PictureRow>& rows, const PictureRow& row) {
     return row.size.width == rows.front().size.width && row.size.height == rows.front().size.height;
 }
 
-/// A curve for each style and quality. point(row) is a line of the curve's points.
+/// A curve for each style and quality. point(row) returns a line of gnuplot data, "x y", for a picture.
 template <typename Point>
 std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& point) {
     std::vector<Curve> curves;
@@ -34,7 +34,7 @@ std::vector<Curve> curvesOf(const std::vector<PictureRow>& rows, const Point& po
     return curves;
 }
 
-/// The fields of a CSV line that say what was measured.
+/// The fields of a CSV line that say which picture was measured.
 std::string subjectFields(const PictureSubject& subject) {
     return csvFields(nameOf(subject.style), subject.particles, subject.size.width, subject.size.height,
                      nameOf(subject.quality));

@@ -1,4 +1,4 @@
-// One instanced draw call with four vertices for each particle; see quad_baseline.h.
+// Draws spheres with OpenGL by one instanced draw call with four vertices for each particle. See quad_baseline.h.
 #include "studies/pictures/quad_baseline.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,8 @@
 
 namespace studies {
 
-// Outside of the unnamed namespace, because they are in the types of a class with external linkage.
+// These functions are template arguments of members of a class with external linkage, so they must not be in the
+// unnamed namespace.
 inline void deleteBuffer(const render::Gl& gl, GLuint name) {
     gl.DeleteBuffers(1, &name);
 }

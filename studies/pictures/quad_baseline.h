@@ -1,6 +1,6 @@
-// The baseline that the renderer's times are compared with: the simplest way to draw spheres with OpenGL, a quad facing
-// the eye for each sphere, whose fragment shader finds the sphere, writes its depth and lights it by the cosine to the
-// light. It shares the context with the renderer, but no code.
+// The baseline that the renderer's times are compared with: the simplest way to draw spheres with OpenGL. Each sphere
+// is a quad facing the eye, whose fragment shader intersects the ray with the sphere, writes the depth and lights the
+// sphere by the cosine to the light. The baseline shares the OpenGL context with the renderer, but no code.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,10 @@
 
 namespace studies {
 
+/// Draws spheres in the simplest way with OpenGL.
 class QuadBaseline {
  public:
-    /// @param context  must outlive the object
+    /// @param context  OpenGL context to draw with; must outlive the object
     /// @throws render::SystemError
     QuadBaseline(render::Context& context, render::PictureSize size);
     ~QuadBaseline();

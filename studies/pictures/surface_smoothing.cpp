@@ -1,5 +1,5 @@
-// Plain and smooth metaball surfaces: the volume inside by samples of the field along vertical lines, the bumps by the
-// normals of a level surface, the time by drawing. See SmoothingRow in pictures.h.
+// Compares plain and smooth metaball surfaces: the volume inside by samples of the field along vertical lines, the
+// bumps by the normals of a level surface, and the time by drawing. See SmoothingRow in pictures.h.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace studies {
 namespace {
 
-/// The smallest box that holds the reaches of all balls.
+/// An axis-aligned box around the reaches of all metaballs, m.
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::max()};
     glm::dvec3 high{std::numeric_limits<double>::lowest()};
@@ -31,7 +31,8 @@ Box boxAround(const oracle::Scene& scene) {
     return box;
 }
 
-/// Number of samples inside the surface along a vertical line.
+/// Number of sample points inside the metaball surface along a vertical line.
+/// @param step  distance of neighboring points, m
 long insideAlong(const oracle::Scene& scene, const Box& box, double x, double z, double step) {
     const oracle::Indices near = scene.ballsAlong({{x, box.high.y, z}, {0.0, -1.0, 0.0}});
     const double threshold = oracle::fieldThreshold(scene.view);
@@ -42,8 +43,8 @@ long insideAlong(const oracle::Scene& scene, const Box& box, double x, double z,
     return inside;
 }
 
-constexpr int kPoolSide = 24;  // particles
-constexpr int kPoolDepth = 6;
+constexpr int kPoolSide = 24;  // number of particles along each horizontal side of the level pool
+constexpr int kPoolDepth = 6;  // number of layers of particles
 constexpr int kPoolVolume = kPoolSide * kPoolSide * kPoolDepth;
 
 /// A level pool on a jittered lattice with a spacing of 1 m, seen from above. The paper's liquid settles at a spacing
@@ -70,7 +71,7 @@ render::View levelPool(const render::View& appearance) {
     return view;
 }
 
-/// RMS tilt of the normals of the surface as seen from above, degrees.
+/// RMS tilt from the vertical of the normals of a surface as seen from above, degrees.
 double bumpsOf(render::Renderer& renderer, const render::View& pool) {
     double squares = 0.0;
     long hits = 0;
@@ -83,7 +84,7 @@ double bumpsOf(render::Renderer& renderer, const render::View& pool) {
     return std::sqrt(squares / static_cast<double>(std::max(hits, 1L))) * 180.0 / std::numbers::pi;
 }
 
-/// The columns of a row that do not depend on the number of particles.
+/// Measures the shape of the metaball surface, which does not depend on the number of particles.
 SmoothingRow shapeOf(const SmoothingSettings& settings, render::Context& context, render::Skin skin) {
     SmoothingRow row;
     row.skin = skin;
@@ -91,20 +92,21 @@ SmoothingRow shapeOf(const SmoothingSettings& settings, render::Context& context
     view.field.skin = skin;
     const render::View pool = levelPool(view);
     row.volume = fieldVolume(pool, settings.spacing) / kPoolVolume;
-    view.particles = {{glm::vec3(0.0F), 1.0F, glm::vec3(0.8F)}};  // a single one with a radius of 1 m
+    view.particles = {{glm::vec3(0.0F), 1.0F, glm::vec3(0.8F)}};  // a single particle with a radius of 1 m
     row.lone = fieldVolume(view, 0.2 * settings.spacing) / (4.0 / 3.0 * std::numbers::pi);
-    // At final quality a ray is cast for every pixel; otherwise some normals are interpolated.
+    // At final quality a ray is cast for every pixel; at lower qualities some normals are interpolated.
     render::Renderer renderer(context, settings.size, render::Quality::final);
     row.bumps = bumpsOf(renderer, pool);
     return row;
 }
 
+/// Median time to draw a frame of the dam break at normal quality, s.
 double secondsAFrame(const SmoothingSettings& settings, render::Context& context, std::size_t particles,
                      render::Skin skin) {
     render::View view = damBreakView(particles, render::Style::metaballs);
     view.field.skin = skin;
     render::Renderer renderer(context, settings.size, render::Quality::normal);
-    renderer.draw(view);  // the first frame allocates memory
+    renderer.draw(view);  // drawing the first frame allocates memory
     std::vector<double> seconds;
     for (const render::View& frame : framesOf(view, settings.frames))
         seconds.push_back(secondsOf([&] { renderer.draw(frame); }));

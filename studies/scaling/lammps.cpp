@@ -1,4 +1,5 @@
-// What LAMMPS is asked to run, and how its output is read; see scaling.h. The caller starts the program.
+// Writes the input script of LAMMPS for the comparison of speeds, and reads the time from its output. The caller starts
+// the program. See scaling.h.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -11,16 +12,16 @@
 namespace studies {
 namespace {
 
-/// Unit cells along each side, of four particles each.
+/// Number of unit cells of the face-centered cubic lattice, of four particles each, along each side of the cube.
 constexpr int kSide = 20;
 static_assert(4 * kSide * kSide * kSide == kPeerParticles);
 
-/// The usual number density of a liquid with this force, in LAMMPS' reduced units.
+/// The usual number density of a liquid with the given pair force, in LAMMPS' reduced units.
 double densityOf(PeerForce force) {
     return force == PeerForce::lennardJones ? 0.8442 : 3.0;
 }
 
-/// The radius of a sphere that holds kPeerNeighbors, in reduced units.
+/// The cutoff of the pair force, in reduced units: the radius of a sphere that holds kPeerNeighbors particles.
 double cutoffOf(PeerForce force) {
     return std::cbrt(kPeerNeighbors / (4.0 / 3.0 * std::numbers::pi * densityOf(force)));
 }

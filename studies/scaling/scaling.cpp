@@ -1,4 +1,5 @@
-// Every method takes the same steps from the same state, in rounds by turns; then tables and the plot. See scaling.h.
+// Measures the time of a step against the number of particles: every method takes the same steps from the same state,
+// in rounds by turns. Writes the tables and the plot as text. See scaling.h.
 #include "studies/scaling/scaling.h"
 
 #include <fmt/format.h>
@@ -22,28 +23,29 @@ using engine::ForceMethod;
 using engine::Precision;
 using engine::Simulation;
 
-/// A row of Table 2: time per frame of the paper's program, which takes one step per frame.
+/// A row of the paper's Table 2: time per frame of the paper's program, which takes one step per frame.
 struct PublishedRow {
     std::size_t particles = 0;
     double milliseconds = 0.0;
 };
 
-/// Source: Cote 2024, Table 2 (GeForce RTX 4080, Ryzen 7 at 3.4 GHz).
+/// Table 2 of Cote 2024, measured on a GeForce RTX 4080 and a Ryzen 7 at 3.4 GHz.
 constexpr PublishedRow kTable2[] = {{100, 2.3},    {1000, 11.9},  {1100, 21.7},  {1200, 124.5},
                                     {1300, 436.4}, {1400, 494.9}, {1500, 569.5}, {2000, 627.4}};
 
-/// The paper's step, s.
+/// The paper's time step, s.
 constexpr double kStep = 0.01;
 
-/// The step of the cubes, s. Chosen: the solid contracts under its attraction, which would be unstable at the paper's
-/// step.
+/// The time step in cubes of particles, s. Chosen: the solid contracts under its attraction, which would be unstable at
+/// the paper's step.
 constexpr double kCubeStep = 0.002;
 
-/// Steps of a run. Chosen: with 22 steps a cube of any size rebuilds its list twice; with 20 some rebuild it only once.
+/// Number of steps of a run, with neighbor lists and for the method that visits every pair. Chosen: with 22 steps a
+/// cube of any size rebuilds its list twice; with 20 some rebuild it only once.
 constexpr std::uint64_t kSteps = 22;
 constexpr std::uint64_t kStepsOfEveryPair = 2;
 
-/// The same state without births, with forces by another method.
+/// The state of a simulation without further births and with forces by another method.
 Simulation frozen(const Simulation& from, ForceMethod method, Precision precision) {
     Simulation simulation = from;
     simulation.setup.emitters.clear();
@@ -59,24 +61,25 @@ void takeSteps(Simulation& simulation, std::uint64_t count) {
         engine::advance(simulation, start + static_cast<double>(k) * simulation.setup.step);
 }
 
-/// Measures one method: a round repeats a run of some steps from the same state until it has taken long enough.
+/// Times one method of computing forces. A round repeats a run of some steps from the same state until the round has
+/// taken long enough for the clock.
 class MethodTimer {
  public:
     MethodTimer(const Simulation& from, ForceMethod method, Precision precision, const ScalingSettings& settings)
         : start_(frozen(from, method, precision)), steps_(method == ForceMethod::grid ? kSteps : kStepsOfEveryPair) {
-        takeSteps(start_, 1);  // builds the list and allocates memory
+        takeSteps(start_, 1);  // builds the neighbor list and allocates memory
         const double once = run();
         runCount_ = std::max(1, static_cast<int>(std::ceil(settings.secondsPerRound / once)));
     }
 
-    /// Measures one round.
+    /// Measures the time of one round.
     void measure() {
         double sum = 0.0;
         for (int k = 0; k < runCount_; ++k) sum += run();
         rounds_.push_back(sum / runCount_ / static_cast<double>(steps_));
     }
 
-    /// Median over the rounds of the seconds per step.
+    /// Median of the time per step over the rounds, s.
     double seconds() const { return median(rounds_); }
     const Simulation& end() const { return end_; }
 
@@ -112,8 +115,9 @@ ScalingRow measureFrom(const std::string& subject, const Simulation& from, const
     return row;
 }
 
-/// Fits begin at these numbers of particles, from which on the times are powers of the number. Chosen: the work per
-/// step outweighs constant costs for every pair early, and for lists once they no longer fit the caches.
+/// The smallest numbers of particles that power laws are fitted from, for the method that visits every pair and for
+/// neighbor lists. Chosen: from these numbers on the times are powers of the number of particles, because the work per
+/// step outweighs constant costs, and lists no longer fit the caches.
 constexpr std::size_t kPairsFrom = 1000;
 constexpr std::size_t kListsFrom = 10000;
 
@@ -129,7 +133,7 @@ set title "Time per step against the number of particles"
 set key top left reverse Left samplen 2 font ",13"
 )";
 
-/// Appends particles and milliseconds if there is a time.
+/// Adds the number of particles and the milliseconds per step to a curve, if there is a time.
 void addPoint(Curve& curve, const ScalingRow& row, const std::optional<double>& seconds) {
     if (seconds) curve.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * *seconds);
 }

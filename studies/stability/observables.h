@@ -1,5 +1,5 @@
-// The observables of the hard cases: one number for a run, which is compared with the limit of the case. Called by
-// stability.cpp.
+// The observables of the hard cases: each is one number for a run, such as a largest speed, which is compared with the
+// limit of the case. Called by stability.cpp.
 #pragma once
 
 #include "scenes/model/scene.h"
@@ -9,19 +9,19 @@ namespace studies {
 
 /// What an observable is computed from.
 struct ObservableInput {
-    const scenes::Scene& scene;      ///< as it was run, with its stepper and step
-    const Run& run;                  ///< a run that reached the end of the scene
-    const Run* reference = nullptr;  ///< the run at the reference step, for the observables that compare with it
+    const scenes::Scene& scene;      ///< the scene, with the stepper and step of the run
+    const Run& run;                  ///< the run, which reached the end of the scene
+    const Run* reference = nullptr;  ///< the run at the reference step; null: none
 };
 
-/// The value of an observable, in the unit of scenes::infoOf(); infinite if the run and the reference cannot be
-/// compared.
-/// @throws scenes::InputError if the observable makes no sense for the scene or needs particles and none are left
+/// The value of an observable for a run, in the unit that scenes::infoOf() names; infinite if the run and the reference
+/// run cannot be compared.
+/// @throws scenes::InputError if the observable makes no sense for the scene, or needs particles and none are left
 /// @throws engine::InstabilityError if runs that the observable makes itself become unstable
 double measure(scenes::Observable observable, const ObservableInput& input);
 
-// One function for each observable. scenes/schema/study.cpp says what each one means, and the comment above the
-// function how it is computed.
+// There is a function for each observable. scenes/schema/study.cpp says what the observables mean, and the comments at
+// the definitions of the functions how they are computed.
 
 double pairLaw(const ObservableInput& input);
 double momentumDrift(const ObservableInput& input);

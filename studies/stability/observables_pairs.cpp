@@ -1,5 +1,5 @@
-// Observables of the pair law and of the clusters that it forms: whether the force is the slope of its energy, whether
-// clusters hold together, and how closely they pack.
+// Observables of the pair law and of the clusters that particles form under it: whether the force is the slope of the
+// energy, whether clusters hold together, and how closely they pack.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 using engine::Particles;
 using engine::Vec3;
 
-/// Two particles in empty space, along x.
+/// Two particles in empty space, at a variable distance along the x axis.
 class Pair {
  public:
     Pair(const engine::Setup& setup, std::uint32_t p, std::uint32_t i)
@@ -30,14 +30,14 @@ class Pair {
 
     double restLength() const { return particles_.radius[0] + particles_.radius[1]; }
 
-    /// Force at a distance (m), N; positive where the particles repel each other.
+    /// Force between the particles at a distance (m), N; positive where they repel each other.
     double force(double distance) {
         particles_.position[1].x() = distance;
         evaluator_.evaluatePairs(particles_, particles_.velocity, forces_);
         return forces_[1].x();
     }
 
-    /// Energy at a distance (m), J.
+    /// Energy of the pair at a distance (m), J.
     double energy(double distance) {
         particles_.position[1].x() = distance;
         return engine::energy(evaluator_, particles_).pairs;
@@ -49,8 +49,8 @@ class Pair {
     std::vector<Vec3> forces_;
 };
 
-/// Integral of the force from one distance to another (J), by Gauss-Legendre quadrature with five points, which is
-/// exact for polynomials up to degree nine.
+/// Integral of the force of a pair from one distance to another (J), by Gauss-Legendre quadrature with five points,
+/// which is exact for polynomials up to degree nine.
 double work(Pair& pair, double from, double to) {
     const double outer = std::sqrt(5.0 + 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
     const double inner = std::sqrt(5.0 - 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
@@ -68,10 +68,11 @@ double work(Pair& pair, double from, double to) {
     return half * sum;
 }
 
-/// Largest difference between U(D) and the work of the force from the reach inward to D, relative to U. Near the reach
-/// U is a difference of terms of the size of the well's depth for c_r = 2, b1/(12 D0^3), so no smaller U is divided by.
+/// Largest difference between the energy U(D) of a pair and the work of the force from its reach inward to a distance
+/// D, relative to U. Near the reach U is a difference of terms as large as the depth of the well, which is b1/(12 D0^3)
+/// for c_r = 2, so the difference is divided by no less than this.
 double lawError(Pair& pair, const engine::Material& material) {
-    constexpr int kPanels = 60;  // chosen: with five points each the quadrature errs by 1e-15 of the steepest panel
+    constexpr int kPanels = 60;  // chosen: quadrature errs by 1e-15 on the steepest panel
     const double rest = pair.restLength();
     const double core = material.coreFraction * rest;
     const double floor = material.repulsion / (12.0 * rest * rest * rest);
@@ -86,13 +87,13 @@ double lawError(Pair& pair, const engine::Material& material) {
     };
     const double ratio = std::pow(core / distance, 1.0 / kPanels);
     for (int panel = 1; panel < kPanels; ++panel) integrateTo(distance * ratio);
-    // The slope of the force jumps at the core, so a panel ends there.
+    // The slope of the force jumps at the core distance, so a panel of the integral ends there.
     integrateTo(core);
     for (const double share : {0.75, 0.5, 0.25, 0.01}) integrateTo(share * core);
     return worst;
 }
 
-/// The mixed law of two particles.
+/// The constants of the pair law of two particles at the end of a run.
 engine::PairConstants<double> constantsOf(const ObservableInput& input, std::size_t p, std::size_t i) {
     const Particles& particles = input.run.frames.back();
     const std::vector<engine::Material>& materials = input.scene.setup.materials;
@@ -101,12 +102,13 @@ engine::PairConstants<double> constantsOf(const ObservableInput& input, std::siz
         particles.radius[p] + particles.radius[i]);
 }
 
-/// The root of a particle's tree in a union-find forest. Halves the path to it on the way.
+/// The root of the tree of a particle in a union-find forest. Halves the path to the root on the way.
 std::size_t rootOf(std::vector<std::size_t>& parent, std::size_t p) {
     while (parent[p] != p) p = parent[p] = parent[parent[p]];
     return p;
 }
 
+/// Mean over all positions of the distance to the nearest other position, m.
 double meanNearestDistance(const std::vector<Vec3>& positions) {
     double sum = 0.0;
     for (std::size_t p = 0; p < positions.size(); ++p) {
@@ -118,9 +120,10 @@ double meanNearestDistance(const std::vector<Vec3>& positions) {
     return sum / static_cast<double>(positions.size());
 }
 
-/// The `count` sites of a face-centered cubic lattice that are nearest to one of its sites; neighbors are 1 apart.
+/// A round piece of a face-centered cubic lattice whose neighbors are 1 apart: the `count` sites nearest to one of its
+/// sites.
 std::vector<Vec3> roundLattice(std::size_t count) {
-    // The lattice has sqrt(2) sites to the unit volume. A ball of this radius holds more than twice as many as needed.
+    // The lattice has sqrt(2) sites per unit volume. A ball of this radius holds more than twice as many as needed.
     const double volume = 2.0 * static_cast<double>(count) / std::numbers::sqrt2;
     const double radius = 1.0 + std::cbrt(volume * 3.0 / (4.0 * std::numbers::pi));
     std::vector<Vec3> sites = engine::ballPositions(Vec3::Zero(), radius, {.spacing = 1.0});
@@ -130,7 +133,7 @@ std::vector<Vec3> roundLattice(std::size_t count) {
     return sites;
 }
 
-/// Sum of the pair energies of a lattice scaled to a spacing (m), J.
+/// Sum of the pair energies of particles on a lattice that is scaled to a spacing (m), J.
 double latticeEnergy(const std::vector<Vec3>& sites, double spacing, const engine::PairConstants<double>& constants) {
     double sum = 0.0;
     for (std::size_t p = 0; p < sites.size(); ++p)
@@ -139,11 +142,11 @@ double latticeEnergy(const std::vector<Vec3>& sites, double spacing, const engin
     return sum;
 }
 
-/// The spacing at which a round lattice of this many particles has the least energy, m.
+/// The spacing at which a round piece of a lattice with this number of particles has the least energy, m.
 double predictedSpacing(std::size_t count, const engine::PairConstants<double>& constants) {
     const std::vector<Vec3> sites = roundLattice(count);
     const double restLength = 1.0 / std::sqrt(constants.inverseRestSq);
-    constexpr int kCandidates = 200;  // chosen: half a percent of the rest length apart
+    constexpr int kCandidates = 200;  // chosen: the spacings tried are half a percent of the rest length apart
     double best = restLength;
     double least = std::numeric_limits<double>::infinity();
     for (int candidate = 1; candidate <= kCandidates; ++candidate) {
@@ -159,7 +162,8 @@ double predictedSpacing(std::size_t count, const engine::PairConstants<double>& 
 
 }  // namespace
 
-/// The largest error of the law, see lawError(), over all pairs of the scene's materials.
+/// Observable: the largest difference between the energy of a pair and the work of its force, relative to the energy,
+/// over all pairs of the scene's materials.
 double pairLaw(const ObservableInput& input) {
     const std::vector<engine::Material>& materials = input.scene.setup.materials;
     double worst = 0.0;
@@ -171,8 +175,8 @@ double pairLaw(const ObservableInput& input) {
     return worst;
 }
 
-/// Number of particles at the end that no chain of pairs within reach of the attraction connects to the largest
-/// cluster.
+/// Observable: number of particles at the end of a run that no chain of pairs within reach of the attraction connects
+/// to the largest cluster.
 double fragments(const ObservableInput& input) {
     const Particles& particles = input.run.frames.back();
     std::vector<std::size_t> parent(particles.count());
@@ -186,8 +190,9 @@ double fragments(const ObservableInput& input) {
     return static_cast<double>(particles.count() - *std::max_element(members.begin(), members.end()));
 }
 
-/// Mean distance to the nearest neighbor at the end, over the neighbor distance in the round face-centered cubic
-/// lattice of as many particles with the least energy. All particles must be of the same material and radius.
+/// Observable: mean distance to the nearest neighbor at the end of a run, over the distance of neighbors in a round
+/// piece of a face-centered cubic lattice with as many particles and the least energy. All particles must have the same
+/// material and radius.
 double spacing(const ObservableInput& input) {
     const Particles& particles = input.run.frames.back();
     return meanNearestDistance(particles.position) / predictedSpacing(particles.count(), constantsOf(input, 0, 0));

@@ -1,5 +1,5 @@
-// The table of all observables, and those that are read off the frames of a run, alone or beside the reference:
-// momentum, energy and speeds, and errors of positions, extents and velocities.
+// Observables that are computed from the frames of a run, alone or together with the reference run: momentum, energy
+// and speeds, and errors of positions, extents and velocities. Also the table of all observables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +18,13 @@ namespace {
 using engine::Particles;
 using engine::Vec3;
 
-/// Whether the observable is defined without particles at the end.
+/// Whether an observable is defined for a run without particles at the end.
 bool isDefinedWithoutParticles(scenes::Observable observable) {
     return observable == scenes::Observable::pairLaw || observable == scenes::Observable::refusals;
 }
 
-/// Kinetic energy of all particles at a tenth of a radius per second, J: the allowance for slow motion that
-/// engine/stepping/step_audit.cpp makes, too.
+/// Kinetic energy of all particles at a speed of a tenth of their radius per second, J. The engine's audit of steps
+/// (engine/stepping/step_audit.cpp) makes the same allowance for slow motion.
 double slowKinetic(const Particles& particles) {
     double sum = 0.0;
     for (std::size_t p = 0; p < particles.count(); ++p) {
@@ -34,18 +34,19 @@ double slowKinetic(const Particles& particles) {
     return sum;
 }
 
-/// Share of the potential energies that sums over a state may round away: about 1e-16 for each of a thousand particles,
-/// and a margin.
+/// Rounding error of sums of potential energies over all particles, relative to the sum: about 1e-16 for each of a
+/// thousand particles, and a margin.
 constexpr double kSumRounding = 1e-12;
 
-/// Whether the run has as many frames as the reference, and as many particles at the end.
+/// Whether a run can be compared with the reference run: whether it has as many frames, and as many particles at the
+/// end.
 bool isComparable(const ObservableInput& input) {
     return input.reference != nullptr && input.reference->frames.size() == input.run.frames.size() &&
            input.reference->frames.back().count() == input.run.frames.back().count();
 }
 
-/// The largest difference between the run and the reference of a quantity of a frame (m), over all frames that have
-/// particles, in radii of the first particle.
+/// The largest difference of a quantity (m) between corresponding frames of the run and the reference run, over all
+/// frames with particles, in radii of the first particle.
 template <class Quantity>
 double largestDifference(const ObservableInput& input, const Quantity& quantity) {
     if (!isComparable(input)) return kInfinity;
@@ -59,7 +60,7 @@ double largestDifference(const ObservableInput& input, const Quantity& quantity)
     return largest / input.run.frames.back().radius.front();
 }
 
-/// Largest vertical velocity of the center of mass over the frames, m/s.
+/// Largest vertical velocity of the center of mass over the frames of a run, m/s.
 double fastestRise(const Run& run) {
     double fastest = -kInfinity;
     for (const Particles& frame : run.frames) {
@@ -82,7 +83,7 @@ double measure(scenes::Observable observable, const ObservableInput& input) {
                                    fmt::format("no particle is there at the end of the run, so there is no {}",
                                                scenes::infoOf(observable).name)}});
     using Function = double (*)(const ObservableInput&);
-    // In the order of scenes::Observable.
+    // The functions in the order of scenes::Observable.
     static constexpr Function kFunctions[] = {
         pairLaw,         momentumDrift, energyRise,       positionError, heightError, frontError, radiusError,
         statisticsError, reboundError,  restitutionError, largestSpeed,  medianSpeed, fragments,  spacing,
@@ -90,7 +91,8 @@ double measure(scenes::Observable observable, const ObservableInput& input) {
     return kFunctions[static_cast<std::size_t>(observable)](input);
 }
 
-/// The largest |P(t) - P(0)| / sum |p(0)| over the frames, and the same for the angular momentum, if that is larger.
+/// Observable: the largest drift of momentum, |P(t) - P(0)| / sum |p(0)|, over the frames of a run, or that of angular
+/// momentum if it is larger.
 double momentumDrift(const ObservableInput& input) {
     const Particles& first = input.run.frames.front();
     const MomentumScale scale = momentumScale(first);
@@ -104,9 +106,9 @@ double momentumDrift(const ObservableInput& input) {
     return worst;
 }
 
-/// The largest rise of the total energy from one frame to the next, divided by the number of steps between them and by
-/// a kinetic energy: the larger one of the two frames plus slowKinetic(), as the engine's audit of the steps counts it.
-/// The scene must be closed, without births.
+/// Observable: the largest rise of the total energy from one frame to the next, divided by the number of steps between
+/// them and by a kinetic energy: the larger one of the two frames plus slowKinetic(), as in the engine's audit of
+/// steps. The scene must be closed, without births.
 double energyRise(const ObservableInput& input) {
     engine::ForceEvaluator evaluator(lawOf(input.scene.setup), input.scene.setup.forces);
     double worst = 0.0;
@@ -123,33 +125,34 @@ double energyRise(const ObservableInput& input) {
     return worst;
 }
 
-/// Largest speed of any particle in any frame.
+/// Observable: the largest speed of a particle in any frame of a run.
 double largestSpeed(const ObservableInput& input) {
     double largest = 0.0;
     for (const Particles& frame : input.run.frames) largest = std::max(largest, engine::largestSpeed(frame));
     return largest;
 }
 
-/// Median speed at the end. It is near zero for a heap at rest, even while a few particles still fall onto it.
+/// Observable: the median speed of the particles at the end of a run. It is near zero for a heap at rest, even while a
+/// few particles still fall onto the heap.
 double medianSpeed(const ObservableInput& input) {
     std::vector<double> speeds;
     for (const Vec3& velocity : input.run.frames.back().velocity) speeds.push_back(velocity.norm());
     return median(std::move(speeds));
 }
 
-/// Number of births that were refused because the position was occupied.
+/// Observable: number of births in a run that were refused because the position was occupied.
 double refusals(const ObservableInput& input) {
     return static_cast<double>(engine::refusalCount(input.run.end));
 }
 
-/// Root mean square position error over the particles at the end, each in its own radii.
+/// Observable: root mean square position error of the particles at the end of a run, each in its own radius.
 double positionError(const ObservableInput& input) {
     if (!isComparable(input)) return kInfinity;
     const Particles& ours = input.run.frames.back();
     return positionError(ours, input.reference->frames.back(), ours.count()).rms;
 }
 
-/// Largest error over the frames of the height of the heaviest particle.
+/// Observable: largest error of the height of the heaviest particle over the frames of a run.
 double heightError(const ObservableInput& input) {
     return largestDifference(input, [](const Particles& frame) {
         const auto heaviest = std::ranges::max_element(frame.mass) - frame.mass.begin();
@@ -157,7 +160,7 @@ double heightError(const ObservableInput& input) {
     });
 }
 
-/// Largest error over the frames of the largest x of all particles.
+/// Observable: largest error of the front, the largest x of all particles, over the frames of a run.
 double frontError(const ObservableInput& input) {
     return largestDifference(input, [](const Particles& frame) {
         double furthest = -kInfinity;
@@ -166,13 +169,13 @@ double frontError(const ObservableInput& input) {
     });
 }
 
-/// Largest error over the frames of the radius that holds 90 % of the particles.
+/// Observable: largest error of R90, the radius that holds 90 % of the particles, over the frames of a run.
 double radiusError(const ObservableInput& input) {
     return largestDifference(input, [](const Particles& frame) { return bulkStatistics(frame).r90; });
 }
 
-/// Largest relative error of the bulk statistics at the end: center of mass, radius of gyration and R90 in units of the
-/// reference's R90, z90 in units of the reference's z90.
+/// Observable: largest relative error of the bulk statistics at the end of a run. Errors of center of mass, radius of
+/// gyration and R90 are in units of the reference's R90, errors of z90 in units of the reference's z90.
 double statisticsError(const ObservableInput& input) {
     if (!isComparable(input)) return kInfinity;
     const BulkStatistics ours = bulkStatistics(input.run.frames.back());
@@ -183,13 +186,13 @@ double statisticsError(const ObservableInput& input) {
                      std::abs(ours.z90 - reference.z90) / std::abs(reference.z90)});
 }
 
-/// Relative error of the fastest rise of the center of mass.
+/// Observable: relative error of the largest vertical velocity of the center of mass, after a rebound.
 double reboundError(const ObservableInput& input) {
     if (!isComparable(input)) return kInfinity;
     return std::abs(fastestRise(input.run) / fastestRise(*input.reference) - 1.0);
 }
 
-/// Largest relative error over the particles of the speed at the end.
+/// Observable: largest relative error of the speed of a particle at the end of a run.
 double restitutionError(const ObservableInput& input) {
     if (!isComparable(input)) return kInfinity;
     double worst = 0.0;

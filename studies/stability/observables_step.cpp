@@ -1,4 +1,5 @@
-// Observables of time stepping: the bound of the step, the order of convergence, the cost beside explicit steps.
+// Observables of time stepping: the engine's bound of the step, the order of convergence, and the cost in comparison
+// with explicit steps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +20,7 @@ namespace {
 using engine::Simulation;
 using engine::StepperKind;
 
-/// The explicit stepper whose step bound is measured: the scene's own if it is explicit, else velocity Verlet.
+/// The explicit stepper whose step bound is checked: the scene's own if it is explicit, else velocity Verlet.
 StepperKind explicitStepper(const scenes::Scene& scene) {
     const StepperKind own = scene.setup.stepper;
     return own == StepperKind::symplecticEuler || engine::isVerlet(own) ? own : StepperKind::velocityVerlet;
@@ -31,12 +32,12 @@ double boundOf(const ObservableInput& input, StepperKind stepper) {
     return bound ? bound->seconds : std::numeric_limits<double>::infinity();
 }
 
-/// Root mean square distance of corresponding particles, radii.
+/// Root mean square distance of corresponding particles of two states, radii.
 double rmsDistance(const engine::Particles& a, const engine::Particles& b) {
     return positionError(a, b, a.count()).rms;
 }
 
-/// The state at the end of a run, ready for steps of another stepper, without further births.
+/// A simulation that continues from the end of a run with another stepper and without further births.
 Simulation continued(const Run& run, StepperKind stepper) {
     Simulation simulation = run.end;
     simulation.setup.stepper = simulation.stepper = stepper;
@@ -46,11 +47,11 @@ Simulation continued(const Run& run, StepperKind stepper) {
     return simulation;
 }
 
-/// Whether two runs from nearly the same state stay together for kSteps steps of length h (s): at an unstable step
-/// their distance grows exponentially.
+/// Whether steps of length h (s) are stable: whether two runs from nearly the same state stay close to each other. At
+/// an unstable step their distance grows exponentially.
 bool isStable(const Simulation& state, double h) {
-    constexpr int kSteps = 200;      // chosen: finds a mode that grows by 3.5 % a step
-    constexpr double kApart = 1e-9;  // radii, chosen: far above rounding, far below a radius
+    constexpr int kSteps = 200;      // number of steps; chosen: finds a mode that grows by 3.5 % a step
+    constexpr double kApart = 1e-9;  // initial distance, radii; chosen: far above rounding
     constexpr double kGrowth = 1000.0;
     Simulation one = state;
     Simulation other = state;
@@ -59,14 +60,14 @@ bool isStable(const Simulation& state, double h) {
     for (int step = 0; step < kSteps; ++step) {
         engine::takeStep(one, h);
         engine::takeStep(other, h);
-        // Negated, so that NaN counts as unstable.
+        // The comparison is negated so that NaN counts as unstable.
         if (!(rmsDistance(one.particles, other.particles) < kGrowth * before)) return false;
     }
     return true;
 }
 
-/// The largest stable step at a state (s), by bisection between a quarter of a guess and four times the guess. Ends
-/// within 1 %.
+/// The largest stable step from a state, s, to within 1 %. Found by bisection between a quarter of a guess and four
+/// times the guess.
 double measuredLimit(const Simulation& state, double guess) {
     double stable = 0.25 * guess;
     double unstable = 4.0 * guess;
@@ -79,7 +80,7 @@ double measuredLimit(const Simulation& state, double guess) {
     return stable;
 }
 
-/// The particles after a number of equal steps through the scene, none of which is checked for accuracy or rejected.
+/// The particles at the end of a scene that is run in a number of equal steps, without checks of their accuracy.
 /// @throws engine::InstabilityError
 engine::Particles endAfter(const scenes::Scene& scene, int steps) {
     Simulation simulation = engine::start(scene.setup);
@@ -93,8 +94,8 @@ engine::Particles endAfter(const scenes::Scene& scene, int steps) {
 
 }  // namespace
 
-/// The engine's step bound for the state at the end of the run, over the largest step that is measured to be stable
-/// there.
+/// Observable: the engine's step bound for the state at the end of a run, over the largest step that is measured to be
+/// stable in that state.
 double stepBound(const ObservableInput& input) {
     const StepperKind stepper = explicitStepper(input.scene);
     const double bound = boundOf(input, stepper);
@@ -102,8 +103,9 @@ double stepBound(const ObservableInput& input) {
     return bound / measuredLimit(continued(input.run, stepper), bound);
 }
 
-/// The order p of convergence from the ends of runs at h, h/2 and h/4. With errors of C h^p the first two runs end
-/// C h^p (1 - 2^-p) apart and the last two 2^-p times as far, so p is the binary logarithm of the ratio.
+/// Observable: the order p of convergence, from the ends of runs at steps of h, h/2 and h/4. If the errors are C h^p,
+/// the first two runs end C h^p (1 - 2^-p) apart and the last two 2^-p times as far, so p is the binary logarithm of
+/// the ratio of the two distances.
 double order(const ObservableInput& input) {
     if (!input.scene.setup.emitters.empty() || input.scene.setup.stepper == StepperKind::automatic)
         throw scenes::InputError({{input.scene.sourceName, 0, 0,
@@ -115,10 +117,10 @@ double order(const ObservableInput& input) {
     return std::log2(rmsDistance(whole, half) / rmsDistance(half, quarter));
 }
 
-/// Wall-clock time of the run for a second of the scene, over the same of velocity Verlet from the state at the end,
-/// with steps of nine tenths of its step bound.
+/// Observable: wall-clock time of the run per second of the scene, over that of velocity Verlet with steps of nine
+/// tenths of its step bound, measured from the state at the end of the run.
 double cost(const ObservableInput& input) {
-    constexpr int kSteps = 20;  // chosen: enough to be timed, few beside the run
+    constexpr int kSteps = 20;  // number of timed steps; chosen: few beside those of the run
     const double h = 0.9 * boundOf(input, StepperKind::velocityVerlet);
     Simulation simulation = continued(input.run, StepperKind::velocityVerlet);
     const double secondsPerStep = secondsOf([&] { engine::takeStep(simulation, h); }, kSteps);

@@ -1,4 +1,4 @@
-// The observable of projectiles shot at obstacles: how many tunneled through one.
+// The observable of particles that are shot at obstacles: how many of them tunneled through one.
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -10,7 +10,7 @@ namespace {
 
 using engine::Vec3;
 
-/// The segment from a particle's first position to its last.
+/// The straight path of a particle: the segment from its first position in a run to its last, m.
 struct Path {
     Vec3 from = Vec3::Zero();
     Vec3 to = Vec3::Zero();
@@ -20,8 +20,7 @@ bool isInside(const Vec3& point, const Vec3& minimum, const Vec3& maximum) {
     return (point.array() > minimum.array()).all() && (point.array() < maximum.array()).all();
 }
 
-/// Whether a path crosses an axis-aligned box: whether the intervals of the path's parameter in which it is between the
-/// faces of each axis have a common part.
+/// Whether a straight path crosses an axis-aligned box: whether its parts between the faces of each axis overlap.
 bool crossesBox(const Path& path, const Vec3& minimum, const Vec3& maximum) {
     double enter = 0.0;
     double leave = 1.0;
@@ -46,9 +45,9 @@ bool crossesSphere(const Path& path, const Vec3& center, double radius) {
     return (path.from + closest * displacement - center).norm() < radius;
 }
 
-// One function for each shape: whether a particle is on the wrong side at the end of its path.
-// depth: how far a particle in contact may be behind the face, because the centers of the face's repulsors are that far
-// behind it, m.
+// There is a function for each shape of obstacle: whether a particle is on the wrong side at the end of its path. A
+// particle in contact may be behind the face by `depth` (m), because the centers of the face's repulsors are that far
+// behind the face.
 
 bool isOnWrongSide(const engine::Plane& plane, const Path& path, double depth) {
     return plane.normal.dot(path.to - plane.point) < -depth;
@@ -58,7 +57,8 @@ bool isOnWrongSide(const engine::Container& container, const Path& path, double 
     return !isInside(path.to, container.minimum - Vec3::Constant(depth), container.maximum + Vec3::Constant(depth));
 }
 
-/// A particle that starts inside must be outside at the end; one that starts outside must neither enter nor cross.
+/// A particle that starts inside a solid must be outside at the end; one that starts outside must neither enter the
+/// solid nor cross it.
 bool isOnWrongSide(const engine::Box& box, const Path& path, double) {
     if (isInside(path.from, box.minimum, box.maximum)) return isInside(path.to, box.minimum, box.maximum);
     return crossesBox(path, box.minimum, box.maximum);
@@ -71,11 +71,11 @@ bool isOnWrongSide(const engine::Sphere& sphere, const Path& path, double) {
 
 }  // namespace
 
-/// Number of particles on the wrong side of an obstacle at the end: behind the repulsors of a plane or container,
-/// inside a solid, or beyond one. The first and last position of a particle that bounced once off a convex solid are
-/// both on the free side of the tangent plane at the contact, so the segment between them misses the solid; the segment
-/// of a particle that went through crosses it. This holds without gravity and with one solid in the path of each
-/// particle.
+/// Observable: number of particles on the wrong side of an obstacle at the end of a run: behind the repulsors of a
+/// plane or container, inside a solid, or beyond one. The first and last position of a particle that bounced once off a
+/// convex solid are both on the free side of the tangent plane at the contact, so the segment between them misses the
+/// solid; the segment of a particle that went through crosses it. This holds without gravity and with one solid in the
+/// path of each particle.
 double tunnelingCount(const ObservableInput& input) {
     const engine::Particles& first = input.run.frames.front();
     const engine::Particles& last = input.run.frames.back();

@@ -1,4 +1,4 @@
-// The loop over frames, see recorded_run.h.
+// Runs a scene and keeps the particles at every frame. See recorded_run.h.
 #include "studies/stability/recorded_run.h"
 
 #include <fmt/format.h>
@@ -10,8 +10,9 @@ namespace studies {
 
 namespace {
 
-/// Appends the present state as a frame. Without world bounds no particle is removed, so a run with fewer particles
-/// than before is broken, and observables of the rest would mean nothing.
+/// Appends the present state of the simulation to the recorded frames. Without world bounds no particle is removed, so
+/// a run with fewer particles than before is broken, and observables of the rest would mean nothing.
+/// @throws engine::InstabilityError if particles are missing
 void recordFrame(Run& run) {
     if (!run.frames.empty() && run.end.particles.count() < run.frames.back().count())
         throw engine::InstabilityError(fmt::format("the run lost particles: {} of {} are left at {} s",
@@ -30,7 +31,7 @@ Run runScene(const scenes::Scene& scene) {
         run.end = engine::start(setup);
         try {
             recordFrame(run);
-            // frameCount() pictures are drawn; the scene ends one frame interval after the last of them.
+            // The scene ends one frame interval after the last of the frameCount() frames that are drawn.
             for (int frame = 1; frame <= scenes::frameCount(scene); ++frame) {
                 scenes::advanceToFrame(scene, run.end, frame);
                 recordFrame(run);

@@ -1,4 +1,4 @@
-// A run of a scene of which every frame is kept, for the observables of the study of stability.
+// Runs a scene and keeps the particles at every frame, from which the study of stability computes its observables.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,16 @@ namespace studies {
 
 /// Why a run ended before the scene did.
 struct Failure {
-    double time = 0.0;  ///< of the scene, s
+    double time = 0.0;  ///< scene time of the failure, s
     std::string message;
 };
 
+/// A run of a scene, with all of its frames.
 struct Run {
-    std::vector<engine::Particles> frames;  ///< from frame 0 to the scene's end, or to the failure
+    std::vector<engine::Particles> frames;  ///< particles at every frame, from frame 0 to the end or to a failure
     std::vector<std::uint64_t> stepsUntil;  ///< number of steps taken until each frame
-    engine::Simulation end;                 ///< the state at the end
-    double seconds = 0.0;                   ///< wall clock
+    engine::Simulation end;                 ///< the simulation at the end of the run
+    double seconds = 0.0;                   ///< wall-clock time of the run
     std::optional<Failure> failure;
 };
 

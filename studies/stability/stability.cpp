@@ -1,4 +1,5 @@
-// Every variant is loaded as a scene of its own and run; see stability.h.
+// Runs the hard cases: loads each variant as a scene of its own, runs it with both steppers and compares its observable
+// with the limit. See stability.h.
 #include "studies/stability/stability.h"
 
 #include <fmt/format.h>
@@ -16,9 +17,11 @@
 namespace studies {
 namespace {
 
-/// The published program clamps the distance D of two equal particles at one radius, half of their rest length.
+/// The core distance of the paper's program, in rest lengths: it clamps the distance of two equal particles at one
+/// radius.
 constexpr double kPaperCore = 0.5;
 
+/// A scene with the paper's stepper, step and core distance.
 scenes::Scene withPaperStepper(scenes::Scene scene) {
     scene.setup.stepper = engine::StepperKind::symplecticEuler;
     scene.setup.step = scene.study->paperStep;
@@ -32,7 +35,7 @@ scenes::Scene atReferenceStep(scenes::Scene scene) {
     return scene;
 }
 
-/// Sets the value of the outcome, or its failure if a run that the observable makes itself becomes unstable.
+/// Computes the observable of a run. If a run that the observable needs becomes unstable, the outcome is a failure.
 void measureInto(Outcome& outcome, const ObservableInput& input) {
     try {
         outcome.value = measure(input.scene.study->observable, input);
@@ -41,6 +44,7 @@ void measureInto(Outcome& outcome, const ObservableInput& input) {
     }
 }
 
+/// Runs a scene with its stepper and compares the observable with the limit.
 Outcome outcomeOf(const scenes::Scene& scene, const Run* reference) {
     const Run run = runScene(scene);
     Outcome outcome;
@@ -84,7 +88,7 @@ VariantResult runVariant(const std::string& path, const std::string& changes) {
 
 double limitRatio(const scenes::Study& study, double value) {
     if (!std::isfinite(value)) return kInfinity;
-    // A limit of 0 is passed by values of at most 0.
+    // If the limit is 0, values of at most 0 pass.
     const double above = study.limit > 0.0 ? value / study.limit : value <= 0.0 ? 0.0 : 1.0 + value;
     const double below = !study.atLeast ? 0.0 : value > 0.0 ? *study.atLeast / value : kInfinity;
     return std::max(above, below);

@@ -1,4 +1,4 @@
-// The results of the study of stability as text, see stability.h.
+// The results of the study of stability as text: a table, the problems in words, and CSV. See stability.h.
 #include "studies/stability/stability.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ std::string valueText(const Outcome& outcome) {
                            : fmt::format("{:.3g}", outcome.value);
 }
 
-/// For example "0.03", or "1.9 to 2.1".
+/// The limits of an observable in words, for example "0.03" or "1.9 to 2.1".
 std::string limitText(const scenes::Study& study) {
     return study.atLeast ? fmt::format("{:g} to {:g}", *study.atLeast, study.limit) : fmt::format("{:g}", study.limit);
 }
@@ -40,8 +40,8 @@ constexpr const char* kCsvHeader =
     "stepper,outcome,value,particles,steps,shortest_s,longest_s,force_evaluations,products,rejected,seconds,"
     "reference_seconds\n";
 
-/// The outcome of the paper's stepper in its worst variant. The observable is named if it is not that of the row, which
-/// shows another variant.
+/// The outcome of the paper's stepper in its worst variant, in words. The row of the table may show another variant; if
+/// that has another observable, the observable is named.
 std::string paperText(const VariantResult& worst, scenes::Observable rowObservable) {
     const bool isNamed = !worst.paper.failure && worst.study.observable != rowObservable;
     return (isNamed ? std::string(scenes::infoOf(worst.study.observable).name) + " " : "") + outcomeText(worst.paper);
