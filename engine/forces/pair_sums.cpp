@@ -12,13 +12,6 @@
 namespace engine {
 namespace {
 
-/// What a scalar kernel is compiled for.
-struct Variant {
-    PairTerms terms;
-    bool hasEnergy;
-    bool hasMatrix;
-};
-
 /// What a particle gets from its pairs.
 struct ParticleSums {
     Vec3 force = Vec3::Zero();  ///< N
@@ -197,24 +190,17 @@ void correctCoincident(const PairTraversal& pairs, const PairSums& wanted, std::
 
 /// The pass over particles of one material and one radius; returns the pair energy, in joules.
 double sumUniform(const PairTraversal& pairs, const PairSums& wanted) {
-    const SimdPass pass{.rows = pairs.list.rows,
-                        .packed = pairs.packed,
-                        .packedFloat = pairs.packedFloat,
-                        .unit = pairs.packedFloat.empty() ? 1.0 : pairs.unit,
-                        .constants = pairs.uniform,
-                        .terms = pairs.terms.pair,
-                        .hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr,
-                        .matrix = wanted.matrix,
-                        .weights = wanted.weights};
-    const ClusterKernel sumCluster = clusterKernel(pass);
-    return overClusters(pairs, pass.hasEnergy, [&](std::size_t first, std::size_t end) {
+    const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
+    const ClusterKernel sumCluster = clusterKernel(pairs, wanted);
+    return overClusters(pairs, hasEnergy, [&](std::size_t first, std::size_t end) {
         ClusterSums sums;
-        sumCluster(pass, first / kClusterSize, sums);
+        sumCluster(pairs, wanted, first / kClusterSize, sums);
         if (sums.coincident != 0)
-            withTerms(pass.terms, [&]<PairTerms terms>() { correctCoincident<terms>(pairs, wanted, first, sums); });
+            withTerms(pairs.terms.pair,
+                      [&]<PairTerms terms>() { correctCoincident<terms>(pairs, wanted, first, sums); });
         for (std::size_t lane = 0; lane < end - first; ++lane)
             forceOn(pairs, first + lane, wanted) = Vec3(sums.x[lane], sums.y[lane], sums.z[lane]);
-        return pass.hasEnergy ? std::accumulate(sums.energy.data(), sums.energy.data() + (end - first), 0.0) : 0.0;
+        return hasEnergy ? std::accumulate(sums.energy.data(), sums.energy.data() + (end - first), 0.0) : 0.0;
     });
 }
 
@@ -225,14 +211,9 @@ void sumPairs(const PairTraversal& pairs, const PairSums& wanted) {
         makeRoom(*wanted.matrix, pairs.list, pairs.terms.pair.friction);
         wanted.matrix->packed = pairs.packed;
     }
-    double energy = 0.0;
-    if (pairs.terms.uniform)
-        energy = sumUniform(pairs, wanted);
-    else
-        withTerms(pairs.terms.pair, [&]<PairTerms terms>() {
-            energy = wanted.matrix != nullptr   ? sumMixed<Variant{terms, true, true}>(pairs, wanted)
-                     : wanted.energy != nullptr ? sumMixed<Variant{terms, true, false}>(pairs, wanted)
-                                                : sumMixed<Variant{terms, false, false}>(pairs, wanted);
+    const double energy =
+        pairs.terms.uniform ? sumUniform(pairs, wanted) : withVariant(pairs.terms.pair, wanted, [&]<Variant variant>() {
+            return sumMixed<variant>(pairs, wanted);
         });
     if (wanted.matrix != nullptr) padRows(*wanted.matrix);
     if (wanted.energy != nullptr) *wanted.energy = energy;

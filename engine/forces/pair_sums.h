@@ -17,6 +17,24 @@ struct PairSums {
     MatrixWeights weights = {};    ///< of the matrix
 };
 
+/// What a kernel over pairs is compiled for.
+struct Variant {
+    PairTerms terms;
+    bool hasEnergy;
+    bool hasMatrix;
+};
+
+/// Calls visit.operator()<variant>() with the leanest variant that has the terms and computes the wanted sums, and
+/// returns its result. A kernel that assembles a matrix sums the energy, too.
+template <class Visit>
+auto withVariant(PairTerms needed, const PairSums& wanted, const Visit& visit) {
+    return withTerms(needed, [&]<PairTerms terms>() {
+        if (wanted.matrix != nullptr) return visit.template operator()<Variant{terms, true, true}>();
+        if (wanted.energy != nullptr) return visit.template operator()<Variant{terms, true, false}>();
+        return visit.template operator()<Variant{terms, false, false}>();
+    });
+}
+
 /// Sums over the pairs of a prepared traversal.
 /// @pre with a matrix, pairs.isPacked
 void sumPairs(const PairTraversal& pairs, const PairSums& wanted);

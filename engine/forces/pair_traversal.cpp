@@ -48,6 +48,7 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     }
     isPacked = false;
     packedFloat.clear();
+    unit = 1.0;
     if (!terms.uniform || precision == Precision::doubles) return packParticles(particles, velocities);
     unit = list.reach / kUnits;
     packFloats(list, particles, velocities, unit, packedFloat);

@@ -29,7 +29,7 @@ struct PairTraversal {
     Precision precision = Precision::doubles;               ///< used where terms.uniform
     Scratch<std::vector<PackedParticle>> packed;            ///< valid while isPacked
     Scratch<std::vector<PackedParticleFloat>> packedFloat;  ///< empty where the pass is in double
-    double unit = 0.0;                                      ///< of the coordinates in packedFloat, m
+    double unit = 1.0;                                      ///< of the coordinates that a pass reads, m
     bool isPacked = false;  ///< whether `packed` is that of the last prepare(); in float only after packParticles()
 
     PairTraversal() = default;

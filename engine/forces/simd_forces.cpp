@@ -22,13 +22,6 @@ namespace HWY_NAMESPACE {
 // The formulas of the law, compiled for this instruction set.
 #include "engine/law/pair_formulas-inl.h"
 
-/// What a kernel is compiled for.
-struct Variant {
-    PairTerms terms;
-    bool hasEnergy;
-    bool hasMatrix;
-};
-
 /// 1/x^2 in T such that no rounded 1/D^2 exceeds it for D at or beyond the rounded x.
 template <class T>
 T roundedInverse(double inverseSq) {
@@ -36,7 +29,7 @@ T roundedInverse(double inverseSq) {
     return T(1) / static_cast<T>(1.0 / inverseSq);
 }
 
-/// The law's constants in every lane. Separations P are in units of pass.unit, in meters for double.
+/// The law's constants in every lane. Separations P are in units of PairTraversal::unit, in meters for double.
 template <class T, Variant variant>
 struct Law {
     using V = Lanes<T>;
@@ -51,8 +44,8 @@ struct Law {
     static V set(T value) { return hn::Set(kTag, value); }
     static V set64(double value) { return set(static_cast<T>(value)); }
 
-    explicit Law(const SimdPass& pass) {
-        const engine::PairConstants<double>& exact = pass.constants;
+    Law(const PairTraversal& pairs, const MatrixWeights& weights) {
+        const engine::PairConstants<double>& exact = pairs.uniform;
         engine::PairConstants<T> c{};
         c.b1 = static_cast<T>(exact.b1);
         c.inverseRestSq = roundedInverse<T>(exact.inverseRestSq);
@@ -61,15 +54,15 @@ struct Law {
         c.reachSq = static_cast<T>(exact.reachSq);
         c.coreSq = static_cast<T>(exact.coreSq);
         constants.b1 = set(c.b1);
-        constants.bd = set64(exact.bd * pass.unit);
+        constants.bd = set64(exact.bd * pairs.unit);
         constants.inverseRestSq = set(c.inverseRestSq);
         constants.inverseReachSq = set(c.inverseReachSq);
         constants.reachSq = set(c.reachSq);
         constants.inverseDampingSq = set(c.inverseDampingSq);
         constants.coreSq = set(c.coreSq);
         constants.friction = set64(exact.friction);
-        unitSq = set64(pass.unit * pass.unit);
-        perUnit = set64(1.0 / pass.unit);
+        unitSq = set64(pairs.unit * pairs.unit);
+        perUnit = set64(1.0 / pairs.unit);
         if constexpr (variant.hasEnergy) {
             const T reachLength = std::sqrt(c.reachSq);
             const T inverse = T(1) / reachLength;
@@ -82,8 +75,8 @@ struct Law {
         }
         if constexpr (variant.hasMatrix) {
             damping = set64(exact.bd);
-            dampingWeight = set64(pass.weights.damping);
-            stiffnessWeight = set64(pass.weights.stiffness);
+            dampingWeight = set64(weights.damping);
+            stiffnessWeight = set64(weights.stiffness);
         }
     }
 
@@ -178,11 +171,11 @@ struct MatrixRows {
 
 /// The particles that a pass in T reads.
 template <class T>
-const auto& packedIn(const SimdPass& pass) {
+const auto& packedIn(const PairTraversal& pairs) {
     if constexpr (std::is_same_v<T, double>)
-        return pass.packed;
+        return pairs.packed;
     else
-        return pass.packedFloat;
+        return pairs.packedFloat;
 }
 
 /// Whether the next neighbors are loaded while the present ones are worked on. Where there are enough registers, the
@@ -192,20 +185,22 @@ constexpr bool kLoadsAhead = HWY_TARGET <= HWY_AVX3;
 /// Sums for a vector of lanes, from a lane of the cluster on. Flattened: where anything in the loop is a call, every
 /// vector goes through memory, and it takes twice as long under AVX-512.
 template <class Source, Variant variant>
-HWY_FLATTEN void sumLanes(const SimdPass& pass, std::size_t cluster, std::size_t lane, ClusterSums& sums) {
+HWY_FLATTEN void sumLanes(const PairTraversal& pairs, const PairSums& wanted, std::size_t cluster, std::size_t lane,
+                          ClusterSums& sums) {
     using T = typename Source::T;
     using V = Lanes<T>;
     constexpr Tag<T> kTag{};
     constexpr PairTerms kTerms = variant.terms;
     const std::size_t first = cluster * kClusterSize + lane;
-    const std::uint32_t longest = longestRow<T>(pass.rows, first);
-    const Source source(packedIn<T>(pass).data(), &pass.rows.ownIndices[first]);
-    const Law<T, variant> law(pass);
+    const NeighborRows& rows = pairs.list.rows;
+    const std::uint32_t longest = longestRow<T>(rows, first);
+    const Source source(packedIn<T>(pairs).data(), &rows.ownIndices[first]);
+    const Law<T, variant> law(pairs, wanted.weights);
     Vector3<V> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     V energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
-    [[maybe_unused]] MatrixRows<T> matrixRows{pass.matrix, first};
-    const std::int32_t* entry = &pass.rows.blocks[NeighborRows::blockOf(first)].entries[pass.rows.at(first, 0)];
+    [[maybe_unused]] MatrixRows<T> matrixRows{wanted.matrix, first};
+    const std::int32_t* entry = &rows.blocks[NeighborRows::blockOf(first)].entries[rows.at(first, 0)];
     auto ahead = source.template load<kTerms.damping>(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kClusterSize) {
         prefetchRows(entry);
@@ -247,7 +242,7 @@ HWY_FLATTEN void sumLanes(const SimdPass& pass, std::size_t cluster, std::size_t
         }
     }
     if constexpr (variant.hasMatrix) matrixRows.finish();
-    const double unit = pass.unit;  // a local copy, which no store below can alias: the loop vectorizes
+    const double unit = pairs.unit;  // a local copy, which no store below can alias: the loop vectorizes
     std::array<T, kClusterSize> x, y, z, e;
     hn::StoreU(force.x, kTag, x.data());
     hn::StoreU(force.y, kTag, y.data());
@@ -263,23 +258,20 @@ HWY_FLATTEN void sumLanes(const SimdPass& pass, std::size_t cluster, std::size_t
 }
 
 template <class Source, Variant variant>
-void sumCluster(const SimdPass& pass, std::size_t cluster, ClusterSums& sums) {
+void sumCluster(const PairTraversal& pairs, const PairSums& wanted, std::size_t cluster, ClusterSums& sums) {
     sums.coincident = 0;
     for (std::size_t lane = 0; lane < kClusterSize; lane += hn::Lanes(Tag<typename Source::T>()))
-        sumLanes<Source, variant>(pass, cluster, lane, sums);
+        sumLanes<Source, variant>(pairs, wanted, cluster, lane, sums);
 }
 
 template <class Source>
-ClusterKernel kernelOver(const SimdPass& pass) {
-    return withTerms(pass.terms, [&]<PairTerms terms>() -> ClusterKernel {
-        if (pass.matrix != nullptr) return sumCluster<Source, Variant{terms, true, true}>;
-        return pass.hasEnergy ? sumCluster<Source, Variant{terms, true, false}>
-                              : sumCluster<Source, Variant{terms, false, false}>;
-    });
+ClusterKernel kernelOver(const PairTraversal& pairs, const PairSums& wanted) {
+    return withVariant(pairs.terms.pair, wanted,
+                       []<Variant variant>() -> ClusterKernel { return sumCluster<Source, variant>; });
 }
 
-ClusterKernel clusterKernelHere(const SimdPass& pass) {
-    return pass.packedFloat.empty() ? kernelOver<DoubleLanes>(pass) : kernelOver<FloatLanes>(pass);
+ClusterKernel clusterKernelHere(const PairTraversal& pairs, const PairSums& wanted) {
+    return pairs.packedFloat.empty() ? kernelOver<DoubleLanes>(pairs, wanted) : kernelOver<FloatLanes>(pairs, wanted);
 }
 
 const char* instructionSetHere() {
@@ -297,8 +289,8 @@ namespace engine {
 HWY_EXPORT(clusterKernelHere);
 HWY_EXPORT(instructionSetHere);
 
-ClusterKernel clusterKernel(const SimdPass& pass) {
-    return HWY_DYNAMIC_DISPATCH(clusterKernelHere)(pass);
+ClusterKernel clusterKernel(const PairTraversal& pairs, const PairSums& wanted) {
+    return HWY_DYNAMIC_DISPATCH(clusterKernelHere)(pairs, wanted);
 }
 
 const char* simdInstructionSet() {

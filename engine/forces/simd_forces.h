@@ -5,27 +5,10 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
-#include "engine/forces/packed_particles.h"
-#include "engine/forces/pair_matrix.h"
-#include "engine/law/pair_law.h"
-#include "engine/neighbors/neighbor_rows.h"
+#include "engine/forces/pair_sums.h"
 
 namespace engine {
-
-/// One pass over all clusters.
-struct SimdPass {
-    const NeighborRows& rows;
-    const std::vector<PackedParticle>& packed;            ///< read in double
-    const std::vector<PackedParticleFloat>& packedFloat;  ///< read in float; empty in double
-    double unit = 1.0;                                    ///< length of a unit of the positions that are read, m
-    PairConstants<double> constants;                      ///< of every pair
-    PairTerms terms;
-    bool hasEnergy = false;        ///< whether energies are summed, too
-    PairMatrix* matrix = nullptr;  ///< with room for its rows; needs hasEnergy
-    MatrixWeights weights = {};    ///< of the matrix
-};
 
 /// What a cluster's particles get from their pairs, by lane.
 struct ClusterSums {
@@ -36,10 +19,12 @@ struct ClusterSums {
     std::uint32_t coincident = 0;
 };
 
-using ClusterKernel = void (*)(const SimdPass& pass, std::size_t cluster, ClusterSums& sums);
+/// Sums over the pairs of the particles in one cluster. A matrix has room for its rows already.
+using ClusterKernel = void (*)(const PairTraversal& pairs, const PairSums& wanted, std::size_t cluster,
+                               ClusterSums& sums);
 
 /// The kernel for a pass, compiled for the machine's instruction set and for the terms and sums that the pass needs.
-ClusterKernel clusterKernel(const SimdPass& pass);
+ClusterKernel clusterKernel(const PairTraversal& pairs, const PairSums& wanted);
 
 /// The instruction set that kernels run on, for example "AVX2".
 const char* simdInstructionSet();
