@@ -50,7 +50,7 @@ int rateOf(const EncodeOptions& options) {
     if (options.fps > 0) return options.fps;
     const fs::path run = fs::path(options.folder) / "run.json";
     if (!fs::exists(run)) return 30;
-    const nlohmann::json json = sortedJsonOrNull(readFile(run));
+    const Json json = Json::parse(readFile(run), nullptr, false);
     if (!json.is_object() || !json.contains("fps") || !json["fps"].is_number_integer() || json["fps"] < 1 ||
         json["fps"] > 240)
         throw render::SystemError(fmt::format("{} has no frame rate; give one with --fps", run.string()));

@@ -100,7 +100,8 @@ nlohmann::json readJson(const fs::path& path) {
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return nullptr;
     try {
-        return sortedJsonOrNull(readFile(path));
+        const nlohmann::json json = nlohmann::json::parse(readFile(path), nullptr, false);
+        return json.is_discarded() ? nlohmann::json(nullptr) : json;
     } catch (const render::SystemError&) {
         return nullptr;
     }

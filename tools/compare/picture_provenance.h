@@ -36,7 +36,8 @@ PictureProvenance provenanceOf(const std::filesystem::path& picture, std::span<c
 /// @param width, height  of the picture in pixels
 Json sidecarJson(const PictureProvenance& provenance, const std::string& checksum, int width, int height);
 
-/// The JSON in a file; null if it cannot be read or is not JSON.
+/// The JSON in a file; null if the file cannot be read or is not JSON. Its members are sorted, so that looking up one of
+/// the thousands of frames of a manifest is fast.
 nlohmann::json readJson(const std::filesystem::path& path);
 
 /// The part of the program because of which a picture differs.

@@ -81,9 +81,10 @@ Json headingJson(const PageHeading& heading) {
             {"approve", heading.approval}};
 }
 
-/// A text as an attribute. Control characters become question marks, because XML 1.0 cannot express them.
+/// A text as an attribute of an XML element. Bytes that are not UTF-8 become U+FFFD, and control characters, which XML 1.0
+/// cannot express, question marks.
 std::string attribute(const std::string& bytes) {
-    std::string text = utf8(bytes);
+    std::string text = Json::parse(compactText(bytes)).get<std::string>();
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20) c = '?';
     return escaped(text);

@@ -72,7 +72,7 @@ std::string encodeManifest(const Manifest& manifest) {
 
 Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name) {
     try {
-        return parsed(parsedJson(text));
+        return parsed(Json::parse(text.begin(), text.end()));
     } catch (const std::exception& error) {
         throw render::SystemError(fmt::format("{} is not a manifest of frames: {}", name, error.what()));
     }
