@@ -28,4 +28,7 @@ std::string formatProblem(const Problem& problem) {
 InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(textOf(problems)), problems_(std::move(problems)) {}
 
+InputError::InputError(const std::string& file, const std::string& message)
+    : InputError(std::vector<Problem>{{file, 0, 0, message}}) {}
+
 }  // namespace scenes

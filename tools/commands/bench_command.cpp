@@ -109,10 +109,9 @@ void bench(const BenchOptions& options) {
     });
     if (!hasRows)
         throw scenes::InputError(
-            {{"--filter", 0, 0,
-              fmt::format("no row contains \"{}\"; the rows are: {}; {}, {} of {}", options.settings.filter,
-                          studies::benchRowsText(), studies::kSimulateFrame, studies::kDrawFrame,
-                          fmt::join(kFrameScenes, ", "))}});
+            "--filter", fmt::format("no row contains \"{}\"; the rows are: {}; {}, {} of {}", options.settings.filter,
+                                    studies::benchRowsText(), studies::kSimulateFrame, studies::kDrawFrame,
+                                    fmt::join(kFrameScenes, ", ")));
 }
 
 }  // namespace

@@ -54,13 +54,11 @@ void requireFrames(const Subject& subject, const std::string& text) {
     const double most = scenes::Limits().frames;
     if (!(std::lround(std::min(subject.window * fps, most)) >= 1))
         throw scenes::InputError(
-            {{text, 0, 0,
-              fmt::format("a window of {:g} s is shorter than a frame of {:g} s", subject.window, 1.0 / fps)}});
+            text, fmt::format("a window of {:g} s is shorter than a frame of {:g} s", subject.window, 1.0 / fps));
     if (!((subject.from + subject.window) * fps <= most))
-        throw scenes::InputError({{text, 0, 0,
-                                   fmt::format("a window that ends at {:g} s is beyond the {:g} frames that a run may "
-                                               "have, {:g} s here",
-                                               subject.from + subject.window, most, most / fps)}});
+        throw scenes::InputError(
+            text, fmt::format("a window that ends at {:g} s is beyond the {:g} frames that a run may have, {:g} s here",
+                              subject.from + subject.window, most, most / fps));
 }
 
 /// The study that "SCENE" or "SCENE:SECONDS" asks for.
@@ -73,7 +71,7 @@ Subject parseSubject(const std::string& text, const AccuracyOptions& options) {
         const std::string seconds = text.substr(colon + 1);
         subject.window = parseNumber<double>(seconds).value_or(0.0);
         if (!(subject.window > 0.0))
-            throw scenes::InputError({{text, 0, 0, "after the colon comes how long to run, in seconds: powder:2"}});
+            throw scenes::InputError(text, "after the colon comes how long to run, in seconds: powder:2");
         scene = text.substr(0, colon);
         suffix = "-" + seconds + "s";
     }
@@ -126,7 +124,7 @@ std::vector<Subject> subjectsOf(const AccuracyOptions& options) {
     for (const std::string& text : options.scenes) {
         subjects.push_back(parseSubject(text, options));
         if (!names.insert(subjects.back().name).second)
-            throw scenes::InputError({{text, 0, 0, "two scenes would share its files"}});
+            throw scenes::InputError(text, "two scenes would share its files");
     }
     return subjects;
 }

@@ -29,7 +29,7 @@ struct PicturesOptions : StudyOptions {
 render::PictureSize sizeOf(const std::string& text) {
     const render::PictureSize size = parseSize(text, "--size " + text);
     if (size.width < 256 || size.height < 144 || size.width > 8192 || size.height > 8192)
-        throw scenes::InputError({{"--size " + text, 0, 0, "must be from 256x144 to 8192x8192 pixels"}});
+        throw scenes::InputError("--size " + text, "must be from 256x144 to 8192x8192 pixels");
     return size;
 }
 

@@ -35,7 +35,7 @@ std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set
     if (set.decodedFrames)
         throw render::SystemError("frames of a video cannot be goldens; approve the PNG files it was made of");
     if (set.isSingle && !job.names.empty())
-        throw scenes::InputError({{job.names.front(), 0, 0, "names are of pictures in a folder"}});
+        throw scenes::InputError(job.names.front(), "names are of pictures in a folder");
     for (const std::string& name : job.names)
         if (!set.isSingle && set.pictures.count(name) == 0)
             problems.push_back({name, 0, 0, fmt::format("there is no such picture in {}", job.actual.string())});

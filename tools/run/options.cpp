@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void failFlag(const std::string& flag, const std::string& message) {
-    throw scenes::InputError({{flag, 0, 0, message}});
-}
-
 /// The limits that the --limit flags set; each is a name and a whole number of at least 1.
 scenes::Limits limitsOf(const std::vector<std::string>& flags) {
     scenes::Limits limits;
@@ -33,10 +29,12 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
                               : name == "pixels"  ? &limits.pixels
                                                   : nullptr;
         if (limit == nullptr)
-            failFlag("--limit " + flag, "must be particles=N, frames=N or pixels=N, e.g. particles=5000000");
+            throw scenes::InputError("--limit " + flag,
+                                     "must be particles=N, frames=N or pixels=N, e.g. particles=5000000");
         const std::string_view text = std::string_view(flag).substr(std::min(equals, flag.size() - 1) + 1);
         const auto number = parseNumber<std::int64_t>(text);
-        if (!number || *number < 1) failFlag("--limit " + flag, fmt::format("{} must be a whole number > 0", name));
+        if (!number || *number < 1)
+            throw scenes::InputError("--limit " + flag, fmt::format("{} must be a whole number > 0", name));
         *limit = static_cast<double>(*number);
     }
     return limits;
@@ -73,8 +71,9 @@ scenes::Overrides overridesOf(const DrawOptions& options) {
 render::Backend backendOf(const DrawOptions& options) {
     const auto backend = render::backendNamed(options.backend);
     if (!backend)
-        failFlag("--gl " + options.backend,
-                 fmt::format("there is no such OpenGL backend; choose one of: {}", render::kBackendNames));
+        throw scenes::InputError(
+            "--gl " + options.backend,
+            fmt::format("there is no such OpenGL backend; choose one of: {}", render::kBackendNames));
     return *backend;
 }
 
@@ -90,7 +89,7 @@ render::PictureSize parseSize(const std::string& text, const std::string& flag) 
     const auto width = parseNumber(std::string_view(text).substr(0, cross));
     const auto height =
         cross == std::string::npos ? std::nullopt : parseNumber(std::string_view(text).substr(cross + 1));
-    if (!width || !height) failFlag(flag, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
+    if (!width || !height) throw scenes::InputError(flag, "must be WIDTHxHEIGHT in pixels, e.g. 1280x720");
     return {*width, *height};
 }
 
@@ -108,9 +107,10 @@ FrameRange frameRange(const std::string& text, int count) {
     const auto first = parseNumber(std::string_view(text).substr(0, dash));
     const auto last = dash == std::string::npos ? first : parseNumber(std::string_view(text).substr(dash + 1));
     const std::string flag = "--frames " + text;
-    if (!first || !last) failFlag(flag, "must be FIRST-LAST or a single frame, e.g. 0-119");
-    if (*first > *last) failFlag(flag, fmt::format("the first frame, {}, comes after the last, {}", *first, *last));
-    if (*last >= count) failFlag(flag, fmt::format("the scene has frames 0 to {}", count - 1));
+    if (!first || !last) throw scenes::InputError(flag, "must be FIRST-LAST or a single frame, e.g. 0-119");
+    if (*first > *last)
+        throw scenes::InputError(flag, fmt::format("the first frame, {}, comes after the last, {}", *first, *last));
+    if (*last >= count) throw scenes::InputError(flag, fmt::format("the scene has frames 0 to {}", count - 1));
     return {*first, *last};
 }
 

@@ -56,10 +56,9 @@ void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
     const double pixels = static_cast<double>(panels) * scene.size.width * scene.size.height;
     if (pixels <= most) return;
     throw scenes::InputError(
-        {{scene.sourceName, 0, 0,
-          fmt::format("a strip of {} panels of {} x {} pixels is larger than the {:.0f} pixels that "
-                      "one may have",
-                      panels, scene.size.width, scene.size.height, most)}});
+        scene.sourceName,
+        fmt::format("a strip of {} panels of {} x {} pixels is larger than the {:.0f} pixels that one may have", panels,
+                    scene.size.width, scene.size.height, most));
 }
 
 }  // namespace
