@@ -43,9 +43,9 @@ int report(const std::string& problems, int exitCode) {
     return exitCode;
 }
 
-int run(const tools::CommandLine& line, int argc, char** argv) {
+int run(CLI::App& program, int argc, char** argv) {
     try {
-        line.run(argc, argv);
+        tools::runCommandLine(program, argc, argv);
         // A full disk behind standard output is a failure like any other.
         tools::flushStandardOutput();
         return 0;
@@ -75,11 +75,14 @@ int main(int argc, char** argv) {
     keepFreedMemory();
     tools::prepareStandardStreams();
     const std::string version = "globular " GLOBULAR_VERSION;
-    const tools::CommandLine line("globular", "turns a scene file into an animation of globular dynamics");
-    const tools::Command program = line.program();
-    program.printingFlag("--version", "print the version", [&] { return version; });
-    program.printingFlag("--licenses", "print the licenses of globular and of what is built into it", licenses);
-    program.example("globular render liquid -o out/liquid --video out/liquid.mp4");
+    CLI::App program("turns a scene file into an animation of globular dynamics", "globular");
+    program.require_subcommand(0, 1);
+    program.set_version_flag("--version", version, "print the version");
+    // CLI11 prints the text of this exception and nothing else.
+    program.add_flag_callback(
+        "--licenses", [] { throw CLI::CallForVersion(licenses(), CLI::ExitCodes::Success); },
+        "print the licenses of globular and of what is built into it");
+    program.footer("Example: globular render liquid -o out/liquid --video out/liquid.mp4");
     tools::addRenderCommand(program);
     tools::addStripCommand(program);
     tools::addSimulateCommand(program);
@@ -93,5 +96,5 @@ int main(int argc, char** argv) {
     tools::addStudyCommand(program);
     tools::addBenchCommand(program);
     tools::addGenerateCommand(program, version);
-    return run(line, argc, argv);
+    return run(program, argc, argv);
 }

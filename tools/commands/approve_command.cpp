@@ -31,18 +31,18 @@ void approve(const ApproveOptions& options) {
 
 }  // namespace
 
-void addApproveCommand(const Command& program) {
-    const Command command =
-        program.command("approve", "actual pictures become goldens, each with where it comes from beside it");
+void addApproveCommand(CLI::App& program) {
+    CLI::App& command =
+        *program.add_subcommand("approve", "actual pictures become goldens, each with where it comes from beside it");
     const auto options = std::make_shared<ApproveOptions>();
-    command.option("ACTUAL", options->job.actual, "a PNG or a folder of PNGs").required();
-    command.option("EXPECTED", options->job.expected, "the golden one, or their folder").required();
-    command.option("NAME", options->job.names, "which, as compare prints them (default: all of ACTUAL)");
-    command.flag("--force", options->job.force, "also where another GL renderer drew the golden");
-    command.flag("--json", options->json, "one JSON object a line");
-    command.flag("--quiet", options->quiet, "print nothing");
-    command.example("globular approve out/liquid golden/liquid frame-00030.png");
-    command.run([options] { approve(*options); });
+    command.add_option("ACTUAL", options->job.actual, "a PNG or a folder of PNGs")->required();
+    command.add_option("EXPECTED", options->job.expected, "the golden one, or their folder")->required();
+    command.add_option("NAME", options->job.names, "which, as compare prints them (default: all of ACTUAL)");
+    command.add_flag("--force", options->job.force, "also where another GL renderer drew the golden");
+    command.add_flag("--json", options->run.json, "one JSON object a line");
+    command.add_flag("--quiet", options->run.quiet, "print nothing");
+    command.footer("Example: globular approve out/liquid golden/liquid frame-00030.png");
+    command.callback([options] { approve(*options); });
 }
 
 }  // namespace tools

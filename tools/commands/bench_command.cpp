@@ -116,20 +116,22 @@ void bench(const BenchOptions& options) {
 
 }  // namespace
 
-void addBenchCommand(const Command& program) {
-    const Command command =
-        program.command("bench", "how fast forces, lists, steps and whole frames run, with hashes of the results");
+void addBenchCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "bench", "how fast forces, lists, steps and whole frames run, with hashes of the results");
     const auto options = std::make_shared<BenchOptions>();
-    command.option("--filter", options->settings.filter, "only rows whose name and material contain this text")
-        .of("TEXT");
-    command.option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)").of("N");
-    command.option("--rounds", options->settings.rounds, "how often each is timed (default: 5)").aboveZero();
-    command.option("--isa", options->instructionSet, "the vectors to run on (default: the widest of the machine)")
-        .oneOf(engine::instructionSets());
+    command.add_option("--filter", options->settings.filter, "only rows whose name and material contain this text")
+        ->type_name("TEXT");
+    command.add_option("--particles", options->settings.counts, "numbers of particles (default: 1000 to 1000000)")
+        ->type_name("N");
+    command.add_option("--rounds", options->settings.rounds, "how often each is timed (default: 5)")
+        ->check(numberAboveZero());
+    command.add_option("--isa", options->instructionSet, "the vectors to run on (default: the widest of the machine)")
+        ->check(CLI::IsMember(engine::instructionSets()));
     addBackendFlag(command, options->draw);
     addTo(command, options->run);
-    command.example("globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
-    command.run([options] { bench(*options); });
+    command.footer("Example: globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
+    command.callback([options] { bench(*options); });
 }
 
 }  // namespace tools

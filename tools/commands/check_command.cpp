@@ -167,13 +167,13 @@ void check(const CheckOptions& options) {
 
 }  // namespace
 
-void addCheckCommand(const Command& program) {
-    const Command command = program.command("check", "validate a scene and say what would run");
+void addCheckCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("check", "validate a scene and say what would run");
     const auto options = std::make_shared<CheckOptions>();
     addTo(command, options->scene);
     addTo(command, options->run);
-    command.example("globular check my-scene.toml");
-    command.run([options] { check(*options); });
+    command.footer("Example: globular check my-scene.toml");
+    command.callback([options] { check(*options); });
 }
 
 }  // namespace tools

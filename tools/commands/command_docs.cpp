@@ -2,7 +2,6 @@
 // current. Called by `globular generate`, which the build runs.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -178,21 +177,21 @@ complete -o default -F _globular globular
 
 }  // namespace
 
-std::string Command::manPage(const std::string& version) const {
+std::string manPage(const CLI::App& program, const std::string& version) {
     std::string text = fmt::format(
         ".TH GLOBULAR 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\nglobular \\- {}\n.SH SYNOPSIS\n\\fBglobular\\fR "
         "\\fICOMMAND\\fR [\\fIOPTIONS\\fR] [\\fIARGUMENTS\\fR]\n.br\n",
-        version, roff(app_->get_description()));
-    for (const CLI::Option* flag : optionsOf(*app_, false))
+        version, roff(program.get_description()));
+    for (const CLI::Option* flag : optionsOf(program, false))
         text += fmt::format("\\fBglobular\\fR \\fB{}\\fR\n.br\n", roff("--" + flag->get_lnames().front()));
     text += ".SH COMMANDS\n";
-    for (const CLI::App* command : commandsOf(*app_)) text += manSection(*command, command->get_name());
+    for (const CLI::App* command : commandsOf(program)) text += manSection(*command, command->get_name());
     return text + std::string(kManEnd);
 }
 
-std::string Command::bashCompletion() const {
+std::string bashCompletion(const CLI::App& program) {
     CompletionCases cases;
-    addCases(*app_, "", cases);
+    addCases(program, "", cases);
     return fmt::format(kCompletion, cases.commands, cases.values, cases.words);
 }
 

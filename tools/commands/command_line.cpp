@@ -1,12 +1,10 @@
-// Commands and flags, implemented with CLI11.
+// Checks of flags, and the messages for command lines that CLI11 rejects.
 #include "tools/commands/command_line.h"
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
-#include <optional>
+#include <functional>
 
 #include "scenes/text/edit_distance.h"
 #include "tools/system/text.h"
@@ -14,8 +12,7 @@
 namespace tools {
 namespace {
 
-/// Accepts finite numbers with a property. CLI11's own checks accept NaN and infinity, and their messages name the
-/// largest double as the upper bound.
+/// Accepts finite numbers with a property.
 /// @param words  completes "must be a number ..."
 CLI::Validator numberThat(const std::function<bool(double)>& holds, const std::string& words) {
     return CLI::Validator(
@@ -67,122 +64,28 @@ std::string unknownWordMessage(const CLI::App& command, const std::string& word)
 
 }  // namespace
 
-Flag& Flag::required() {
-    option_->required();
-    return *this;
+CLI::Validator numberFrom(double least, double most) {
+    return numberThat([=](double value) { return value >= least && value <= most; },
+                      fmt::format("from {:g} to {:g}", least, most));
 }
 
-Flag& Flag::of(const std::string& placeholder) {
-    option_->type_name(placeholder);
-    return *this;
+CLI::Validator numberAtLeastZero() {
+    return numberThat([](double value) { return value >= 0.0; }, ">= 0");
 }
 
-Flag& Flag::within(int least, int most) {
-    option_->check(CLI::Range(least, most));
-    return *this;
+CLI::Validator numberAboveZero() {
+    return numberThat([](double value) { return value > 0.0; }, "> 0");
 }
 
-Flag& Flag::within(double least, double most) {
-    option_->check(numberThat([=](double value) { return value >= least && value <= most; },
-                              fmt::format("from {:g} to {:g}", least, most)));
-    return *this;
-}
-
-Flag& Flag::atLeastZero() {
-    option_->check(numberThat([](double value) { return value >= 0.0; }, ">= 0"));
-    return *this;
-}
-
-Flag& Flag::aboveZero() {
-    option_->check(numberThat([](double value) { return value > 0.0; }, "> 0"));
-    return *this;
-}
-
-Flag& Flag::oneOf(const std::vector<std::string>& names) {
-    option_->check(CLI::IsMember(names));
-    return *this;
-}
-
-Flag& Flag::oneAtATime() {
-    option_->allow_extra_args(false);
-    return *this;
-}
-
-Flag& Flag::showDefault() {
-    option_->capture_default_str();
-    return *this;
-}
-
-Flag& Flag::notWith(const Flag& other) {
-    option_->excludes(other.option_);
-    return *this;
-}
-
-Command Command::command(const std::string& name, const std::string& help) const {
-    return Command(*app_->add_subcommand(name, help));
-}
-
-template <class Value>
-Flag Command::option(const std::string& names, Value& value, const std::string& help) const {
-    return Flag(*app_->add_option(names, value, help));
-}
-
-template Flag Command::option(const std::string&, std::string&, const std::string&) const;
-template Flag Command::option(const std::string&, std::filesystem::path&, const std::string&) const;
-template Flag Command::option(const std::string&, int&, const std::string&) const;
-template Flag Command::option(const std::string&, double&, const std::string&) const;
-template Flag Command::option(const std::string&, std::optional<int>&, const std::string&) const;
-template Flag Command::option(const std::string&, std::optional<double>&, const std::string&) const;
-template Flag Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
-template Flag Command::option(const std::string&, std::vector<int>&, const std::string&) const;
-template Flag Command::option(const std::string&, std::vector<std::size_t>&, const std::string&) const;
-
-Flag Command::flag(const std::string& names, bool& value, const std::string& help) const {
-    return Flag(*app_->add_flag(names, value, help));
-}
-
-void Command::example(const std::string& text, const std::string& notes) const {
-    app_->footer((notes.empty() ? "" : notes + "\n") + "Example: " + text);
-}
-
-void Command::run(std::function<void()> action) const {
-    app_->callback(std::move(action));
-}
-
-void Command::needsCommand() const {
-    app_->require_subcommand(1);
-}
-
-void Command::hide() const {
-    app_->group("");
-}
-
-void Command::printingFlag(const std::string& name, const std::string& help, std::function<std::string()> text) const {
-    // CLI11 prints the text of this exception and nothing else.
-    app_->add_flag_callback(
-        name, [text] { throw CLI::CallForVersion(text(), CLI::ExitCodes::Success); }, help);
-}
-
-CommandLine::CommandLine(const std::string& name, const std::string& help)
-    : app_(std::make_unique<CLI::App>(help, name)) {
-    app_->require_subcommand(0, 1);
-}
-
-CommandLine::~CommandLine() = default;
-
-Command CommandLine::program() const {
-    return Command(*app_);
-}
-
-void CommandLine::run(int argc, char** argv) const {
+void runCommandLine(CLI::App& program, int argc, char** argv) {
     try {
-        app_->parse(argc, argv);
+        program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
-            app_->exit(error);  // prints the help or the text of a printing flag
+            program.exit(error);  // prints what --help, --version or --licenses asks for
             return;
         }
-        const CLI::App& command = calledCommand(*app_);
+        const CLI::App& command = calledCommand(program);
         const std::vector<std::string> unknown = command.remaining();
         const bool isIncomplete = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
         const bool hasExtras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
@@ -191,7 +94,7 @@ void CommandLine::run(int argc, char** argv) const {
         if (isIncomplete && !commandNames(command).empty()) failWithoutCommand(command);
         throw UsageError(error.what());
     }
-    if (app_->get_subcommands().empty()) failWithoutCommand(*app_);
+    if (program.get_subcommands().empty()) failWithoutCommand(program);
 }
 
 }  // namespace tools

@@ -151,37 +151,41 @@ void compareOrTrouble(const CompareOptions& options) {
     }
 }
 
-void addLimits(const Command& command, CompareOptions& options) {
+void addLimits(CLI::App& command, CompareOptions& options) {
     command
-        .option("--profile", options.profile,
-                "strict: the same bytes; vendor: the last bits of another OpenGL driver; loose: the same at a glance")
-        .oneOf({"strict", "vendor", "loose"})
-        .showDefault();
-    command.option("--threshold", options.threshold, "a pixel is noticeable when a channel is off by more")
-        .within(0, 255);
-    command.option("--max-share", options.sharePercent, "how many pixels may be noticeable, in percent")
-        .within(0.0, 100.0);
-    command.option("--max-difference", options.largest, "how far any channel may be off").within(0, 255);
-    command.option("--max-mean", options.mean, "mean difference over all channels, at most").within(0.0, 255.0);
-    command.option("--min-ssim", options.ssim, "structural similarity, at least").within(-1.0, 1.0);
+        .add_option(
+            "--profile", options.profile,
+            "strict: the same bytes; vendor: the last bits of another OpenGL driver; loose: the same at a glance")
+        ->check(CLI::IsMember({"strict", "vendor", "loose"}))
+        ->capture_default_str();
+    command.add_option("--threshold", options.threshold, "a pixel is noticeable when a channel is off by more")
+        ->check(CLI::Range(0, 255));
+    command.add_option("--max-share", options.sharePercent, "how many pixels may be noticeable, in percent")
+        ->check(numberFrom(0.0, 100.0));
+    command.add_option("--max-difference", options.largest, "how far any channel may be off")
+        ->check(CLI::Range(0, 255));
+    command.add_option("--max-mean", options.mean, "mean difference over all channels, at most")
+        ->check(numberFrom(0.0, 255.0));
+    command.add_option("--min-ssim", options.ssim, "structural similarity, at least")->check(numberFrom(-1.0, 1.0));
 }
 
 }  // namespace
 
-void addCompareCommand(const Command& program) {
-    const Command command =
-        program.command("compare", "pictures against what they should be; exit code 0 same, 1 different, 2 trouble");
+void addCompareCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "compare", "pictures against what they should be; exit code 0 same, 1 different, 2 trouble");
     const auto options = std::make_shared<CompareOptions>();
-    command.option("ACTUAL", options->actual, "a PNG, a folder of PNGs, or an MP4").required();
-    command.option("EXPECTED", options->expected, "the golden one, or their folder").required();
+    command.add_option("ACTUAL", options->actual, "a PNG, a folder of PNGs, or an MP4")->required();
+    command.add_option("EXPECTED", options->expected, "the golden one, or their folder")->required();
     addLimits(command, *options);
-    command.option("--mask", options->mask, "a PNG whose black pixels do not count").of("FILE.png");
-    command.option("--report", options->report, "also write DIR/index.html, one page to look at everything").of("DIR");
-    command.option("--junit", options->junit, "also write the results for CI systems").of("FILE.xml");
-    command.flag("--json", options->json, "results as JSON, one object a line");
-    command.flag("--quiet", options->quiet, "only the exit code");
-    command.example("globular compare out/liquid golden/liquid --report out/report");
-    command.run([options] { compareOrTrouble(*options); });
+    command.add_option("--mask", options->mask, "a PNG whose black pixels do not count")->type_name("FILE.png");
+    command.add_option("--report", options->report, "also write DIR/index.html, one page to look at everything")
+        ->type_name("DIR");
+    command.add_option("--junit", options->junit, "also write the results for CI systems")->type_name("FILE.xml");
+    command.add_flag("--json", options->run.json, "results as JSON, one object a line");
+    command.add_flag("--quiet", options->run.quiet, "only the exit code");
+    command.footer("Example: globular compare out/liquid golden/liquid --report out/report");
+    command.callback([options] { compareOrTrouble(*options); });
 }
 
 }  // namespace tools

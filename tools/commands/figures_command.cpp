@@ -104,16 +104,16 @@ void makeFigures(const FiguresOptions& options) {
 
 }  // namespace
 
-void addFiguresCommand(const Command& program) {
-    const Command command =
-        program.command("figures", "the paper's figures: stills, strips, videos, and a page that shows them");
+void addFiguresCommand(CLI::App& program) {
+    CLI::App& command =
+        *program.add_subcommand("figures", "the paper's figures: stills, strips, videos, and a page that shows them");
     const auto options = std::make_shared<FiguresOptions>();
-    command.option("FIGURE", options->numbers, "which figures (default: all four)").within(1, 4);
-    command.option("-o,--output", options->folder, "folder to write to (default: out/figures)").of("DIR");
+    command.add_option("FIGURE", options->numbers, "which figures (default: all four)")->check(CLI::Range(1, 4));
+    command.add_option("-o,--output", options->folder, "folder to write to (default: out/figures)")->type_name("DIR");
     addBackendFlag(command, options->draw);
     addTo(command, options->run);
-    command.example("globular figures 1 3 -o out/figures");
-    command.run([options] {
+    command.footer("Example: globular figures 1 3 -o out/figures");
+    command.callback([options] {
         if (options->numbers.empty()) options->numbers = {1, 2, 3, 4};
         makeFigures(*options);
     });

@@ -6,18 +6,20 @@
 
 namespace tools {
 
-void addGenerateCommand(const Command& program, const std::string& version) {
+void addGenerateCommand(CLI::App& program, const std::string& version) {
     struct Options {
         std::string kind;
         std::string output;
     };
-    const Command command = program.command("generate", "write the man page or the bash completion");
-    command.hide();
+    CLI::App& command = *program.add_subcommand("generate", "write the man page or the bash completion");
+    command.group("");
     const auto options = std::make_shared<Options>();
-    command.option("KIND", options->kind, "man or completion").required().oneOf({"man", "completion"});
-    command.option("FILE", options->output, "the file to write").required();
-    command.run([=] {
-        writeFile(options->output, options->kind == "man" ? program.manPage(version) : program.bashCompletion());
+    command.add_option("KIND", options->kind, "man or completion")
+        ->required()
+        ->check(CLI::IsMember({"man", "completion"}));
+    command.add_option("FILE", options->output, "the file to write")->required();
+    command.callback([options, version, &program] {
+        writeFile(options->output, options->kind == "man" ? manPage(program, version) : bashCompletion(program));
     });
 }
 

@@ -53,17 +53,19 @@ void render(RenderOptions options) {
 
 }  // namespace
 
-void addRenderCommand(const Command& program) {
-    const Command command = program.command("render", "simulate and draw a scene: PNG frames, run.json, a video");
+void addRenderCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("render", "simulate and draw a scene: PNG frames, run.json, a video");
     const auto options = std::make_shared<RenderOptions>();
     addTo(command, options->scene);
     addTo(command, options->folder, "out/NAME");
-    command.option("--video", options->video, "also write an MP4").of("FILE.mp4");
-    command.option("--frames", options->frames, "draw only frames A to B, counted from 0, or one").of("A-B");
+    command.add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
+    command.add_option("--frames", options->frames, "draw only frames A to B, counted from 0, or one")
+        ->type_name("A-B");
     addTo(command, options->draw);
     addTo(command, options->run);
-    command.example("globular render liquid -o out/liquid --video out/liquid.mp4", kErrorSampleNotes);
-    command.run([options] { render(*options); });
+    command.footer(std::string(kErrorSampleNotes) +
+                   "Example: globular render liquid -o out/liquid --video out/liquid.mp4");
+    command.callback([options] { render(*options); });
 }
 
 }  // namespace tools

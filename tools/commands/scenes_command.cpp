@@ -12,12 +12,12 @@
 
 namespace tools {
 
-void addScenesCommand(const Command& program) {
-    const Command command = program.command("scenes", "the built-in scenes");
+void addScenesCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("scenes", "the built-in scenes");
     const auto json = std::make_shared<bool>(false);
-    command.flag("--json", *json, "one JSON object a line");
-    command.example("globular scenes");
-    command.run([json] {
+    command.add_flag("--json", *json, "one JSON object a line");
+    command.footer("Example: globular scenes");
+    command.callback([json] {
         const auto list = scenes::listScenes(sceneFolders());
         std::size_t width = 0;
         for (const auto& scene : list) width = std::max(width, scene.name.size());

@@ -10,18 +10,19 @@
 
 namespace tools {
 
-void addSchemaCommand(const Command& program) {
-    const Command command =
-        program.command("schema", "every key of a scene file with type, unit, default, range, help");
+void addSchemaCommand(CLI::App& program) {
+    CLI::App& command =
+        *program.add_subcommand("schema", "every key of a scene file with type, unit, default, range, help");
     const auto json = std::make_shared<bool>(false);
     const auto jsonSchema = std::make_shared<bool>(false);
     const auto markdown = std::make_shared<bool>(false);
-    Flag rows = command.flag("--json", *json, "the keys as JSON, one object per line");
-    Flag editor = command.flag("--json-schema", *jsonSchema, "a JSON Schema, with which editors check scene files");
-    command.flag("--markdown", *markdown, "the page docs/scenes.md").notWith(rows).notWith(editor);
-    editor.notWith(rows);
-    command.example("globular schema --json-schema > globular.schema.json");
-    command.run([json, jsonSchema, markdown] {
+    CLI::Option* rows = command.add_flag("--json", *json, "the keys as JSON, one object per line");
+    CLI::Option* editor =
+        command.add_flag("--json-schema", *jsonSchema, "a JSON Schema, with which editors check scene files");
+    command.add_flag("--markdown", *markdown, "the page docs/scenes.md")->excludes(rows)->excludes(editor);
+    editor->excludes(rows);
+    command.footer("Example: globular schema --json-schema > globular.schema.json");
+    command.callback([json, jsonSchema, markdown] {
         if (!*json) {
             fmt::print("{}", *jsonSchema ? scenes::jsonSchema()
                              : *markdown ? scenes::schemaMarkdown()

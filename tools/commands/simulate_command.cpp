@@ -70,16 +70,17 @@ void simulate(SimulateOptions options) {
 
 }  // namespace
 
-void addSimulateCommand(const Command& program) {
-    const Command command = program.command("simulate", "particle states only: one PLY file a frame, and run.json");
+void addSimulateCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("simulate", "particle states only: one PLY file a frame, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
     addTo(command, options->scene);
     addTo(command, options->folder, "out/NAME-states");
-    command.option("--format", options->format, "ply: binary little-endian PLY").oneOf({"ply"});
-    command.option("--frames", options->frames, "write only frames A to B, counted from 0, or one").of("A-B");
+    command.add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
+    command.add_option("--frames", options->frames, "write only frames A to B, counted from 0, or one")
+        ->type_name("A-B");
     addTo(command, options->run);
-    command.example("globular simulate powder -o out/states --frames 0-59", kErrorSampleNotes);
-    command.run([options] { simulate(*options); });
+    command.footer(std::string(kErrorSampleNotes) + "Example: globular simulate powder -o out/states --frames 0-59");
+    command.callback([options] { simulate(*options); });
 }
 
 }  // namespace tools

@@ -57,16 +57,18 @@ void drawStrip(const StripOptions& options) {
 
 }  // namespace
 
-void addStripCommand(const Command& program) {
-    const Command command = program.command("strip", "a scene at several times, side by side in one picture");
+void addStripCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("strip", "a scene at several times, side by side in one picture");
     const auto options = std::make_shared<StripOptions>();
     addTo(command, options->scene);
-    command.option("--times", options->times, "times in seconds (default: the scene's still.strip)").of("T,T,...");
-    command.option("-o,--output", options->output, "the picture to write (default: out/NAME-strip.png)").of("FILE.png");
+    command.add_option("--times", options->times, "times in seconds (default: the scene's still.strip)")
+        ->type_name("T,T,...");
+    command.add_option("-o,--output", options->output, "the picture to write (default: out/NAME-strip.png)")
+        ->type_name("FILE.png");
     addTo(command, options->draw);
     addTo(command, options->run);
-    command.example("globular strip liquid --times 0.5,1,2 --size 480x270 -o out/liquid.png");
-    command.run([options] { drawStrip(*options); });
+    command.footer("Example: globular strip liquid --times 0.5,1,2 --size 480x270 -o out/liquid.png");
+    command.callback([options] { drawStrip(*options); });
 }
 
 }  // namespace tools

@@ -206,20 +206,23 @@ void study(const AccuracyOptions& options) {
 
 }  // namespace
 
-void addStudyAccuracy(const Command& program) {
-    const Command command = program.command("accuracy", "speed against error: every stepper against a reference");
+void addStudyAccuracy(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("accuracy", "speed against error: every stepper against a reference");
     const auto options = std::make_shared<AccuracyOptions>();
     options->name = "accuracy";
-    command.option("SCENE", options->scenes,
-                   "scene files or names, each with a window of its own as in powder:2 (default: liquid solid powder "
-                   "fountain honey; powder:2 too unless quick)");
-    command.option("--set", options->overrides, "change a key of every scene").of("KEY=VALUE").oneAtATime();
-    command.option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
-        .atLeastZero();
-    command.option("--window", options->window, "how long they run, s (default: 0.2)").aboveZero();
+    command.add_option(
+        "SCENE", options->scenes,
+        "scene files or names, each with a window of its own as in powder:2 (default: liquid solid powder "
+        "fountain honey; powder:2 too unless quick)");
+    command.add_option("--set", options->overrides, "change a key of every scene")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
+        ->check(numberAtLeastZero());
+    command.add_option("--window", options->window, "how long they run, s (default: 0.2)")->check(numberAboveZero());
     addStudyFlags(command, *options, "a coarse measurement: fewer runs, timed once");
-    command.example("globular study accuracy liquid powder -o out/accuracy --threads 2");
-    command.run([options] {
+    command.footer("Example: globular study accuracy liquid powder -o out/accuracy --threads 2");
+    command.callback([options] {
         if (options->scenes.empty()) {
             options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
             // Long enough for chaos, so that statistics are compared instead of positions.

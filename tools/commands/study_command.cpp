@@ -11,12 +11,13 @@
 
 namespace tools {
 
-void addStudyFlags(const Command& command, StudyOptions& options, const std::string& quickHelp) {
+void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& quickHelp) {
     options.folder = "out/study-" + options.name;
     command
-        .option("-o,--output", options.folder, fmt::format("folder to write to (default: out/study-{})", options.name))
-        .of("DIR");
-    command.flag("--quick", options.quick, quickHelp);
+        .add_option("-o,--output", options.folder,
+                    fmt::format("folder to write to (default: out/study-{})", options.name))
+        ->type_name("DIR");
+    command.add_flag("--quick", options.quick, quickHelp);
     addTo(command, options.run);
 }
 
@@ -40,10 +41,10 @@ void finishStudy(const StudyOptions& options, const std::string& page, const std
     if (options.run.verbosity() == Verbosity::normal) fmt::print("{}all of it: {}\n", summary, path);
 }
 
-void addStudyCommand(const Command& program) {
-    const Command study = program.command("study", "measurements: tables, plots, one page");
-    study.needsCommand();
-    study.example("globular study accuracy liquid -o out/accuracy");
+void addStudyCommand(CLI::App& program) {
+    CLI::App& study = *program.add_subcommand("study", "measurements: tables, plots, one page");
+    study.require_subcommand(1);
+    study.footer("Example: globular study accuracy liquid -o out/accuracy");
     addStudyAccuracy(study);
     addStudyPictures(study);
     addStudyScaling(study);

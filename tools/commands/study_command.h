@@ -11,10 +11,10 @@
 
 namespace tools {
 
-void addStudyAccuracy(const Command& study);
-void addStudyPictures(const Command& study);
-void addStudyScaling(const Command& study);
-void addStudyStability(const Command& study);
+void addStudyAccuracy(CLI::App& study);
+void addStudyPictures(CLI::App& study);
+void addStudyScaling(CLI::App& study);
+void addStudyStability(CLI::App& study);
 
 /// The options of every study.
 struct StudyOptions {
@@ -27,7 +27,7 @@ struct StudyOptions {
 /// Adds the flags of every study; the folder defaults to out/study-NAME.
 /// @param options  its name is set
 /// @param quickHelp  what --quick leaves out
-void addStudyFlags(const Command& command, StudyOptions& options, const std::string& quickHelp);
+void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& quickHelp);
 
 /// The command line that repeats a study.
 /// @param words  its own arguments and flags

@@ -150,18 +150,18 @@ void study(const PicturesOptions& options) {
 
 }  // namespace
 
-void addStudyPictures(const Command& study) {
-    const Command command =
-        study.command("pictures", "time of each stage of a frame, and its error against the exact picture");
+void addStudyPictures(CLI::App& study) {
+    CLI::App& command =
+        *study.add_subcommand("pictures", "time of each stage of a frame, and its error against the exact picture");
     const auto options = std::make_shared<PicturesOptions>();
     options->name = "pictures";
-    command.option("--particles", options->particles, "how many (default: 2000 10000 50000 200000)")
-        .within(100, 10000000)
-        .of("N");
-    command.option("--size", options->size, "of the picture (default: 1280x720 and 1920x1080)").of("WxH");
+    command.add_option("--particles", options->particles, "how many (default: 2000 10000 50000 200000)")
+        ->check(CLI::Range(100, 10000000))
+        ->type_name("N");
+    command.add_option("--size", options->size, "of the picture (default: 1280x720 and 1920x1080)")->type_name("WxH");
     addStudyFlags(command, *options, "fewer particles, small pictures");
-    command.example("globular study pictures --quick -o out/pictures");
-    command.run([options] { tools::study(*options); });
+    command.footer("Example: globular study pictures --quick -o out/pictures");
+    command.callback([options] { tools::study(*options); });
 }
 
 }  // namespace tools

@@ -178,16 +178,16 @@ void study(const ScalingOptions& options) {
 
 }  // namespace
 
-void addStudyScaling(const Command& study) {
-    const Command command =
-        study.command("scaling", "time per step against the number of particles, beside the paper's Table 2");
+void addStudyScaling(CLI::App& study) {
+    CLI::App& command =
+        *study.add_subcommand("scaling", "time per step against the number of particles, beside the paper's Table 2");
     const auto options = std::make_shared<ScalingOptions>();
     options->name = "scaling";
-    command.option("--peer", options->peer, "another program to measure in the same run, if it is installed")
-        .oneOf({"lammps"});
+    command.add_option("--peer", options->peer, "another program to measure in the same run, if it is installed")
+        ->check(CLI::IsMember({"lammps"}));
     addStudyFlags(command, *options, "fewer sizes, one round");
-    command.example("globular study scaling --peer lammps -o out/scaling");
-    command.run([options] { tools::study(*options); });
+    command.footer("Example: globular study scaling --peer lammps -o out/scaling");
+    command.callback([options] { tools::study(*options); });
 }
 
 }  // namespace tools

@@ -97,15 +97,15 @@ std::string notes() {
 
 }  // namespace
 
-void addStudyStability(const Command& study) {
-    const Command command = study.command(
+void addStudyStability(CLI::App& study) {
+    CLI::App& command = *study.add_subcommand(
         "stability", "the hard cases, with the paper's stepper and with ours; fails unless all come out as they must");
     const auto options = std::make_shared<StabilityOptions>();
     options->name = "stability";
-    command.option("CASE", options->cases, "which hard cases (default: all)");
+    command.add_option("CASE", options->cases, "which hard cases (default: all)");
     addStudyFlags(command, *options, "fewer variants and particles");
-    command.example("globular study stability honey rigid -o out/stability", notes());
-    command.run([options] { tools::study(*options); });
+    command.footer(notes() + "\nExample: globular study stability honey rigid -o out/stability");
+    command.callback([options] { tools::study(*options); });
 }
 
 }  // namespace tools

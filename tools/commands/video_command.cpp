@@ -91,15 +91,16 @@ void encode(const EncodeOptions& options) {
 
 }  // namespace
 
-void addVideoCommand(const Command& program) {
-    const Command command = program.command("video", "frames that exist to a video; refuses gaps");
+void addVideoCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("video", "frames that exist to a video; refuses gaps");
     const auto options = std::make_shared<EncodeOptions>();
-    command.option("DIR", options->folder, "folder with frame-00000.png, ...").required();
-    command.option("-o,--output", options->output, "the video to write").required().of("FILE.mp4");
-    command.option("--fps", options->fps, "frames per second (default: that of run.json, else 30)").within(1, 240);
+    command.add_option("DIR", options->folder, "folder with frame-00000.png, ...")->required();
+    command.add_option("-o,--output", options->output, "the video to write")->required()->type_name("FILE.mp4");
+    command.add_option("--fps", options->fps, "frames per second (default: that of run.json, else 30)")
+        ->check(CLI::Range(1, 240));
     addTo(command, options->run);
-    command.example("globular video out/liquid -o out/liquid.mp4");
-    command.run([options] { encode(*options); });
+    command.footer("Example: globular video out/liquid -o out/liquid.mp4");
+    command.callback([options] { encode(*options); });
 }
 
 }  // namespace tools
