@@ -6,26 +6,21 @@
 
 #include "tools/commands/commands.h"
 #include "tools/compare/approve.h"
-#include "tools/system/json.h"
 
 namespace tools {
 namespace {
 
 struct ApproveOptions {
     ApproveJob job;
-    bool json = false;
-    bool quiet = false;
+    RunOptions run;  ///< without threads
 };
 
 void approve(const ApproveOptions& options) {
     const std::vector<Approved> approved = approvePictures(options.job);
-    for (const Approved& picture : approved) {
-        if (options.json)
-            printJson(Json{{"event", "approved"}, {"name", picture.name}, {"new", picture.isNew}});
-        else if (!options.quiet)
-            fmt::print("{} {}\n", picture.isNew ? "new golden:" : "approved:", picture.name);
-    }
-    if (approved.empty() && !options.json && !options.quiet)
+    for (const Approved& picture : approved)
+        printResult(options.run, {{"event", "approved"}, {"name", picture.name}, {"new", picture.isNew}},
+                    fmt::format("{} {}\n", picture.isNew ? "new golden:" : "approved:", picture.name));
+    if (approved.empty() && options.run.verbosity() == Verbosity::normal)
         fmt::print("nothing to approve: the goldens are the same\n");
 }
 

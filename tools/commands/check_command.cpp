@@ -12,7 +12,6 @@
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
 #include "tools/run/threads.h"
-#include "tools/system/json.h"
 
 namespace tools {
 namespace {
@@ -114,53 +113,53 @@ std::string boundText(const Json& json) {
                        bound["limited_by"].get<std::string>(), bound["particle"].get<std::size_t>(), verdict);
 }
 
-void printCheck(const Json& json) {
-    fmt::print("{}: {}\n", json["source"].get<std::string>(), json["scene"].get<std::string>());
-    fmt::print("frames     {} at {} a second\n", json["frames"].get<int>(), json["fps"].get<int>());
-    fmt::print("particles  {} at the start, {} at most\n", json["particles_at_start"].get<std::uint64_t>(),
-               json["particles_at_most"].get<std::uint64_t>());
+/// What `check` prints without --json.
+std::string checkText(const Json& json) {
+    std::string text = fmt::format("{}: {}\n", json["source"].get<std::string>(), json["scene"].get<std::string>());
+    text += fmt::format("frames     {} at {} a second\n", json["frames"].get<int>(), json["fps"].get<int>());
+    text += fmt::format("particles  {} at the start, {} at most\n", json["particles_at_start"].get<std::uint64_t>(),
+                        json["particles_at_most"].get<std::uint64_t>());
     std::string terms;
     for (const Json& term : json["terms"]) terms += (terms.empty() ? "" : ", ") + term.get<std::string>();
-    fmt::print("kernel     {}; {}; {}; cutoff {:.4g} m\n", json["kernel"].get<std::string>(), terms,
-               json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair",
-               json["cutoff"].get<double>());
+    text += fmt::format("kernel     {}; {}; {}; cutoff {:.4g} m\n", json["kernel"].get<std::string>(), terms,
+                        json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair",
+                        json["cutoff"].get<double>());
     for (const Json& material : json["materials"]) {
         const auto value = [&](const char* key) { return material[key].get<double>(); };
-        fmt::print(
+        text += fmt::format(
             "material   {}: b1 {:g}, bd {:g}, cr {:g}, cd {:g}, radius {:g} m, mass {:g} kg, core {:g}, friction "
             "{:g}\n",
             material["name"].get<std::string>(), value("b1"), value("bd"), value("cr"), value("cd"), value("radius"),
             value("mass"), value("core"), value("friction"));
     }
-    fmt::print("obstacles  {}\n", json["obstacles"].get<std::size_t>());
+    text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
     const Json& predicted = json["predicted"];
     if (!predicted["unstable"].is_null())
-        fmt::print("stepper    {}; unstable after {} frames\n", json["stepper"].get<std::string>(),
-                   predicted["from_frames"].get<int>());
+        text += fmt::format("stepper    {}; unstable after {} frames\n", json["stepper"].get<std::string>(),
+                            predicted["from_frames"].get<int>());
     else
-        fmt::print("stepper    {}; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}\n",
-                   json["stepper"].get<std::string>(), predicted["from_frames"].get<int>(),
-                   predicted["stepper"].get<std::string>(), predicted["steps"].get<std::int64_t>(),
-                   predicted["step"].get<double>(), predicted["limited_by"].get<std::string>());
+        text +=
+            fmt::format("stepper    {}; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}\n",
+                        json["stepper"].get<std::string>(), predicted["from_frames"].get<int>(),
+                        predicted["stepper"].get<std::string>(), predicted["steps"].get<std::int64_t>(),
+                        predicted["step"].get<double>(), predicted["limited_by"].get<std::string>());
     if (!predicted["error"].is_null())
-        fmt::print("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
-                   json["wanted_error"].get<double>(), predicted["error"].get<double>());
-    fmt::print("step bound {}\n", boundText(json));
-    fmt::print("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
-               json["bytes_per_particle"].get<std::size_t>());
+        text += fmt::format("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
+                            json["wanted_error"].get<double>(), predicted["error"].get<double>());
+    text += fmt::format("step bound {}\n", boundText(json));
+    text += fmt::format("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
+                        json["bytes_per_particle"].get<std::size_t>());
     if (predicted["unstable"].is_null())
-        fmt::print("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
-                   std::ceil(predicted["seconds_simulating"].get<double>()));
+        text += fmt::format("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
+                            std::ceil(predicted["seconds_simulating"].get<double>()));
+    return text;
 }
 
 void check(const CheckOptions& options) {
     const scenes::Scene scene = load(options.scene);
     Json json;
     onThreads(threadCount(options.run), [&] { json = checkJson(scene); });
-    if (options.run.json)
-        printJson(json);
-    else if (!options.run.quiet)
-        printCheck(json);
+    printResult(options.run, json, checkText(json));
     if (const Json& unstable = json["predicted"]["unstable"]; !unstable.is_null())
         throw engine::InstabilityError(unstable.get<std::string>());
 }

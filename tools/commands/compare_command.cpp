@@ -32,8 +32,7 @@ struct CompareOptions {
     std::optional<int> threshold, largest;
     std::optional<double> sharePercent, mean, ssim;
     std::string mask, junit, report;
-    bool json = false;
-    bool quiet = false;
+    RunOptions run;  ///< without threads
 };
 
 render::CompareLimits limitsOf(const CompareOptions& options) {
@@ -64,53 +63,52 @@ std::string numbers(const render::PictureMetrics& metrics, int threshold) {
     return text;
 }
 
-void print(const PictureResult& result, const render::CompareLimits& limits) {
+std::string pictureText(const PictureResult& result, const render::CompareLimits& limits) {
     const std::string rule = result.comparison ? fmt::format(" ({})", result.rule()) : "";
-    fmt::print("{}: {}{}\n", result.name, nameOf(result.status), rule);
-    for (const std::string& reason : result.reasons) fmt::print("  {}\n", reason);
+    std::string text = fmt::format("{}: {}{}\n", result.name, nameOf(result.status), rule);
+    for (const std::string& reason : result.reasons) text += fmt::format("  {}\n", reason);
     if (result.comparison && result.comparison->metrics.differing > 0)
-        fmt::print("  {}\n", numbers(result.comparison->metrics, limits.threshold));
-    if (result.explanation) fmt::print("  {}\n", result.explanation->text);
+        text += fmt::format("  {}\n", numbers(result.comparison->metrics, limits.threshold));
+    if (result.explanation) text += fmt::format("  {}\n", result.explanation->text);
+    return text;
+}
+
+/// Prints the result of one picture. Without --json, a picture that passes is left out unless it or its state has
+/// changed.
+void printPicture(const CompareOptions& options, const PictureResult& result, const render::CompareLimits& limits) {
+    Json json = {{"event", "picture"}};
+    json.update(resultJson(result));
+    const bool isWorthPrinting = !result.passed() || result.explanation;
+    printResult(options.run, json, isWorthPrinting ? pictureText(result, limits) : "");
 }
 
 void printSummary(const CompareOptions& options, const CompareCounts& counts, const std::string& approval) {
     const auto count = [&](PictureStatus status) { return counts.of(status); };
-    if (options.json) {
-        Json json = {{"event", "done"},
-                     {"pictures", counts.pictures()},
-                     {"identical", count(PictureStatus::identical)},
-                     {"within_limits", count(PictureStatus::withinLimits)},
-                     {"different", count(PictureStatus::different)},
-                     {"missing", count(PictureStatus::missing)},
-                     {"extra", count(PictureStatus::extra)},
-                     {"unreadable", count(PictureStatus::unreadable)}};
-        if (!approval.empty()) json["approve"] = approval;
-        printJson(json);
-    } else if (!options.quiet) {
-        fmt::print(
-            "{} pictures: {} identical, {} within limits ({}), {} different, {} missing, {} without a golden, {} "
-            "unreadable\n",
-            counts.pictures(), count(PictureStatus::identical), count(PictureStatus::withinLimits), options.profile,
-            count(PictureStatus::different), count(PictureStatus::missing), count(PictureStatus::extra),
-            count(PictureStatus::unreadable));
-        if (!options.report.empty())
-            fmt::print("to look at them: {}\n", (fs::path(options.report) / "index.html").string());
-        if (!approval.empty()) fmt::print("to approve: {}\n", approval);
+    Json json = {{"event", "done"},
+                 {"pictures", counts.pictures()},
+                 {"identical", count(PictureStatus::identical)},
+                 {"within_limits", count(PictureStatus::withinLimits)},
+                 {"different", count(PictureStatus::different)},
+                 {"missing", count(PictureStatus::missing)},
+                 {"extra", count(PictureStatus::extra)},
+                 {"unreadable", count(PictureStatus::unreadable)}};
+    std::string text = fmt::format(
+        "{} pictures: {} identical, {} within limits ({}), {} different, {} missing, {} without a golden, {} "
+        "unreadable\n",
+        counts.pictures(), count(PictureStatus::identical), count(PictureStatus::withinLimits), options.profile,
+        count(PictureStatus::different), count(PictureStatus::missing), count(PictureStatus::extra),
+        count(PictureStatus::unreadable));
+    if (!options.report.empty())
+        text += fmt::format("to look at them: {}\n", (fs::path(options.report) / "index.html").string());
+    if (!approval.empty()) {
+        json["approve"] = approval;
+        text += fmt::format("to approve: {}\n", approval);
     }
+    printResult(options.run, json, text);
 }
 
 bool canBeApproved(const PictureResult& result) {
     return result.status == PictureStatus::different || result.status == PictureStatus::extra;
-}
-
-void printResult(const CompareOptions& options, const PictureResult& result, const render::CompareLimits& limits) {
-    if (options.json) {
-        Json json = {{"event", "picture"}};
-        json.update(resultJson(result));
-        printJson(json);
-    } else if (!options.quiet && (!result.passed() || result.explanation)) {
-        print(result, limits);
-    }
 }
 
 void compareAll(const CompareOptions& options) {
@@ -120,9 +118,9 @@ void compareAll(const CompareOptions& options) {
     std::vector<std::string> failed;
     const InterruptWatch watch;
     const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
-        if (watch.signal() != 0) throw ExitStatus(128 + watch.signal(), "");
+        if (watch.signal() != 0) throw ExitStatus(kSignalExitBase + watch.signal(), "");
         if (canBeApproved(result)) failed.push_back(result.name);
-        printResult(options, result, job.limits);
+        printPicture(options, result, job.limits);
         if (!options.junit.empty()) junit.add(result);
         if (!options.report.empty())
             page.add(result, canBeApproved(result) ? approvalLine(options.actual, options.expected, {result.name})

@@ -87,15 +87,14 @@ void makeFigures(const FiguresOptions& options) {
     for (const int number : options.numbers) {
         entries.push_back(makeFigure(number, options));
         const FigureEntry& entry = entries.back();
-        if (options.run.json)
-            printJson(Json{{"event", "figure"},
-                           {"figure", number},
-                           {"still", entry.stillPath},
-                           {"strip", entry.stripPath},
-                           {"video", entry.videoPath},
-                           {"state_hash", entry.stateHash}});
-        else if (!options.run.quiet)
-            fmt::print("figure {}: {}, {}, {}\n", number, entry.stillPath, entry.stripPath, entry.videoPath);
+        printResult(options.run,
+                    {{"event", "figure"},
+                     {"figure", number},
+                     {"still", entry.stillPath},
+                     {"strip", entry.stripPath},
+                     {"video", entry.videoPath},
+                     {"state_hash", entry.stateHash}},
+                    fmt::format("figure {}: {}, {}, {}\n", number, entry.stillPath, entry.stripPath, entry.videoPath));
     }
     const fs::path page = fs::path(options.folder) / "index.html";
     writeFile(page, figuresPage(entries));

@@ -5,9 +5,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/state/simulation.h"
 #include "tools/commands/commands.h"
 #include "tools/run/render_loop.h"
-#include "tools/system/json.h"
 #include "tools/system/output_file.h"
 
 namespace tools {
@@ -24,18 +24,14 @@ struct RenderOptions {
     std::string frames;
 };
 
-void printSummary(const RenderOptions& options, const Json& json) {
-    if (options.run.json) {
-        printJson(Json{{"event", "done"}, {"folder", options.folder.path}, {"run", json}});
-    } else if (!options.run.quiet) {
-        const Json& seconds = json["seconds"];
-        fmt::print("{} frames in {}{}\n", json["frames"].get<int>(), options.folder.path,
-                   options.video.empty() ? "" : ", video " + options.video);
-        fmt::print("{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), state {}\n",
-                   json["particles"].get<std::size_t>(), json["steps"]["count"].get<std::uint64_t>(),
-                   seconds["all"].get<double>(), seconds["simulating"].get<double>(), seconds["drawing"].get<double>(),
-                   seconds["encoding"].get<double>(), json["state_hash"].get<std::string>());
-    }
+std::string summaryOf(const RenderOptions& options, const FinishedRun& run) {
+    const StageSeconds& seconds = run.report.seconds;
+    return fmt::format(
+        "{} frames in {}{}\n{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), "
+        "state {}\n",
+        run.report.frames, options.folder.path, options.video.empty() ? "" : ", video " + options.video,
+        engine::largestCount(run.simulation), run.simulation.steps.count, seconds.all, seconds.simulating,
+        seconds.drawing, seconds.encoding, run.report.stateHash);
 }
 
 void render(RenderOptions options) {
@@ -48,7 +44,8 @@ void render(RenderOptions options) {
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
     const FinishedRun run = renderFrames(job);
     requireComplete(run.report, options.folder.path);
-    printSummary(options, run.json);
+    printResult(options.run, {{"event", "done"}, {"folder", options.folder.path}, {"run", run.json}},
+                summaryOf(options, run));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "tools/commands/commands.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/threads.h"
-#include "tools/system/json.h"
 
 namespace tools {
 namespace {
@@ -61,11 +60,10 @@ void simulate(SimulateOptions options) {
     onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options, name); });
     const RunReport& report = run.report;
     requireComplete(report, folder);
-    if (options.run.json)
-        printJson(Json{{"event", "done"}, {"folder", folder}, {"run", run.json}});
-    else if (!options.run.quiet)
-        fmt::print("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", report.frames, folder,
-                   run.simulation.particles.count(), run.simulation.steps.count, report.seconds.all, report.stateHash);
+    printResult(options.run, {{"event", "done"}, {"folder", folder}, {"run", run.json}},
+                fmt::format("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n", report.frames, folder,
+                            run.simulation.particles.count(), run.simulation.steps.count, report.seconds.all,
+                            report.stateHash));
 }
 
 }  // namespace

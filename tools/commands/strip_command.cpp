@@ -8,7 +8,6 @@
 #include "render/output/png.h"
 #include "tools/commands/commands.h"
 #include "tools/run/stills.h"
-#include "tools/system/json.h"
 #include "tools/system/output_file.h"
 
 namespace tools {
@@ -32,13 +31,6 @@ scenes::Scene loadScene(const StripOptions& options) {
     return load(options.scene, overrides);
 }
 
-void printResult(const StripOptions& options, const fs::path& path, const Json& json) {
-    if (options.run.json)
-        printJson(json);
-    else if (!options.run.quiet)
-        fmt::print("{} panels in {}\n", json["times"].size(), path.string());
-}
-
 void drawStrip(const StripOptions& options) {
     const scenes::Scene scene = loadScene(options);
     const DrawJob job = drawJob(scene, options.draw, options.run, runName(options.scene));
@@ -52,7 +44,7 @@ void drawStrip(const StripOptions& options) {
     Json json{{"event", "done"}, {"strip", path.string()}, {"times", Json::array()}};
     for (const int frame : frames) json["times"].push_back(scenes::frameTime(scene, frame));
     json["state_hash"] = pictures.stateHash;
-    printResult(options, path, json);
+    printResult(options.run, json, fmt::format("{} panels in {}\n", frames.size(), path.string()));
 }
 
 }  // namespace

@@ -37,8 +37,7 @@ void reportProgress(const StudyOptions& options, const Json& json, const std::st
 void finishStudy(const StudyOptions& options, const std::string& page, const std::string& summary) {
     const std::string path = (std::filesystem::path(options.folder) / "index.html").string();
     writeFile(path, page);
-    if (options.run.verbosity() == Verbosity::json) printJson(Json{{"event", "done"}, {"page", path}});
-    if (options.run.verbosity() == Verbosity::normal) fmt::print("{}all of it: {}\n", summary, path);
+    printResult(options.run, {{"event", "done"}, {"page", path}}, fmt::format("{}all of it: {}\n", summary, path));
 }
 
 void addStudyCommand(CLI::App& program) {

@@ -83,10 +83,8 @@ void encode(const EncodeOptions& options) {
         progress.frameDone(number, static_cast<double>(number) / video.fps);
     }
     writer.finish();
-    if (options.run.json)
-        printJson(Json{{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}});
-    else if (!options.run.quiet)
-        fmt::print("{} frames in {}\n", numbers.size(), options.output);
+    printResult(options.run, {{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}},
+                fmt::format("{} frames in {}\n", numbers.size(), options.output));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "scenes/build/library.h"
@@ -41,6 +42,13 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
 }
 
 }  // namespace
+
+void printResult(const RunOptions& options, const Json& json, const std::string& text) {
+    if (options.json)
+        printJson(json);
+    else if (!options.quiet)
+        fmt::print("{}", text);
+}
 
 int threadCount(const RunOptions& options) {
     if (options.threads > 0) return options.threads;

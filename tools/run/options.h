@@ -8,6 +8,7 @@
 #include "render/opengl/context.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
+#include "tools/system/json.h"
 #include "tools/system/progress.h"
 
 namespace tools {
@@ -62,6 +63,9 @@ struct FrameRange {
 
     int count() const { return last - first + 1; }
 };
+
+/// Prints a result of a command: JSON on a line of its own with --json, else the text unless --quiet.
+void printResult(const RunOptions& options, const Json& json, const std::string& text);
 
 /// The number of threads to use, at least 1.
 int threadCount(const RunOptions& options);
