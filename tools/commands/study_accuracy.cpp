@@ -17,7 +17,6 @@
 #include "tools/commands/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
-#include "tools/system/gnuplot.h"
 #include "tools/system/output_file.h"
 #include "tools/system/text.h"
 
@@ -157,12 +156,12 @@ void writeTables(const fs::path& folder, const std::vector<studies::SceneAccurac
     writeFile(folder / "references.csv", studies::referencesCsv(results));
 }
 
-AccuracySection sectionOf(const fs::path& folder, const studies::SceneAccuracy& accuracy) {
-    AccuracySection section{accuracy, drawPlot(studies::accuracyPlot(accuracy, studies::CostAxis::seconds)),
-                            drawPlot(studies::accuracyPlot(accuracy, studies::CostAxis::forceEvaluations))};
-    writeFile(folder / (accuracy.name + "-seconds.svg"), section.secondsPlot);
-    writeFile(folder / (accuracy.name + "-evaluations.svg"), section.evaluationsPlot);
-    return section;
+AccuracySection sectionOf(const AccuracyOptions& options, const studies::SceneAccuracy& accuracy) {
+    return {
+        accuracy,
+        writePlot(options, accuracy.name + "-seconds.svg", studies::accuracyPlot(accuracy, studies::CostAxis::seconds)),
+        writePlot(options, accuracy.name + "-evaluations.svg",
+                  studies::accuracyPlot(accuracy, studies::CostAxis::forceEvaluations))};
 }
 
 std::string ratio(const std::optional<studies::HandPicked>& picked, double cost) {
@@ -197,7 +196,7 @@ void study(const AccuracyOptions& options) {
     std::vector<AccuracySection> sections;
     std::string summary;
     for (const studies::SceneAccuracy& accuracy : results) {
-        sections.push_back(sectionOf(folder, accuracy));
+        sections.push_back(sectionOf(options, accuracy));
         summary += summaryOf(accuracy);
     }
     finishStudy(options, accuracyPage(sections, {commandOf(options), threadCount(options.run), options.quick}),
@@ -209,7 +208,6 @@ void study(const AccuracyOptions& options) {
 void addStudyAccuracy(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("accuracy", "speed against error: every stepper against a reference");
     const auto options = std::make_shared<AccuracyOptions>();
-    options->name = "accuracy";
     command.add_option(
         "SCENE", options->scenes,
         "scene files or names, each with a window of its own as in powder:2 (default: liquid solid powder "

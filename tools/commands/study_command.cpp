@@ -4,18 +4,31 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 
+#include "render/output/child_process.h"
+#include "render/picture/system_error.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
 #include "tools/system/text.h"
 
 namespace tools {
+namespace {
+
+render::ChildProcess startGnuplot() {
+    try {
+        return render::ChildProcess({"gnuplot", "-"});
+    } catch (const render::SystemError& error) {
+        throw render::SystemError(fmt::format("{}; install gnuplot (Debian: gnuplot-nox) for the plots", error.what()));
+    }
+}
+
+}  // namespace
 
 void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& quickHelp) {
+    options.name = command.get_name();
     options.folder = "out/study-" + options.name;
-    command
-        .add_option("-o,--output", options.folder,
-                    fmt::format("folder to write to (default: out/study-{})", options.name))
+    command.add_option("-o,--output", options.folder, fmt::format("folder to write to (default: {})", options.folder))
         ->type_name("DIR");
     command.add_flag("--quick", options.quick, quickHelp);
     addTo(command, options.run);
@@ -32,6 +45,26 @@ std::string commandLineOf(const StudyOptions& options, const std::vector<std::st
 void reportProgress(const StudyOptions& options, const Json& json, const std::string& line) {
     if (options.run.verbosity() == Verbosity::json) printJson(json);
     if (options.run.verbosity() == Verbosity::normal) printToStderr(line);
+}
+
+// The script is piped to gnuplot and the SVG is read from its output, so that gnuplot writes no files.
+std::string writePlot(const StudyOptions& options, const std::string& fileName, const std::string& script) {
+    render::ChildProcess gnuplot = startGnuplot();
+    const bool taken = gnuplot.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
+    const std::string ending = gnuplot.wait();
+    constexpr std::size_t kMostBytes = 64U << 20;  // a limit for broken output; the studies' plots take about 50 kB
+    const std::string output = gnuplot.output(kMostBytes);
+    constexpr std::string_view kEnd = "</svg>";
+    const std::size_t first = output.find("<?xml");
+    const std::size_t last = output.rfind(kEnd);
+    const bool whole = first != std::string::npos && last != std::string::npos;
+    // Output before the picture consists of warnings.
+    if (!taken || !ending.empty() || !whole)
+        throw render::SystemError(
+            fmt::format("gnuplot ended with {}: {}", ending.empty() ? "no plot" : ending, output.substr(0, first)));
+    const std::string svg = output.substr(first, last + kEnd.size() - first) + "\n";
+    writeFile(std::filesystem::path(options.folder) / fileName, svg);
+    return svg;
 }
 
 void finishStudy(const StudyOptions& options, const std::string& page, const std::string& summary) {

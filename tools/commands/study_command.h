@@ -19,13 +19,12 @@ void addStudyStability(CLI::App& study);
 /// The options of every study.
 struct StudyOptions {
     RunOptions run;
-    std::string name;  ///< of the subcommand
-    std::string folder;
+    std::string name;    ///< name of the subcommand, such as "accuracy"
+    std::string folder;  ///< folder of the tables, the plots and the page
     bool quick = false;
 };
 
-/// Adds the flags of every study; the folder defaults to out/study-NAME.
-/// @param options  its name is set
+/// Adds the flags of every study, and sets the study's name and its folder, by default out/study-NAME.
 /// @param quickHelp  what --quick leaves out
 void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& quickHelp);
 
@@ -35,6 +34,10 @@ std::string commandLineOf(const StudyOptions& options, const std::vector<std::st
 
 /// Reports one finished part of a study: an object with --json, else a line on standard error unless --quiet.
 void reportProgress(const StudyOptions& options, const Json& json, const std::string& line);
+
+/// Draws a plot with gnuplot, writes it into the study's folder, and returns it as SVG.
+/// @throws render::SystemError naming the package if gnuplot is missing, or with gnuplot's own message if it fails
+std::string writePlot(const StudyOptions& options, const std::string& fileName, const std::string& script);
 
 /// Writes index.html into the study's folder and reports that the study is done.
 /// @param summary  tables for the terminal; printed unless --quiet or --json

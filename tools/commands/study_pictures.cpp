@@ -11,7 +11,6 @@
 #include "tools/commands/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
-#include "tools/system/gnuplot.h"
 #include "tools/system/output_file.h"
 
 namespace tools {
@@ -141,10 +140,8 @@ void study(const PicturesOptions& options) {
     PictureResults results;
     onThreads(threads, [&] { results = measure(options, settings); });
     fs::remove(settings.videoPath);
-    results.timesPlot = drawPlot(studies::pictureTimesPlot(results.rows, results.smoothing));
-    results.errorsPlot = drawPlot(studies::pictureErrorsPlot(results.rows));
-    writeFile(folder / "times.svg", results.timesPlot);
-    writeFile(folder / "errors.svg", results.errorsPlot);
+    results.timesPlot = writePlot(options, "times.svg", studies::pictureTimesPlot(results.rows, results.smoothing));
+    results.errorsPlot = writePlot(options, "errors.svg", studies::pictureErrorsPlot(results.rows));
     finishStudy(options, picturesPage(results, commandOf(options)), summaryOf(results));
 }
 
@@ -154,7 +151,6 @@ void addStudyPictures(CLI::App& study) {
     CLI::App& command =
         *study.add_subcommand("pictures", "time of each stage of a frame, and its error against the exact picture");
     const auto options = std::make_shared<PicturesOptions>();
-    options->name = "pictures";
     command.add_option("--particles", options->particles, "how many (default: 2000 10000 50000 200000)")
         ->check(CLI::Range(100, 10000000))
         ->type_name("N");

@@ -17,7 +17,6 @@
 #include "tools/commands/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
-#include "tools/system/gnuplot.h"
 #include "tools/system/output_file.h"
 
 namespace tools {
@@ -171,8 +170,7 @@ void study(const ScalingOptions& options) {
     }
     writeFile(folder / "scaling.csv", studies::scalingCsv(results.rows));
     writeFile(folder / "exponents.csv", studies::fitsCsv(results.fits));
-    results.plot = drawPlot(studies::scalingPlot(results.rows));
-    writeFile(folder / "scaling.svg", results.plot);
+    results.plot = writePlot(options, "scaling.svg", studies::scalingPlot(results.rows));
     finishStudy(options, scalingPage(results, commandLineOf(options, words)), summaryOf(results));
 }
 
@@ -182,7 +180,6 @@ void addStudyScaling(CLI::App& study) {
     CLI::App& command =
         *study.add_subcommand("scaling", "time per step against the number of particles, beside the paper's Table 2");
     const auto options = std::make_shared<ScalingOptions>();
-    options->name = "scaling";
     command.add_option("--peer", options->peer, "another program to measure in the same run, if it is installed")
         ->check(CLI::IsMember({"lammps"}));
     addStudyFlags(command, *options, "fewer sizes, one round");

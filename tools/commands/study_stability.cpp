@@ -101,7 +101,6 @@ void addStudyStability(CLI::App& study) {
     CLI::App& command = *study.add_subcommand(
         "stability", "the hard cases, with the paper's stepper and with ours; fails unless all come out as they must");
     const auto options = std::make_shared<StabilityOptions>();
-    options->name = "stability";
     command.add_option("CASE", options->cases, "which hard cases (default: all)");
     addStudyFlags(command, *options, "fewer variants and particles");
     command.footer(notes() + "\nExample: globular study stability honey rigid -o out/stability");
