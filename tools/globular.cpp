@@ -74,10 +74,9 @@ int run(CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
     keepFreedMemory();
     tools::prepareStandardStreams();
-    const std::string version = "globular " GLOBULAR_VERSION;
     CLI::App program("turns a scene file into an animation of globular dynamics", "globular");
     program.require_subcommand(0, 1);
-    program.set_version_flag("--version", version, "print the version");
+    program.set_version_flag("--version", "globular " GLOBULAR_VERSION, "print the version");
     // CLI11 prints the text of this exception and nothing else.
     program.add_flag_callback(
         "--licenses", [] { throw CLI::CallForVersion(licenses(), CLI::ExitCodes::Success); },
@@ -95,6 +94,6 @@ int main(int argc, char** argv) {
     tools::addSchemaCommand(program);
     tools::addStudyCommand(program);
     tools::addBenchCommand(program);
-    tools::addGenerateCommand(program, version);
+    tools::addGenerateCommand(program);
     return run(program, argc, argv);
 }

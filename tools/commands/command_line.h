@@ -1,5 +1,4 @@
-// What the program adds to CLI11: checks of numbers, messages that suggest the nearest known name, and the man page and
-// the bash completion, which are made from the definitions of the commands.
+// What the program adds to CLI11: checks of numbers, and messages that suggest the nearest known name.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -23,12 +22,5 @@ class UsageError : public std::runtime_error {
 /// Runs the command that was called, or prints what --help or another flag of the program asks for.
 /// @throws UsageError if there is no command or a flag is wrong, and whatever the command throws
 void runCommandLine(CLI::App& program, int argc, char** argv);
-
-/// The man page of the program, in roff's man macros.
-/// @param version  "globular 0.3.0"
-std::string manPage(const CLI::App& program, const std::string& version);
-
-/// A script for bash that completes commands, flags, their values and scenes.
-std::string bashCompletion(const CLI::App& program);
 
 }  // namespace tools

@@ -19,8 +19,7 @@ void addScenesCommand(CLI::App& program);
 void addSchemaCommand(CLI::App& program);
 void addStudyCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
-/// @param version  "globular 0.3.0", for the man page
-void addGenerateCommand(CLI::App& program, const std::string& version);
+void addGenerateCommand(CLI::App& program);
 
 /// Adds the flags that several commands share, to be read into the options.
 void addTo(CLI::App& command, RunOptions& options);
