@@ -14,22 +14,19 @@
 namespace tools {
 namespace {
 
-std::string inlinePng(const std::vector<std::uint8_t>& png) {
-    return dataUri("image/png", png);
-}
-
 /// The pictures of a result by the names that the page's script uses.
 Json imagesOf(const PictureResult& result) {
     Json images = Json::object();
-    if (result.actual.image) images["actual"] = inlinePng(result.actual.bytes);
+    if (result.actual.image) images["actual"] = dataUri("image/png", result.actual.bytes);
     if (result.expected.image && result.status != PictureStatus::identical)
-        images["expected"] = inlinePng(result.expected.bytes);
+        images["expected"] = dataUri("image/png", result.expected.bytes);
     if (!result.comparison || result.comparison->rule == render::CompareRule::size ||
         result.comparison->metrics.differing == 0)
         return images;
     images["difference"] =
-        inlinePng(render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
-    images["heat"] = inlinePng(render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
+        dataUri("image/png", render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
+    images["heat"] =
+        dataUri("image/png", render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
     return images;
 }
 
@@ -81,8 +78,8 @@ Json headingJson(const PageHeading& heading) {
             {"approve", heading.approval}};
 }
 
-/// A text as an attribute of an XML element. Bytes that are not UTF-8 become U+FFFD, and control characters, which XML 1.0
-/// cannot express, question marks.
+/// A text as an attribute of an XML element. Bytes that are not UTF-8 become U+FFFD, and control characters, which
+/// XML 1.0 cannot express, question marks.
 std::string attribute(const std::string& bytes) {
     std::string text = Json::parse(compactText(bytes)).get<std::string>();
     for (char& c : text)

@@ -12,18 +12,12 @@
 namespace tools {
 namespace {
 
-/// See Preview::bytesPerParticle.
-/// @pre the simulation has particles
-std::size_t bytesPerParticle(const engine::Simulation& simulation) {
-    constexpr std::size_t kFramesInFlight = 4;
-    return engine::peakBytes(simulation) / simulation.particles.count() + kFramesInFlight * sizeof(render::Sphere);
-}
-
 void recordMemory(Preview& preview) {
+    constexpr std::size_t kFramesInFlight = 4;  // as in the render loop
     const std::size_t count = preview.simulation.particles.count();
     if (count == 0 || count < preview.mostParticles) return;
     preview.mostParticles = count;
-    preview.bytesPerParticle = bytesPerParticle(preview.simulation);
+    preview.bytesPerParticle = engine::peakBytes(preview.simulation) / count + kFramesInFlight * sizeof(render::Sphere);
 }
 
 }  // namespace

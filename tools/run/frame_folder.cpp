@@ -96,7 +96,8 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const J
     : folder_(options.path), lock_(folder_), resumes_(options.resume), names_(names) {
     const fs::path path = folder_ / "manifest.json";
     if (options.overwrite) {
-        removeAll();
+        for (const fs::path& file : filesIn(folder_))
+            if (isRunFile(file)) removeFile(file);
     } else if (fs::exists(path)) {
         manifest_ = decodeManifest(readFile(path), path.string());
         const std::string different = differences(manifest_.identity, identity);
@@ -104,7 +105,7 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const J
             throw render::SystemError(
                 fmt::format("{} holds frames of another run ({}); choose another folder, or --overwrite them",
                             folder_.string(), different));
-    } else if (hasFrames()) {
+    } else if (std::ranges::any_of(filesIn(folder_), isFrame)) {
         throw render::SystemError(
             fmt::format("{} holds frames of a run that left no manifest.json; choose another folder, or "
                         "--overwrite them",
@@ -122,16 +123,6 @@ FrameFolder::~FrameFolder() {
     } catch (const render::SystemError&) {
         // The frames that the manifest on disk does not list will be made again.
     }
-}
-
-bool FrameFolder::hasFrames() const {
-    const auto files = filesIn(folder_);
-    return std::any_of(files.begin(), files.end(), isFrame);
-}
-
-void FrameFolder::removeAll() {
-    for (const fs::path& file : filesIn(folder_))
-        if (isRunFile(file)) removeFile(file);
 }
 
 void FrameFolder::keepIntactFrames() {

@@ -87,8 +87,6 @@ class FrameFolder {
     void writeReport(const Json& json) const;
 
  private:
-    bool hasFrames() const;
-    void removeAll();
     void keepIntactFrames();
     void writeManifest();
     void removeUnlistedCheckpoints() const;
