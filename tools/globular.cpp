@@ -28,7 +28,7 @@ constexpr int kUnstable = 3;
 /// are next used. That took up to a quarter of the time of a frame.
 void keepFreedMemory() {
 #ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest value that glibc accepts
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes; the largest threshold that glibc accepts
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }
@@ -46,7 +46,7 @@ int report(const std::string& problems, int exitCode) {
 int run(CLI::App& program, int argc, char** argv) {
     try {
         tools::runCommandLine(program, argc, argv);
-        // A full disk behind standard output is a failure like any other.
+        // Flushed here, so that a full disk behind standard output is reported like any other failure.
         tools::flushStandardOutput();
         return 0;
     } catch (const tools::UsageError& error) {
@@ -58,12 +58,12 @@ int run(CLI::App& program, int argc, char** argv) {
     } catch (const tools::ExitStatus& status) {
         return report(status.what(), status.code());
     } catch (const std::system_error& error) {
-        // fmt::print throws this when it cannot write to standard output.
+        // fmt::print throws std::system_error when it cannot write to standard output.
         const bool isReaderGone = error.code() == std::errc::broken_pipe;
         return isReaderGone ? tools::kReaderGoneCode : report(error.what(), kOutsideFailed);
     } catch (const std::logic_error& error) {
         report(fmt::format("internal error: {}", error.what()), 0);
-        std::abort();  // leaves a core dump to debug
+        std::abort();  // an abort leaves a core dump for the debugger
     } catch (const std::exception& error) {
         return report(error.what(), kOutsideFailed);
     }
@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
     CLI::App program("turns a scene file into an animation of globular dynamics", "globular");
     program.require_subcommand(0, 1);
     program.set_version_flag("--version", "globular " GLOBULAR_VERSION, "print the version");
-    // CLI11 prints the text of this exception and nothing else.
+    // CLI11 prints the text of a CallForVersion exception and nothing else.
     program.add_flag_callback(
         "--licenses", [] { throw CLI::CallForVersion(licenses(), CLI::ExitCodes::Success); },
         "print the licenses of globular and of what is built into it");

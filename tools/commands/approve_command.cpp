@@ -12,7 +12,7 @@ namespace {
 
 struct ApproveOptions {
     ApproveJob job;
-    RunOptions run;  ///< without threads
+    RunOptions run;  ///< --json and --quiet; the number of threads is not used
 };
 
 void approve(const ApproveOptions& options) {

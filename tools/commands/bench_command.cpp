@@ -23,8 +23,8 @@ namespace {
 
 struct BenchOptions {
     RunOptions run;
-    DrawOptions draw;            ///< only the backend is used
-    std::string instructionSet;  ///< empty: the widest that the machine has
+    DrawOptions draw;            ///< only the OpenGL backend is used
+    std::string instructionSet;  ///< name of the SIMD instruction set; empty: the widest that the machine has
     studies::BenchSettings settings;
 };
 

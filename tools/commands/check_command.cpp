@@ -21,7 +21,7 @@ struct CheckOptions {
     SceneOptions scene;
 };
 
-/// Steps, stepper, error and time, extrapolated from the beginning of the run.
+/// What a whole run would take, extrapolated from its first frames: steps, stepper, error, time and memory.
 Json predictionJson(const scenes::Scene& scene, double meanParticles) {
     const Preview preview = simulateBeginning(scene);
     const engine::Simulation& simulation = preview.simulation;
@@ -57,7 +57,7 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
             {"particle", bound->particle}};
 }
 
-/// A material by the names of the keys of a scene.
+/// The constants of a material, under the names of the keys of a scene file.
 Json materialJson(const engine::Material& material) {
     return {{"name", material.name},         {"b1", material.repulsion},      {"bd", material.damping},
             {"cr", material.repulsionReach}, {"cd", material.dampingReach},   {"radius", material.radius},
@@ -69,8 +69,8 @@ Json checkJson(const scenes::Scene& scene) {
     const std::uint64_t births = plannedBirths(scene);
     const std::uint64_t most = scene.setup.initial.count() + births;
     const int frames = scenes::frameCount(scene);
-    // Births come evenly, so that on average half of them have happened. A bounded world has fewer particles, by an
-    // unknown number.
+    // Emitters emit evenly over the run, so that on average half of their particles exist. Particles that leave a
+    // bounded world are not taken off, because their number is not known.
     const double meanParticles = static_cast<double>(scene.setup.initial.count()) + 0.5 * static_cast<double>(births);
 
     Json json;

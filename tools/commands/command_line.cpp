@@ -12,8 +12,8 @@
 namespace tools {
 namespace {
 
-/// Accepts finite numbers with a property.
-/// @param words  completes "must be a number ..."
+/// A check that accepts the finite numbers for which a condition holds.
+/// @param words  completes the message "must be a number ..."
 CLI::Validator numberThat(const std::function<bool(double)>& holds, const std::string& words) {
     return CLI::Validator(
         [=](const std::string& text) {
@@ -23,7 +23,7 @@ CLI::Validator numberThat(const std::function<bool(double)>& holds, const std::s
         "");
 }
 
-/// The innermost command that was called.
+/// The innermost subcommand that was called, such as accuracy in "globular study accuracy".
 const CLI::App& calledCommand(const CLI::App& app) {
     const auto called = app.get_subcommands();
     return called.empty() ? app : calledCommand(*called.back());
@@ -48,7 +48,7 @@ std::vector<std::string> flagNames(const CLI::App& app) {
     return names;
 }
 
-/// Describes the first word of the command line that nothing accepts, with the nearest known name.
+/// The error message for a word that is no flag, argument or subcommand, with the nearest known name.
 std::string unknownWordMessage(const CLI::App& command, const std::string& word) {
     const bool isFlag = word.starts_with("-");
     const std::vector<std::string> known = isFlag ? flagNames(command) : commandNames(command);

@@ -7,13 +7,13 @@
 
 namespace tools {
 
-/// Checks that a flag's value is a finite number in a range. CLI11's own checks accept NaN and infinity, and their
-/// messages name the largest double as the upper bound.
-CLI::Validator numberFrom(double least, double most);  ///< both included
+/// Checks that the value of a flag is a finite number: from least to most, both included, at least 0, or above 0.
+/// CLI11's own checks accept NaN and infinity, and their messages name the largest double as the upper bound.
+CLI::Validator numberFrom(double least, double most);
 CLI::Validator numberAtLeastZero();
 CLI::Validator numberAboveZero();
 
-/// Wrong flags; what() says which and why.
+/// Thrown for a wrong command line; what() says which word is wrong and why.
 class UsageError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;

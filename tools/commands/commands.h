@@ -21,18 +21,19 @@ void addStudyCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
 void addGenerateCommand(CLI::App& program);
 
-/// Adds the flags that several commands share, to be read into the options.
+/// Each function adds flags that several commands share to a command. Their values are read into the options.
 void addTo(CLI::App& command, RunOptions& options);
 void addTo(CLI::App& command, SceneOptions& options);
 void addTo(CLI::App& command, DrawOptions& options);
-/// @param fallback  the folder without -o, for the help
+/// @param fallback  the folder that is used without -o, named in the help
 void addTo(CLI::App& command, FolderOptions& options, const std::string& fallback);
 /// What the help of `render` and `simulate` says about error estimates.
 inline constexpr const char* kErrorSampleNotes =
     "With a fixed step the error is estimated at up to 8 frames of a run. Each estimate takes about as long as\n"
     "simulating three frames; run.json has the cost of all of them as error_estimate.force_evaluations_spent.\n";
 
-/// Adds --gl alone, for commands that choose size, style and quality themselves.
+/// Adds only the flag --gl, the OpenGL backend, for commands that choose the size, style and quality of pictures
+/// themselves.
 void addBackendFlag(CLI::App& command, DrawOptions& options);
 
 }  // namespace tools

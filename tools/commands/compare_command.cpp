@@ -32,7 +32,7 @@ struct CompareOptions {
     std::optional<int> threshold, largest;
     std::optional<double> sharePercent, mean, ssim;
     std::string mask, junit, report;
-    RunOptions run;  ///< without threads
+    RunOptions run;  ///< --json and --quiet; the number of threads is not used
 };
 
 render::CompareLimits limitsOf(const CompareOptions& options) {

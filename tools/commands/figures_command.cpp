@@ -21,12 +21,12 @@ namespace fs = std::filesystem;
 
 struct FiguresOptions {
     RunOptions run;
-    DrawOptions draw;  ///< only the backend is used
+    DrawOptions draw;  ///< only the OpenGL backend is used
     std::string folder = "out/figures";
     std::vector<int> numbers;
 };
 
-/// Draws the still and the strip in the best quality.
+/// Draws the still picture of a figure and its strip of pictures in the best quality.
 void drawPictures(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
     DrawJob job = drawJob(scene, options.draw, options.run, fmt::format("figure {} pictures", entry.number));
     job.quality = render::Quality::final;

@@ -14,12 +14,12 @@
 namespace tools {
 namespace {
 
-/// The commands of a command that are not hidden, in the order in which they were added.
+/// The subcommands of a command that are not hidden, in the order in which they were added.
 std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
     return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
-/// The flags of a command, or its arguments, that are not hidden.
+/// The flags of a command, or its positional arguments, that are not hidden.
 std::vector<const CLI::Option*> optionsOf(const CLI::App& app, bool arePositional) {
     return app.get_options([=](const CLI::Option* option) {
         return !option->get_group().empty() && option->get_positional() == arePositional;
@@ -30,7 +30,8 @@ bool hasValue(const CLI::Option& option) {
     return option.get_items_expected_max() > 0;
 }
 
-/// What stands for the value of a flag, such as "DIR"; CLI11 appends what a check accepts after a colon.
+/// The placeholder for the value of a flag, such as "DIR". In CLI11's name of the type, a colon and the accepted values
+/// may follow it.
 std::string placeholderOf(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     return type.substr(0, type.find(':'));
@@ -46,7 +47,7 @@ std::string choicesOf(const CLI::Option& option) {
     return choices;
 }
 
-/// Every spelling of a flag: "-o", "--output".
+/// Every spelling of a flag, such as "-o" and "--output".
 std::vector<std::string> spellingsOf(const CLI::Option& option) {
     std::vector<std::string> spellings;
     for (const std::string& name : option.get_snames()) spellings.push_back("-" + name);
@@ -54,7 +55,7 @@ std::vector<std::string> spellingsOf(const CLI::Option& option) {
     return spellings;
 }
 
-/// The text with the characters that roff gives a meaning to replaced.
+/// The text with every character that roff would interpret escaped.
 std::string roff(std::string_view text) {
     std::string escaped;
     for (const char c : text) {
@@ -65,13 +66,14 @@ std::string roff(std::string_view text) {
     return escaped;
 }
 
-/// "SCENE" for a required argument, "[FIGURE...]" for an optional one that may be repeated.
+/// An argument in a usage line: "SCENE" if it is required, "[FIGURE...]" if it is optional and may be repeated.
 std::string usageOf(const CLI::Option& argument) {
     const std::string name = argument.get_name(true) + (argument.get_items_expected_max() > 1 ? "..." : std::string{});
     return argument.get_required() ? name : "[" + name + "]";
 }
 
-/// The section of one command, and those of its subcommands.
+/// The man page's section on one command, followed by the sections on its subcommands.
+/// @param path  the words that call the command, without "globular"
 std::string manSection(const CLI::App& app, const std::string& path) {
     std::string text = fmt::format(".SS {}\n", roff(path));
     std::string usage;
@@ -82,7 +84,7 @@ std::string manSection(const CLI::App& app, const std::string& path) {
     for (const CLI::Option* argument : optionsOf(app, true))
         text += fmt::format(".TP\n\\fI{}\\fR\n{}\n", roff(argument->get_name(true)), roff(argument->get_description()));
     for (const CLI::Option* flag : optionsOf(app, false)) {
-        if (flag == app.get_help_ptr()) continue;  // every command has it
+        if (flag == app.get_help_ptr()) continue;  // --help, which every command has
         text += fmt::format(".TP\n\\fB{}\\fR", roff(fmt::format("{}", fmt::join(spellingsOf(*flag), ", "))));
         if (hasValue(*flag)) text += fmt::format(" \\fI{}\\fR", roff(placeholderOf(*flag)));
         text += "\n" + roff(flag->get_description()) + "\n";
@@ -119,14 +121,14 @@ Signal \fIN\fR ended the run; a run that was interrupted goes on with \fB\-\-res
 .BR gnuplot (1)
 )";
 
-/// The branches of the completion's case statements.
+/// The branches of the case statements in the bash completion script.
 struct CompletionCases {
-    std::string commands;  ///< which words after a command are subcommands
-    std::string words;     ///< what may follow a command
-    std::string values;    ///< what may follow a flag that has a value
+    std::string commands;  ///< one for each word that calls a subcommand
+    std::string words;     ///< one for each command, with the words that may follow it
+    std::string values;    ///< one for each flag with a value, with the values that it accepts
 };
 
-/// Adds the branches of a command and its subcommands.
+/// Adds the branches of the completion script for a command and its subcommands.
 /// @param path  the words that call the command, each with a space before it, without "globular"
 void addCases(const CLI::App& app, const std::string& path, CompletionCases& cases) {
     std::vector<std::string> words;
@@ -149,8 +151,8 @@ void addCases(const CLI::App& app, const std::string& path, CompletionCases& cas
                                takesScene ? "; takesScene=yes" : "");
 }
 
-/// Reads the words before the cursor from left to right to find the command. Without a match, -o default lets bash
-/// complete file names.
+/// The bash completion script. It reads the words before the cursor from left to right to find the command. Without a
+/// match, -o default lets bash complete file names.
 constexpr const char* kCompletion = R"bash(# bash completion for globular, generated by its build.
 _globular() {{
     local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} path="" words="" values=none takesScene="" i

@@ -23,7 +23,7 @@ struct StripOptions {
     std::string output;
 };
 
-/// The scene with the times of --times.
+/// Loads the scene; the times of --times, if they are given, replace those of its strip.
 scenes::Scene loadScene(const StripOptions& options) {
     scenes::Overrides overrides = overridesOf(options.draw);
     if (!options.times.empty())

@@ -28,23 +28,24 @@ namespace fs = std::filesystem;
 struct AccuracyOptions : StudyOptions {
     std::vector<std::string> scenes;
     std::vector<std::string> overrides;
-    double from = -1.0;   ///< where the runs start, in seconds; negative: kFromShare of each scene's still time
-    double window = 0.0;  ///< how long they run, in seconds; 0: kWindow
+    double from = -1.0;   ///< simulated time of the start, s; negative: kFromShare of the still's time
+    double window = 0.0;  ///< simulated time that the runs cover, s; 0: kWindow
 };
 
-/// In seconds. Chosen: long enough for an impact, short enough that later collisions do not multiply its errors.
+/// Default length of the runs, in seconds of simulated time. Chosen: long enough for an impact, short enough that later
+/// collisions do not multiply its errors.
 constexpr double kWindow = 0.2;
 
-/// Where a run starts, as a share of the time of the scene's still. Chosen: the scene is in motion by then, and has not
-/// yet come to what its still shows.
+/// Default start of the runs, as a share of the time of the scene's still. Chosen: the scene is in motion by then, and
+/// has not yet come to what its still shows.
 constexpr double kFromShare = 0.4;
 
-/// One study: a scene over a window of time.
+/// What is measured: the steppers' accuracy in a scene over a window of simulated time.
 struct Subject {
-    std::string name;  ///< in tables and file names: "liquid", "hard-honey", "powder-2s"
+    std::string name;  ///< name in tables and of files: "liquid", "hard-honey", "powder-2s"
     scenes::Scene scene;
-    double from = 0.0;    ///< seconds
-    double window = 0.0;  ///< seconds
+    double from = 0.0;    ///< start of the window, s
+    double window = 0.0;  ///< length of the window, s
 };
 
 /// @throws scenes::InputError for a window that is shorter than a frame or has more frames than a run may have
@@ -60,7 +61,7 @@ void requireFrames(const Subject& subject, const std::string& text) {
                               subject.from + subject.window, most, most / fps));
 }
 
-/// The study that "SCENE" or "SCENE:SECONDS" asks for.
+/// Loads the scene of an argument "SCENE" or "SCENE:SECONDS"; the seconds are the length of the window.
 Subject parseSubject(const std::string& text, const AccuracyOptions& options) {
     Subject subject;
     subject.window = options.window > 0.0 ? options.window : kWindow;
@@ -101,7 +102,7 @@ studies::AccuracySettings settingsFor(const Subject& subject, const AccuracyOpti
     return settings;
 }
 
-/// Reports each run when it is done.
+/// Returns a function that reports each run when it is done.
 studies::RunListener runReporter(const AccuracyOptions& options, const std::string& scene) {
     return [&options, scene](const studies::WindowRun& run, std::string_view purpose) {
         const std::string stepper = studies::nameOf(run.variant);
@@ -168,7 +169,7 @@ std::string ratio(const std::optional<studies::HandPicked>& picked, double cost)
     return picked ? fmt::format("{:.2f}", cost / picked->cost) : "-";
 }
 
-/// How the automatic stepper compares, as the terminal shows it.
+/// Text for the terminal: orders of the fixed steppers, and how the automatic stepper compares with the best of them.
 std::string summaryOf(const studies::SceneAccuracy& accuracy) {
     std::string text = fmt::format("{}: reference {} at {:.3g} s, resolves {:.1e} radii\n", accuracy.name,
                                    engine::nameOf(accuracy.reference.variant.stepper), accuracy.reference.variant.asked,
@@ -191,7 +192,7 @@ void study(const AccuracyOptions& options) {
     std::vector<studies::SceneAccuracy> results;
     for (const Subject& subject : subjects) {
         results.push_back(measure(subject, options));
-        writeTables(folder, results);  // now, because a later scene may fail
+        writeTables(folder, results);  // written after each scene, because a later one may fail
     }
     std::vector<AccuracySection> sections;
     std::string summary;
@@ -223,7 +224,7 @@ void addStudyAccuracy(CLI::App& program) {
     command.callback([options] {
         if (options->scenes.empty()) {
             options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
-            // Long enough for chaos, so that statistics are compared instead of positions.
+            // Two seconds of a powder are long enough for chaos, so that statistics are compared instead of positions.
             if (!options->quick) options->scenes.emplace_back("powder:2");
         }
         study(*options);

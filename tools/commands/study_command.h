@@ -16,7 +16,7 @@ void addStudyPictures(CLI::App& study);
 void addStudyScaling(CLI::App& study);
 void addStudyStability(CLI::App& study);
 
-/// The options of every study.
+/// The options that every study has.
 struct StudyOptions {
     RunOptions run;
     std::string name;    ///< name of the subcommand, such as "accuracy"
@@ -29,10 +29,10 @@ struct StudyOptions {
 void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& quickHelp);
 
 /// The command line that repeats a study.
-/// @param words  its own arguments and flags
+/// @param words  the arguments and flags that only this study has
 std::string commandLineOf(const StudyOptions& options, const std::vector<std::string>& words);
 
-/// Reports one finished part of a study: an object with --json, else a line on standard error unless --quiet.
+/// Reports one finished part of a study: a JSON object with --json, else a line on standard error unless --quiet.
 void reportProgress(const StudyOptions& options, const Json& json, const std::string& line);
 
 /// Draws a plot with gnuplot, writes it into the study's folder, and returns it as SVG.

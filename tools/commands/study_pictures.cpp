@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 struct PicturesOptions : StudyOptions {
     std::vector<std::size_t> particles;
-    std::string size;  ///< "WIDTHxHEIGHT"; empty: the sizes of the study
+    std::string size;  ///< size of the pictures, "WIDTHxHEIGHT"; empty: the study's default sizes
 };
 
 /// @throws scenes::InputError if the windows in which errors are measured would not fit side by side, or the picture is
@@ -97,7 +97,7 @@ PictureResults measure(const PicturesOptions& options, const studies::PictureSet
     return results;
 }
 
-/// The results as the terminal shows them.
+/// The results as text for the terminal.
 std::string summaryOf(const PictureResults& results) {
     Table table{{"style", "particles", "size", "quality", "frame, ms", "rest, ms", "+PNG, ms", "+MP4, ms", "quads, ms",
                  "ratio", "at rest", "to fewest", "RMSE", "SSIM", "wrong, %"},

@@ -75,7 +75,7 @@ ScalingResults measure(const ScalingOptions& options) {
 
 struct LammpsRun {
     std::string output;
-    std::string ending;  ///< how it ended, as ChildProcess::wait() returns it
+    std::string ending;  ///< how LAMMPS failed, such as "exit status 1"; empty if it did not
 };
 
 /// @throws render::SystemError if mpirun cannot be started
@@ -90,7 +90,7 @@ LammpsRun runLammps(const std::string& script, int ranks) {
     return {lammps.output(kMostBytes), ending};
 }
 
-/// Seconds of the timed loop of a script.
+/// Seconds that LAMMPS takes for the timed loop of a script.
 /// @throws render::SystemError with LAMMPS' own error, or else with what failed and how to install LAMMPS
 double lammpsSeconds(const std::string& script, int ranks) {
     constexpr std::string_view kRemedy = "(install LAMMPS: Debian's package lammps)";
@@ -108,7 +108,7 @@ double lammpsSeconds(const std::string& script, int ranks) {
         fmt::format("mpirun lmp ended with {} {}", run.ending.empty() ? "no time" : run.ending, kRemedy));
 }
 
-/// This program's times of a step at the peer's number of particles.
+/// This program's times of a step with as many particles as the other program simulates.
 studies::ScalingRow rowForPeer(const ScalingOptions& options) {
     studies::ScalingSettings settings = settingsFor(options);
     settings.cubeSizes = {studies::kPeerParticles};
@@ -145,7 +145,7 @@ void measurePeer(ScalingResults& results, const ScalingOptions& options) {
     }
 }
 
-/// The results as the terminal shows them.
+/// The results as text for the terminal.
 std::string summaryOf(const ScalingResults& results) {
     std::string text = textTable(parseCsv(studies::scalingCsv(results.rows), 0));
     for (const studies::ScalingFit& fit : results.fits)

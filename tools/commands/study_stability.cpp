@@ -42,7 +42,7 @@ std::vector<studies::CaseOptions> allCases() {
     return sorted;
 }
 
-/// The built-in case of that name, or else the scene that the name stands for.
+/// The built-in hard case of that name, or else the scene file or built-in scene that the name stands for.
 studies::CaseOptions caseNamed(const std::string& name, const std::vector<studies::CaseOptions>& builtIn) {
     for (const studies::CaseOptions& known : builtIn)
         if (known.name == name) return known;

@@ -45,7 +45,7 @@ std::vector<int> frameNumbers(const fs::path& folder) {
     return numbers;
 }
 
-/// The frame rate: from --fps, or else from run.json, or 30 if there is no run.json.
+/// Frame rate of the video, in frames per second: from --fps, or else from run.json, or 30 if there is no run.json.
 int rateOf(const EncodeOptions& options) {
     if (options.fps > 0) return options.fps;
     const fs::path run = fs::path(options.folder) / "run.json";

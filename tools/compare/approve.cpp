@@ -1,4 +1,4 @@
-// Every picture is checked before the first one is written.
+// Makes pictures the goldens. Every picture is checked before the first one is written.
 #include "tools/compare/approve.h"
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 struct Candidate {
     std::string name;
     fs::path from, to;
-    std::string checksum;  ///< of the picture's file when it was checked
-    std::string sidecar;   ///< the text of its sidecar
+    std::string checksum;  ///< checksum of the picture's file when it was checked
+    std::string sidecar;   ///< text of the sidecar to be written beside the golden
 };
 
 std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set) {
@@ -56,14 +56,14 @@ std::string sidecarText(const Candidate& candidate, const std::vector<std::uint8
         sidecarJson(provenanceOf(candidate.from, bytes), candidate.checksum, image.width, image.height));
 }
 
-/// Why the picture must not replace its golden; empty if it may.
+/// The reason why a picture must not replace its golden; empty if it may.
 std::string refusal(const Candidate& candidate) {
     const fs::path path = sidecarPath(candidate.to);
     if (!fs::exists(path)) return {};
     const nlohmann::json sidecar = readJson(path);
     if (!sidecar.is_object() || !sidecar.contains("png"))
         return fmt::format("its sidecar would replace {}, which is not a sidecar; --force replaces it", path.string());
-    // The sidecar counts even if the golden was changed without it.
+    // The renderer that the sidecar names counts even if the golden was changed without its sidecar.
     if (!sidecar.contains("gl_renderer") || !sidecar["gl_renderer"].is_string()) return {};
     const std::string before = sidecar["gl_renderer"].get<std::string>();
     const std::string now = provenanceOf(candidate.from, readFile(candidate.from)).glRenderer;

@@ -10,17 +10,18 @@ namespace tools {
 struct ApproveJob {
     std::filesystem::path actual;
     std::filesystem::path expected;
-    std::vector<std::string> names;  ///< as `compare` prints them; empty: every actual picture
+    std::vector<std::string> names;  ///< names of pictures, as `compare` prints them; empty: every picture
     bool force = false;              ///< also replaces goldens that another OpenGL renderer drew
 };
 
 struct Approved {
     std::string name;
-    bool isNew = false;  ///< there was no golden
+    bool isNew = false;  ///< there was no golden of this name before
 };
 
-/// Copies each picture and writes its sidecar. Pictures that equal their goldens, with the same sidecar, are skipped
-/// and not returned. Nothing is written unless all pictures are accepted.
+/// Copies each picture over its golden and writes the sidecar, the JSON file beside the golden that records its
+/// provenance. Pictures whose golden and sidecar would stay the same are skipped and not returned. Nothing is written
+/// unless all pictures are accepted.
 /// @throws scenes::InputError naming every picture that does not exist or was drawn by another OpenGL renderer than its
 /// golden
 /// @throws render::SystemError for files that cannot be read or written

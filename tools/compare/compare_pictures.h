@@ -17,18 +17,18 @@
 
 namespace tools {
 
-/// The outcome for one pair. The most urgent comes first, as in a report. `extra` means that there is no golden,
-/// `missing` that there is no actual picture.
+/// The outcome of comparing two pictures, the most urgent outcome first, as in a report. `extra` means that there is no
+/// golden, `missing` that there is no actual picture.
 enum class PictureStatus { unreadable, different, extra, missing, withinLimits, identical };
 
-/// "unreadable", "different", "extra", "missing", "within-limits" or "identical".
+/// Name of an outcome: "unreadable", "different", "extra", "missing", "within-limits" or "identical".
 const char* nameOf(PictureStatus status);
 
-/// One side of a pair.
+/// The actual or the expected picture of a comparison.
 struct PictureSide {
-    std::filesystem::path path;  ///< empty if there is no picture
+    std::filesystem::path path;  ///< path of the file; empty if there is no picture
     std::vector<std::uint8_t> bytes;
-    std::optional<render::Image> image;  ///< empty if it cannot be read
+    std::optional<render::Image> image;  ///< decoded picture; none if the file cannot be read
     PictureProvenance provenance;
 };
 
@@ -37,9 +37,9 @@ struct PictureResult {
     PictureStatus status = PictureStatus::identical;
     PictureSide actual;
     PictureSide expected;
-    std::vector<std::string> reasons;              ///< why it fails; empty if it passed
-    std::optional<render::Comparison> comparison;  ///< if both sides can be read
-    std::optional<Explanation> explanation;        ///< if the pictures or their states differ
+    std::vector<std::string> reasons;              ///< why the comparison fails; empty if it passed
+    std::optional<render::Comparison> comparison;  ///< present if both pictures can be read
+    std::optional<Explanation> explanation;        ///< present if the pictures or the particle states differ
 
     bool passed() const { return status == PictureStatus::identical || status == PictureStatus::withinLimits; }
     /// The name of the comparison rule that decided, or of the status if nothing was compared.
@@ -50,10 +50,10 @@ struct CompareJob {
     std::filesystem::path actual;
     std::filesystem::path expected;
     render::CompareLimits limits;
-    render::Image mask;  ///< black pixels do not count; empty: every pixel counts
+    render::Image mask;  ///< picture whose black pixels do not count; empty: every pixel counts
 };
 
-/// How many pairs had which outcome.
+/// Counts the pairs of pictures by outcome.
 class CompareCounts {
  public:
     void add(PictureStatus status) { ++counts_[static_cast<std::size_t>(status)]; }

@@ -30,15 +30,16 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// The pictures of one side by name. The names in a folder are the paths of all PNG files below it
-/// ("liquid/frame-00012.png"); those in a video are what `render` calls its frames.
+/// The actual or the expected pictures of a comparison, by name. The names in a folder are the paths of all PNG files
+/// below it ("liquid/frame-00012.png"); those in a video are what `render` calls its frames.
 struct PictureSet {
     std::map<std::string, std::filesystem::path> pictures;
-    bool isSingle = false;                           ///< it is one file, whose name does not matter
-    std::shared_ptr<TemporaryFolder> decodedFrames;  ///< holds the frames of a video while the set is in use
+    bool isSingle = false;                           ///< the set is one file, whose name does not matter
+    std::shared_ptr<TemporaryFolder> decodedFrames;  ///< folder of a video's frames, kept while the set is in use
 };
 
-/// The pictures at a path; none if nothing exists there.
+/// The pictures that a path stands for: one file, all PNG files below a folder, or the frames of a video. There are
+/// none if nothing exists at the path.
 /// @throws render::SystemError if a folder cannot be read or ffmpeg cannot decode a video
 PictureSet picturesOf(const std::filesystem::path& path);
 

@@ -43,7 +43,7 @@ PictureProvenance aboutOtherBytes(const fs::path& source) {
     return provenance;
 }
 
-/// The provenance in the sidecar, with an empty source if there is no sidecar for these bytes.
+/// The provenance that a picture's sidecar records. Its source is empty if there is no sidecar with this checksum.
 PictureProvenance sidecarProvenance(const fs::path& picture, const std::string& checksum) {
     const fs::path path = sidecarPath(picture);
     const nlohmann::json json = readJson(path);
@@ -77,7 +77,7 @@ Json textOrNull(const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
 }
 
-/// "; GL renderer A instead of B" if both are known and differ.
+/// A clause such as "; GL renderer A instead of B" if both values are known and differ, else an empty text.
 std::string changeOf(const char* what, const std::string& actual, const std::string& expected) {
     if (actual.empty() || expected.empty() || actual == expected) return {};
     return fmt::format("; {} {} instead of {}", what, actual, expected);

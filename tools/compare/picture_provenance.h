@@ -1,5 +1,6 @@
-// Where a picture comes from: the sidecar beside it, the manifest of its folder, or the run.json of its run record
-// that. `compare` reads them to tell whether the simulation or the renderer changed; `approve` writes sidecars.
+// Where a picture comes from: the scene, the particle state and the renderer. This is recorded in the picture's sidecar
+// (a JSON file beside it), in the manifest of its folder, or in the run.json of its run. `compare` reads these files to
+// tell whether the simulation or the renderer changed; `approve` writes sidecars.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +12,18 @@
 
 namespace tools {
 
-/// What is recorded of a picture. A text is empty if it is not recorded.
+/// What is recorded about the origin of a picture. A text is empty if it is not recorded.
 struct PictureProvenance {
-    std::string source;  ///< the file that it was read from
+    std::string source;  ///< path of the JSON file that has the record
     std::string sceneHash;
-    std::string stateHash;  ///< of the particles that the picture shows
+    std::string stateHash;  ///< hash of the particles that the picture shows
     std::string version;
     std::string glRenderer;
     std::string quality;
-    std::string note;  ///< why a file that should record it does not
+    std::string note;  ///< why a file that should have the record does not have it
 };
 
-/// PICTURE.json beside PICTURE.png, where `approve` writes it.
+/// Path of the sidecar of a picture: PICTURE.json beside PICTURE.png.
 std::filesystem::path sidecarPath(const std::filesystem::path& picture);
 
 /// Reads the first that exists of the sidecar, the folder's manifest.json and its run.json (which has no states of
@@ -31,13 +32,13 @@ std::filesystem::path sidecarPath(const std::filesystem::path& picture);
 /// @param bytes  the content of the picture's file
 PictureProvenance provenanceOf(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes);
 
-/// The content of a sidecar; what is not known is null.
-/// @param checksum  checksumOf() the picture's file
-/// @param width, height  of the picture in pixels
+/// The content of the sidecar of a picture; values that are not known are null.
+/// @param checksum  checksum of the picture's file
+/// @param width, height  size of the picture in pixels
 Json sidecarJson(const PictureProvenance& provenance, const std::string& checksum, int width, int height);
 
-/// The JSON in a file; null if the file cannot be read or is not JSON. Its members are sorted, so that looking up one of
-/// the thousands of frames of a manifest is fast.
+/// The JSON in a file; null if the file cannot be read or is not JSON. Its members are sorted, so that looking up one
+/// of the thousands of frames of a manifest is fast.
 nlohmann::json readJson(const std::filesystem::path& path);
 
 /// The part of the program because of which a picture differs.

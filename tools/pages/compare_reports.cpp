@@ -14,7 +14,7 @@
 namespace tools {
 namespace {
 
-/// The pictures of a result by the names that the page's script uses.
+/// The pictures of a comparison as data URIs, under the names that the script of the page uses.
 Json imagesOf(const PictureResult& result) {
     Json images = Json::object();
     if (result.actual.image) images["actual"] = dataUri("image/png", result.actual.bytes);
@@ -36,7 +36,7 @@ std::size_t byteCount(const Json& images) {
     return bytes;
 }
 
-/// JSON for a script element. Without the character < nothing in it can end the element.
+/// JSON as the text of an HTML script element. The character < is escaped, so that nothing can end the element early.
 std::string scriptJson(const Json& json) {
     std::string text;
     for (const char c : compactText(json)) {
@@ -48,7 +48,7 @@ std::string scriptJson(const Json& json) {
     return text;
 }
 
-/// The template with each @NAME@ replaced.
+/// The template of a page with each @NAME@ replaced by the value of that name.
 std::string fillTemplate(std::string_view page, const std::map<std::string, std::string>& values) {
     std::string text;
     while (!page.empty()) {

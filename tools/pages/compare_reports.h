@@ -13,9 +13,9 @@
 
 namespace tools {
 
-/// What the page shows about the whole comparison.
+/// What the page of --report shows about the whole comparison.
 struct PageHeading {
-    std::string actual, expected;  ///< as given on the command line
+    std::string actual, expected;  ///< paths as given on the command line
     std::string profile;
     render::CompareLimits limits;
     CompareCounts counts;
@@ -48,7 +48,7 @@ class ComparePage {
     std::size_t failedBytes_ = 0;
 };
 
-/// Collects results; text() is the content of the file.
+/// Collects the results of a comparison; text() is the content of the JUnit file.
 class JunitReport {
  public:
     void add(const PictureResult& result);

@@ -12,14 +12,14 @@ struct FigureEntry {
     int number = 0;
     std::string title;
     std::string description;
-    std::string constants;                                        ///< the force law and the step, in one line
-    std::string stillPath;                                        ///< PNG
-    std::string stripPath;                                        ///< PNG, several times side by side
-    std::string videoPath;                                        ///< MP4
-    double stillTime = 0.0;                                       ///< seconds
-    std::vector<double> stripTimes;                               ///< seconds
-    std::vector<std::pair<std::string, std::string>> parameters;  ///< key and value as in the scene file
-    std::string command;                                          ///< renders the scene again
+    std::string constants;           ///< constants of the force law and the step, in one line
+    std::string stillPath;           ///< path of the still picture, PNG
+    std::string stripPath;           ///< path of the strip, PNG: several times side by side
+    std::string videoPath;           ///< path of the video, MP4
+    double stillTime = 0.0;          ///< simulated time of the still, s
+    std::vector<double> stripTimes;  ///< simulated times of the strip, s
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< keys and values as in the scene file
+    std::string command;                                          ///< command line that renders the scene again
     std::string stateHash;
 };
 

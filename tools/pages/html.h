@@ -9,7 +9,7 @@
 
 namespace tools {
 
-/// The text with the characters that have a meaning in HTML replaced.
+/// The text with every character that HTML would interpret replaced by an entity.
 std::string escaped(const std::string& text);
 
 /// Standard base64 (RFC 4648) with padding.
@@ -19,16 +19,16 @@ std::string base64(const std::vector<unsigned char>& bytes);
 /// @param type  the media type, such as "image/png"
 std::string dataUri(const std::string& type, const std::vector<unsigned char>& bytes);
 
-/// A table of unescaped texts.
+/// A table as HTML. Its texts are escaped here.
 /// @param isBad  which rows are highlighted; empty: none
 std::string htmlTable(const Table& table, const std::vector<bool>& isBad = {});
 
-/// An SVG as an image.
-/// @param alt  needs no escaping
+/// An SVG as an HTML image.
+/// @param alt  alternative text, without characters that HTML would interpret
 std::string svgImage(const std::string& alt, const std::string& svg);
 
 /// A whole page with the program's style.
-/// @param title  also its heading; needs no escaping
+/// @param title  title and heading, without characters that HTML would interpret
 /// @param body  HTML
 std::string htmlPage(const std::string& title, const std::string& body);
 

@@ -11,7 +11,8 @@
 namespace tools {
 namespace {
 
-/// @param skippedColumns  how many columns on the left are not shown
+/// The table in a CSV text as HTML.
+/// @param skippedColumns  how many columns on the left are left out
 std::string csvHtml(const std::string& csv, std::size_t skippedColumns = 0) {
     return htmlTable(parseCsv(csv, skippedColumns));
 }

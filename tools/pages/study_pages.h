@@ -15,37 +15,37 @@ namespace tools {
 /// The accuracy of one scene, with its two plots as SVG.
 struct AccuracySection {
     studies::SceneAccuracy accuracy;
-    std::string secondsPlot;      ///< error against seconds
-    std::string evaluationsPlot;  ///< error against force evaluations
+    std::string secondsPlot;      ///< SVG of error against seconds
+    std::string evaluationsPlot;  ///< SVG of error against force evaluations
 };
 
 /// How the study of accuracy was run.
 struct AccuracyRun {
     std::string command;
     int threads = 1;
-    bool isTimedOnce = false;  ///< each run once, instead of in rounds
+    bool isTimedOnce = false;  ///< each run was timed once, instead of in rounds
 };
 
 struct PictureResults {
     std::vector<studies::PictureRow> rows;
     std::vector<studies::FlickerRow> flicker;
     std::vector<studies::SmoothingRow> smoothing;
-    std::string timesPlot;   ///< SVG
-    std::string errorsPlot;  ///< SVG
+    std::string timesPlot;   ///< SVG of milliseconds a frame against particles
+    std::string errorsPlot;  ///< SVG of error against milliseconds a frame
 };
 
 struct ScalingResults {
     std::vector<studies::ScalingRow> rows;
     std::vector<studies::ScalingFit> fits;
-    std::vector<studies::PeerRow> peers;  ///< empty if none was asked for
-    std::string peerText;                 ///< how the peer was measured, or why it was not
-    std::string plot;                     ///< SVG
+    std::vector<studies::PeerRow> peers;  ///< times of another program; empty if none was asked for
+    std::string peerText;                 ///< how the other program was measured, or why it was not
+    std::string plot;                     ///< SVG of milliseconds a step against particles
 };
 
 std::string accuracyPage(const std::vector<AccuracySection>& sections, const AccuracyRun& run);
 std::string picturesPage(const PictureResults& results, const std::string& command);
 std::string scalingPage(const ScalingResults& results, const std::string& command);
-/// The table of the cases, with a row for each.
+/// The results of the stability study as a table, with a row for each hard case.
 Table stabilityTable(const std::vector<studies::CaseResult>& results);
 
 std::string stabilityPage(const std::vector<studies::CaseResult>& results, const std::string& command);

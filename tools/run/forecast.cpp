@@ -13,7 +13,7 @@ namespace tools {
 namespace {
 
 void recordMemory(Preview& preview) {
-    constexpr std::size_t kFramesInFlight = 4;  // as in the render loop
+    constexpr std::size_t kFramesInFlight = 4;  // as many as the render loop has
     const std::size_t count = preview.simulation.particles.count();
     if (count == 0 || count < preview.mostParticles) return;
     preview.mostParticles = count;
@@ -23,11 +23,11 @@ void recordMemory(Preview& preview) {
 }  // namespace
 
 std::uint64_t plannedBirths(const scenes::Scene& scene) {
-    constexpr double kOnTime = 1e-9;  // seconds; the tolerance of the births themselves
+    constexpr double kOnTime = 1e-9;  // s; the tolerance with which emitters decide that a birth is due
     std::uint64_t sum = 0;
     for (const engine::Emitter& emitter : scene.setup.emitters) {
         const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
-        // A birth that is due at `until` is too late; one that is due at the last frame is not.
+        // An emitter does not emit any more at its end time, `until`, but it does at the last frame.
         const double end = std::min(lastFrame + kOnTime, emitter.until - 2.0 * kOnTime);
         if (end < emitter.start) continue;
         const double events = std::floor((end - emitter.start) / emitter.interval) + 1.0;

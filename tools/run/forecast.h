@@ -16,16 +16,16 @@ std::uint64_t plannedBirths(const scenes::Scene& scene);
 /// The particles at the start and one of each emitter: every kind of particle that the run will have.
 engine::Particles everyKind(const scenes::Scene& scene);
 
-/// How the beginning of a run went.
+/// How the first frames of a run went.
 struct Preview {
-    engine::Simulation simulation;  ///< at the last frame that was simulated
+    engine::Simulation simulation;  ///< state at the last frame that was simulated
     std::string unstable;           ///< why the simulation became unstable; empty if it did not
     int frames = 0;                 ///< how many frames were simulated
-    double seconds = 0.0;           ///< wall-clock time that they took, with births and error estimates
+    double seconds = 0.0;           ///< wall-clock time of the simulation, with births and error estimates
     double particleFrames = 0.0;    ///< sum over the frames of the number of particles
-    std::size_t mostParticles = 0;  ///< at the end of any frame
-    /// The most memory that a particle takes while frames are in flight, in bytes, measured when there were most
-    /// particles; 0 if there were none.
+    std::size_t mostParticles = 0;  ///< largest number of particles at any frame
+    /// Memory per particle of a simulation whose frames are drawn at the same time, in bytes, measured when there were
+    /// most particles; 0 if there were none.
     std::size_t bytesPerParticle = 0;
 };
 

@@ -25,10 +25,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Chosen: one to resume from, and one more in case the newest is damaged or lies after a damaged frame.
+/// How many checkpoints are kept. Chosen: one to resume from, and one more in case the newest is damaged or lies after
+/// a damaged frame.
 constexpr std::ptrdiff_t kCheckpointCount = 2;
 
-/// Chosen: a kill costs at most the frames of this time, because frames that the manifest does not list are made again.
+/// Time between two writes of the manifest. Chosen: a killed run loses at most the frames of this time, because frames
+/// that the manifest does not list are made again.
 constexpr std::chrono::seconds kManifestInterval{1};
 
 constexpr FrameNames kCheckpointNames = {"checkpoint-", ".state"};
@@ -169,7 +171,7 @@ void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes
     writeFile(folder_ / kCheckpointNames.fileName(frame), bytes);
     auto& all = manifest_.checkpoints;
     all[frame] = {checksumOf(bytes), report};
-    // Of the checkpoints after this frame, which a longer run has left, that run can resume from the newest.
+    // A longer run may have left checkpoints after this frame. The newest is kept, for that run to resume from.
     const auto later = all.upper_bound(frame);
     if (later != all.end()) all.erase(later, std::prev(all.end()));
     while (std::distance(all.begin(), all.upper_bound(frame)) > kCheckpointCount) all.erase(all.begin());

@@ -16,7 +16,7 @@
 
 namespace tools {
 
-/// How the files of a series are named: a prefix, the frame number with at least five digits, an extension.
+/// How the numbered files of a run are named: a prefix, the frame number with at least five digits, an extension.
 struct FrameNames {
     std::string_view prefix;
     std::string_view extension;
@@ -51,13 +51,14 @@ class FolderLock {
 struct RestartPoint {
     int frame = 0;
     engine::Simulation simulation;
-    Json report;  ///< as it was given to writeCheckpoint()
+    Json report;  ///< what the run had measured when the checkpoint was written
 };
 
+/// The output folder of a run. It is locked while the object exists.
 class FrameFolder {
  public:
     /// Locks the folder and examines its files; damaged ones are reported as warnings on standard error.
-    /// @param identity  as in Manifest
+    /// @param identity  an object with everything that determines the bytes of the frames
     /// @throws render::SystemError if another run is writing into the folder, or if the folder holds frames of another
     /// run that are not to be overwritten
     FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity);

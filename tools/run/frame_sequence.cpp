@@ -19,7 +19,7 @@ int sampleStride(const FrameRange& frames) {
     return (frames.count() - 1 + kErrorSampleCount) / kErrorSampleCount;
 }
 
-/// As recorded in a checkpoint: the range decides at which frames errors are sampled.
+/// The range of frames as recorded in a checkpoint, because it decides at which frames errors are sampled.
 Json rangeOf(const FrameRange& frames) {
     return {frames.first, frames.last};
 }

@@ -21,13 +21,14 @@ namespace tools {
 struct SequencedFrame {
     int number = 0;
     double time = 0.0;                     ///< seconds
-    bool isWanted = true;                  ///< false for the frames before the first one that was asked for
-    bool isKept = false;                   ///< its file is there already; the simulation may be at another frame
-    std::string stateHash;                 ///< of a frame that is wanted and not kept, if there is a folder
-    std::vector<std::uint8_t> checkpoint;  ///< of the simulation at this frame; empty if none is due
-    Json report;                           ///< belongs to the checkpoint
+    bool isWanted = true;                  ///< false for a frame before the first one that was asked for
+    bool isKept = false;                   ///< the frame's file exists already; the simulation may be at another frame
+    std::string stateHash;                 ///< hash of the particles; empty if no file is to be written
+    std::vector<std::uint8_t> checkpoint;  ///< encoded checkpoint of this frame; empty if none is due
+    Json report;                           ///< what the run has measured so far, for the checkpoint
 };
 
+/// Simulates the frames of a run one after the other.
 class FrameSequence {
  public:
     /// @param folder  where the frames go; nullptr for a run that cannot be resumed
@@ -59,7 +60,7 @@ class FrameSequence {
     FrameFolder* folder_;
     double checkpointSeconds_;
     FinishedRun run_;
-    std::optional<InterruptWatch> interrupts_;  ///< if the run can be resumed
+    std::optional<InterruptWatch> interrupts_;  ///< watches for signals if the run can be resumed
     int position_ = -1;                         ///< the frame that the simulation is at; -1 before the first
     int next_ = 0;
     std::chrono::steady_clock::time_point lastCheckpoint_;

@@ -23,7 +23,8 @@ int frameNumber(const std::string& text) {
     return *number;
 }
 
-/// nlohmann::json would convert fractions and huge numbers silently.
+/// The frame number in a JSON value. It is checked here, because nlohmann::json would silently convert fractions and
+/// huge numbers.
 int frameNumber(const Json& json) {
     if (!json.is_number_integer() || json < 0 || json > std::numeric_limits<int>::max())
         throw render::SystemError(fmt::format("{} is not a frame number", compactText(json)));

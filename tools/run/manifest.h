@@ -12,25 +12,25 @@
 
 namespace tools {
 
-/// The file of one frame.
+/// What the manifest records of the file of one frame.
 struct FrameRecord {
-    std::string checksum;   ///< checksumOf() the file
-    std::string stateHash;  ///< engine::stateHash() of the particles that it shows
+    std::string checksum;   ///< checksum of the file
+    std::string stateHash;  ///< hash of the particles that the frame shows
 };
 
-/// The file of one checkpoint.
+/// What the manifest records of the file of one checkpoint.
 struct CheckpointRecord {
-    std::string checksum;  ///< checksumOf() the file
-    Json report;           ///< what the run had measured by then
+    std::string checksum;  ///< checksum of the file
+    Json report;           ///< what the run had measured when the checkpoint was written
 };
 
 struct Manifest {
     Json identity;  ///< an object with everything that determines the bytes of the frames
     std::map<int, FrameRecord> frames;
-    std::map<int, CheckpointRecord> checkpoints;  ///< by the frame whose state they hold
+    std::map<int, CheckpointRecord> checkpoints;  ///< checkpoints by the number of their frame
 };
 
-/// FNV-1a of the bytes as 16 hexadecimal digits.
+/// FNV-1a hash of the bytes as 16 hexadecimal digits.
 std::string checksumOf(std::span<const std::uint8_t> bytes);
 
 std::string encodeManifest(const Manifest& manifest);

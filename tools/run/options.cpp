@@ -1,4 +1,4 @@
-// From the texts of flags to settings.
+// Translates the texts of command-line flags into settings.
 #include "tools/run/options.h"
 
 #include <fmt/format.h>

@@ -17,22 +17,22 @@ namespace tools {
 struct RunOptions {
     bool quiet = false;
     bool json = false;
-    int threads = 0;  ///< 0: as many as the machine has
+    int threads = 0;  ///< number of threads; 0: as many as the machine has
 
     Verbosity verbosity() const { return json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal; }
 };
 
 /// A scene and changes to it.
 struct SceneOptions {
-    std::string scene;                 ///< path or built-in name
-    std::vector<std::string> changes;  ///< "key=value"
-    std::vector<std::string> limits;   ///< "name=number"
+    std::string scene;                 ///< path of a scene file or name of a built-in scene
+    std::vector<std::string> changes;  ///< changes of keys, "key=value"
+    std::vector<std::string> limits;   ///< raised limits, "name=number"
 };
 
 /// How frames are drawn.
 struct DrawOptions {
-    std::string size;   ///< "WIDTHxHEIGHT" in pixels; empty: the scene's
-    std::string style;  ///< "spheres" or "metaballs"; empty: the scene's
+    std::string size;   ///< picture size, "WIDTHxHEIGHT" in pixels; empty: the scene's
+    std::string style;  ///< style, "spheres" or "metaballs"; empty: the scene's
     std::string quality = "normal";
     std::string backend = "osmesa";
 };
@@ -43,7 +43,7 @@ struct FolderOptions {
     std::string path;
     bool resume = false;             ///< intact frames of the same run stay
     bool overwrite = false;          ///< all files of the earlier run are removed first
-    double checkpointSeconds = 5.0;  ///< time between two checkpoints
+    double checkpointSeconds = 5.0;  ///< wall-clock time between two checkpoints, s
 };
 
 /// How the frames of a scene are drawn, by render_loop.h or stills.h.
@@ -53,7 +53,7 @@ struct DrawJob {
     render::Backend backend = render::Backend::osmesa;
     int threads = 1;
     Verbosity verbosity = Verbosity::normal;
-    std::string title;  ///< in the progress
+    std::string title;  ///< name of the work in messages about its progress
 };
 
 /// Frame numbers from first to last, both included.
@@ -71,7 +71,7 @@ void printResult(const RunOptions& options, const Json& json, const std::string&
 int threadCount(const RunOptions& options);
 
 /// Loads the scene with its changes.
-/// @param more  changes that other flags ask for, applied last
+/// @param more  further changes, which other flags ask for; applied last
 /// @throws scenes::InputError
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = {});
 
@@ -84,9 +84,11 @@ std::string runName(const SceneOptions& options);
 /// @throws scenes::InputError
 scenes::Overrides overridesOf(const DrawOptions& options);
 
+/// The OpenGL backend of the options.
 /// @throws scenes::InputError if there is no backend of that name
 render::Backend backendOf(const DrawOptions& options);
 
+/// How to draw a scene with these options.
 /// @throws scenes::InputError if there is no backend of that name
 DrawJob drawJob(const scenes::Scene& scene, const DrawOptions& draw, const RunOptions& run, const std::string& title);
 

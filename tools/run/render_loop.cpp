@@ -24,13 +24,14 @@
 namespace tools {
 namespace {
 
-/// Frames in flight. Chosen: one for each stage, and one more to even out their times.
+/// Number of frames in the pipeline at the same time. Chosen: one for each of the three stages, and one more to even
+/// out their times.
 constexpr std::size_t kTokens = 4;
 
 /// A frame on its way through the stages.
 struct FrameInFlight {
     SequencedFrame frame;
-    std::optional<render::View> view;    ///< what to draw; empty once it is drawn, and for frames that are not drawn
+    std::optional<render::View> view;    ///< view to draw; empty once it is drawn, and for frames that are not drawn
     std::optional<render::Image> image;  ///< the drawn picture
     render::Image oldImage;              ///< the picture of an earlier frame, whose memory the next one reuses
 };
@@ -78,7 +79,7 @@ class RenderRun {
  private:
     static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
         if (!job.folder) return nullptr;
-        // Checked first, so that no frames of another run are removed for a video that cannot be made.
+        // The encoder is checked first, so that no frames of another run are removed for a video that cannot be made.
         if (!job.videoPath.empty() && job.folder->overwrite) requireVideo(videoOptions(job));
         return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
     }
@@ -128,8 +129,8 @@ class RenderRun {
     void draw(FrameInFlight& flight) {
         if (!flight.view) return;
         const Stopwatch watch(report().seconds.drawing);
-        // Isolated, so that a thread that waits for others here does not take up the simulation of another frame while
-        // it holds the context.
+        // Drawing is isolated, so that a thread that waits for others in it does not take up the simulation of another
+        // frame while it holds the OpenGL context.
         tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view, std::move(flight.oldImage)); });
         flight.view.reset();
     }

@@ -16,8 +16,8 @@ namespace tools {
 
 struct RenderJob : DrawJob {
     FrameRange frames;
-    std::optional<FolderOptions> folder;  ///< where frames and checkpoints go; none: only a video is made
-    std::string videoPath;                ///< empty: no video
+    std::optional<FolderOptions> folder;  ///< folder of frames and checkpoints; none: only a video is made
+    std::string videoPath;                ///< path of the video; empty: no video is made
 };
 
 /// Draws the frames of a job. If the simulation becomes unstable, the run ends after the frames before that. After a

@@ -19,14 +19,14 @@
 namespace tools {
 namespace {
 
-/// A larger count in a checkpoint is nonsense: no run has as many frames.
+/// A larger number of error samples in a checkpoint is rejected: no run has as many frames.
 constexpr int kMostSamples = 1 << 30;
 
 Json vectorJson(const engine::Vec3& vector) {
     return {vector.x(), vector.y(), vector.z()};
 }
 
-/// An object with the counts that are not zero under their names, the largest first.
+/// A JSON object with the counts that are not zero, each under its name, the largest first.
 template <class Names, std::size_t size>
 Json countsJson(const std::array<std::uint64_t, size>& counts, const Names& nameOfIndex) {
     std::vector<std::size_t> indices;
@@ -115,7 +115,7 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
         samples.largest = std::max(samples.largest, estimate.error);
         samples.evaluationCost += estimate.spent;
     } catch (const engine::InstabilityError&) {
-        // The run will report this when it gets there.
+        // The run itself will report the instability when it gets there.
     }
 }
 

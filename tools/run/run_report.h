@@ -16,7 +16,7 @@ namespace tools {
 struct StageSeconds {
     double simulating = 0.0;
     double drawing = 0.0;
-    double encoding = 0.0;  ///< PNG, PLY and video
+    double encoding = 0.0;  ///< encoding and writing PNG, PLY and video
     double all = 0.0;
 };
 
@@ -43,7 +43,7 @@ struct ErrorSamples {
 
 /// Error samples as JSON, for a checkpoint.
 Json encodeErrors(const ErrorSamples& errors);
-/// The inverse of encodeErrors(); no samples if the JSON is anything else.
+/// The error samples in the JSON of a checkpoint; no samples if the JSON is anything else.
 ErrorSamples decodeErrors(const Json& json);
 
 /// Estimates the error of the next frame at the step of the run and adds it to the samples. Does nothing for the
@@ -56,14 +56,14 @@ struct RunReport {
     int frames = 0;  ///< number of frames asked for that were written or kept
     int threads = 1;
     std::string glRenderer;          ///< empty if nothing was drawn
-    std::string stateHash;           ///< of the last frame; empty if there is none
+    std::string stateHash;           ///< hash of the particles at the last frame; empty if there is none
     std::string unstable;            ///< why the simulation became unstable; empty if it did not
     int interruptedBy = 0;           ///< the signal that ended the run early, or 0
     std::optional<int> resumedFrom;  ///< the frame whose checkpoint the run resumed from
 };
 
 struct FinishedRun {
-    engine::Simulation simulation;  ///< at the last frame
+    engine::Simulation simulation;  ///< state at the last frame
     RunReport report;
     Json json;  ///< the content of run.json; null for a run without a folder
 };

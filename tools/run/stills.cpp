@@ -1,4 +1,4 @@
-// One simulation passes the selected frames in order of time.
+// One simulation runs through the selected frames in order of time.
 #include "tools/run/stills.h"
 
 #include <algorithm>

@@ -14,13 +14,13 @@ namespace tools {
 /// The frames to draw: one for a still, several for a strip, or both.
 struct StillSelection {
     std::optional<int> stillFrame;
-    std::vector<int> stripFrames;  ///< ascending
+    std::vector<int> stripFrames;  ///< numbers of the strip's frames, ascending
 };
 
 struct StillPictures {
     render::Image still;    ///< empty if no still was selected
     render::Image strip;    ///< empty if no strip was selected
-    std::string stateHash;  ///< of the last frame drawn
+    std::string stateHash;  ///< hash of the particles at the last frame drawn
 };
 
 /// Simulates up to the last selected frame and draws the selected ones. The panels of a strip have their time below

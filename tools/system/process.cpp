@@ -1,4 +1,5 @@
-// Standard streams by the C library, whose error flags stay set until someone asks; signals by sigaction.
+// Standard streams are written with the C library, whose error flags stay set until they are read. Signals are handled
+// with sigaction.
 #include "tools/system/process.h"
 
 #include <fcntl.h>
@@ -27,7 +28,7 @@ void recordSignal(int signal) {
 
 void prepareStandardStreams() {
     for (const int descriptor : {0, 1, 2})
-        if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);  // takes the lowest free descriptor
+        if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);  // open() takes the lowest free descriptor
     std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -13,11 +13,12 @@
 namespace tools {
 namespace {
 
-/// Time between plain lines, in seconds. Chosen: rare enough for a log file, often enough to show that work goes on.
+/// Time between two plain lines of progress, in seconds. Chosen: rare enough for a log file, often enough to show that
+/// work goes on.
 constexpr double kLineInterval = 10.0;
 constexpr std::int64_t kBarWidth = 30;
 
-/// Minutes and seconds left if the rate stays what it has been.
+/// The minutes and seconds that are left if the rate stays what it has been, as text.
 std::string timeLeft(int done, int total, double elapsed) {
     const int seconds = static_cast<int>(elapsed / done * (total - done));
     return fmt::format("{}:{:02} left", seconds / 60, seconds % 60);
