@@ -61,10 +61,9 @@ std::string titleOf(const std::string& path) {
     }
     const std::string nearest = nearestName(name, known);
     throw InputError(
-        {{name, 0, 0,
-          nearest.empty()
-              ? "there is no such file and no built-in scene of that name (`globular scenes` lists them)"
-              : fmt::format("there is no such file or built-in scene, did you mean {}?", tomlString(nearest))}});
+        name, nearest.empty()
+                  ? "there is no such file and no built-in scene of that name (`globular scenes` lists them)"
+                  : fmt::format("there is no such file or built-in scene, did you mean {}?", tomlString(nearest)));
 }
 
 }  // namespace
@@ -87,8 +86,7 @@ std::string resolveScene(const std::string& nameOrPath, const std::vector<std::s
         if (lastPart(full) == nameOrPath) matches.push_back(full);
     if (matches.empty()) failUnknown(nameOrPath, names);
     if (matches.size() > 1)
-        throw InputError(
-            {{nameOrPath, 0, 0, fmt::format("is ambiguous, it may be any of {}", fmt::join(matches, ", "))}});
+        throw InputError(nameOrPath, fmt::format("is ambiguous, it may be any of {}", fmt::join(matches, ", ")));
     return names.at(matches[0]);
 }
 

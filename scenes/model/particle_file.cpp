@@ -255,8 +255,7 @@ ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName
             const double value = property.type.read(&bytes[at]);
             at += property.type.size;
             if (const std::string rule = violatedRule(property.name, value); !rule.empty())
-                throw InputError(
-                    {{fileName, 0, 0, fmt::format("particle {}: {} is {}, {}", index, property.name, value, rule)}});
+                throw InputError(fileName, fmt::format("particle {}: {} is {}, {}", index, property.name, value, rule));
             setProperty(particle, property.name, value);
         }
         append(file.particles, particle);

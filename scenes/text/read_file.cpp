@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16U;
 
 [[noreturn]] void failToRead(const std::string& path, const std::string& reason) {
-    throw InputError({{path, 0, 0, "cannot be read: " + reason}});
+    throw InputError(path, "cannot be read: " + reason);
 }
 
 }  // namespace

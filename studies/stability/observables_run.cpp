@@ -79,9 +79,9 @@ double fastestRise(const Run& run) {
 
 double measure(scenes::Observable observable, const ObservableInput& input) {
     if (input.run.frames.back().count() == 0 && !isDefinedWithoutParticles(observable))
-        throw scenes::InputError({{input.scene.sourceName, 0, 0,
-                                   fmt::format("no particle is there at the end of the run, so there is no {}",
-                                               scenes::infoOf(observable).name)}});
+        throw scenes::InputError(input.scene.sourceName,
+                                 fmt::format("no particle is there at the end of the run, so there is no {}",
+                                             scenes::infoOf(observable).name));
     using Function = double (*)(const ObservableInput&);
     // The functions in the order of scenes::Observable.
     static constexpr Function kFunctions[] = {

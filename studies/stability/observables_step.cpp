@@ -108,8 +108,8 @@ double stepBound(const ObservableInput& input) {
 /// the ratio of the two distances.
 double order(const ObservableInput& input) {
     if (!input.scene.setup.emitters.empty() || input.scene.setup.stepper == StepperKind::automatic)
-        throw scenes::InputError({{input.scene.sourceName, 0, 0,
-                                   "an order is that of one stepper, and of particles that are there from the start"}});
+        throw scenes::InputError(input.scene.sourceName,
+                                 "an order is that of one stepper, and of particles that are there from the start");
     const int steps = static_cast<int>(std::lround(input.scene.duration / input.scene.setup.step));
     const engine::Particles whole = endAfter(input.scene, steps);
     const engine::Particles half = endAfter(input.scene, 2 * steps);

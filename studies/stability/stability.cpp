@@ -63,8 +63,8 @@ Outcome outcomeOf(const scenes::Scene& scene, const Run* reference) {
 Run referenceRun(const scenes::Scene& scene) {
     Run run = runScene(atReferenceStep(scene));
     if (run.failure)
-        throw scenes::InputError(
-            {{scene.sourceName, 0, 0, fmt::format("the reference became unstable: {}", run.failure->message)}});
+        throw scenes::InputError(scene.sourceName,
+                                 fmt::format("the reference became unstable: {}", run.failure->message));
     return run;
 }
 
@@ -112,8 +112,7 @@ bool paperIsAsExpected(const CaseResult& result) {
 
 CaseResult runCase(const CaseOptions& options) {
     const scenes::Scene scene = scenes::loadScene(options.path, {});
-    if (!scene.study)
-        throw scenes::InputError({{options.path, 0, 0, "the scene has no [study], so it is no hard case"}});
+    if (!scene.study) throw scenes::InputError(options.path, "the scene has no [study], so it is no hard case");
     CaseResult result;
     result.name = options.name;
     result.title = scene.title;
