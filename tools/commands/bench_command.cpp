@@ -23,7 +23,7 @@ namespace {
 
 struct BenchOptions {
     RunOptions run;
-    DrawOptions draw;            ///< only the OpenGL backend is used
+    DrawOptions draw;            ///< drawing options, of which only the OpenGL backend is used
     std::string instructionSet;  ///< name of the SIMD instruction set; empty: the widest that the machine has
     studies::BenchSettings settings;
 };

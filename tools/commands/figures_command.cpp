@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct FiguresOptions {
     RunOptions run;
-    DrawOptions draw;  ///< only the OpenGL backend is used
+    DrawOptions draw;  ///< drawing options, of which only the OpenGL backend is used
     std::string folder = "out/figures";
     std::vector<int> numbers;
 };

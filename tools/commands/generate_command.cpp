@@ -123,9 +123,9 @@ Signal \fIN\fR ended the run; a run that was interrupted goes on with \fB\-\-res
 
 /// The branches of the case statements in the bash completion script.
 struct CompletionCases {
-    std::string commands;  ///< one for each word that calls a subcommand
-    std::string words;     ///< one for each command, with the words that may follow it
-    std::string values;    ///< one for each flag with a value, with the values that it accepts
+    std::string commands;  ///< branches that recognize the words of subcommands
+    std::string words;     ///< branches that list the words that may follow a command
+    std::string values;    ///< branches that list the values that a flag accepts
 };
 
 /// Adds the branches of the completion script for a command and its subcommands.

@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 struct AccuracyOptions : StudyOptions {
     std::vector<std::string> scenes;
     std::vector<std::string> overrides;
-    double from = -1.0;   ///< simulated time of the start, s; negative: kFromShare of the still's time
-    double window = 0.0;  ///< simulated time that the runs cover, s; 0: kWindow
+    double from = -1.0;   ///< simulated time of the start, s; negative: a share of the still's time
+    double window = 0.0;  ///< simulated length of the runs, s; 0: the default, kWindow
 };
 
 /// Default length of the runs, in seconds of simulated time. Chosen: long enough for an impact, short enough that later

@@ -52,7 +52,7 @@ std::string writePlot(const StudyOptions& options, const std::string& fileName, 
     render::ChildProcess gnuplot = startGnuplot();
     const bool taken = gnuplot.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
     const std::string ending = gnuplot.wait();
-    constexpr std::size_t kMostBytes = 64U << 20;  // a limit for broken output; the studies' plots take about 50 kB
+    constexpr std::size_t kMostBytes = 64U << 20;  // limit on gnuplot's output; the plots take about 50 kB
     const std::string output = gnuplot.output(kMostBytes);
     constexpr std::string_view kEnd = "</svg>";
     const std::size_t first = output.find("<?xml");

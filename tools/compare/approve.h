@@ -10,7 +10,7 @@ namespace tools {
 struct ApproveJob {
     std::filesystem::path actual;
     std::filesystem::path expected;
-    std::vector<std::string> names;  ///< names of pictures, as `compare` prints them; empty: every picture
+    std::vector<std::string> names;  ///< names of the pictures to approve, as `compare` prints them; empty: all
     bool force = false;              ///< also replaces goldens that another OpenGL renderer drew
 };
 

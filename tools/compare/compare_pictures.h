@@ -38,8 +38,8 @@ struct PictureResult {
     PictureSide actual;
     PictureSide expected;
     std::vector<std::string> reasons;              ///< why the comparison fails; empty if it passed
-    std::optional<render::Comparison> comparison;  ///< present if both pictures can be read
-    std::optional<Explanation> explanation;        ///< present if the pictures or the particle states differ
+    std::optional<render::Comparison> comparison;  ///< metrics and verdict; none if a picture cannot be read
+    std::optional<Explanation> explanation;        ///< what changed; none if pictures and particle states are the same
 
     bool passed() const { return status == PictureStatus::identical || status == PictureStatus::withinLimits; }
     /// The name of the comparison rule that decided, or of the status if nothing was compared.

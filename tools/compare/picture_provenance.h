@@ -41,7 +41,7 @@ Json sidecarJson(const PictureProvenance& provenance, const std::string& checksu
 /// of the thousands of frames of a manifest is fast.
 nlohmann::json readJson(const std::filesystem::path& path);
 
-/// The part of the program because of which a picture differs.
+/// The part of the program whose change makes a picture differ from its golden.
 enum class Cause { simulation, renderer, unknown };
 
 struct Explanation {

@@ -19,7 +19,7 @@ struct PageHeading {
     std::string profile;
     render::CompareLimits limits;
     CompareCounts counts;
-    std::string approval;  ///< the command that accepts everything that fails; empty: nothing to accept
+    std::string approval;  ///< command line that accepts all pictures that fail; empty: none do
 };
 
 /// Collects results with their pictures and writes the page, failures first. Because a browser cannot show thousands of

@@ -17,7 +17,7 @@ struct FigureEntry {
     std::string stripPath;           ///< path of the strip, PNG: several times side by side
     std::string videoPath;           ///< path of the video, MP4
     double stillTime = 0.0;          ///< simulated time of the still, s
-    std::vector<double> stripTimes;  ///< simulated times of the strip, s
+    std::vector<double> stripTimes;  ///< simulated times of the pictures in the strip, s
     std::vector<std::pair<std::string, std::string>> parameters;  ///< keys and values as in the scene file
     std::string command;                                          ///< command line that renders the scene again
     std::string stateHash;

@@ -1,4 +1,4 @@
-// HTML as strings: escaping, base64, tables, and the frame that all pages but that of compare share.
+// HTML as strings: escaping, base64, tables, and the head and body that all pages share except that of `compare`.
 #include "tools/pages/html.h"
 
 #include <fmt/format.h>

@@ -98,7 +98,7 @@ class FrameFolder {
     FrameNames names_;
     Manifest manifest_;
     std::map<int, FrameRecord> kept_;
-    bool isManifestCurrent_ = true;  ///< the manifest on disk lists every frame
+    bool isManifestCurrent_ = true;  ///< whether the manifest on disk lists every frame
     std::chrono::steady_clock::time_point lastManifest_;
 };
 

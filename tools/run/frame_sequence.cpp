@@ -1,4 +1,5 @@
-// Frames before the first wanted one are also simulated one by one, so that a signal or a kill costs little there.
+// Frames before the first wanted one are also simulated one by one, so that a run that ends there early can be resumed
+// close to its end.
 #include "tools/run/frame_sequence.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ int sampleStride(const FrameRange& frames) {
     return (frames.count() - 1 + kErrorSampleCount) / kErrorSampleCount;
 }
 
-/// The range of frames as recorded in a checkpoint, because it decides at which frames errors are sampled.
+/// A range of frames as JSON. Checkpoints record it, because it decides at which frames errors are sampled.
 Json rangeOf(const FrameRange& frames) {
     return {frames.first, frames.last};
 }
@@ -54,8 +55,8 @@ bool FrameSequence::resume() {
 
 std::optional<SequencedFrame> FrameSequence::next() {
     if (next_ > frames_.last) return std::nullopt;
-    // A signal is ignored while kept frames are passed on: that costs little, and a video of some of them would be
-    // worth less than the video that is there.
+    // A signal is ignored while frames that exist already are passed on for a video. That takes little time, and a
+    // video of some of them would be worth less than the earlier video that it replaces.
     if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
     if (run_.report.interruptedBy != 0) return std::nullopt;
     SequencedFrame frame;
@@ -110,7 +111,7 @@ void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint
 }
 
 void FrameSequence::finish() {
-    // An unstable simulation has stopped between two frames.
+    // An unstable simulation has stopped between two frames, so that there is no state to save.
     if (!run_.report.unstable.empty()) return;
     if (folder_ != nullptr && position_ >= 0)
         folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation), checkpointReport());

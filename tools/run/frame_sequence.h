@@ -21,7 +21,7 @@ namespace tools {
 struct SequencedFrame {
     int number = 0;
     double time = 0.0;                     ///< seconds
-    bool isWanted = true;                  ///< false for a frame before the first one that was asked for
+    bool isWanted = true;                  ///< whether a file of the frame was asked for; if not, it is only simulated
     bool isKept = false;                   ///< the frame's file exists already; the simulation may be at another frame
     std::string stateHash;                 ///< hash of the particles; empty if no file is to be written
     std::vector<std::uint8_t> checkpoint;  ///< encoded checkpoint of this frame; empty if none is due

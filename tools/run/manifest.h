@@ -25,7 +25,7 @@ struct CheckpointRecord {
 };
 
 struct Manifest {
-    Json identity;  ///< an object with everything that determines the bytes of the frames
+    Json identity;  ///< JSON object with everything that determines the bytes of the frames
     std::map<int, FrameRecord> frames;
     std::map<int, CheckpointRecord> checkpoints;  ///< checkpoints by the number of their frame
 };

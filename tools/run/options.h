@@ -13,7 +13,7 @@
 
 namespace tools {
 
-/// What the program prints and how many threads it uses.
+/// Options on what the program prints and how many threads it uses.
 struct RunOptions {
     bool quiet = false;
     bool json = false;
@@ -41,8 +41,8 @@ struct DrawOptions {
 /// `overwrite`, frames of the same run are written again, and frames of another run are an error.
 struct FolderOptions {
     std::string path;
-    bool resume = false;             ///< intact frames of the same run stay
-    bool overwrite = false;          ///< all files of the earlier run are removed first
+    bool resume = false;             ///< whether intact frames of the same run stay
+    bool overwrite = false;          ///< whether all files of an earlier run are removed from the folder first
     double checkpointSeconds = 5.0;  ///< wall-clock time between two checkpoints, s
 };
 

@@ -147,7 +147,7 @@ class RenderRun {
         progress_.frameDone(frame.number, frame.time);
     }
 
-    /// The picture of a kept frame, read from its file.
+    /// Reads the picture of a frame whose file existed before the run.
     render::Image readKept(int frame) const {
         const std::filesystem::path path = folder_->pathOf(frame);
         return render::decodePng(readFile(path), path.string());

@@ -18,8 +18,8 @@ struct StillSelection {
 };
 
 struct StillPictures {
-    render::Image still;    ///< empty if no still was selected
-    render::Image strip;    ///< empty if no strip was selected
+    render::Image still;    ///< picture of the still; empty if no still was selected
+    render::Image strip;    ///< picture of the strip; empty if no strip was selected
     std::string stateHash;  ///< hash of the particles at the last frame drawn
 };
 

@@ -1,4 +1,4 @@
-// Calls of nlohmann::json, with one policy for bytes that are not UTF-8: they are replaced.
+// Prints JSON with nlohmann::json. Bytes that are not UTF-8 are replaced instead of throwing.
 #include "tools/system/json.h"
 
 #include <fmt/format.h>
