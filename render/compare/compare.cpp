@@ -1,4 +1,5 @@
-// Every limit that is exceeded is named, not only the first.
+// Compares two pictures against limits and names every limit that is exceeded, not only the first; draws images of
+// their differences.
 #include "render/compare/compare.h"
 
 #include <fmt/format.h>
@@ -62,12 +63,12 @@ int differenceOf(const Image& actual, const Image& expected, std::size_t k) {
 
 CompareLimits limitsOf(std::string_view profile) {
     if (profile == "strict") return {};
-    // Chosen: reciprocals and square roots of OpenGL drivers differ by less, a missing particle differs by more. The
-    // mean is that of a picture in which one channel in twenty differs by 1; the similarity is what a picture on a dark
-    // background has that uses up all other limits.
+    // Limits of the profile "vendor". Chosen: reciprocals and square roots of OpenGL drivers differ by less, a missing
+    // particle by more. The mean is that of a picture in which one channel in twenty differs by 1; the structural
+    // similarity is that of a picture on a dark background that just keeps all other limits.
     if (profile == "vendor") return {.threshold = 3, .share = 0.005, .largest = 16, .mean = 0.05, .ssim = 0.98};
-    // Chosen: other antialiasing and slightly different light pass, the next frame does not: even in a fountain at
-    // 640x360 it changes some channel by more than 100.
+    // Limits of the profile "loose". Chosen: a picture with other antialiasing or slightly different light passes, the
+    // next frame of the animation does not: even in a fountain at 640x360 it changes some channel by more than 100.
     if (profile == "loose") return {.threshold = 16, .share = 0.01, .largest = 64, .mean = 3.0, .ssim = 0.9};
     throw std::invalid_argument(fmt::format("there is no profile \"{}\"; choose one of: {}", profile, kProfileNames));
 }

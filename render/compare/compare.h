@@ -1,5 +1,5 @@
-// Whether two pictures are the same within limits and which limit decided, and pictures that show the differences. Used
-// by the compare and approve commands and by the golden suite.
+// Decides whether two pictures are the same within limits, says which limit decided, and makes images that show the
+// differences. Used by the compare and approve commands and by the tests of golden frames.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace render {
 
 /// The limits that two pictures must all keep to pass. Differences are in 8-bit steps of a channel.
 struct CompareLimits {
-    int threshold = 0;   ///< a pixel counts as noticeable when one of its channels differs by more
-    double share = 0.0;  ///< largest share of pixels that may be noticeable
+    int threshold = 0;   ///< a pixel with a channel that differs by more is noticeable
+    double share = 0.0;  ///< largest share of noticeable pixels
     int largest = 0;     ///< largest difference of any channel
     double mean = 0.0;   ///< largest mean difference over all channels of all pixels
-    double ssim = 1.0;   ///< least structural similarity
+    double ssim = 1.0;   ///< smallest structural similarity
 };
 
 inline constexpr const char* kProfileNames = "strict, vendor, loose";
@@ -27,31 +27,34 @@ inline constexpr const char* kProfileNames = "strict, vendor, loose";
 /// @throws std::invalid_argument for another name
 CompareLimits limitsOf(std::string_view profile);
 
-/// What decides a comparison, in the order of the checks.
+/// What decides a comparison of two pictures: one of the limits, in the order in which they are checked, or that none
+/// is exceeded.
 enum class CompareRule { identical, size, largest, share, mean, ssim, withinLimits };
 
-/// "identical", "size", "largest", "share", "mean", "ssim" or "within-limits".
+/// Name of the rule in reports: "identical", "size", "largest", "share", "mean", "ssim" or "within-limits".
 const char* nameOf(CompareRule rule);
 
 struct Comparison {
-    CompareRule rule = CompareRule::identical;  ///< the first limit that is exceeded, otherwise how the picture passed
-    std::vector<std::string> reasons;           ///< a sentence for each limit that is exceeded; empty if it passed
-    PictureMetrics metrics;                     ///< default values for pictures of different sizes
+    CompareRule rule =
+        CompareRule::identical;        ///< the first limit that is exceeded; without one, identical or withinLimits
+    std::vector<std::string> reasons;  ///< a sentence for each limit that is exceeded; empty if it passed
+    PictureMetrics metrics;            ///< the measured differences; default values for pictures of different sizes
 
     bool passed() const { return reasons.empty(); }
 };
 
-/// Compares two pictures. Only if they differ are the limits checked.
-/// @param mask  empty, or a picture of the same size whose black pixels do not count
+/// Compares two pictures. The limits are checked only if the pictures differ.
+/// @param mask  empty, or a picture of the same size; pixels that are black in it do not count
 /// @throws std::invalid_argument for a mask of another size than the expected picture
 Comparison compare(const Image& actual, const Image& expected, const CompareLimits& limits, const Image& mask = {});
 
-/// Absolute differences of the channels, sixteen times as bright.
+/// An image of the absolute differences of the channels of two pictures, sixteen times as bright.
 /// @pre both pictures have the same size
 Image differenceImage(const Image& actual, const Image& expected);
 
-/// The largest difference of each pixel's channels on a logarithmic color scale, dark blue for 1 and white for 255.
-/// Equal pixels show the expected picture in dark gray, so that one sees where in the picture the differences are.
+/// An image of the largest difference of each pixel's channels between two pictures on a logarithmic color scale, dark
+/// blue for 1 and white for 255. Equal pixels show the expected picture in dark gray, so that one sees where in the
+/// picture the differences are.
 /// @pre both pictures have the same size
 Image heatMap(const Image& actual, const Image& expected);
 

@@ -1,4 +1,5 @@
-// One pass over the pixels for the differences and one for the sums of the similarity's windows.
+// Measures the differences of two pictures in two passes over their pixels: one for the differences of channels, one
+// for the windows of the structural similarity.
 #include "render/compare/picture_metrics.h"
 
 #include <fmt/format.h>
@@ -35,8 +36,8 @@ PixelDifference differenceAt(const Image& actual, const Image& expected, std::si
     return difference;
 }
 
-/// Inserts a pixel into the list, which stays sorted and short. Pixels are added in reading order, and the upper bound
-/// keeps that order among equal ones.
+/// Inserts a pixel into the short list of those with the largest differences, sorted from the largest down. Pixels are
+/// added in reading order, and the upper bound keeps that order among equal differences.
 void keepWorst(std::vector<PixelDifference>& worst, const PixelDifference& difference) {
     if (worst.size() == kWorstPixels && difference.largest <= worst.back().largest) return;
     const auto position = std::upper_bound(worst.begin(), worst.end(), difference,
@@ -45,7 +46,8 @@ void keepWorst(std::vector<PixelDifference>& worst, const PixelDifference& diffe
     if (worst.size() > kWorstPixels) worst.pop_back();
 }
 
-/// Sums over the pixels of a window in one channel. 64 squared bytes are far below the limit of 64 bits.
+/// Sums over the pixels of a window in one channel of pictures a and b, for means and variances. The sum of 64 squared
+/// bytes is far below the limit of 64 bits.
 struct Sums {
     std::int64_t count = 0, a = 0, b = 0, squares = 0, product = 0;
 
@@ -59,9 +61,10 @@ struct Sums {
     }
 };
 
-/// (2 m_a m_b + c1)(2 s_ab + c2) / ((m_a^2 + m_b^2 + c1)(s_a^2 + s_b^2 + c2)), with means m and unbiased (co)variances
-/// s. Both constants are those of ffmpeg: c2 is Wang's (0.03 * 255)^2 with ffmpeg's rounding, c1 a 64th of Wang's (0.01
-/// * 255)^2, which makes the measure stricter in dark flat windows.
+/// Structural similarity of pictures a and b in one window,
+///   (2 m_a m_b + c1)(2 s_ab + c2) / ((m_a^2 + m_b^2 + c1)(s_a^2 + s_b^2 + c2)),
+/// with means m and unbiased (co)variances s. Both constants are those of ffmpeg: c2 is Wang's (0.03 * 255)^2 with
+/// ffmpeg's rounding, c1 a 64th of Wang's (0.01 * 255)^2, which makes the measure stricter in dark flat windows.
 double similarity(const Sums& sums) {
     constexpr double c1 = 416.0 / (64.0 * 64.0);
     constexpr double c2 = 235963.0 / (64.0 * 63.0);
@@ -69,15 +72,16 @@ double similarity(const Sums& sums) {
     const double degrees = std::max(1.0, n - 1.0);
     const double meanA = static_cast<double>(sums.a) / n;
     const double meanB = static_cast<double>(sums.b) / n;
-    // Integers up to the last division, so that equal pictures give exactly 1.
+    // Variance and covariance are computed in integers up to the last division, so that equal pictures give exactly 1.
     const auto spread = static_cast<double>(sums.count * sums.squares - sums.a * sums.a - sums.b * sums.b);
     const auto joint = static_cast<double>(sums.count * sums.product - sums.a * sums.b);
     return (2.0 * meanA * meanB + c1) * (2.0 * joint / (n * degrees) + c2) /
            ((meanA * meanA + meanB * meanB + c1) * (spread / (n * degrees) + c2));
 }
 
-/// The windows along one direction, as two blocks of four pixels each; they begin at every block but the last. A
-/// picture with less than eight pixels in this direction has one window of one block.
+/// The windows of the structural similarity along one direction of a picture. A window is two blocks of four pixels
+/// each, and one begins at every block but the last. A picture with less than eight pixels in this direction has one
+/// window of one block.
 struct Blocks {
     explicit Blocks(int extent)
         : size(extent < 8 ? std::max(1, extent) : 4), perWindow(extent < 8 ? 1 : 2), count(extent / size) {}
@@ -85,7 +89,7 @@ struct Blocks {
     int windowCount() const { return count - perWindow + 1; }
 };
 
-/// The sums of a block in one channel; all 0 when one of its pixels does not count.
+/// The sums over a block of pixels in one channel; all 0 if the mask is black at one of its pixels.
 /// @param block  left, top, width and height in pixels, and the channel
 Sums blockSums(const Image& actual, const Image& expected, const Image& mask, std::array<int, 5> block) {
     const auto [left, top, width, height, channel] = block;

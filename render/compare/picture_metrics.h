@@ -1,4 +1,5 @@
-// Measures of how much two pictures differ. compare.h checks them against limits; the studies report them.
+// Measures how much two pictures differ. compare.h checks the measured differences against limits; the studies report
+// them.
 #pragma once
 
 #include <array>
@@ -15,10 +16,11 @@ struct PixelDifference {
     int x = 0, y = 0;
     std::array<std::uint8_t, 3> actual{};
     std::array<std::uint8_t, 3> expected{};
-    int largest = 0;  ///< over the three channels
+    int largest = 0;  ///< largest difference of its three channels
 };
 
-/// Differences are in 8-bit steps of a channel, over the pixels that count: those that are not masked.
+/// How much two pictures differ, in 8-bit steps of a channel, over the pixels that count: all where the mask is not
+/// black.
 struct PictureMetrics {
     std::size_t pixelCount = 0;          ///< pixels that count
     std::size_t differing = 0;           ///< pixels with any difference
@@ -26,10 +28,10 @@ struct PictureMetrics {
     int largest = 0;                     ///< largest difference of any channel
     double mean = 0.0;                   ///< mean difference over all channels of all pixels
     double meanSquare = 0.0;             ///< mean squared difference over all channels of all pixels
-    double ssim = 1.0;                   ///< see structuralSimilarity()
-    std::vector<PixelDifference> worst;  ///< at most kWorstPixels, the worst first, equal ones in reading order
+    double ssim = 1.0;                   ///< mean structural similarity (Wang et al. 2004); 1 for equal pictures
+    std::vector<PixelDifference> worst;  ///< the kWorstPixels pixels with the largest differences, largest first
 
-    /// Share of the pixels that are noticeable; 0 if no pixel counts.
+    /// Share of noticeable pixels among those that count; 0 if no pixel counts.
     double share() const;
     /// Peak signal-to-noise ratio in dB against a peak of 255: 10 log10(255^2 / meanSquare); infinite for equal
     /// pictures.
@@ -39,16 +41,16 @@ struct PictureMetrics {
 inline constexpr std::size_t kWorstPixels = 5;
 
 /// Measures the differences of two pictures of the same size.
-/// @param mask  empty (all pixels count) or of the same size; its black pixels do not count
-/// @param threshold  above which a difference is noticeable
+/// @param mask  empty (all pixels count) or of the same size; pixels that are black in it do not count
+/// @param threshold  a larger difference of a channel makes its pixel noticeable
 /// @throws std::invalid_argument for different sizes
 PictureMetrics measure(const Image& actual, const Image& expected, const Image& mask, int threshold);
 
-/// Mean structural similarity (Wang et al. 2004) as the ssim filter of ffmpeg defines it for RGB, so that
-/// both can be compared. Windows of 8x8 pixels begin every four pixels from the top left; they are unweighted,
-/// variances are unbiased, and the mean is taken over all windows of the three channels of the encoded values. Windows
-/// with a pixel that does not count are left out. In a direction of less than eight pixels, a window extends over the
-/// whole picture. The result is 1 for equal pictures and where no window is left.
+/// Mean structural similarity of two pictures (Wang et al. 2004) as the ssim filter of ffmpeg defines it for RGB, so
+/// that the two implementations can be compared. Windows of 8x8 pixels begin every four pixels from the top left; they
+/// are unweighted, variances are unbiased, and the mean is taken over all windows of the three channels of the encoded
+/// values. Windows with a pixel that is black in the mask are left out. In a direction of less than eight pixels, a
+/// window extends over the whole picture. The result is 1 for equal pictures and where no window is left.
 double structuralSimilarity(const Image& actual, const Image& expected, const Image& mask);
 
 }  // namespace render

@@ -1,5 +1,6 @@
-// A temporary file is locked (flock) while it is written. The lock goes with the process however that ends, so that a
-// file without a lock has been abandoned. The files that ffmpeg writes are locked by the run that started it.
+// A temporary file is locked (flock) while it is written. The lock ends with the process, however that ends, so that a
+// temporary file without a lock has been abandoned. The files that ffmpeg writes are locked by the process that started
+// ffmpeg.
 #include "render/output/atomic_file.h"
 
 #include <fcntl.h>
@@ -26,13 +27,14 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSuffix = ".partial";
 constexpr std::size_t kRandomLength = 6;
-constexpr std::size_t kLongestName = 255;  // bytes, on every file system of Linux that is in common use
+constexpr std::size_t kLongestName = 255;  // longest name of a file on the common file systems of Linux, bytes
 
 [[noreturn]] void fail(const char* attempt, const fs::path& path, int error) {
     throw SystemError(fmt::format("cannot {} {}: {}", attempt, path.string(), std::generic_category().message(error)));
 }
 
-/// What `path` leads to. Links are followed one by one, because the last may lead to a file that does not exist yet.
+/// The file that `path` leads to. Symbolic links are followed one by one, because the last may lead to a file that does
+/// not exist yet.
 fs::path resolved(const fs::path& path) {
     constexpr int kMostLinks = 40;  // the limit of Linux
     std::error_code error;
@@ -42,7 +44,7 @@ fs::path resolved(const fs::path& path) {
         if (error || link == kMostLinks) throw SystemError(fmt::format("cannot follow the link {}", path.string()));
         target = target.parent_path() / next;
     }
-    // A rename cannot replace a folder, and would destroy a device or a pipe.
+    // To rename a file to this path cannot replace a folder, and would destroy a device or a pipe.
     const fs::file_status status = fs::status(target, error);
     if (fs::exists(status) && !fs::is_regular_file(status))
         throw SystemError(fmt::format("cannot write {}: it is a {}, a file is wanted", path.string(),
@@ -50,7 +52,7 @@ fs::path resolved(const fs::path& path) {
     return target;
 }
 
-/// The part of the temporary name that stands for the target's name, cut where the whole would be too long.
+/// The part of a temporary file's name that is the name of its target, cut off where the whole would be too long.
 std::string stemOf(const std::string& name) {
     constexpr std::size_t kRoom = kLongestName - 2 - kRandomLength - kSuffix.size();  // and two dots
     std::size_t length = std::min(name.size(), kRoom);
@@ -68,7 +70,7 @@ std::string randomLetters() {
     return letters;
 }
 
-/// Whether a file has been removed by removeAbandonedFiles() before it could be locked.
+/// Whether another process has removed the file with removeAbandonedFiles() before this process could lock it.
 bool isRemoved(int descriptor) {
     struct stat status = {};
     return ::fstat(descriptor, &status) == 0 && status.st_nlink == 0;
@@ -79,8 +81,9 @@ bool isRemoved(int descriptor) {
 AtomicFile::AtomicFile(const fs::path& path) : target_(resolved(path)) {
     struct stat old = {};
     if (::stat(target_.c_str(), &old) == 0) mode_ = old.st_mode & 0777;
-    // Not mkostemp(): its files have the mode 0600, and the umask cannot be read without changing it for all threads.
-    // Until it is whole, the file can be read by no more users than the one that it replaces.
+    // mkostemp() would create the file with mode 0600, which must then become 0666 without the umask; but the umask
+    // cannot be read without changing it for all threads. Until it is whole, the file can be read by no more users than
+    // the one that it replaces.
     const mode_t mode = mode_ ? (*mode_ | 0600) : 0666;
     while (descriptor_ < 0) {
         const std::string name = fmt::format(".{}.{}{}", stemOf(target_.filename().string()), randomLetters(), kSuffix);
@@ -88,7 +91,7 @@ AtomicFile::AtomicFile(const fs::path& path) : target_(resolved(path)) {
         descriptor_ = ::open(temporaryPath_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
         if (descriptor_ < 0 && errno != EEXIST) fail("write", target_, errno);
         if (descriptor_ < 0) continue;
-        ::flock(descriptor_, LOCK_EX);  // a file system without locks has none to respect
+        ::flock(descriptor_, LOCK_EX);  // fails on a file system without locks, where nothing can be done
         if (isRemoved(descriptor_)) ::close(std::exchange(descriptor_, -1));
     }
 }
@@ -109,7 +112,7 @@ void AtomicFile::write(std::span<const std::uint8_t> bytes) {
 }
 
 void AtomicFile::commit() {
-    // A file system without permissions refuses to change them, and then there are none to keep.
+    // A file system without permissions refuses to set those of the old file, and then there are none to keep.
     if (mode_) static_cast<void>(::fchmod(descriptor_, *mode_));
     if (::fsync(descriptor_) != 0) fail("flush", target_, errno);
     if (std::rename(temporaryPath_.c_str(), target_.c_str()) != 0) fail("rename a temporary file to", target_, errno);
@@ -132,7 +135,8 @@ void removeAbandonedFiles(const fs::path& folder, const std::function<bool(const
         if (!isOurs(name.substr(1, name.size() - kAround))) continue;
         const int file = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
         if (file < 0) continue;
-        // The encoder of a killed run may still be writing: it keeps its file, which is then freed when it ends.
+        // The encoder of a killed run may still be writing: its file is unlinked, and the disk space is freed when the
+        // encoder ends.
         if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
         ::close(file);
     }

@@ -27,13 +27,14 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// For another program to write to instead of write(). It must write into this file, not replace it.
+    /// Path of the temporary file, for another program that writes it instead of write(). That program must write into
+    /// the file, not replace it.
     const std::filesystem::path& temporaryPath() const { return temporaryPath_; }
 
-    /// Removes what killed runs have left of the same target, as removeAbandonedFiles() does.
+    /// Removes the temporary files that killed runs have left for the same target.
     void removeAbandoned() const;
 
-    /// Appends the bytes. Throws SystemError.
+    /// Appends bytes to the temporary file. Throws SystemError.
     void write(std::span<const std::uint8_t> bytes);
 
     /// Flushes the file to the disk and renames it to its target. A file that was there before keeps its permissions;
@@ -43,13 +44,13 @@ class AtomicFile {
  private:
     std::filesystem::path target_;
     std::filesystem::path temporaryPath_;
-    std::optional<mode_t> mode_;  ///< of the file that was there before
+    std::optional<mode_t> mode_;  ///< permissions of the file that is replaced; nothing if there is none
     int descriptor_ = -1;
 };
 
 /// Removes the temporary files that killed runs have left in a folder. Files that a running program is still writing
 /// are locked and stay. On a file system without locks, all stay.
-/// @param isOurs  whether files of this name (without folder) are to be cleared away
+/// @param isOurs  whether temporary files for a target of this name (without folder) are to be removed
 void removeAbandonedFiles(const std::filesystem::path& folder, const std::function<bool(const std::string&)>& isOurs);
 
 }  // namespace render

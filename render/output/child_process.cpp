@@ -1,5 +1,5 @@
-// The child is started by posix_spawn. Its input is a socket, because send() with MSG_NOSIGNAL turns a reader that has
-// ended into an error code, where write() to a pipe would raise SIGPIPE.
+// The child process is started by posix_spawn. Its input is a socket, because send() with MSG_NOSIGNAL returns an error
+// code when the child has ended, where write() to a pipe would raise SIGPIPE.
 #include "render/output/child_process.h"
 
 #include <fcntl.h>
@@ -39,7 +39,7 @@ std::int64_t nanoseconds(const timespec& time) {
     return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
-/// A temporary file that is removed already: it lasts until it is closed.
+/// Creates a temporary file that has no name any more: it lasts until it is closed.
 int unnamedFile() {
     std::error_code ignored;
     std::filesystem::path folder = std::filesystem::temp_directory_path(ignored);
@@ -52,8 +52,8 @@ int unnamedFile() {
     return file;
 }
 
-/// Starts the child with file descriptors 0, 1 and 2 alone; all others are opened with O_CLOEXEC. Returns an errno
-/// value.
+/// Starts the child process with the file descriptors 0, 1 and 2 only, because all others are opened with O_CLOEXEC.
+/// Returns an errno value.
 int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& pid) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -63,13 +63,13 @@ int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& 
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
-    // A process group of its own: a signal that the terminal sends, such as SIGINT, must not reach the child, because
-    // this process decides what to do about it.
+    // The child gets a process group of its own: a signal that the terminal sends, such as SIGINT, must not reach the
+    // child, because this process decides what to do about the signal.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
     posix_spawnattr_setpgroup(&attributes, 0);
-    // A signal that this process ignores would be ignored by the child as well.
+    // The child would ignore SIGPIPE as this process does, unless the signal is reset to its default.
     sigset_t ignored;
     sigemptyset(&ignored);
     sigaddset(&ignored, SIGPIPE);
@@ -145,7 +145,7 @@ void ChildProcess::killIfStalled() {
         startWatch();
     } else if (!hasStalled_ && std::chrono::steady_clock::now() - lastProgressTime_ > progressTimeout_) {
         hasStalled_ = true;
-        ::kill(-pid_, SIGKILL);  // its whole process group
+        ::kill(-pid_, SIGKILL);  // kills the whole process group of the child
     }
 }
 
@@ -170,7 +170,7 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
 
 std::string ChildProcess::wait() {
     closeInput();
-    if (pid_ <= 0) return "no such process any more";  // waitpid(-1) would take any other child
+    if (pid_ <= 0) return "no such process any more";  // waitpid(-1) would wait for any other child
     int status = 0;
     startWatch();
     while (true) {

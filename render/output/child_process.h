@@ -1,5 +1,5 @@
-// A child process with its input on a pipe and its output and errors in a temporary file. Used for ffmpeg by video.cpp
-// and by the comparison of videos, and for LAMMPS by the scaling study.
+// Runs another program with its input on a socket and its output and errors in a temporary file: ffmpeg for video.cpp
+// and for the comparison of videos, and LAMMPS for the scaling study.
 #pragma once
 
 #include <sys/types.h>
@@ -12,22 +12,22 @@
 
 namespace render {
 
-/// A child process that makes no progress for so long is taken to hang, s. Chosen: no frame and no flush of a full disk
-/// cache blocks an encoder for as long.
+/// How long a child process may make no progress before it is killed, s. Chosen: no frame and no flush of a full disk
+/// cache blocks a video encoder for as long.
 inline constexpr std::chrono::duration<double> kProgressTimeout{120.0};
 
-/// For programs that may sleep for as long as they like, s.
+/// The same limit for programs that may sleep for any time, s.
 inline constexpr std::chrono::duration<double> kNoTimeout{1e6};
 
-/// A running program. Its output goes to an unnamed file, because a pipe that is not read fills up and stops both
-/// sides.
+/// A running program. Its output goes to an unnamed file, because a pipe that is not read would fill up and block both
+/// processes.
 class ChildProcess {
  public:
-    /// Starts a program without a shell. It is killed when it makes no progress for `progressTimeout` while write() or
-    /// wait() wait for it. It makes progress while it uses processor time or its output file changes.
+    /// Starts a program without a shell. The program is killed when it makes no progress for `progressTimeout` while
+    /// write() or wait() wait for it. It makes progress while it uses processor time or its output file changes.
     /// @param arguments  arguments[0] is the program, looked up on PATH
-    /// @param outputPath  the file that it writes; empty if there is none to watch
-    /// @throws SystemError when it cannot be started
+    /// @param outputPath  the file that the program writes; empty if there is none to watch
+    /// @throws SystemError when the program cannot be started
     explicit ChildProcess(const std::vector<std::string>& arguments,
                           std::chrono::duration<double> progressTimeout = kProgressTimeout,
                           std::string outputPath = {});
@@ -36,22 +36,22 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Writes everything to the child's input. Returns false when the child no longer reads. Never raises SIGPIPE.
+    /// Writes all bytes to the child's input. Returns false when the child no longer reads. Never raises SIGPIPE.
     bool write(std::span<const std::uint8_t> bytes);
 
-    /// Closes the input, waits for the end, and says how it ended: empty for exit status 0, otherwise for example
-    /// "exit status 1", "signal 9 (Killed)" or "no progress for 120 s".
+    /// Closes the input, waits for the end of the program, and says how it ended: empty for exit status 0, otherwise
+    /// for example "exit status 1", "signal 9 (Killed)" or "no progress for 120 s".
     std::string wait();
 
-    /// The last bytes, at most `most`, of what the child has written to its output and errors.
+    /// The end of what the program has written to its output and errors, at most `most` bytes.
     std::string output(std::size_t most = 2000) const;
 
  private:
-    /// Changes while the child makes progress.
+    /// Quantities of which at least one changes while the program makes progress.
     struct Progress {
         std::int64_t processorTime = 0;  ///< ns
         std::int64_t outputSize = 0;     ///< bytes
-        std::int64_t outputTime = 0;     ///< of the last change, ns
+        std::int64_t outputTime = 0;     ///< time of the last change of the output file, ns
 
         bool operator==(const Progress&) const = default;
     };

@@ -1,4 +1,5 @@
-// PNG by stb, with ISA-L in place of stb's compressor and checksum, which are slow.
+// Encodes and decodes PNG files with the library stb, in which ISA-L takes the place of stb's slow compressor and
+// checksum.
 #include "render/output/png.h"
 
 #include <isa-l/crc.h>
@@ -18,18 +19,19 @@
 
 namespace {
 
-/// In place of stb's checksum, which works byte by byte.
+/// CRC of a chunk, in place of stb's, which works byte by byte.
 unsigned int checksum(const unsigned char* data, int size) {
     return crc32_gzip_refl(0, data, static_cast<std::uint64_t>(size));
 }
 
-/// The largest size of a zlib stream: incompressible data is stored in blocks of 65535 bytes with five more bytes each,
-/// and the stream has a head and an end.
+/// Upper bound of the size of a zlib stream for so many bytes: incompressible data is stored in blocks of 65535 bytes
+/// with five more bytes each, and the stream has a head and an end.
 std::size_t compressedBound(std::size_t size) {
     return size + 5 * (size / 65535 + 1) + 64;
 }
 
-/// With the signature that stb asks for. Returns a zlib stream from malloc(), which stb frees.
+/// Compresses bytes to a zlib stream, in place of the function of stb with the same parameters. The stream is allocated
+/// by malloc(), and stb frees it.
 unsigned char* compressZlib(unsigned char* data, int size, int* compressedSize, int /*quality*/) {
     const std::size_t bound = compressedBound(static_cast<std::size_t>(size));
     auto* output = static_cast<unsigned char*>(std::malloc(bound));
@@ -60,8 +62,8 @@ bool isPng(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
 }
 
-/// Whether all chunks up to the last one end within the file. Without this check, stb would allocate any length that a
-/// damaged chunk claims to have.
+/// Whether all chunks of a PNG file up to the last end within the file. Without this check, stb would allocate any
+/// length that a damaged chunk claims to have.
 bool isComplete(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kChunkOverhead = 12;  // length, type and checksum
     constexpr std::string_view kLast = "IEND";
@@ -99,8 +101,9 @@ bool isComplete(std::span<const std::uint8_t> bytes) {
 namespace render {
 
 std::vector<std::uint8_t> encodePng(const Image& image) {
-    // Filter 1 (the difference to the left) gives files nearly as small as trying all five filters, and is much faster.
-    // The setting is a global variable of stb; it is written once, because frames are encoded by several threads.
+    // Filter 1 of PNG (the difference to the pixel on the left) gives files nearly as small as trying all five filters,
+    // and is much faster. The setting is a global variable of stb; it is written once, because frames are encoded by
+    // several threads.
     static const int filter = stbi_write_force_png_filter = 1;
     static_cast<void>(filter);
     int size = 0;

@@ -1,4 +1,4 @@
-// The ffmpeg command line, and the errors that may occur around it.
+// Runs ffmpeg to encode a video: its command line, the pixels that are sent to it, and its errors.
 #include "render/output/video.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace render {
 
 namespace {
 
-/// The number of pixels, rounded up to an even one.
+/// A width or height in pixels, rounded up to an even number.
 int even(int pixels) {
     return pixels + pixels % 2;
 }
@@ -49,7 +49,7 @@ std::vector<std::string> commandLine(const VideoOptions& options, const std::str
             "file:" + path};
 }
 
-/// The options, if a video can be made with them.
+/// Returns the options if a video can be made with them, and throws otherwise.
 VideoOptions checked(VideoOptions options) {
     if (options.size.width <= 0 || options.size.height <= 0 || options.fps <= 0)
         throw std::logic_error(fmt::format("video: {} x {} pixels at {} frames a second", options.size.width,
@@ -58,7 +58,8 @@ VideoOptions checked(VideoOptions options) {
     return options;
 }
 
-/// Writes the pixels to `bytes`, with the last column or row repeated if their number is odd.
+/// Copies an image's pixels to `bytes`, with the last column or row repeated if the width or height is odd. Returns
+/// `bytes`.
 const std::vector<std::uint8_t>& padded(const Image& image, std::vector<std::uint8_t>& bytes) {
     const auto row = static_cast<std::ptrdiff_t>(3 * image.width);
     bytes.clear();

@@ -1,5 +1,5 @@
-// Frames to an MP4 video by the ffmpeg program, which is started with an argument vector and fed raw pixels through a
-// pipe. Used by tools/run/render_loop.cpp and the video command.
+// Encodes frames to an MP4 video with the program ffmpeg, which is started without a shell and reads raw pixels from
+// its input. Used by tools/run/render_loop.cpp and the video command.
 #pragma once
 
 #include <chrono>
@@ -15,11 +15,12 @@
 namespace render {
 
 struct VideoOptions {
-    std::string path;  ///< of the video; it is written to a temporary file until it is whole, see atomic_file.h
+    std::string path;  ///< path of the video, at which it appears when it is whole
     PictureSize size;
     int fps = 30;
-    std::string ffmpeg = "ffmpeg";                                     ///< the program, looked up on PATH
-    std::chrono::duration<double> progressTimeout = kProgressTimeout;  ///< after which a hanging ffmpeg is killed, s
+    std::string ffmpeg = "ffmpeg";  ///< the program, looked up on PATH
+    std::chrono::duration<double> progressTimeout =
+        kProgressTimeout;  ///< time without progress after which ffmpeg is killed, s
 };
 
 /// Asks ffmpeg for its libx264 encoder, because a distribution's ffmpeg without it fails only after the first frames.
@@ -34,13 +35,13 @@ class VideoWriter {
     /// @throws SystemError as requireEncoder() does, or when the file cannot be created
     explicit VideoWriter(VideoOptions options);
 
-    /// Appends a frame.
+    /// Appends a frame to the video.
     /// @param image  must have the size given in the options
-    /// @throws SystemError with the end of ffmpeg's output when it has ended
+    /// @throws SystemError with the end of ffmpeg's output when ffmpeg has ended
     void add(const Image& image);
 
-    /// Completes the video and renames it.
-    /// @throws SystemError with the end of ffmpeg's output when it fails
+    /// Waits until ffmpeg has completed the video, and gives the file its final name.
+    /// @throws SystemError with the end of ffmpeg's output when ffmpeg fails
     void finish();
 
  private:
@@ -48,8 +49,8 @@ class VideoWriter {
 
     VideoOptions options_;
     AtomicFile file_;
-    ChildProcess process_;              // is destroyed, and so killed, before its file is removed
-    std::vector<std::uint8_t> padded_;  // a frame of even size, kept for its memory
+    ChildProcess process_;              // the ffmpeg process, destroyed and so killed before its file is removed
+    std::vector<std::uint8_t> padded_;  // a frame padded to an even size; a member to reuse its memory
 };
 
 }  // namespace render
