@@ -21,7 +21,7 @@ namespace render {
 
 namespace {
 
-/// Texels along the longer side of the depth map, which covers all particles.
+/// Texels along the longer side of the light's depth map, which covers all particles.
 int depthMapTexels(Quality quality) {
     return quality == Quality::final ? 2048 : 1024;
 }
@@ -34,7 +34,8 @@ bool finite(glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Numbers that are not finite come from a bug in the caller, and would break the binning.
+/// Throws for numbers that are not finite. They come from a bug in the caller, and would break the sorting of spheres
+/// into tiles.
 void requireFinite(const View& view) {
     for (std::size_t k = 0; k < view.particles.size(); ++k) {
         const Sphere& s = view.particles[k];
@@ -55,7 +56,8 @@ PictureSize checkedSize(PictureSize size) {
     throw std::logic_error(fmt::format("render: a picture of {} x {} pixels", size.width, size.height));
 }
 
-/// In final quality a regular grid of 3 x 3 samples per pixel, each clamped, whose mean is taken in linear light.
+/// The samples of a pixel, one pass over the picture for each element. In final quality a regular grid of 3 x 3
+/// samples, each clamped, whose mean is taken in linear light.
 std::vector<Sampling> samplingsOf(Quality quality) {
     if (quality == Quality::draft) return {{.isSparse = true}};
     if (quality == Quality::normal) return {{.samples = 4, .isSparse = true}};
@@ -103,9 +105,10 @@ struct Renderer::Parts {
         image.width = size.width;
         image.height = size.height;
         image.rgb.resize(image.byteCount());
-        // Rows are packed from four bytes per pixel to three while OpenGL hands over the next ones.
+        // Rows of pixels are packed from four bytes per pixel to three by other threads while OpenGL hands over the
+        // next rows.
         tbb::task_group packing;
-        constexpr int kBand = 64;  // rows; chosen: they fit into a core's cache
+        constexpr int kBand = 64;  // rows per task; chosen: they fit into a core's cache
         for (int row = 0; row < size.height; row += kBand) {
             const int rows = std::min(kBand, size.height - row);
             target.readRows(row, rows, rowOf(row));
@@ -125,7 +128,7 @@ struct Renderer::Parts {
         for (int row = first; row < first + rows; ++row) {
             const PixelColor* from = rowOf(row);
             std::uint8_t* to = &image.rgb[3 * (last + 1) * static_cast<std::size_t>(row)];
-            // Whole words: the fourth byte is overwritten by the next pixel.
+            // Copies four bytes for each pixel but the last: the fourth byte is overwritten by the next pixel.
             static_assert(std::endian::native == std::endian::little);
             for (std::size_t k = 0; k < last; ++k) std::memcpy(to + 3 * k, &from[k], sizeof(PixelColor));
             std::memcpy(to + 3 * last, &from[last], 3);
@@ -138,7 +141,7 @@ struct Renderer::Parts {
     Quality quality;
     PicturePass pass;
     Target target;
-    std::vector<PixelColor> pixels;  // of whole tiles, row by row
+    std::vector<PixelColor> pixels;  // pixels of whole tiles, row by row
     DrawTimes times;
 };
 
@@ -153,7 +156,7 @@ Renderer::~Renderer() {
         const CurrentContext current(parts_->context);
         parts_.reset();
     } catch (const SystemError&) {
-        // OpenGL's objects cannot be deleted without their context. They are freed together with it.
+        // OpenGL objects cannot be deleted without their context. They are freed together with the context.
         static_cast<void>(parts_.release());
     }
 }

@@ -1,5 +1,5 @@
-// The one call of render/ that makes pictures: a view in, pixels out. The CPU computes every pixel (render/cpu); OpenGL
-// only carries the finished pixels into a texture and reads them back.
+// The renderer: a view in, pixels out. The CPU computes every pixel (render/cpu); OpenGL only carries the finished
+// pixels into a texture and reads them back.
 #pragma once
 
 #include <memory>
@@ -23,16 +23,18 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    /// Draws a view. After an exception the renderer must not draw again, because tiles of background that it keeps
+    /// from the last picture may be wrong.
     /// @param old  an image that is no longer needed, whose memory is reused
     /// @throws SystemError  if OpenGL fails, or if the tiles' lists of spheres or lines become too long
     /// @throws std::logic_error  if the view has numbers that are not finite
-    /// After an exception the renderer must not draw again: it may be wrong about what its pixels hold.
     Image draw(const View& view, Image old = {});
 
-    /// What the pixels of the view's picture show, row by row from the top left, computed as for the picture.
+    /// The point of a surface that each pixel of the view's picture shows, row by row from the top left, found as for
+    /// the picture.
     std::vector<VisiblePoint> visiblePoints(const View& view);
 
-    /// Where the time of the last call went.
+    /// The times that the stages of the last picture took.
     const DrawTimes& times() const;
 
  private:

@@ -1,5 +1,6 @@
-// Encoded bytes are blended, not linear light: text then looks equally bold dark on light and light on dark, as in most
-// programs. Blending uses integers only, so that it gives the same result on every machine.
+// Paints text and lines by blending the sRGB bytes of pixels rather than linear light: text then looks equally bold
+// dark on light and light on dark, as in most programs. Blending uses integers only, so that it gives the same result
+// on every machine.
 #include "render/overlay/coverage_mask.h"
 
 #include <algorithm>
@@ -19,19 +20,20 @@ double overlap(double low, double high, int pixel) {
     return std::max(0.0, std::min(high, pixel + 1.0) - std::max(low, static_cast<double>(pixel)));
 }
 
-/// From a at t = 0 to b at t = 255, rounded.
+/// Linear interpolation from a at t = 0 to b at t = 255, rounded to an integer.
 int lerp(int a, int b, int t) {
     return (a * (255 - t) + b * t + 127) / 255;
 }
 
-/// A pixel at an offset from another, and the share of the other's coverage that it takes over, 0 to 255.
+/// For widening a mask: the offset of a neighbor from a covered pixel, and the share of the pixel's coverage that the
+/// neighbor takes over, 0 to 255.
 struct Neighbor {
     int dx = 0;
     int dy = 0;
     int share = 0;
 };
 
-/// All pixels within the radius, their share falling to 0 over one more pixel.
+/// All neighbors within a radius in pixels. Their share is 255 up to the radius and falls to 0 over one more pixel.
 std::vector<Neighbor> disc(int radius) {
     std::vector<Neighbor> neighbors;
     for (int dy = -radius - 1; dy <= radius + 1; ++dy) {

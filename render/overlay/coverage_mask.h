@@ -11,13 +11,13 @@
 
 namespace render {
 
-/// A rectangle of pixels, which may reach beyond the picture.
+/// How much of each pixel is covered, in a rectangle of pixels that may reach beyond the picture.
 struct CoverageMask {
-    int left = 0;  ///< in pixels of the picture, (0, 0) being its top left pixel
+    int left = 0;  ///< first column of the rectangle; the leftmost of the picture is 0
     int top = 0;
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> coverage;  ///< width * height, row by row: 0 is not covered at all, 255 completely
+    std::vector<std::uint8_t> coverage;  ///< of each pixel, row by row: 0 not covered, 255 completely covered
 };
 
 /// A rectangle in pixels of the picture; (0, 0) is its top left corner.
@@ -28,23 +28,25 @@ struct Box {
     double bottom = 0.0;
 };
 
-/// The smallest mask that contains the box, with nothing covered.
+/// The smallest mask of whole pixels that contains a box, with nothing covered.
 CoverageMask emptyMask(const Box& box);
 
-/// Adds a rectangle. Pixels at its sides are covered by the share of their area that is inside.
+/// Covers a rectangle in the mask. Pixels at the sides of the rectangle are covered by the share of their area that is
+/// inside.
 void coverBox(CoverageMask& mask, const Box& box);
 
-/// All that lies within a radius, in pixels, of what the mask covers, with a soft edge one pixel wide.
+/// A mask of all pixels within a radius, in pixels, of those that the given mask covers, with a soft edge one pixel
+/// wide.
 CoverageMask widened(const CoverageMask& mask, int radius);
 
-/// 8-bit sRGB, as in an Image.
+/// A color as red, green and blue in 8-bit sRGB, as in an Image.
 using Bytes = glm::tvec3<std::uint8_t>;
 
-/// sRGB encoding of a linear color, clamped to [0, 1].
+/// Clamps a linear color to [0, 1] and encodes it as 8-bit sRGB.
 Bytes srgbBytes(const glm::vec3& linear);
 
 /// Blends a color into the picture where the mask covers it. What lies outside of the picture is left out.
-/// @param opacity  from 0 to 255, a factor on the coverage
+/// @param opacity  factor on the coverage, from 0 to 255 for 0 to 1
 void paint(Image& image, const CoverageMask& mask, const Bytes& color, int opacity = 255);
 
 }  // namespace render

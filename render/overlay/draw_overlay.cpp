@@ -1,6 +1,6 @@
-// Layout: the time stamp is in the top left corner, the scale bar in the bottom left, the color bar in the bottom
-// right. Every length is a multiple of the text's em. Each part is drawn as a coverage mask and painted twice: widened,
-// as a halo that sets it off from the picture, then as it is.
+// Draws the time stamp in the top left corner of the picture, the scale bar in the bottom left, the color bar in the
+// bottom right. Every length is a multiple of the text's em. Text and lines are drawn into a coverage mask, which is
+// painted twice: widened, as a halo that sets the text off from the picture, then as it is.
 #include "render/overlay/draw_overlay.h"
 
 #include <algorithm>
@@ -14,16 +14,16 @@ namespace render {
 
 namespace {
 
-constexpr double kCapitalHeight = 0.73;  // of capitals and digits in DejaVu Sans, em
-constexpr int kHaloOpacity = 150;  // of 255; chosen: text is legible on any picture, and the halo does not dominate it
-constexpr double kColorBarHeight = 10.0;  // em, or half the height of the picture if that is less
+constexpr double kCapitalHeight = 0.73;  // height of capitals and digits in DejaVu Sans, em
+constexpr int kHaloOpacity = 150;  // out of 255; chosen: text is legible on any picture, and the halo does not dominate
+constexpr double kColorBarHeight = 10.0;  // em; at most half the height of the picture
 
 /// The picture, and the lengths that all parts of its overlay share, pixels.
 struct Canvas {
     Image& image;
     const Overlay& overlay;
     double em = 0.0;
-    int margin = 0;    ///< between the overlay and the sides of the picture
+    int margin = 0;    ///< distance of the overlay from the sides of the picture
     int hairline = 1;  ///< width of lines
 };
 
@@ -61,14 +61,14 @@ void drawStamp(const Canvas& canvas) {
     paintInk(canvas, mask);
 }
 
-/// Length in pixels of a length in meters at the distance of the camera's target.
+/// Length in pixels that a length in meters has in the picture at the distance of the camera's target.
 double lengthOnPicture(const Canvas& canvas, const Camera& camera, double meters) {
     const CameraFrame frame = cameraFrame(camera, {canvas.image.width, canvas.image.height});
     const double depth = frame.perspective ? frame.toView(camera.target).z : 1.0;
     return meters / (frame.pixelWidth() * depth);
 }
 
-/// A horizontal line with a vertical tick at each end and its text centered above.
+/// Draws the scale bar: a horizontal line with a vertical tick at each end, and its text centered above.
 void drawScaleBar(const Canvas& canvas, const Camera& camera) {
     const ScaleBar& bar = *canvas.overlay.scaleBar;
     const double length = lengthOnPicture(canvas, camera, bar.length);
@@ -82,7 +82,8 @@ void drawScaleBar(const Canvas& canvas, const Camera& camera) {
                                 canvas.em};
     CoverageMask mask = emptyMask(enclosing(textBox(bar.text, position), {left, bottom - tick, left + length, bottom}));
     coverText(mask, bar.text, position);
-    // The boxes do not overlap, so that the partly covered pixels at the right end add up to the exact length.
+    // The rectangles of line and ticks do not overlap, so that the partly covered pixels at the right end add up to the
+    // exact length.
     coverBox(mask, {left, bottom - line, left + length, bottom});
     const double width = std::min(line, 0.5 * length);
     coverBox(mask, {left, bottom - tick, left + width, bottom - line});
@@ -91,6 +92,7 @@ void drawScaleBar(const Canvas& canvas, const Camera& camera) {
     paintInk(canvas, mask);
 }
 
+/// Interpolates between a color bar's evenly spaced colors.
 /// @param position  0 for the first color, 1 for the last
 glm::vec3 colorAt(const std::vector<glm::vec3>& colors, double position) {
     const double scaled = position * static_cast<double>(colors.size() - 1);
@@ -99,7 +101,7 @@ glm::vec3 colorAt(const std::vector<glm::vec3>& colors, double position) {
     return mix(colors[below], colors[above], static_cast<float>(scaled - static_cast<double>(below)));
 }
 
-/// Paints each row of the bar with the color at its center.
+/// Paints each row of pixels of the color bar with the color at its center.
 void paintColors(const Canvas& canvas, const Box& bar) {
     const auto rows = static_cast<int>(bar.bottom - bar.top);
     for (int row = 0; row < rows; ++row) {
@@ -111,7 +113,8 @@ void paintColors(const Canvas& canvas, const Box& bar) {
     }
 }
 
-/// The bar in whole pixels, with room for the widest text of a tick between it and the margin.
+/// Where the color bar is, in whole pixels, with room for the widest text of a tick between the bar and the picture's
+/// margin.
 Box colorBarBox(const Canvas& canvas) {
     double widest = 0.0;
     for (const Tick& tick : canvas.overlay.colorBar->ticks) widest = std::max(widest, textWidth(tick.text, canvas.em));
@@ -121,8 +124,8 @@ Box colorBarBox(const Canvas& canvas) {
     return {right - std::round(canvas.em), bottom - height, right, bottom};
 }
 
-/// The frame of the bar, the ticks with their texts on the right, and the title above, which ends at the margin if it
-/// is wider than bar and texts.
+/// Text and lines of the color bar: its frame, the ticks with their texts on the right, and the title above. A title
+/// that is wider than bar and texts ends at the picture's margin.
 CoverageMask colorBarLines(const Canvas& canvas, const Box& bar) {
     const ColorBar& colorBar = *canvas.overlay.colorBar;
     const double w = canvas.hairline;

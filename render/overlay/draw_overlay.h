@@ -8,11 +8,13 @@
 
 namespace render {
 
-/// Height of the em square of an overlay's text in a picture of this many pixels, pixels.
+/// Height of the em square of an overlay's text, pixels.
+/// @param width  width and height of the picture, pixels
 /// @param size  Overlay::size
 double overlayEm(int width, int height, double size);
 
-/// @param camera  the camera of the picture, for the length of the scale bar
+/// Draws the overlay over the picture.
+/// @param camera  camera of the picture, on which the length of the scale bar depends
 void drawOverlay(Image& image, const Overlay& overlay, const Camera& camera);
 
 }  // namespace render

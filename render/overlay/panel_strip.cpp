@@ -1,4 +1,5 @@
-// The text has the font and the size of an overlay's on a picture as large as a panel.
+// Copies pictures into a strip and draws a text below each, with the font and the size that the text of an overlay has
+// on one of the pictures.
 #include "render/overlay/panel_strip.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ void copyInto(const Image& panel, int left, Image& strip) {
                     strip.rgb.begin() + std::ptrdiff_t{3} * (std::ptrdiff_t{y} * strip.width + left));
 }
 
-/// Draws the text with the largest em, or a smaller one if it would be wider than the panel.
+/// Draws the text below a panel with the largest em, or with a smaller one if the text would be wider than the panel.
 void drawLabel(const std::string& text, double center, int baseline, double largestEm, int width, Image& strip) {
     const double em = largestEm * std::min(1.0, width / textWidth(text, largestEm));
     const TextPosition at{std::round(center - 0.5 * textWidth(text, em)), baseline, em};

@@ -1,6 +1,6 @@
-// Text by stb_truetype, in a font that the assembler copies from RENDER_FONT_FILE (given by the build) into the
-// program, so that the program needs no file when it runs. As an array of numbers the font would take the compiler
-// seconds.
+// Draws text with stb_truetype, in a font that the assembler copies from RENDER_FONT_FILE (a macro that CMake sets)
+// into the program, so that the program needs no font file when it runs. As an array of numbers the font would take the
+// compiler seconds.
 #include "render/overlay/text.h"
 
 #include <algorithm>
@@ -47,7 +47,8 @@ const stbtt_fontinfo& font() {
     return kFont;
 }
 
-/// The number of bytes that follow the first byte of a character in UTF-8; -1 if it cannot be a first byte.
+/// The number of bytes that follow the first byte of a character in UTF-8; -1 if the byte cannot be the first of a
+/// character.
 int tailLength(unsigned char first) {
     if (first < 0x80) return 0;
     if (first >= 0xC2 && first < 0xE0) return 1;
@@ -71,8 +72,8 @@ int takeCharacter(std::string_view& text) {
     return character;
 }
 
-/// Calls visit(glyph, x) for each character, where x is its left end in pixels from the beginning of the line. Returns
-/// the width of the line.
+/// Calls visit(glyph, x) for each character of a line of text, where x is the left end of the character in pixels from
+/// the beginning of the line. Returns the width of the line.
 template <class Visit>
 double layOut(std::string_view text, double em, const Visit& visit) {
     const double scale = stbtt_ScaleForMappingEmToPixels(&font(), static_cast<float>(em));
@@ -102,7 +103,7 @@ void coverGlyph(CoverageMask& mask, int glyph, const TextPosition& position) {
     stbtt_GetGlyphBitmapBoxSubpixel(&font(), glyph, scale, scale, shift, 0.0F, &x0, &y0, &x1, &y1);
     const int width = x1 - x0;
     const int height = y1 - y0;
-    if (width <= 0 || height <= 0) return;  // a space, for example
+    if (width <= 0 || height <= 0) return;  // the glyph has no pixels: a space, for example
     std::vector<std::uint8_t> bitmap(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     stbtt_MakeGlyphBitmapSubpixel(&font(), bitmap.data(), width, height, width, scale, scale, shift, 0.0F, glyph);
     for (int row = 0; row < height; ++row) {
@@ -124,7 +125,8 @@ double textWidth(std::string_view text, double em) {
 }
 
 Box textBox(std::string_view text, const TextPosition& position) {
-    // Room for accents, descenders and overhanging strokes of every Latin or Greek letter and digit in DejaVu Sans.
+    // The box has room for accents, descenders and overhanging strokes of every Latin or Greek letter and digit in
+    // DejaVu Sans.
     return {position.left - 0.25 * position.em, position.baseline - 1.1 * position.em,
             position.left + textWidth(text, position.em) + 0.25 * position.em, position.baseline + 0.5 * position.em};
 }

@@ -10,7 +10,7 @@ namespace render {
 
 /// Position and size of a line of text, in pixels of the picture.
 struct TextPosition {
-    double left = 0.0;  ///< x at which the first character begins
+    double left = 0.0;  ///< x of the left end of the first character
     int baseline = 0;   ///< y of the lower end of capitals
     double em = 12.0;
 };
@@ -18,10 +18,11 @@ struct TextPosition {
 /// Width of a line of UTF-8 text, pixels. Bytes that are not UTF-8 count as replacement characters (U+FFFD).
 double textWidth(std::string_view text, double em);
 
-/// A box that contains every pixel of the line. In scripts other than Latin and Greek, tall marks may reach beyond it.
+/// A box that contains every pixel of a line of text. In scripts other than Latin and Greek, tall marks may reach
+/// beyond the box.
 Box textBox(std::string_view text, const TextPosition& position);
 
-/// Adds a line of text to the mask. What lies outside of the mask is left out.
+/// Covers a line of text in the mask. Parts of the text outside of the mask are left out.
 void coverText(CoverageMask& mask, std::string_view text, const TextPosition& position);
 
 }  // namespace render

@@ -1,4 +1,4 @@
-// The basis of a camera, and the bounds of projected boxes and spheres.
+// Computes the basis of a camera, and the bounds in pixels of projected boxes and spheres.
 #include "render/picture/camera_frame.h"
 
 #include <algorithm>
@@ -14,14 +14,14 @@ struct Interval {
     double high;
 };
 
-/// The pixel at a coordinate, from -1 to count. The sum is not negative, so that conversion rounds it down;
-/// std::floor() may be a function call.
+/// Index of the pixel at a coordinate in pixels, clamped to the range from -1 to count. The number that is converted is
+/// not negative, so that the conversion rounds down; std::floor() may be a function call.
 int clampedPixel(double at, int count) {
     return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)) + 1.0) - 1;
 }
 
-/// The pixels of a rectangle on the plane at view depth 1 (any depth in parallel projection), wider on each side by a
-/// margin in pixels.
+/// The pixels that show a rectangle of the plane at view depth 1 (at any depth in parallel projection), and a margin in
+/// pixels around it.
 std::optional<Rect> pixelsOf(const CameraFrame& frame, Interval x, Interval y, double margin) {
     const double perX = 0.5 * frame.width / frame.halfWidth;
     const double perY = 0.5 * frame.height / frame.halfHeight;
@@ -34,8 +34,8 @@ std::optional<Rect> pixelsOf(const CameraFrame& frame, Interval x, Interval y, d
                 std::min(rect.y1, frame.height - 1)};
 }
 
-/// Tangents from the eye to the circle with center (a, z) and radius r: a/z runs over
-/// (a z -+ r sqrt(a^2 + z^2 - r^2)) / (z^2 - r^2), for z > r.
+/// Bounds of a circle with center (a, z) and radius r < z, projected from the eye at (0, 0) onto the line z = 1: the
+/// tangents through the eye meet the line at (a z -+ r sqrt(a^2 + z^2 - r^2)) / (z^2 - r^2).
 Interval tangents(double a, double z, double r) {
     const double front = (z - r) * (z + r);
     const double root = r * std::sqrt(a * a + front);
@@ -81,7 +81,7 @@ std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minim
         y = {std::min(y.low, view.y * scale), std::max(y.high, view.y * scale)};
     }
     if (behind == 8) return std::nullopt;
-    // With corners on both sides of the eye's plane, the box may be seen anywhere.
+    // A box with corners on both sides of the eye's plane may be seen at any pixel.
     if (behind > 0 && frame.perspective) return Rect{0, 0, frame.width - 1, frame.height - 1};
     return pixelsOf(frame, x, y, 2.0);
 }
@@ -91,7 +91,7 @@ std::optional<Rect> pixelsTouchedBySphere(const CameraFrame& frame, glm::vec3 ce
     const double r = double(radius);
     if (at.z + r <= 0.0) return std::nullopt;
     if (!frame.perspective) return pixelsOf(frame, {at.x - r, at.x + r}, {at.y - r, at.y + r}, 1.0);
-    // Where a sphere nearly touches the eye's plane, its tangents are too imprecise.
+    // The tangents of a sphere that nearly touches the eye's plane are too imprecise.
     if (at.z <= 1.0001 * r) return Rect{0, 0, frame.width - 1, frame.height - 1};
     return pixelsOf(frame, tangents(at.x, at.z, r), tangents(at.y, at.z, r), 1.0);
 }

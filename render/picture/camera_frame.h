@@ -1,5 +1,6 @@
-// A camera as the renderer's stages use it: an orthonormal basis, rays through pixels, and the rectangle of pixels that
-// a box can touch. The depth map of the metaballs uses one for the light as well, with parallel projection.
+// A camera as the renderer's stages use it: an orthonormal basis, rays through pixels, and the rectangles of pixels
+// that boxes and spheres can touch. The depth map of the metaballs uses one for the light as well, with parallel
+// projection.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 namespace render {
 
 /// Offsets of four samples from the center of a pixel, pixels: a rotated grid. The samples lie in four different rows
-/// and columns, so that nearly horizontal and vertical edges are drawn in four steps rather than two.
+/// and columns, so that nearly horizontal and vertical silhouettes are drawn in four steps rather than two.
 inline constexpr std::array<glm::vec2, 4> kFourSamples = {
     {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
 
@@ -34,8 +35,8 @@ struct CameraFrame {
     glm::vec3 right{1.0F, 0.0F, 0.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     glm::vec3 forward{0.0F, 0.0F, -1.0F};
-    float halfWidth = 1.0F;   ///< m, at view depth 1 in perspective
-    float halfHeight = 1.0F;  ///< m, at view depth 1 in perspective
+    float halfWidth = 1.0F;   ///< half the width of the picture, m; at view depth 1 in perspective
+    float halfHeight = 1.0F;  ///< half the height of the picture, m; at view depth 1 in perspective
     bool perspective = true;
     int width = 1;  ///< pixels
     int height = 1;
@@ -50,7 +51,7 @@ struct CameraFrame {
     bool operator==(const CameraFrame&) const = default;
 };
 
-/// @param size  of the picture, pixels
+/// The basis of a camera for a picture of the given size in pixels.
 CameraFrame cameraFrame(const Camera& camera, PictureSize size);
 
 /// The pixels of the picture that an axis-aligned box can touch: the bounds of its projected corners, two pixels wider

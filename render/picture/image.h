@@ -1,5 +1,5 @@
-// What the renderer returns: the finished picture, which PNG and video take, and for the studies the point that each
-// pixel shows.
+// What the renderer returns: the finished picture, which becomes a PNG file or a frame of a video, and for the studies
+// the point of a surface that each pixel shows.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,18 @@ namespace render {
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgb;  ///< byteCount() of them
+    std::vector<std::uint8_t> rgb;  ///< red, green and blue of each pixel
 
     std::size_t byteCount() const {
         return std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     }
 };
 
-/// The first surface that the ray through a pixel's center meets. Of metaballs in draft and normal quality, it is
-/// interpolated where the renderer casts no ray through that pixel.
+/// Where the ray through a pixel's center first meets a surface. On metaballs in draft and normal quality, the point is
+/// interpolated where the renderer casts no ray through the pixel.
 struct VisiblePoint {
-    glm::vec3 normal{0.0F};  ///< unit length, world axes
-    float depth = -1.0F;     ///< view depth, m; -1 where the ray meets nothing
+    glm::vec3 normal{0.0F};  ///< surface normal in world axes, unit length
+    float depth = -1.0F;     ///< view depth of the point, m; -1 where the ray meets nothing
 };
 
 }  // namespace render

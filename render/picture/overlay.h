@@ -1,5 +1,5 @@
-// What is written over a picture, as plain data: a time stamp, a scale bar and a color bar. Part of a View, filled in
-// by scenes/build/build_picture.cpp; render/overlay/draw_overlay.h draws it over the finished picture.
+// The overlay of a picture as plain data: time stamp, scale bar and color bar. A View has one.
+// scenes/build/build_picture.cpp fills it in, and render/overlay/draw_overlay.h draws it over the finished picture.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@
 
 namespace render {
 
-/// Shows a length at the distance of the camera's target, in the bottom left corner. It is left out of pictures that
-/// are too narrow for it.
+/// A bar in the bottom left corner that shows how long a length is at the distance of the camera's target. It is left
+/// out of pictures that are too narrow.
 struct ScaleBar {
     float length = 1.0F;  ///< m
-    std::string text;     ///< written above it
+    std::string text;     ///< the text above the bar
 };
 
 struct Tick {
-    float position = 0.0F;  ///< 0 at the lower end of the bar, 1 at the upper end
+    float position = 0.0F;  ///< 0 at the lower end of the color bar, 1 at the upper end
     std::string text;
 };
 
-/// Shows which color stands for which number, in the bottom right corner.
+/// A bar in the bottom right corner that shows which color stands for which number.
 struct ColorBar {
     std::vector<glm::vec3> colors;  ///< linear RGB, evenly spaced from the lower to the upper end; at least one
     std::string title;
@@ -31,12 +31,11 @@ struct ColorBar {
 
 /// Texts are UTF-8, one line each.
 struct Overlay {
-    std::string stamp;  ///< in the top left corner; empty for none
+    std::string stamp;  ///< time stamp in the top left corner; empty for none
     std::optional<ScaleBar> scaleBar;
     std::optional<ColorBar> colorBar;
-    glm::vec3 ink{1.0F};  ///< of text and lines, linear RGB; their halo is black or white, whichever contrasts
-    float size =
-        1.0F;  ///< a factor on the text's em, which is 3 % of the picture's shorter side and at least 11 pixels
+    glm::vec3 ink{1.0F};  ///< color of text and lines, linear RGB; their halo is black or white, for contrast
+    float size = 1.0F;    ///< factor on the text's em: 3 % of the picture's shorter side, at least 11 pixels
 };
 
 }  // namespace render

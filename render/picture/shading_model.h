@@ -1,6 +1,6 @@
 // The shading model: what color a point of a surface has, and what light, surface, ground and background it depends on.
-// render/cpu/ computes it fast, studies/oracle/ slowly in double precision, and both are written from the text below and
-// the comments on the fields. Units and axes are those of view.h.
+// render/cpu/ computes it fast, studies/oracle/ slowly in double precision, and both are written from the text below
+// and the comments on the fields. Units and axes are those of view.h.
 //
 // 1. Color of a point on a surface
 //
@@ -82,32 +82,32 @@ namespace render {
 struct Light {
     glm::vec3 toLight{0.4F, 0.8F, 0.4472136F};  ///< unit length
     glm::vec3 color{1.0F};
-    bool shadows = true;    ///< without, lightVisibility is 1
-    float softness = 0.0F;  ///< S of section 4: about the width of shadows' edges in radii of particles; at most 1
+    bool shadows = true;    ///< whether the light casts shadows; without them lightVisibility is 1
+    float softness = 0.0F;  ///< about the width of shadows' edges in particle radii, 0 to 1: S in section 4
 };
 
 struct Ambient {
     glm::vec3 sky{0.35F};
     glm::vec3 ground{0.2F};
-    float occlusion = 0.0F;  ///< 0: a crack is as bright as a hill, 1: it is dark where no sky is visible
+    float occlusion = 0.0F;  ///< strength of ambient occlusion; 1: dark where no sky is visible
 };
 
-/// What a mirroring surface reflects.
+/// Colors of the surroundings that a mirroring surface reflects, linear RGB.
 struct Surroundings {
     glm::vec3 top{0.9F};
     glm::vec3 horizon{0.6F};
     glm::vec3 bottom{0.2F};
 };
 
-/// How the particles reflect light. Obstacles and the ground are matt.
+/// How the particles reflect, transmit and emit light. Obstacles and the ground are matt.
 struct Surface {
     float specular = 0.0F;      ///< reflectance at normal incidence; 0 is matt
     int glossExponent = 6;      ///< base-2 logarithm of the highlight's exponent
     float reflection = 0.0F;    ///< strength of the mirrored surroundings, times Fresnel's factor
-    float metal = 0.0F;         ///< 1: no diffuse light, and reflections take the color of the surface
-    float roughness = 0.0F;     ///< 1: dust, as bright at its rim as in its middle
-    float translucency = 0.0F;  ///< share of the light from behind that passes through thin regions
-    float absorption = 0.0F;    ///< how much the color deepens in thick regions
+    float metal = 0.0F;         ///< 1: no diffuse light, and reflections take the color of the particle
+    float roughness = 0.0F;     ///< 1: as bright at the rim as in the middle, like dust
+    float translucency = 0.0F;  ///< share of the light from behind that passes through thin parts
+    float absorption = 0.0F;    ///< how much the color deepens in thick parts
     float glow = 0.0F;          ///< emitted light
 };
 
@@ -116,10 +116,10 @@ struct Ground {
     float height = 0.0F;
     glm::vec3 color{0.6F};
     glm::vec3 center{0.0F};
-    float fadeDistance = 30.0F;  ///< at which it is half ground, half background
+    float fadeDistance = 30.0F;  ///< distance at which the color is half ground, half background, m
 };
 
-/// A vertical gradient over the whole picture.
+/// Colors of the background, a vertical gradient over the whole picture, linear RGB.
 struct Background {
     glm::vec3 top{0.0F};
     glm::vec3 bottom{0.0F};

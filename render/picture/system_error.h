@@ -1,11 +1,13 @@
-// The exception of render/ and tools/ for failures outside the program: OpenGL, ffmpeg, the disk, a damaged PNG file.
+// The exception that render/ and tools/ throw for failures outside the program: OpenGL, ffmpeg, the disk, a damaged PNG
+// file.
 #pragma once
 
 #include <stdexcept>
 
 namespace render {
 
-/// The message says what was tried, on what, and gives the reason in the other side's own words.
+/// A failure outside the program. The message says what was tried, on which file or program, and gives the reason in
+/// that program's or the system's own words.
 class SystemError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;

@@ -24,9 +24,10 @@ struct Sphere {
 
 enum class Style { spheres, metaballs };
 
-/// draft takes one sample per pixel. normal antialiases silhouettes. final takes 3 x 3 samples per pixel and averages
-/// them in linear light. The surface of metaballs is found at every second pixel of every second row, and between these
-/// only where it is not smooth; in final quality it is found at every pixel.
+/// Quality of a picture. draft takes one sample per pixel. normal antialiases silhouettes. final takes 3 x 3 samples
+/// per pixel and averages them in linear light. In draft and normal quality, rays find the surface of metaballs at
+/// every second pixel of every second row, and between these only where the surface is not smooth; in final quality at
+/// every pixel.
 enum class Quality { draft, normal, final };
 
 enum class Projection { perspective, orthographic };
@@ -36,7 +37,7 @@ struct Camera {
     glm::vec3 eye{0.0F, 2.0F, 10.0F};
     glm::vec3 target{0.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
-    float verticalFov = 0.7F;  ///< full angle; perspective only
+    float verticalFov = 0.7F;  ///< full vertical angle of view, radians; perspective only
     float halfHeight = 5.0F;   ///< half the height of what the picture shows, m; orthographic only
 };
 
@@ -52,21 +53,22 @@ struct BoxObstacle {
     glm::vec3 color{0.5F};
 };
 
-/// A straight line of constant width in pixels, hidden by what is in front of it.
+/// A line of constant width in pixels, an edge of a box, hidden by what is in front of it.
 struct Edge {
     glm::vec3 from{0.0F};
     glm::vec3 to{0.0F};
     glm::vec3 color{1.0F, 0.9F, 0.0F};
-    float width = 1.5F;  ///< pixels, at any quality
+    float width = 1.5F;  ///< width of the line, pixels, at any quality
 };
 
-/// Where the balls of the field are and how much each weighs, see MetaballField.
+/// How particles become the balls of the metaball field.
 enum class Skin {
-    plain,  ///< at the particles, with weight 1: the particles stay visible as bumps
-    smooth  ///< moved and weighted by their neighborhood: a closed surface, as of a liquid
+    plain,  ///< balls at the particles, with weight 1: particles stay visible as bumps
+    smooth  ///< balls moved and weighted by their neighbors: a smooth surface, as of a liquid
 };
 
-/// The share of the way from its particle to the mean of its neighbors that a ball of a smooth skin is moved.
+/// How far a ball of a smooth skin is moved from its particle toward the weighted mean position of the neighbors, as a
+/// share of the distance.
 inline constexpr float kSkinPull = 0.85F;
 
 /// The surface of metaballs is where the field, the sum over all balls of w (1 - d^2/R^2)^2 for d < R, has the value
@@ -78,11 +80,11 @@ inline constexpr float kSkinPull = 0.85F;
 /// distances d < Q. A ball is moved from its particle by kSkinPull times the vector to the mean position of all
 /// particles weighted by k, itself included with k = 1, and its weight is (sum of k)^(-3/4).
 struct MetaballField {
-    float reach = 2.5F;  ///< of a ball's field, in radii; from 1.2 to 4
+    float reach = 2.5F;  ///< radius of a ball's field in particle radii, from 1.2 to 4
     Skin skin = Skin::plain;
 };
 
-/// One frame.
+/// Everything that a picture shows.
 struct View {
     std::vector<Sphere> particles;
     Style style = Style::spheres;
@@ -92,13 +94,13 @@ struct View {
     Ambient ambient;
     Surface surface;
     Surroundings surroundings;
-    float exposure = 0.0F;  ///< a factor on all light before the shoulder; 0: neither factor nor shoulder
+    float exposure = 0.0F;  ///< factor on all light before the shading model's shoulder; 0: neither
     Background background;
     std::optional<Ground> ground;
     std::vector<SphereObstacle> sphereObstacles;
     std::vector<BoxObstacle> boxObstacles;
     std::vector<Edge> edges;
-    Overlay overlay;  ///< drawn last, over the finished picture
+    Overlay overlay;  ///< text and scales, drawn last over the finished picture
 };
 
 struct PictureSize {
