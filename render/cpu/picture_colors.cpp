@@ -62,8 +62,8 @@ void pixelPoints(const PictureJob& job, std::size_t tile, std::span<const std::i
 
 void shadePoints(const PictureJob& job, const ShadingPoints& points, PointColors& colors) {
     LightVisibility visibility;
-    if (job.occluders != nullptr) computeLightVisibility(*job.occluders, job.geometry, points, visibility);
-    shade(job.shading, job.geometry, points, job.occluders != nullptr ? &visibility : nullptr, colors);
+    if (job.occluders) computeLightVisibility(*job.occluders, job.geometry, points, visibility);
+    shade(job.shading, job.geometry, points, job.occluders ? &visibility : nullptr, colors);
 }
 
 /// The colors of one tile, along the Z curve.

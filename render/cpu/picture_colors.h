@@ -17,10 +17,10 @@ namespace render {
 
 /// Everything that the pixels of one picture are colored from.
 struct PictureJob {
-    const TileContents& contents;
+    TileContents contents;
     SampleOffsets offsets;
-    const ShadingGeometry& geometry;
-    const Occluders* occluders;  ///< null where nothing casts shadows or occludes the sky
+    ShadingGeometry geometry;
+    std::optional<Occluders> occluders;  ///< nothing where nothing casts shadows or occludes the sky
     const Shading& shading;
 };
 

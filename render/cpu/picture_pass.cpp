@@ -116,9 +116,8 @@ Occluders PicturePass::occludersOf(const View& view) const {
     return occluders;
 }
 
-/// Calls visit(job) with everything that the pixels of a sampling are colored from.
-template <typename Visit>
-auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visit& visit) const {
+/// The job points into the view, the sampling and this object, which have to outlive it.
+PictureJob PicturePass::pictureJob(const View& view, const Sampling& sampling) const {
     SolidGeometry solids{frame_, viewSpheres_, spherePixels_, &sphereTiles_, view.boxObstacles, std::nullopt};
     if (view.ground) solids.ground = view.ground->height - frame_.eye.y;
     const ShadingGeometry geometry{frame_,
@@ -132,19 +131,19 @@ auto PicturePass::withJob(const View& view, const Sampling& sampling, const Visi
                                    light_.toLight,
                                    needsSkyVisibility_};
     const Occluders occluders = occludersOf(view);
-    const TileContents contents{solids, hasMetaballs_ ? &metaballHits_ : nullptr, lineList_, boxTiles_, groundTiles_};
-    return visit(PictureJob{contents, sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
-                            geometry, occluders.isEmpty() ? nullptr : &occluders, shading_});
+    return {{solids, hasMetaballs_ ? &metaballHits_ : nullptr, lineList_, boxTiles_, groundTiles_},
+            sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
+            geometry,
+            occluders.isEmpty() ? std::nullopt : std::optional(occluders),
+            shading_};
 }
 
 void PicturePass::color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels) {
-    withJob(view, sampling, [&](const PictureJob& job) {
-        colorPixels(job, {sampling.index, sampling.count, sums_}, background_, pixels);
-    });
+    colorPixels(pictureJob(view, sampling), {sampling.index, sampling.count, sums_}, background_, pixels);
 }
 
 std::vector<VisiblePoint> PicturePass::visiblePoints(const View& view, const Sampling& sampling) const {
-    return withJob(view, sampling, [](const PictureJob& job) { return render::visiblePoints(job); });
+    return render::visiblePoints(pictureJob(view, sampling));
 }
 
 }  // namespace render

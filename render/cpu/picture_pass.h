@@ -60,8 +60,7 @@ class PicturePass {
     void findBoxTiles(const View& view);
     void findGroundTiles(const View& view);
     Occluders occludersOf(const View& view) const;
-    template <typename Visit>
-    auto withJob(const View& view, const Sampling& sampling, const Visit& visit) const;
+    PictureJob pictureJob(const View& view, const Sampling& sampling) const;
 
     CameraFrame frame_;
     Shading shading_;

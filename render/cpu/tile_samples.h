@@ -19,7 +19,7 @@ namespace render {
 
 /// What the tiles of a picture may show.
 struct TileContents {
-    const SolidGeometry& geometry;
+    SolidGeometry geometry;
     const MetaballHits* metaballs;  ///< null if there are none
     const LineList& lines;
     std::span<const std::uint8_t> boxes;  ///< per tile: 1 where a box may be seen
