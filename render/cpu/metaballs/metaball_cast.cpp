@@ -39,8 +39,7 @@ class RayVector {
           gridStart_(balls.size() == 0 ? 0.0F : std::max(0.0F, balls.nearDepth(0))),
           firstSample_(sampleBefore(hn::GetLane(minOfLanes(minDepth, active)))),
           ray_(viewRay(scene.frame, at)),
-          near_(scene, balls, storage, ray_,
-                BallCulling(balls, RayBundle(scene.frame, at, active), depthOf(firstSample_))) {}
+          near_(scene, balls, storage, ray_, RayBundle(scene.frame, at, active, depthOf(firstSample_))) {}
 
     /// Advances until every active ray has hit the surface, has left the balls behind or is at its end.
     /// @return the view depth of each hit, negative without one

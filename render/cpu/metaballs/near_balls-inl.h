@@ -14,20 +14,125 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <hwy/highway.h>
 #include <tbb/cache_aligned_allocator.h>
 
-#include "render/cpu/metaballs/ball_culling-inl.h"
 #include "render/cpu/metaballs/metaball_scene.h"
 #include "render/prepare/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
+
+/// The balls of a tile's list as a structure of arrays, front to back. They are copied one vector at a time as they are
+/// asked for: most lie behind the surface, where no ray comes.
+class TileBalls {
+ public:
+    /// Starts on another tile; the memory is reused.
+    void begin(const MetaballScene& scene, std::size_t tile) {
+        const CellLists& tiles = scene.tiles;
+        balls_ = scene.balls;
+        index_ = std::span(tiles.items).subspan(tiles.begin[tile], tiles.begin[tile + 1] - tiles.begin[tile]);
+        copied_ = 0;
+        // Whole vectors are read.
+        const std::size_t size = index_.size() + hn::Lanes(D());
+        for (std::vector<float>* values : {&x_, &y_, &z_, &reach_, &distance_})
+            if (values->size() < size) values->resize(size);
+    }
+
+    std::size_t size() const { return index_.size(); }
+    std::uint32_t index(std::size_t k) const { return index_[k]; }
+
+    /// View depth at which the kernel of ball k begins, m.
+    float nearDepth(std::size_t k) {
+        copyThrough(k);
+        return z_[k] - reach_[k];
+    }
+
+    struct BallVector {
+        Vec3 center;
+        V reach;
+        V distance;  ///< of the center from the eye or, in parallel projection, from the picture's middle
+    };
+    BallVector load(std::size_t first) {
+        const D d;
+        copyThrough(first);
+        return {{hn::LoadU(d, &x_[first]), hn::LoadU(d, &y_[first]), hn::LoadU(d, &z_[first])},
+                hn::LoadU(d, &reach_[first]),
+                hn::LoadU(d, &distance_[first])};
+    }
+
+ private:
+    void copyThrough(std::size_t k) {
+        const D d;
+        for (; copied_ <= k; copied_ += hn::Lanes(d)) {
+            const std::size_t end = std::min(copied_ + hn::Lanes(d), index_.size());
+            for (std::size_t next = copied_; next < end; ++next) {
+                const Metaball& ball = balls_[index_[next]];
+                x_[next] = ball.center.x;
+                y_[next] = ball.center.y;
+                z_[next] = ball.center.z;
+                reach_[next] = ball.reach;
+            }
+            const Vec3 center{hn::LoadU(d, &x_[copied_]), hn::LoadU(d, &y_[copied_]), hn::LoadU(d, &z_[copied_])};
+            hn::StoreU(hn::Sqrt(dot(center, center)), d, &distance_[copied_]);
+        }
+    }
+
+    std::span<const Metaball> balls_;
+    std::span<const std::uint32_t> index_;
+    std::size_t copied_ = 0;  // number of balls copied so far, in whole vectors
+    std::vector<float> x_, y_, z_, reach_, distance_;
+};
+
+/// A line that all rays of a vector stay close to: at the parameter t each is at most originSpread + directionSpread t
+/// away from it.
+class RayBundle {
+ public:
+    /// @param rays  the lanes that are cast
+    RayBundle(const CameraFrame& frame, const ImagePoint& at, M rays, float minDepth) : minDepth_(minDepth) {
+        // Centers are known to some 1e-7 of their distance, and the kernels see the rounding of their squares.
+        constexpr float kRounding = 1e-5F;
+        const glm::vec2 low(hn::GetLane(minOfLanes(at.x, rays)), hn::GetLane(minOfLanes(at.y, rays)));
+        const glm::vec2 high(-hn::GetLane(minOfLanes(hn::Neg(at.x), rays)),
+                             -hn::GetLane(minOfLanes(hn::Neg(at.y), rays)));
+        const glm::vec2 middle = 0.5F * (low + high);
+        const glm::vec2 half = high - middle;
+        const float spread = std::sqrt(dot(half, half)) * (1.0F + kRounding);
+        (frame.perspective ? direction_ : origin_) += glm::vec3(middle, 0.0F);
+        (frame.perspective ? directionSpread_ : originSpread_) = spread;
+        directionSpread_ += kRounding;
+        inverseSquare_ = 1.0F / dot(direction_, direction_);
+    }
+
+    /// A bit for each ball of the vector that begins with ball `first` of a tile: not set where no ray of the bundle
+    /// can come within reach of the ball at or beyond the view depth minDepth.
+    std::uint32_t mayMeet(TileBalls& tileBalls, std::size_t first) const {
+        const D d;
+        const Vec3 direction = splat(direction_);
+        const TileBalls::BallVector balls = tileBalls.load(first);
+        const Vec3 offset = balls.center - splat(origin_);
+        const V closest = dot(offset, direction) * splat(inverseSquare_);
+        const Vec3 away = pointOnRay(offset, hn::Neg(closest), direction);
+        const V limit = balls.reach + splat(originSpread_) + splat(directionSpread_) * (balls.reach + balls.distance);
+        const M isMet = hn::And(dot(away, away) < limit * limit, offset.z + balls.reach >= splat(minDepth_));
+        return maskBits(hn::And(isMet, hn::FirstN(d, tileBalls.size() - first)));
+    }
+
+ private:
+    glm::vec3 origin_{0.0F};
+    glm::vec3 direction_{0.0F, 0.0F, 1.0F};
+    float originSpread_ = 0.0F;
+    float directionSpread_ = 0.0F;
+    float inverseSquare_ = 1.0F;  // of the direction's length
+    float minDepth_;
+};
 
 /// The field and its derivative at one depth of each ray.
 struct FieldSample {
@@ -62,8 +167,8 @@ struct NearBallStorage {
 class NearBalls {
  public:
     NearBalls(const MetaballScene& scene, TileBalls& tileBalls, NearBallStorage& storage, const Ray& ray,
-              const BallCulling& culling)
-        : scene_(scene), tileBalls_(tileBalls), storage_(storage), culling_(culling), ray_(ray) {
+              const RayBundle& bundle)
+        : scene_(scene), tileBalls_(tileBalls), storage_(storage), bundle_(bundle), ray_(ray) {
         storage_.reserve(tileBalls.size());
         const V square = dot(ray.direction, ray.direction);
         length_ = hn::Sqrt(square);
@@ -130,7 +235,7 @@ class NearBalls {
 
     /// Admits the next vector of the tile's balls, as far as some ray meets them.
     void admitVector() {
-        for (std::uint32_t bits = culling_.mayMeet(culled_); bits != 0; bits &= bits - 1)
+        for (std::uint32_t bits = bundle_.mayMeet(tileBalls_, culled_); bits != 0; bits &= bits - 1)
             admit(tileBalls_.index(culled_ + static_cast<std::size_t>(std::countr_zero(bits))));
         culled_ += hn::Lanes(D());
     }
@@ -168,7 +273,7 @@ class NearBalls {
     const MetaballScene& scene_;
     TileBalls& tileBalls_;
     NearBallStorage& storage_;
-    BallCulling culling_;
+    RayBundle bundle_;
     Ray ray_;
     V length_;  // of the direction
     V inverseSquare_;
