@@ -40,15 +40,6 @@ LightBasis lightBasis(glm::vec3 toLight) {
     return basis;
 }
 
-Bounds<glm::vec3> lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres) {
-    Bounds<glm::vec3> bounds;
-    for (const ViewSphere& sphere : spheres) {
-        const glm::vec3 at = basis.toLightSpace(sphere.center);
-        bounds.add(at - sphere.radius, at + sphere.radius);
-    }
-    return bounds;
-}
-
 LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness) {
     LightGrid grid;
     if (spheres.empty()) return grid;

@@ -49,7 +49,4 @@ struct LightGrid {
 /// @param softness  of the light; a sphere is listed in all cells that the soft edge of its shadow reaches
 LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness);
 
-/// Bounds of spheres in light space.
-Bounds<glm::vec3> lightBounds(const LightBasis& basis, std::span<const ViewSphere> spheres);
-
 }  // namespace render

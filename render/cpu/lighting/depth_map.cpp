@@ -222,16 +222,17 @@ class HeightCast {
 
 DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const SkinBall> balls,
                       const DepthMapSampling& sampling) {
-    std::vector<ViewSphere> kernels;
+    Bounds<glm::vec3> bounds;  // of the balls' kernels in light space
     float smallest = std::numeric_limits<float>::max();
     for (std::size_t k = 0; k < balls.size(); ++k) {
         const float radius = view.particles[k].radius;
         if (radius <= 0.0F) continue;
-        kernels.push_back({balls[k].center - view.camera.eye, view.field.reach * radius});
+        const glm::vec3 center = basis.toLightSpace(balls[k].center - view.camera.eye);
+        const float reach = view.field.reach * radius;
+        bounds.add(center - reach, center + reach);
         smallest = std::min(smallest, radius);
     }
-    if (kernels.empty()) return {};
-    const Bounds<glm::vec3> bounds = lightBounds(basis, kernels);
+    if (bounds.low.x > bounds.high.x) return {};
     // A soft edge is filtered over three texels, each of half the softness (shading_model.h).
     const auto mean = static_cast<float>(meanRadius(view.particles));
     const float softness = view.light.softness;
