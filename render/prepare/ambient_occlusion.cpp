@@ -92,7 +92,7 @@ TrilinearCell trilinearCell(const SkyVisibilityGrid& grid, glm::vec3 point) {
 /// Calls visit(cell index, weight) for the eight cubes around a point.
 template <typename Visit>
 void forCorners(const SkyVisibilityGrid& grid, const TrilinearCell& at, const Visit& visit) {
-    const std::size_t first = grid.cellIndex(at.x, at.y, at.z);
+    const std::size_t first = cellIndex(grid.cells, at.x, at.y, at.z);
     const auto row = static_cast<std::size_t>(grid.cells.x);
     const std::size_t slice = row * static_cast<std::size_t>(grid.cells.y);
     const float x1 = at.part.x;
@@ -131,7 +131,8 @@ struct CubeValues {
     std::vector<float> values;
 
     explicit CubeValues(const SkyVisibilityGrid& grid)
-        : margin(grid.cellIndex(0, 0, kReach)), values(grid.cellIndex(0, 0, grid.cells.z) + 2 * margin, 0.0F) {}
+        : margin(cellIndex(grid.cells, 0, 0, kReach)),
+          values(cellIndex(grid.cells, 0, 0, grid.cells.z) + 2 * margin, 0.0F) {}
 
     float* at(std::size_t cell) { return &values[margin + cell]; }
     const float* at(std::size_t cell) const { return &values[margin + cell]; }
@@ -155,16 +156,16 @@ void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const CubeValues
     const std::ptrdiff_t count = grid.cells.x;
     tbb::parallel_for(1, grid.cells.z - 1, [&](int z) {
         for (int y = 1; y < grid.cells.y - 1; ++y) {
-            const float* in = from.at(grid.cellIndex(0, y, z));
-            float* out = to.at(grid.cellIndex(0, y, z));
+            const float* in = from.at(cellIndex(grid.cells, 0, y, z));
+            float* out = to.at(cellIndex(grid.cells, 0, y, z));
             for (std::ptrdiff_t k = 1; k < count - 1; ++k)
                 out[k] = 0.25F * (in[k - stride] + in[k + stride]) + 0.5F * in[k];
         }
     });
 }
 
-/// O = 1/(1 + tau)^2 of shading_model.h toward one side, for a row of cubes along x whose densities begin at `density`. A sum
-/// that leaves the row goes on at the end of a neighboring row, where all cubes are empty as well.
+/// O = 1/(1 + tau)^2 of shading_model.h toward one side, for a row of cubes along x whose densities begin at `density`.
+/// A sum that leaves the row goes on at the end of a neighboring row, where all cubes are empty as well.
 /// @param stride  the difference in index to the next cube toward that side
 void integrateAlong(const float* density, std::ptrdiff_t stride, std::span<float> visibility) {
     constexpr auto weight = [](int j) { return 1.0F - (static_cast<float>(j) - 0.5F) / static_cast<float>(kReach); };
@@ -193,10 +194,10 @@ SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibi
         blur(grid, stride, density, blurred);
         std::swap(density, blurred);
     }
-    for (std::vector<float>& values : grid.values) values.resize(grid.cellIndex(0, 0, grid.cells.z));
+    for (std::vector<float>& values : grid.values) values.resize(cellIndex(grid.cells, 0, 0, grid.cells.z));
     tbb::parallel_for(0, grid.cells.z, [&](int z) {
         for (int y = 0; y < grid.cells.y; ++y) {
-            const std::size_t first = grid.cellIndex(0, y, z);
+            const std::size_t first = cellIndex(grid.cells, 0, y, z);
             for (std::size_t direction = 0; direction < 6; ++direction) {
                 const std::ptrdiff_t stride = strides[direction / 2];
                 integrateAlong(density.at(first), direction % 2 == 0 ? stride : -stride,
@@ -223,8 +224,8 @@ SkyVisibilityMap skyVisibilityAtHeight(const SkyVisibilityGrid& grid, float heig
     std::size_t cell = 0;
     for (int z = 0; z < map.rows; ++z)
         for (int x = 0; x < map.columns; ++x)
-            map.values[cell++] = (1.0F - part) * grid.values[kUp][grid.cellIndex(x, y, z)] +
-                                 part * grid.values[kUp][grid.cellIndex(x, y + 1, z)];
+            map.values[cell++] = (1.0F - part) * grid.values[kUp][cellIndex(grid.cells, x, y, z)] +
+                                 part * grid.values[kUp][cellIndex(grid.cells, x, y + 1, z)];
     return map;
 }
 

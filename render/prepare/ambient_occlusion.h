@@ -24,12 +24,6 @@ struct SkyVisibilityGrid {
     float side = 1.0F;                         ///< of a cube, m
     glm::ivec3 cells{0};                       ///< cubes along each axis
     std::array<std::vector<float>, 6> values;  ///< in the order of SkyVisibility
-
-    std::size_t cellIndex(int x, int y, int z) const {
-        return (static_cast<std::size_t>(z) * static_cast<std::size_t>(cells.y) + static_cast<std::size_t>(y)) *
-                   static_cast<std::size_t>(cells.x) +
-               static_cast<std::size_t>(x);
-    }
 };
 
 /// The values along +y at one height, for the ground: row by row, x fastest.
@@ -45,7 +39,8 @@ struct SkyVisibilityMap {
 /// @param old  a grid that is no longer needed, whose memory is reused
 SkyVisibilityGrid skyVisibilityGrid(std::span<const Sphere> particles, SkyVisibilityGrid old = {});
 
-/// How far from a point, in sides of a cube, the grid is sampled along the direction asked for (0.75 in shading_model.h).
+/// How far from a point, in sides of a cube, the grid is sampled along the direction asked for (0.75 in
+/// shading_model.h).
 inline constexpr float kSkySampleOffset = 0.75F;
 
 /// The values at each particle's center; kUnoccluded outside of the grid. They depend on the center and the grid alone,

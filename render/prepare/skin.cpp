@@ -40,12 +40,6 @@ struct ParticleCells {
 
     /// @pre at is not below `low`; conversion then rounds down (glm::floor may be a call).
     glm::ivec3 cellOf(glm::vec3 at) const { return min(glm::ivec3((at - low) / side), count - 1); }
-
-    std::size_t cellIndex(int column, int row, int slice) const {
-        return (static_cast<std::size_t>(slice) * static_cast<std::size_t>(count.y) + static_cast<std::size_t>(row)) *
-                   static_cast<std::size_t>(count.x) +
-               static_cast<std::size_t>(column);
-    }
 };
 
 /// Particles in whole blocks: x, y, z and radius. The last block is filled up with particles out of reach.
@@ -78,8 +72,8 @@ void gather(const ParticleCells& cells, glm::ivec3 cell, Neighborhood& neighborh
     neighborhood.size = 0;
     for (int z = first.z; z <= last.z; ++z) {
         for (int y = first.y; y <= last.y; ++y) {
-            const std::size_t begin = cells.begin[cells.cellIndex(first.x, y, z)];
-            const std::size_t count = cells.begin[cells.cellIndex(last.x, y, z) + 1] - begin;
+            const std::size_t begin = cells.begin[cellIndex(cells.count, first.x, y, z)];
+            const std::size_t count = cells.begin[cellIndex(cells.count, last.x, y, z) + 1] - begin;
             for (std::size_t value = 0; value < 4; ++value) {
                 std::vector<float>& to = neighborhood.values[value];
                 if (to.size() < neighborhood.size + count + kBlock) to.resize(2 * (neighborhood.size + count + kBlock));
@@ -141,7 +135,7 @@ void densitySums(const ParticleCells& cells, float reach, std::size_t first, std
         if (sortedIndex >= end) {
             const glm::ivec3 cell = cells.cellOf(particle);
             gather(cells, cell, neighborhood);
-            end = cells.begin[cells.cellIndex(cell.x, cell.y, cell.z) + 1];
+            end = cells.begin[cellIndex(cells.count, cell.x, cell.y, cell.z) + 1];
         }
         sums[k] = densitySum(neighborhood, particle, reach);
     }
@@ -182,10 +176,10 @@ ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     ParticleCells cells;
     fitToParticles(particles, reach, cells);
     std::vector<std::uint32_t> cellOf(particles.size());
-    cells.begin.assign(cells.cellIndex(0, 0, cells.count.z) + 1, 0);
+    cells.begin.assign(cellIndex(cells.count, 0, 0, cells.count.z) + 1, 0);
     for (std::size_t k = 0; k < particles.size(); ++k) {
         const glm::ivec3 cell = cells.cellOf(particles[k].center);
-        cellOf[k] = static_cast<std::uint32_t>(cells.cellIndex(cell.x, cell.y, cell.z));
+        cellOf[k] = static_cast<std::uint32_t>(cellIndex(cells.count, cell.x, cell.y, cell.z));
         ++cells.begin[cellOf[k] + 1];
     }
     for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];

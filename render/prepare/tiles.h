@@ -33,6 +33,13 @@ struct Bounds {
     void add(Vector point) { add(point, point); }
 };
 
+/// Index of a cell of a 3D grid whose cells are stored with x running fastest.
+inline std::size_t cellIndex(glm::ivec3 gridSize, int x, int y, int z) {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(gridSize.y) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(gridSize.x) +
+           static_cast<std::size_t>(x);
+}
+
 /// A list of items for each cell, row by row, one list after another.
 struct CellLists {
     int columns = 0;
