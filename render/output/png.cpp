@@ -62,19 +62,25 @@ bool isPng(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
 }
 
-/// Whether all chunks of a PNG file up to the last end within the file. Without this check, stb would allocate any
-/// length that a damaged chunk claims to have.
-bool isComplete(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kChunkOverhead = 12;  // length, type and checksum
+std::uint32_t bigEndian(std::span<const std::uint8_t, 4> bytes) {
+    return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 | std::uint32_t{bytes[2]} << 8 | bytes[3];
+}
+
+/// What is wrong with the chunks of a file, whose layout is: length of the data, four bytes; type, four bytes; data;
+/// checksum of type and data, four bytes. nullptr if every chunk up to the last is complete and has its checksum. stb
+/// checks neither, and would allocate any length that a damaged chunk claims to have.
+const char* damageOf(std::span<const std::uint8_t> file) {
     constexpr std::string_view kLast = "IEND";
-    for (std::size_t at = kSignature.size(); at + kChunkOverhead <= bytes.size();) {
-        std::size_t length = 0;
-        for (std::size_t byte = at; byte < at + 4; ++byte) length = length << 8 | bytes[byte];
-        if (length > bytes.size() - at - kChunkOverhead) return false;
-        if (std::equal(kLast.begin(), kLast.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4)) return true;
-        at += kChunkOverhead + length;
+    for (std::span<const std::uint8_t> left = file.subspan(kSignature.size()); left.size() >= 12;) {
+        const std::size_t length = bigEndian(left.first<4>());
+        if (length > left.size() - 12) break;
+        const std::span<const std::uint8_t> content = left.subspan(4, 4 + length);
+        if (crc32_gzip_refl(0, content.data(), content.size()) != bigEndian(left.subspan(8 + length).first<4>()))
+            return "it is damaged: a checksum does not match";
+        if (std::equal(kLast.begin(), kLast.end(), content.begin())) return nullptr;
+        left = left.subspan(12 + length);
     }
-    return false;
+    return "it is cut short";
 }
 
 }  // namespace
@@ -118,7 +124,8 @@ Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name) {
         if (!condition) throw SystemError(fmt::format("cannot read {} as PNG: {}", name, what));
     };
     require(isPng(bytes), "it is not a PNG file");
-    require(isComplete(bytes), "it is cut short");
+    const char* const damage = damageOf(bytes);
+    require(damage == nullptr, damage);
     const auto size = static_cast<int>(bytes.size());
     require(stbi_is_16_bit_from_memory(bytes.data(), size) == 0, "it has 16 bits per channel, 8 are expected");
     Image image;

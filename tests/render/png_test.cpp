@@ -45,3 +45,13 @@ TEST_CASE("A broken PNG is a SystemError that names it") {
     endless.at(33) = 0x7F;  // the length of the second chunk: two gigabytes
     CHECK_THROWS_WITH(render::decodePng(endless, "endless.png"), Catch::Contains("cut short"));
 }
+
+TEST_CASE("A PNG in which any bit was flipped is refused") {
+    const std::vector<std::uint8_t> whole = render::encodePng(noise(6, 5));
+    for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+        INFO("bit " << bit % 8 << " of byte " << bit / 8);
+        std::vector<std::uint8_t> damaged = whole;
+        damaged[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+        CHECK_THROWS_AS(render::decodePng(damaged, "damaged.png"), render::SystemError);
+    }
+}
