@@ -102,6 +102,23 @@ TEST_CASE("compare: extensions may be in capitals", "[compare]") {
           std::string::npos);
 }
 
+TEST_CASE("compare: pictures behind links to folders count, and no folder is entered from below itself", "[compare]") {
+    Sides sides;
+    sides.both("frame-00000.png", balls());
+    writePicture(sides / "store/red/frame.png", flat(32, 32, {255, 0, 0}));
+    writePicture(sides / "store/green/frame.png", flat(32, 32, {0, 255, 0}));
+    fs::create_directory_symlink("../store/red", sides / "actual/more");
+    fs::create_directory_symlink("../store/green", sides / "expected/more");
+    fs::create_directory_symlink("..", sides / "store/red/around");
+    CHECK(sides.compare().code == 1);
+    const auto results = sides.results();
+    CHECK(results.at("more/frame.png").at("status") == "different");
+    CHECK(results.at("more/around/green/frame.png").at("status") == "extra");
+    fs::create_directory_symlink("nowhere", sides / "actual/nowhere.png");
+    CHECK(sides.results()["nowhere.png"]["status"] == "unreadable");
+    CHECK(sides.compare().code == 2);
+}
+
 TEST_CASE("compare: missing, extra, unreadable and differently sized pictures have statuses of their own",
           "[compare]") {
     Sides sides;

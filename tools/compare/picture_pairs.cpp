@@ -18,11 +18,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The PNG files below a folder by their path in it. Links to folders are followed, but no folder is entered again from
+/// below itself.
 std::map<std::string, fs::path> pngsBelow(const fs::path& folder) {
     std::map<std::string, fs::path> pictures;
     std::error_code error;
-    for (fs::recursive_directory_iterator file(folder, error), end; !error && file != end; file.increment(error)) {
+    constexpr auto kFollow = fs::directory_options::follow_directory_symlink;
+    std::vector<fs::path> entered{fs::canonical(folder, error)};  // the real paths of the folders around an entry
+    for (fs::recursive_directory_iterator file(folder, kFollow, error), end; !error && file != end;
+         file.increment(error)) {
         const fs::path& path = file->path();
+        entered.resize(static_cast<std::size_t>(file.depth()) + 1);
+        if (std::error_code ignored; file->is_directory(ignored)) {
+            entered.push_back(fs::canonical(path));
+            if (std::find(entered.begin(), entered.end() - 1, entered.back()) != entered.end() - 1)
+                file.disable_recursion_pending();
+        }
         // Names of files that are still being written begin with a dot.
         if (!hasExtension(path, ".png") || path.filename().string().starts_with(".")) continue;
         pictures.emplace(path.lexically_relative(folder).generic_string(), path);
