@@ -1,5 +1,5 @@
-// The benchmark of forces, neighbor lists and steps, on particles in jittered lattices. Every time is the median of
-// several rounds, each of which is long enough for the clock. See bench.h.
+// The benchmark of forces, neighbor lists and steps, on particles in jittered lattices, and of whole frames of scenes.
+// Every time is the median of several rounds. See bench.h.
 #include "studies/bench/bench.h"
 
 #include <fmt/format.h>
@@ -8,12 +8,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/steppers.h"
+#include "render/renderer.h"
+#include "scenes/view/frame_view.h"
 #include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
 
@@ -191,18 +194,6 @@ void measureLattice(const Packing& packing, std::size_t count, const BenchSettin
 
 }  // namespace
 
-double BenchRow::particleStepsPerSecond() const {
-    return static_cast<double>(particles) * steps / seconds;
-}
-
-double BenchRow::pairsPerSecond() const {
-    return neighbors * particleStepsPerSecond();
-}
-
-double BenchRow::nanosecondsPerPair() const {
-    return particles == 0 || neighbors == 0.0 ? 0.0 : 1e9 / pairsPerSecond();
-}
-
 std::string benchRowsText() {
     std::vector<std::string> packings;
     for (const Packing& packing : kPackings) packings.emplace_back(packing.name);
@@ -221,6 +212,44 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
     for (const std::size_t count : settings.counts)
         for (const Packing& packing : kPackings) measureLattice(packing, count, settings, add);
     return rows;
+}
+
+std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& scene, render::Context* context,
+                                  int rounds) {
+    engine::Simulation simulation = engine::start(scene.setup);
+    int frame = scenes::stillFrame(scene);
+    scenes::advanceToFrame(scene, simulation, frame);
+    std::optional<render::Renderer> renderer;
+    if (context != nullptr) {
+        renderer.emplace(*context, scene.size, render::Quality::normal);
+        renderer->draw(scenes::frameView(scene, simulation));  // drawing the first frame allocates memory
+    }
+    const std::uint64_t stepsBefore = simulation.steps.count;
+    std::vector<double> simulated;
+    std::vector<double> drawn;
+    for (int round = 0; round < rounds; ++round) {
+        ++frame;
+        simulated.push_back(secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); }));
+        if (!renderer) continue;
+        const render::View view = scenes::frameView(scene, simulation);
+        drawn.push_back(secondsOf([&] { renderer->draw(view); }));
+    }
+    BenchRow row;
+    row.name = kSimulateFrame;
+    row.material = name;
+    row.particles = simulation.particles.count();
+    row.neighbors = meanNeighbors(scene.setup, simulation.particles);
+    row.precision = scene.setup.precision;
+    row.seconds = median(simulated);
+    row.steps = static_cast<double>(simulation.steps.count - stepsBefore) / rounds;
+    row.stateHash = engine::stateHash(simulation.particles);
+    if (!renderer) return {row};
+    BenchRow drawing = row;
+    drawing.name = kDrawFrame;
+    drawing.neighbors = 0.0;
+    drawing.steps = 1.0;
+    drawing.seconds = median(drawn);
+    return {row, drawing};
 }
 
 }  // namespace studies

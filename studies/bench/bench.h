@@ -31,9 +31,12 @@ struct BenchRow {
     double rate = 0.0;              ///< operations or bytes per second of the machine's loops; else 0
     std::string stateHash;          ///< hash of the computed forces, list or state
 
-    double particleStepsPerSecond() const;  ///< for kDrawFrame, drawn particles per second
-    double pairsPerSecond() const;          ///< visits of pairs within the cutoff, two for each pair in a step
-    double nanosecondsPerPair() const;      ///< time per visit of a pair; 0 without pairs
+    /// Particles times steps per second; for kDrawFrame, drawn particles per second.
+    double particleStepsPerSecond() const { return static_cast<double>(particles) * steps / seconds; }
+    /// Visits per second of pairs within the cutoff, two for each pair in a step.
+    double pairsPerSecond() const { return neighbors * particleStepsPerSecond(); }
+    /// Nanoseconds per visit of a pair; 0 if the work does not visit pairs.
+    double nanosecondsPerPair() const { return particles == 0 || neighbors == 0.0 ? 0.0 : 1e9 / pairsPerSecond(); }
 };
 
 struct BenchSettings {

@@ -2,8 +2,7 @@
 // limit of the case. Called by stability.cpp.
 #pragma once
 
-#include "scenes/model/scene.h"
-#include "studies/stability/recorded_run.h"
+#include "studies/stability/stability.h"
 
 namespace studies {
 

@@ -10,6 +10,7 @@
 #include "engine/stepping/steppers.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
+#include "scenes/view/frame_view.h"
 #include "studies/common/state_difference.h"
 #include "studies/common/timing.h"
 #include "studies/stability/observables.h"
@@ -27,6 +28,17 @@ scenes::Scene withPaperStepper(scenes::Scene scene) {
     scene.setup.step = scene.study->paperStep;
     for (engine::Material& material : scene.setup.materials) material.coreFraction = kPaperCore;
     return scene;
+}
+
+/// Appends the present state of the simulation to the recorded frames. Without world bounds no particle is removed, so
+/// a run with fewer particles than before is broken, and observables of the rest would mean nothing.
+/// @throws engine::InstabilityError if particles are missing
+void recordFrame(Run& run) {
+    if (!run.frames.empty() && run.end.particles.count() < run.frames.back().count())
+        throw engine::InstabilityError(fmt::format("the run lost particles: {} of {} are left at {} s",
+                                                   run.end.particles.count(), run.frames.back().count(), run.end.time));
+    run.frames.push_back(run.end.particles);
+    run.stepsUntil.push_back(run.end.steps.count);
 }
 
 scenes::Scene atReferenceStep(scenes::Scene scene) {
@@ -85,6 +97,26 @@ VariantResult runVariant(const std::string& path, const std::string& changes) {
 }
 
 }  // namespace
+
+Run runScene(const scenes::Scene& scene) {
+    Run run;
+    run.seconds = secondsOf([&] {
+        engine::Setup setup = scene.setup;
+        setup.world.reset();
+        run.end = engine::start(setup);
+        try {
+            recordFrame(run);
+            // The scene ends one frame interval after the last of the frameCount() frames that are drawn.
+            for (int frame = 1; frame <= scenes::frameCount(scene); ++frame) {
+                scenes::advanceToFrame(scene, run.end, frame);
+                recordFrame(run);
+            }
+        } catch (const engine::InstabilityError& error) {
+            run.failure = Failure{run.end.time, error.what()};
+        }
+    });
+    return run;
+}
 
 double limitRatio(const scenes::Study& study, double value) {
     if (!std::isfinite(value)) return kInfinity;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/stability/recorded_run.h"
 #include "tests/catch.h"
 #include "tests/studies/handmade_runs.h"
 
