@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "engine/stepping/steppers.h"
 #include "studies/accuracy/accuracy.h"
@@ -111,39 +110,29 @@ std::string axes(const SceneAccuracy& scene, CostAxis axis) {
             : "largest error of center, gyration, R90, z90 at the end (radii)");
 }
 
-struct Range {
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0.0;
-
-    void extendTo(double value) {
-        least = std::min(least, value);
-        most = std::max(most, value);
-    }
-};
-
 /// Ticks of the cost axis: at 1, 2 and 5 times every power of ten, because costs often span less than a decade.
-std::string ticks(const Range& range) {
+std::string ticks(double least, double most) {
     std::string list;
-    for (double decade = std::pow(10.0, std::floor(std::log10(range.least))); decade <= range.most; decade *= 10.0)
+    for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade <= most; decade *= 10.0)
         for (const double digit : {1.0, 2.0, 5.0})
-            if (digit * decade >= range.least && digit * decade <= range.most)
+            if (digit * decade >= least && digit * decade <= most)
                 list += fmt::format("{}{:.6g}", list.empty() ? "" : ", ", digit * decade);
     return list;
 }
 
 /// gnuplot commands for the ranges of both axes, which leave some room around the outermost points.
 std::string ranges(const SceneAccuracy& scene, CostAxis axis) {
-    Range costs;
-    Range errors;
+    std::vector<double> costs, errors;
     for (const AccuracyRow& row : scene.rows) {
         if (!row.resolved || row.error > kUselessError) continue;
-        costs.extendTo(costOf(row, axis));
-        errors.extendTo(row.error);
+        costs.push_back(costOf(row, axis));
+        errors.push_back(row.error);
     }
-    if (costs.most == 0.0) costs = errors = {1.0, 1.0};
-    const Range wide{costs.least / 1.3, costs.most * 1.5};
-    return fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xtics ({})\n", wide.least,
-                       wide.most, errors.least / 1.5, errors.most * 1.5, ticks(wide));
+    if (costs.empty()) costs = errors = {1.0};
+    const double leastCost = std::ranges::min(costs) / 1.3;
+    const double mostCost = std::ranges::max(costs) * 1.5;
+    return fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xtics ({})\n", leastCost, mostCost,
+                       std::ranges::min(errors) / 1.5, std::ranges::max(errors) * 1.5, ticks(leastCost, mostCost));
 }
 
 }  // namespace

@@ -97,13 +97,6 @@ WindowRun runWhole(const Window& window, const Variant& variant, const Reference
     return run;
 }
 
-/// Repeats a run from a start whose positions are displaced by a tiny amount.
-WindowRun runTwin(const Window& window, const Variant& variant, const ReferenceBudget& budget) {
-    Window twin = window;
-    twin.start.particles = displaced(std::move(twin.start.particles), kTwinDistance);
-    return runWhole(twin, variant, budget, "twin");
-}
-
 }  // namespace
 
 std::string_view nameOf(ErrorMetric metric) {
@@ -124,7 +117,9 @@ double difference(const Window& window, ErrorMetric metric, const engine::Partic
 
 Reference findReference(const Window& window, const std::vector<WindowRun>& runs, const ReferenceBudget& budget) {
     const WindowRun& finest = finestOfBetterStepper(window, runs);
-    const WindowRun twin = runTwin(window, finest.variant, budget);
+    Window displacedWindow = window;
+    displacedWindow.start.particles = displaced(std::move(displacedWindow.start.particles), kTwinDistance);
+    const WindowRun twin = runWhole(displacedWindow, finest.variant, budget, "twin");
 
     Reference reference;
     ReferenceFacts& facts = reference.facts;
