@@ -1,7 +1,7 @@
 // Makes the materials of particles from the [material] tables of a scene: a preset, in which the keys that are given
 // replace the preset's values.
-#include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
 
 #include "scenes/build/builders.h"
@@ -10,28 +10,11 @@
 namespace scenes {
 namespace {
 
-struct PresetColor {
-    std::string_view preset, hex;
-};
-
 /// Colors of particles by preset of their material, sRGB. Chosen: easy to tell apart on light and dark backgrounds.
-constexpr std::array<PresetColor, 11> kPresetColors = {{{"liquid", "#3f86c8"},
-                                                        {"solid", "#c8794a"},
-                                                        {"powder", "#d8b878"},
-                                                        {"fountain", "#58a8dc"},
-                                                        {"honey", "#d98a12"},
-                                                        {"jam", "#9c1430"},
-                                                        {"oil", "#d9b63a"},
-                                                        {"lava", "#ff5a14"},
-                                                        {"mud", "#6b4a2f"},
-                                                        {"molten-metal", "#ffb347"},
-                                                        {"sand", "#d9b36c"}}};
-
-engine::Vec3 presetColor(const std::string& preset) {
-    const auto* row = std::find_if(kPresetColors.begin(), kPresetColors.end(),
-                                   [&](const PresetColor& color) { return color.preset == preset; });
-    return *colorFromHex(row == kPresetColors.end() ? kPresetColors.front().hex : row->hex);
-}
+const std::map<std::string_view, std::string_view> kPresetColors = {
+    {"liquid", "#3f86c8"}, {"solid", "#c8794a"},        {"powder", "#d8b878"}, {"fountain", "#58a8dc"},
+    {"honey", "#d98a12"},  {"jam", "#9c1430"},          {"oil", "#d9b63a"},    {"lava", "#ff5a14"},
+    {"mud", "#6b4a2f"},    {"molten-metal", "#ffb347"}, {"sand", "#d9b36c"}};
 
 /// A key of [material] and the number of engine::Material that it sets.
 struct MaterialKey {
@@ -53,7 +36,7 @@ void completeMaterial(Section& section) {
     const engine::Material preset = *engine::materialPreset(section.string("preset"));
     section.derive("name", TypedValue::ofString(preset.name));
     for (const MaterialKey& key : kMaterialKeys) section.derive(key.name, TypedValue::ofNumber(preset.*key.member));
-    section.derive("color", TypedValue::ofVector(presetColor(preset.name)));
+    section.derive("color", TypedValue::ofVector(*colorFromHex(kPresetColors.at(preset.name))));
 }
 
 void checkName(Section& section, const Materials& previous, BuildContext& context) {

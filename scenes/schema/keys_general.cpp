@@ -1,4 +1,5 @@
 // Keys above the first table, and those of [physics], [world], [material], [still] and [study].
+#include "engine/law/material.h"
 #include "scenes/model/study.h"
 #include "scenes/schema/keys.h"
 
@@ -64,13 +65,14 @@ std::vector<Key> worldKeys() {
 
 std::vector<Key> materialKeys() {
     const std::string_view preset = "of the preset";
+    std::vector<std::string_view> presets;
+    for (const engine::Material& material : engine::materialPresets()) presets.push_back(material.name);
     return {
         key("name", Type::string, "", "name that bodies and emitters refer to").derivedAs("the preset's name"),
         key("preset", Type::choice, "",
             "row of Table 1 of the paper, or a named substance, that the other keys take their defaults from")
             .defaultsTo("\"liquid\"")
-            .oneOf({"liquid", "solid", "powder", "fountain", "honey", "jam", "oil", "lava", "mud", "molten-metal",
-                    "sand"}),
+            .oneOf(presets),
         key("radius", Type::number, "m", "radius of a particle").derivedAs(preset).within(kPositive),
         key("mass", Type::number, "kg", "mass of a particle").derivedAs(preset).within(kPositive),
         key("b1", Type::number, "N m^4", "strength of repulsion and attraction").derivedAs(preset).within(kNotNegative),

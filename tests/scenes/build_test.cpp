@@ -31,6 +31,16 @@ scenes::Scene obstacleScene(const std::string& lines) {
 
 }  // namespace
 
+TEST_CASE("every preset makes a material with a color") {
+    for (const engine::Material& preset : engine::materialPresets()) {
+        INFO(preset.name);
+        const scenes::Scene scene = sceneOf(kBall + "[material]\npreset = \"" + preset.name + "\"\n");
+        CHECK(scene.setup.materials.at(0).name == preset.name);
+        CHECK(scene.setup.materials.at(0).repulsion == preset.repulsion);
+        CHECK(scene.materialColors.at(0).norm() > 0.0);
+    }
+}
+
 TEST_CASE("a material has the values of its preset where it gives none of its own") {
     const scenes::Scene scene =
         sceneOf(kBall + "[material]\npreset = \"solid\"\nmass = 2\nbd = 7\ncolor = \"#ff0000\"\ncore = 0.5\n");

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <set>
 
-#include "engine/law/material.h"
 #include "scenes/schema/document.h"
 #include "scenes/schema/schema.h"
 #include "scenes/schema/schema_export.h"
@@ -64,11 +63,6 @@ TEST_CASE("keys apply to values of their table's discriminator") {
         for (const std::string_view value : key.appliesTo)
             CHECK(std::count(discriminator->choices.begin(), discriminator->choices.end(), value) == 1);
     }
-}
-
-TEST_CASE("the presets of the schema are those of the engine") {
-    const Key& key = *scenes::findKey("material", "preset");
-    CHECK(std::ranges::equal(key.choices, engine::materialPresets(), {}, {}, &engine::Material::name));
 }
 
 TEST_CASE("rows show each key with type, unit, default, range and help") {
