@@ -1,4 +1,5 @@
-// Conjugate gradients as in Hestenes and Stiefel 1952; sums are taken over fixed chunks.
+// Conjugate gradients as in Hestenes and Stiefel 1952. Sums are taken over chunks of fixed size, so that they do not
+// depend on the number of threads.
 #include "engine/forces/conjugate_gradient.h"
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 namespace engine {
 namespace {
 
-/// Chosen: far more than a step of useful length needs; the audit after the step judges the result.
+/// Largest number of iterations of a solve. Chosen: far more than a step of useful length needs. The energy check after
+/// the step judges the result.
 constexpr int kMostIterations = 500;
 
 }  // namespace
@@ -35,7 +37,7 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& toler
         multiply(matrix, direction, product);
         ++iteration;
         const double curvature = sumOver(count, [&](std::size_t p) { return dot(direction[p], product[p]); });
-        if (!(curvature > 0.0)) break;  // only rounding is left, or NaN: the audit decides
+        if (!(curvature > 0.0)) break;  // only rounding is left, or NaN; the check after the step decides
         const double length = norm / curvature;
         const double before = norm;
         norm = sumOver(count, [&](std::size_t p) {

@@ -1,4 +1,4 @@
-// Solves A x = b for the matrix of the implicit steppers. Called by stepping/implicit_step.cpp.
+// Conjugate gradient solver for the linear system of an implicit step. Called by stepping/implicit_step.cpp.
 #pragma once
 
 #include <vector>
@@ -7,27 +7,29 @@
 
 namespace engine {
 
-/// Vectors that solve() needs, kept to reuse their memory.
+/// Work vectors of the solver, kept between solves so that their memory is used again.
 struct SolverScratch {
     std::vector<Vec3> residual;
     std::vector<Vec3> direction;
     std::vector<Vec3> product;
 };
 
-/// When a residual is small enough, in the norm of the inverse mass: at the larger of the two limits, of which the
-/// absolute one counts for no more than kMostLeftOut of the right-hand side.
+/// Stopping criterion of the solver. The residual r is measured by sqrt(r . M^-1 r), with the mass matrix M, and may be
+/// as large as the larger one of two limits. The absolute limit counts as at most kMostLeftOut times the norm of the
+/// right-hand side.
 struct Tolerance {
-    double relative = 0.0;  ///< share of the right-hand side
-    double absolute = 0.0;  ///< kg^1/2 m/s, for right-hand sides in N s
+    double relative = 0.0;  ///< largest residual, as a share of the right-hand side
+    double absolute = 0.0;  ///< largest norm of the residual, kg^1/2 m/s
 };
 
-/// Largest share of the right-hand side that an absolute tolerance may leave out. Chosen: a residual that is left out
-/// again at every step must stay small beside what drives the motion.
+/// Upper bound on an absolute tolerance, as a share of the norm of the right-hand side. Chosen: a residual that is left
+/// at every step must stay small beside the forces that drive the motion.
 inline constexpr double kMostLeftOut = 0.1;
 
-/// Conjugate gradients from x = 0, preconditioned with the mass, until the residual is small enough. Returns the number
-/// of products with A. Where b has neither a total nor a moment, M x has neither, to rounding, at any tolerance: every
-/// vector of the iteration is M^-1 times a sum of pair impulses. Any preconditioner but the mass would lose that.
+/// Solves A x = b by conjugate gradients from x = 0, preconditioned with the mass matrix M, and returns the number of
+/// products with A. If the impulses b change neither linear nor angular momentum, neither do M x (to rounding), at any
+/// tolerance: every vector of the iteration is M^-1 times a sum of pair impulses. Other preconditioners do not have
+/// this property.
 int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch);
 

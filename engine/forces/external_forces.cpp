@@ -1,5 +1,6 @@
-// Compiled once per instruction set. One particle in each lane meets one face of an obstacle after the other; where no
-// lane touches the face, which is the usual case, it costs a dot product and a comparison.
+// SIMD code for weight and obstacles, compiled once per instruction set. Each lane holds one particle, and all lanes
+// visit the faces of the obstacles one after another. A face that no lane touches, which is the usual case, costs a dot
+// product and a comparison.
 #include "engine/forces/external_forces.h"
 
 #include <array>
@@ -18,11 +19,12 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-// The formulas of the law, compiled for this instruction set.
+// The formulas of the force law, compiled for this instruction set.
 #include "engine/law/pair_formulas-inl.h"
 
-/// The force of sumContacts() for as many particles as D has lanes, with the operations of obstacle_surfaces.h in the same order.
-/// The test mayReach() of the scalar path is left out for all shapes but boxes: it saves work and changes no result.
+/// Force of all obstacles on as many particles as D has lanes. The operations and their order are those of the scalar
+/// code in law/obstacle_surfaces.h. Its test mayReach(), which saves work and changes no result, is applied to boxes
+/// only.
 template <class D>
 class SimdContacts {
     using V = hn::Vec<D>;
@@ -61,7 +63,7 @@ class SimdContacts {
         return vectors;
     }
 
-    /// Force of all obstacles met so far, N.
+    /// Sum of the forces of the obstacles visited so far, N.
     const Vector3<V>& force() const { return force_; }
 
     void meet(const Plane& plane) {
@@ -91,7 +93,7 @@ class SimdContacts {
         touch(height, normal, sphere.literalRepulsor ? sphere.radius : law_.radius);
     }
 
-    /// A box has faces, edges and corners: each particle near it meets it alone, on the scalar path.
+    /// A box has faces, edges and corners, so the force on each particle near it is computed by the scalar code.
     void meet(const Box& box) {
         std::array<Vec3, kMost> force;
         hn::StoreInterleaved3(force_.x, force_.y, force_.z, kTag, force.front().data());
@@ -113,7 +115,9 @@ class SimdContacts {
     static V set(double number) { return hn::Set(kTag, number); }
     static Vector3<V> all(const Vec3& vector) { return {set(vector.x()), set(vector.y()), set(vector.z())}; }
 
-    /// Adds the force of a face at these heights (m) on the particles that touch it: addForce() of contactWith().
+    /// Adds the force of a face of an obstacle on the particles that touch it, as addForce() in law/obstacle_surfaces.h
+    /// does for one particle.
+    /// @param height  signed distances of the particles' centers from the face, m
     void touch(V height, const Vector3<V>& normal, double repulsorRadius) {
         const auto isTouched = hn::Lt(height, radius_);
         if (hn::AllFalse(kTag, isTouched)) return;
@@ -131,7 +135,7 @@ class SimdContacts {
         addWhere(hn::And(isTouched, isRough), hn::Neg(slipDamping(friction_, pressure, dot(slip, slip))), slip);
     }
 
-    /// Adds factor * direction to the force in the lanes of a mask.
+    /// Adds factor * direction to the force on the particles in the lanes of a mask.
     void addWhere(hn::Mask<D> applies, V factor, const Vector3<V>& direction) {
         Vector3<V> sum = force_;
         addScaled(sum, factor, direction);

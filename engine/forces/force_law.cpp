@@ -1,4 +1,4 @@
-// The terms and the cutoff that materials and radii need.
+// Finds the terms of the force law and the cutoff that a set of materials and radii needs.
 #include "engine/forces/force_law.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ bool sameLaw(const Material& a, const Material& b) {
            a.dampingReach == b.dampingReach && a.friction == b.friction && a.coreFraction == b.coreFraction;
 }
 
-/// Compares the bits of each number with the next: a loop over numbers would take a tenth of the time of a powder's
-/// forces.
+/// Compares the bits of the array with those of the array shifted by one number. A loop that compares numbers would
+/// take a tenth as long as the forces in a scene of powder.
 bool allEqual(const std::vector<double>& numbers) {
     if (numbers.size() < 2) return true;
     constexpr std::size_t kGrain = 1U << 16;  // chosen: half a megabyte is worth another thread
@@ -37,7 +37,7 @@ std::vector<Material> mixedPairs(const std::vector<Material>& materials) {
 double cutoffRatio(const std::vector<Material>& materials) {
     double ratio = 0.0;
     for (const Material& material : materials) {
-        // The reaches of a mixture lie between those of its two materials.
+        // The reaches of a mixture lie between the reaches of its two materials.
         ratio = std::max(ratio, material.repulsionReach);
         if (material.damping > 0.0) ratio = std::max(ratio, material.dampingReach);
     }
@@ -46,7 +46,7 @@ double cutoffRatio(const std::vector<Material>& materials) {
 
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
     ForceTerms terms;
-    terms.pair.equalReach = true;  // if it holds for each material, it holds for their mixtures
+    terms.pair.equalReach = true;  // reaches that are equal in every material are equal in every mixture
     for (const Material& material : law.materials) {
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;

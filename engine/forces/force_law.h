@@ -1,5 +1,5 @@
-// Everything that acts on particles, and which of its terms the particles at hand need. Filled from a Setup by the
-// steppers; read by all of engine/forces.
+// The force law of a run: materials, gravity and obstacles, and which of its terms a given set of particles needs. Made
+// from a Setup; read by all of engine/forces.
 #pragma once
 
 #include <vector>
@@ -24,11 +24,12 @@ inline ForceLaw lawOf(const Setup& setup) {
     return {setup.materials, setup.gravity, setup.obstacles};
 }
 
-/// What the pairs of a set of particles need. Their kernel is compiled without all other terms.
+/// The terms of the force law that the pairs of a set of particles need. The kernel that sums their forces is compiled
+/// with these terms only.
 struct ForceTerms {
     PairTerms pair{.attraction = false, .damping = false, .friction = false};
     bool uniform = true;  ///< whether all particles have one law and one radius, hence all pairs the same constants
-    double cutoff = 0.0;  ///< no pair acts at or beyond it, m
+    double cutoff = 0.0;  ///< distance at and beyond which no two particles interact, m
 };
 
 /// The largest cutoff that a pair of these materials can have, in rest lengths (sums of the two radii).
@@ -36,8 +37,8 @@ double cutoffRatio(const std::vector<Material>& materials);
 
 ForceTerms termsFor(const ForceLaw& law, const Particles& particles);
 
-/// mixed() of every material with every other, in row-major order: materials.size() squared entries. Materials with the
-/// same law are not mixed, so that their pairs have exactly its constants.
+/// The mixtures of every material with every other (see mixed()), in row-major order: materials.size() squared entries.
+/// Two materials with the same force law are not mixed, so that their pairs have exactly the constants of that law.
 std::vector<Material> mixedPairs(const std::vector<Material>& materials);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Pair forces and gravity by either method, and what steppers ask of the neighbor list.
+// The force evaluator: pair forces and gravity by the reference or over the neighbor list, and queries of that list.
 #include "engine/forces/forces.h"
 
 #include <algorithm>
@@ -41,7 +41,8 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     pairs_.prepare(law_, particles, particles.velocity, step);
     pairs_.packParticles(particles, particles.velocity);
     sumPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
-    // The matrix has no reference: products over every pair would be the same sums.
+    // Only the forces have a reference. The matrix always comes from the neighbor list, since over every pair of
+    // particles its products would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
     matrix.mass.resize(particles.count());
     inParallel(particles.count(), kParticleGrain,

@@ -1,6 +1,6 @@
-// Forces on all particles: equation 1 over the pair law, plus gravity and obstacles. There are two ways to the same
-// sum: the O(n^2) reference, which is the paper's own way, and a neighbor list, which is O(n), threaded and compiled
-// with only the terms that the materials need. Used by every stepper (engine/stepping) through the step cache.
+// Pair forces and gravity on all particles (equation 1 of the paper). The same sum is computed in two ways: by the
+// O(n^2) reference, which is the paper's own way, and over a neighbor list, which is O(n), threaded and compiled with
+// only those terms that the materials need. Used by every stepper (engine/stepping) through the step cache.
 #pragma once
 
 #include <vector>
@@ -12,40 +12,44 @@
 
 namespace engine {
 
-/// The pair forces of equation 1, in newtons, by every pair in double. All other paths are tested against it; it is
-/// kept obvious and never optimized.
-/// @param velocities  seen by the damping and the friction, in m/s
+/// The pair forces of equation 1, in newtons, from every pair of particles in double precision. All faster code is
+/// tested against this function, which is kept simple and never optimized.
+/// @param velocities  velocities that damping and friction are computed from, in m/s
 void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                          std::vector<Vec3>& forces);
 
 /// Energy of the conservative part of the force between particles p and i, in joules.
 double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i);
 
-/// Sum of the energies of all pairs, in joules.
+/// Sum of the energies of all pairs of particles, in joules.
 double pairEnergyReference(const ForceLaw& law, const Particles& particles);
 
 /// Evaluates forces, and keeps the neighbor list and all memory from one evaluation to the next. Results have the same
-/// bits for any number of threads. In all functions `velocities` are those that damping and friction see (m/s), and
-/// `step` is the time (s) until the next evaluation, from which the skin of a new neighbor list is chosen; 0 if
-/// unknown.
+/// bits for any number of threads. In all functions `velocities` (m/s) are those that damping and friction are computed
+/// from, and `step` is the time (s) until the next evaluation, from which the skin of a new neighbor list is chosen; 0
+/// if unknown.
 class ForceEvaluator {
  public:
     ForceEvaluator() = default;
     ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision = Precision::doubles);
 
-    /// The pair forces of equation 1 alone. The paper's stepper adds addExternalForces() to them.
+    /// The pair forces of equation 1 alone, N. The paper's stepper adds weight and obstacle forces to them
+    /// (external_forces.h).
     void evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                        double step = 0.0);
 
-    /// Pairs and gravity without the obstacles, for steppers that sweep the contacts. Returns the pair energy, J.
+    /// Pair forces and weight (N) without the forces of obstacles, for steppers that sweep contacts. Returns the pair
+    /// energy, J.
     double evaluateFree(const Particles& particles, const std::vector<Vec3>& velocities, std::vector<Vec3>& forces,
                         double step = 0.0);
 
-    /// evaluateFree() with the particles' velocities, and the matrix of the implicit steppers in the order of order().
+    /// Pair forces and weight (N) at the particles' own velocities, and the matrix of the implicit steppers, whose rows
+    /// are in the order of order(). Returns the pair energy, J.
     double assemble(const Particles& particles, const MatrixWeights& weights, std::vector<Vec3>& forces,
                     PairMatrix& matrix, double step = 0.0);
 
-    /// Particle index at each sorted index of the neighbor list, hence of the matrix that was assembled last.
+    /// The indices of all particles in the order of the neighbor list, which is also the order of the matrix that was
+    /// assembled last.
     const std::vector<std::uint32_t>& order() const { return pairs_.list.order; }
 
     /// The neighbor list as it was last built.
@@ -65,14 +69,15 @@ class ForceEvaluator {
     /// @param reach    distance within which it lists neighbors (cutoff and skin together), m
     void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(pairs_.list, builtAt, reach, 0.0); }
 
-    /// Whether no particle in p's row of the list is within a cutoff (m) at these positions (m). If the list covers the
-    /// positions, that is every particle. False for a particle emitted since the list was built: it has no row.
-    /// @param cachedNeighbor  tried first; set to the neighbor that was found. Any value is valid on entry, and the
-    ///                        answer does not depend on it.
+    /// Whether none of the listed neighbors of particle p is within a cutoff (m) of it, at the given positions (m). If
+    /// the neighbor list covers these positions, then no other particle is either. False for a particle that was
+    /// emitted after the list was built and has no listed neighbors.
+    /// @param cachedNeighbor  index of the particle that is tried first; set to the neighbor that was found. Any value
+    ///                        is valid on entry, and the answer does not depend on it.
     bool hasNoNeighborWithin(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
                              std::uint32_t& cachedNeighbor) const;
 
-    /// Pair energy of the conservative part over the neighbor list, in joules.
+    /// Sum of the energies of the pairs in the neighbor list (conservative part of the force), in joules.
     double pairEnergyGrid(const Particles& particles);
 
     const ForceLaw& law() const { return law_; }

@@ -1,12 +1,12 @@
-// Equation 1 as the paper evaluates it: every pair, in double, one after another. All faster paths are tested against
-// it, so it stays obvious, serial and slow.
+// Equation 1 as the paper evaluates it: every pair of particles, one after another, in double precision. All faster
+// code is tested against these functions, so they stay simple, serial and slow.
 #include "engine/forces/forces.h"
 
 namespace engine {
 namespace {
 
 struct Pair {
-    Vec3 separation;  ///< P = x_p - x_i, or coincidentSeparation()
+    Vec3 separation;  ///< P = x_p - x_i, or coincidentSeparation() where P is 0
     PairConstants<double> constants;
 };
 
@@ -21,7 +21,7 @@ Pair pairOf(const ForceLaw& law, const Particles& particles, std::size_t p, std:
     return pair;
 }
 
-/// Friction on p, in newtons.
+/// Friction force on particle p of a pair at this relative velocity (m/s), in newtons.
 Vec3 frictionOf(const Pair& pair, const Vec3& velocity) {
     const double distance = pair.separation.norm();
     const Vec3 normal = pair.separation / distance;
@@ -50,7 +50,8 @@ void pairForcesReference(const ForceLaw& law, const Particles& particles, const 
 double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i) {
     const Pair pair = pairOf(law, particles, p, i);
     const double energy = pairEnergy(std::sqrt(squaredLength(pair.separation)), pair.constants);
-    // A coincident pair counts as much above U(0) as its stand-in lies below it; see energyOf() in pair_sums.cpp.
+    // The energy of a coincident pair is as far above U(0) as the energy at its stand-in separation is below it;
+    // energyOf() in pair_sums.cpp gives the reason.
     const bool isCoincident = particles.position[p] == particles.position[i];
     return isCoincident ? 2.0 * pairEnergy(0.0, pair.constants) - energy : energy;
 }

@@ -1,4 +1,4 @@
-// One loop over the list's order for each precision.
+// Packs the particles in the order of the neighbor list, in double or in single precision.
 #include "engine/forces/packed_particles.h"
 
 #include "engine/core/parallel.h"

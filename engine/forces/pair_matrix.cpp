@@ -1,4 +1,5 @@
-// Rows of the matrix and its product with a vector, whose kernel is compiled once per instruction set.
+// Fills the rows of the implicit steppers' matrix and multiplies it with vectors. The SIMD kernel of the product is
+// compiled once per instruction set.
 #include "engine/forces/pair_matrix.h"
 
 #include <algorithm>
@@ -17,9 +18,9 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-/// The pairs' part of a product for the particles in a vector of lanes: the sum over the neighbors of
-/// along P (P . d) + across d, where d is the difference of the two factors. Written to x, y and z by lane. Flattened
-/// like the kernel of the forces.
+/// Product of the matrix without its diagonal blocks and a vector v, for the particles in the lanes of a SIMD vector:
+/// the sum over each particle's neighbors of along P (P . d) + across d, where d is the difference of v between the two
+/// particles. Written to x, y and z by lane. All calls are inlined by the attribute, as in the kernel of the forces.
 template <bool hasFriction>
 HWY_FLATTEN void multiplyLanes(const PairMatrix& matrix, std::size_t firstSlot, double* x, double* y, double* z) {
     constexpr Tag<double> kTag{};
@@ -95,7 +96,7 @@ void makeRoom(PairMatrix& matrix, const NeighborList& list, bool hasFriction) {
 }
 
 void padRows(PairMatrix& matrix) {
-    constexpr std::size_t kGrain = 16;  // chosen: a cluster takes a fraction of a microsecond
+    constexpr std::size_t kGrain = 16;  // clusters for a thread; chosen: each takes a fraction of a microsecond
     inParallel(matrix.rows.clusterCount(), kGrain, [&](std::size_t cluster) {
         const std::size_t first = cluster * kClusterSize;
         const std::size_t block = NeighborRows::blockOf(first);
@@ -120,7 +121,7 @@ void multiply(PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>&
         particle.vy = x[k].y();
         particle.vz = x[k].z();
     });
-    constexpr std::size_t kGrain = 4;  // chosen: a row of a dense scene takes a tenth of a microsecond
+    constexpr std::size_t kGrain = 4;  // clusters for a thread; chosen: a row takes up to 0.1 microseconds
     inParallel(matrix.rows.clusterCount(), kGrain, [&](std::size_t cluster) {
         HWY_DYNAMIC_DISPATCH(multiplyClusterHere)(matrix, cluster, product);
     });

@@ -1,7 +1,8 @@
-// The matrix of the implicit steppers, never formed: A = M + C' + K', where M is the mass, C' the weighted damping and
-// K' the weighted stiffness of all pairs at one configuration. Both act along the line between two particles; friction
-// adds weighted damping across it. Each pair is stored as one number, with friction two; a product is another pass over
-// the pairs. Assembled by sumPairs(), used by conjugate_gradient.cpp and stepping/step_bound.cpp.
+// The matrix of the implicit steppers: A = M + C' + K', where M is the mass, C' the weighted damping and K' the
+// weighted stiffness of all pairs of particles at their present positions. Damping and stiffness act along the line
+// between two particles; friction adds weighted damping across this line. The matrix is stored as one number for each
+// pair, or two with friction, and multiplying by it is another pass over the pairs. Assembled by sumPairs(), used by
+// conjugate_gradient.cpp and stepping/step_bound.cpp.
 #pragma once
 
 #include <vector>
@@ -12,40 +13,41 @@
 
 namespace engine {
 
-/// How much of the damping and of the stiffness enters: h/2 and h^2/4 for a step h.
+/// Factors of the damping and of the stiffness in the matrix of an implicit step: h/2 and h^2/4 for a time step h.
 struct MatrixWeights {
     double damping = 0.0;    ///< s
-    double stiffness = 0.0;  ///< s^2; 0 leaves the stiffness out
+    double stiffness = 0.0;  ///< s^2; with 0 the matrix contains no stiffness
 };
 
-/// The block of a pair is -(along P P^T + across 1). The two entries of a pair are equal bit for bit. Coincident pairs,
-/// which have no direction, add nothing. All vectors are in the order of the neighbor list that the matrix was
-/// assembled over.
+/// The matrix of an implicit step as rows of neighbors. The 3x3 block of a pair with separation P is -(along P P^T +
+/// across 1), and both blocks of a pair are equal bit for bit. Coincident particles, whose separation has no direction,
+/// have no block. All arrays are in the order of the neighbor list from which the matrix was assembled.
 struct PairMatrix {
-    /// A number for each entry of the rows, by block.
+    /// One number for each entry of the neighbor rows, in a vector for each block of rows.
     using Entries = std::vector<std::vector<double>>;
 
-    std::vector<double> mass;  ///< of each particle, kg
-    std::vector<Matrix3> own;  ///< what obstacles add to each particle's diagonal block, kg; empty without any
-    std::vector<PackedParticle> packed;  ///< positions; a product stores its factor as the velocities
-    NeighborRows rows;                   ///< of the pairs that have an entry
-    Entries along;                       ///< kg/m^2
-    Entries across;                      ///< kg; empty without friction
+    std::vector<double> mass;            ///< mass of each particle, kg
+    std::vector<Matrix3> own;            ///< terms of obstacles in the particles' diagonal blocks, kg; may be empty
+    std::vector<PackedParticle> packed;  ///< positions; multiply() overwrites the velocities
+    NeighborRows rows;                   ///< neighbors of each particle with which it has an entry
+    Entries along;                       ///< coefficients of P P^T, kg/m^2
+    Entries across;                      ///< coefficients of the unit matrix, kg; empty without friction
 
     std::size_t count() const { return mass.size(); }
 
-    /// Appends an entry to the row of a lane slot. Threads may append to different rows at the same time.
+    /// Appends an entry to the row of the particle in a lane slot of the neighbor list. Threads may append to different
+    /// rows at the same time.
     void add(std::size_t laneSlot, std::uint32_t other, double alongOf, double acrossOf);
 };
 
-/// Empties the matrix and makes room for the pairs of a list.
+/// Empties the matrix and makes room for as many entries as a neighbor list has.
 void makeRoom(PairMatrix& matrix, const NeighborList& list, bool hasFriction);
 
-/// Pads the rows after the last entry was added.
+/// Pads the rows of each cluster to the same length with zeros. To be called after the last entry was added.
 void padRows(PairMatrix& matrix);
 
-/// product = A x, both of count() entries. The pairs' part of the product has neither a total nor a moment, to
-/// rounding.
+/// Computes product = A x, where both vectors have an entry for each particle. The part of the product that comes from
+/// pairs adds up to no net impulse and no net angular impulse, to rounding.
 void multiply(PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>& product);
 
 }  // namespace engine

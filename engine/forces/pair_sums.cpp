@@ -1,6 +1,6 @@
-// Equation 1 over the neighbor list, with only the terms that the materials need and the sums that the caller wants
-// compiled into the kernel that runs. Particles of one material and one radius go through the SIMD kernel, all others
-// through the scalar one.
+// Sums equation 1 over the neighbor list. The kernel that runs is compiled with only the terms that the materials need
+// and the sums that the caller wants. A SIMD kernel serves particles of one material and one radius, a scalar kernel
+// all other sets of particles.
 #include "engine/forces/pair_sums.h"
 
 #include <algorithm>
@@ -12,13 +12,14 @@
 namespace engine {
 namespace {
 
-/// What a particle gets from its pairs.
+/// Sums over the pairs of one particle.
 struct ParticleSums {
     Vec3 force = Vec3::Zero();  ///< N
-    double energy = 0.0;        ///< half of its pairs' energies, J
+    double energy = 0.0;        ///< half of the energies of the pairs, J
 };
 
-/// Two particles within the cutoff, with P and P.P as PairTraversal::visitPair() has them.
+/// Two particles p and i within the cutoff, with their separation P and its square P.P as PairTraversal::visitPair()
+/// computes them.
 struct Pair {
     const PackedParticle& p;
     const PackedParticle& i;
@@ -28,13 +29,13 @@ struct Pair {
     Vec3 velocity() const { return {p.vx - i.vx, p.vy - i.vy, p.vz - i.vz}; }
 };
 
-/// Friction of a pair: the force is -damping times velocity.
+/// Friction of a pair of particles: the friction force is -damping times the slip velocity.
 struct Slip {
-    Vec3 velocity = Vec3::Zero();  ///< V_t, m/s
-    double damping = 0.0;          ///< c_t, kg/s
+    Vec3 velocity = Vec3::Zero();  ///< slip velocity V_t, m/s
+    double damping = 0.0;          ///< coefficient c_t, kg/s
 };
 
-/// Forced inline, so that what it has in common with the pair's coefficient is computed once.
+/// Friction of a pair. Forced inline, so that terms shared with the conservative force are computed once.
 [[gnu::always_inline]] inline Slip slipOf(const Pair& pair, const PairConstants<double>& constants) {
     const double coefficient = pairCoefficient<kConservative>(pair.distanceSq, 0.0, constants);
     if (!(coefficient > 0.0)) return {};
@@ -43,8 +44,9 @@ struct Slip {
     return {slip, slipDamping(constants.friction, coefficient * std::sqrt(pair.distanceSq), squaredLength(slip))};
 }
 
-/// Energy of a pair in joules. The force that separates a coincident pair does work that U(D) at D = 0 does not
-/// contain: such a pair counts as much above U(0) as its stand-in separation lies below.
+/// Energy of a pair of particles at a distance D (m), in joules. A coincident pair is separated by the force at a small
+/// stand-in distance, and the work of this force is not contained in U(0). The energy of such a pair is therefore taken
+/// as far above U(0) as the energy at the stand-in distance is below U(0).
 [[gnu::always_inline]] inline double energyOf(const PackedParticle& p, const PackedParticle& i, double distance,
                                               const PairConstants<double>& constants) {
     const double energy = pairEnergy(distance, constants);
@@ -52,7 +54,8 @@ struct Slip {
     return 2.0 * pairEnergy(0.0, constants) - energy;
 }
 
-/// Adds what a pair contributes to p; returns the damping of its slip, in kg/s.
+/// Adds the force and energy of a pair to the sums of particle p; returns the friction coefficient c_t of the pair, in
+/// kg/s.
 template <Variant variant>
 [[gnu::always_inline]] inline double addPair(const Pair& pair, const PairConstants<double>& constants,
                                              ParticleSums& sums) {
@@ -71,8 +74,8 @@ template <Variant variant>
     return slip.damping;
 }
 
-/// Adds a pair's entry to the matrix: friction acts across the pair, along it the damping b_d s_d and the stiffness
-/// max(k, 0), each times its weight.
+/// Adds the entry of a pair to the matrix of the implicit steppers. The damping b_d s_d and the stiffness max(k, 0) act
+/// along the line between the particles, friction across it; each is multiplied by its weight.
 template <PairTerms terms>
 void addEntry(const Pair& pair, double slipDamping, const PairConstants<double>& constants, const PairSums& wanted,
               std::size_t laneSlot, std::uint32_t other) {
@@ -88,7 +91,7 @@ void addEntry(const Pair& pair, double slipDamping, const PairConstants<double>&
     wanted.matrix->add(laneSlot, other, along - across / distanceSq, across);
 }
 
-/// The scalar kernel: one particle and its neighbors.
+/// The scalar kernel: sums over the neighbors of the particle in a lane slot of the neighbor list.
 template <Variant variant>
 ParticleSums sumParticle(const PairTraversal& pairs, const PairSums& wanted, std::size_t laneSlot) {
     const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
@@ -102,13 +105,13 @@ ParticleSums sumParticle(const PairTraversal& pairs, const PairSums& wanted, std
     return sums;
 }
 
-/// Calls sumCluster(first slot, end slot) for every cluster, divided among the threads, and returns the sum of the
-/// energies (J) that it returns if they are wanted.
+/// Calls sumCluster(first lane slot, end lane slot) for every cluster of particles, divided among the threads. Returns
+/// the sum of the energies (J) that sumCluster returns, or 0 if no energy is wanted.
 template <class SumCluster>
 double overClusters(const PairTraversal& pairs, bool hasEnergy, const SumCluster& sumCluster) {
     const std::size_t count = pairs.list.count();
     std::vector<double> energies(pairs.list.rows.clusterCount());
-    constexpr std::size_t kGrain = 4;  // chosen: particles of a dense scene take up to half a microsecond each
+    constexpr std::size_t kGrain = 4;  // clusters for a thread; chosen: a particle takes up to 0.5 microseconds
     inParallel(energies.size(), kGrain, [&](std::size_t cluster) {
         const std::size_t first = cluster * kClusterSize;
         energies[cluster] = sumCluster(first, std::min(first + kClusterSize, count));
@@ -116,12 +119,12 @@ double overClusters(const PairTraversal& pairs, bool hasEnergy, const SumCluster
     return hasEnergy ? sumOver(energies.size(), [&](std::size_t cluster) { return energies[cluster]; }) : 0.0;
 }
 
-/// The force (N) on the particle in a lane slot.
+/// The force (N) on the particle in a lane slot of the neighbor list.
 Vec3& forceOn(const PairTraversal& pairs, std::size_t laneSlot, const PairSums& wanted) {
     return wanted.forces[pairs.list.order[pairs.sortedIndexAt(laneSlot)]];
 }
 
-/// The pass over particles of several materials or radii; returns the pair energy, in joules.
+/// Sums over the pairs of particles that have several materials or radii; returns the pair energy, in joules.
 template <Variant variant>
 double sumMixed(const PairTraversal& pairs, const PairSums& wanted) {
     return overClusters(pairs, variant.hasEnergy, [&](std::size_t first, std::size_t end) {
@@ -144,11 +147,11 @@ bool isCoincident(const PairTraversal& pairs, std::size_t laneSlot) {
     return false;
 }
 
-/// Adds, in float, what coincident neighbors do to a particle. Of them the SIMD kernel has counted the energy at D = 0
-/// alone.
+/// Adds to a particle's sums the force and energy of the neighbors at the same position, in float. The SIMD kernel has
+/// not separated these pairs: it has added no force, and an energy U(0) for each.
 template <PairTerms terms>
 void addCoincidentFloat(const PairTraversal& pairs, std::size_t laneSlot, ParticleSums& all) {
-    // What remains of a packed particle where P is zero.
+    // A packed particle moved to the origin, since only velocity and id matter where P is zero.
     const auto atOrigin = [&](const PackedParticleFloat& from) {
         return PackedParticle{0.0, 0.0, 0.0, from.vx, from.vy, from.vz, pairs.uniformRadius, 0, from.id};
     };
@@ -169,9 +172,9 @@ void addCoincidentFloat(const PairTraversal& pairs, std::size_t laneSlot, Partic
     all.energy += sums.energy;
 }
 
-/// Corrects the sums of the coincident particles of a cluster, which the SIMD kernel cannot separate. In double the
-/// scalar kernel does them again; the rows of the matrix stay those of the SIMD kernel, or the two entries of a pair
-/// would be rounded differently.
+/// Corrects the sums of those particles of a cluster that share their position with a neighbor, because the SIMD kernel
+/// cannot separate such pairs. In double precision the scalar kernel computes these sums anew. The rows of the matrix
+/// stay as the SIMD kernel has written them; otherwise the two entries of a pair would be rounded differently.
 template <PairTerms terms>
 void correctCoincident(const PairTraversal& pairs, const PairSums& wanted, std::size_t first, ClusterSums& sums) {
     for (std::size_t lane = 0; lane < kClusterSize; ++lane) {
@@ -188,7 +191,7 @@ void correctCoincident(const PairTraversal& pairs, const PairSums& wanted, std::
     }
 }
 
-/// The pass over particles of one material and one radius; returns the pair energy, in joules.
+/// Sums over the pairs of particles that all have one material and one radius; returns the pair energy, in joules.
 double sumUniform(const PairTraversal& pairs, const PairSums& wanted) {
     const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
     const ClusterKernel sumCluster = clusterKernel(pairs, wanted);

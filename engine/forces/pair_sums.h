@@ -1,4 +1,4 @@
-// The sums of one pass over all pairs: forces and, where they are asked for, the pair energy and the matrix of the
+// The sums of one pass over all pairs of particles: the forces and, if requested, the pair energy and the matrix of the
 // implicit steppers. Called by ForceEvaluator and stepping/step_bound.cpp.
 #pragma once
 
@@ -9,23 +9,23 @@
 
 namespace engine {
 
-/// The sums of a pass; nullptr leaves one out, and out of the kernel.
+/// Where a pass over all pairs writes its results. A sum whose pointer is nullptr is not computed.
 struct PairSums {
-    std::vector<Vec3>& forces;     ///< N, by particle index; already of the right size
-    double* energy = nullptr;      ///< of the conservative part, J
-    PairMatrix* matrix = nullptr;  ///< in the order of the neighbor list
-    MatrixWeights weights = {};    ///< of the matrix
+    std::vector<Vec3>& forces;     ///< force on each particle, by particle index, N; has the right size already
+    double* energy = nullptr;      ///< energy of all pairs (conservative part of the force), J
+    PairMatrix* matrix = nullptr;  ///< matrix of the implicit steppers
+    MatrixWeights weights = {};    ///< factors of damping and stiffness in the matrix
 };
 
-/// What a kernel over pairs is compiled for.
+/// The terms and the sums that a kernel over pairs is compiled with.
 struct Variant {
     PairTerms terms;
     bool hasEnergy;
     bool hasMatrix;
 };
 
-/// Calls visit.operator()<variant>() with the leanest variant that has the terms and computes the wanted sums, and
-/// returns its result. A kernel that assembles a matrix sums the energy, too.
+/// Calls visit.operator()<variant>() with the cheapest compiled variant of a kernel that has the needed terms and
+/// computes the wanted sums, and returns the result of visit. A kernel that assembles a matrix also sums the energy.
 template <class Visit>
 auto withVariant(PairTerms needed, const PairSums& wanted, const Visit& visit) {
     return withTerms(needed, [&]<PairTerms terms>() {
@@ -35,11 +35,11 @@ auto withVariant(PairTerms needed, const PairSums& wanted, const Visit& visit) {
     });
 }
 
-/// Sums over the pairs of a prepared traversal.
+/// Sums forces, and what else is wanted, over all pairs of a prepared traversal.
 /// @pre with a matrix, pairs.isPacked
 void sumPairs(const PairTraversal& pairs, const PairSums& wanted);
 
-/// Pair energy of the conservative part alone, in joules.
+/// Sum of the energies of all pairs (conservative part of the force) without any forces, in joules.
 /// @pre pairs.isPacked
 double pairEnergySum(const PairTraversal& pairs);
 

@@ -1,4 +1,4 @@
-// Keeping the neighbor list up to date, and packing.
+// Brings the neighbor list up to date and packs particles for a pass over pairs.
 #include "engine/forces/pair_traversal.h"
 
 #include <algorithm>
@@ -8,16 +8,19 @@
 namespace engine {
 namespace {
 
-/// Units in the reach of a list, 2^23: separations of listed pairs stay below 2^24 units, which float holds exactly.
+/// Number of fixed-point units in the reach of a neighbor list, 2^23. Separations of listed pairs then stay below 2^24
+/// units, which a float holds exactly.
 constexpr double kUnits = 8388608.0;
 
-/// Bound on the speed (m/s) of any particle relative to the motion that all have in common, which ages no list.
+/// Upper bound on the speed (m/s) of any particle relative to the motion that all particles have in common. A common
+/// motion does not make a neighbor list outdated.
 double largestRelativeSpeed(const std::vector<Vec3>& velocities) {
     const auto velocity = [&](std::size_t p) -> const Vec3& { return velocities[p]; };
     return farthestFrom(boundingBoxOf(velocities.size(), velocity).middle(), velocities.size(), velocity);
 }
 
-/// Mean number of neighbors within the cutoff (m), from the length of the rows, which reach further.
+/// Estimates the mean number of neighbors within the cutoff (m) from the number of listed neighbors, which lie within
+/// the larger reach of the list.
 double neighborsWithin(double cutoff, const NeighborList& list) {
     const double share = cutoff / list.reach;
     return share * share * share * static_cast<double>(list.entryCount) / static_cast<double>(list.count());
@@ -36,7 +39,7 @@ void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, c
     if (step > 0.0 && list.count() > 0 && particles.count() > 0)
         skin = optimalSkin(neighborsWithin(terms.cutoff, list), step * largestRelativeSpeed(velocities) / terms.cutoff);
     build(list, particles.position, terms.cutoff, skin * terms.cutoff);
-    isPacked = false;  // in another order
+    isPacked = false;  // the new list has the particles in another order
 }
 
 void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,

@@ -1,7 +1,7 @@
-// What every pass over neighboring pairs starts from: the neighbor list, the particles packed in its order and the
-// constants of the pairs. Each particle visits its own neighbors in a fixed order and writes to itself alone, so that
-// no thread waits for another and no sum depends on how the work is divided. Used by the sums of pair_sums.cpp and by
-// stepping/step_bound.cpp.
+// The data that every pass over pairs of neighbors reads: the neighbor list, the particles packed in the order of the
+// list, and the constants of the pairs. A pass visits the neighbors of each particle in a fixed order and writes only
+// to that particle, so that no thread waits for another and no sum depends on how the work is divided. Used by the sums
+// of pair_sums.cpp and by stepping/step_bound.cpp.
 #pragma once
 
 #include <array>
@@ -18,52 +18,53 @@
 
 namespace engine {
 
-/// Kept between passes: in most of them the neighbor list still serves.
+/// State that is kept from one pass over the pairs to the next, since the neighbor list stays valid for many passes.
 struct PairTraversal {
     std::vector<Material> pairMaterials;  ///< mixedPairs() of the law
     std::size_t materialCount = 0;
     ForceTerms terms;
-    PairConstants<double> uniform = {};  ///< of every pair where terms.uniform
-    double uniformRadius = 0.0;          ///< of every particle where terms.uniform, m
+    PairConstants<double> uniform = {};  ///< constants of every pair where terms.uniform
+    double uniformRadius = 0.0;          ///< radius of every particle where terms.uniform, m
     NeighborList list;
-    Precision precision = Precision::doubles;               ///< used where terms.uniform
-    Scratch<std::vector<PackedParticle>> packed;            ///< valid while isPacked
-    Scratch<std::vector<PackedParticleFloat>> packedFloat;  ///< empty where the pass is in double
-    double unit = 1.0;                                      ///< of the coordinates that a pass reads, m
-    bool isPacked = false;  ///< whether `packed` is that of the last prepare(); in float only after packParticles()
+    Precision precision = Precision::doubles;               ///< precision of the pair forces where terms.uniform
+    Scratch<std::vector<PackedParticle>> packed;            ///< particles in double; valid while isPacked
+    Scratch<std::vector<PackedParticleFloat>> packedFloat;  ///< particles in float; empty for a pass in double
+    double unit = 1.0;                                      ///< length of a unit of the packed coordinates, m
+    bool isPacked = false;  ///< whether `packed` holds the particles of the last prepare()
 
     PairTraversal() = default;
     PairTraversal(const ForceLaw& law, Precision precision);
 
-    /// Brings the list up to date and packs the particles.
-    /// @param velocities  seen by the damping and the friction, in m/s
+    /// Brings the neighbor list up to date and packs the particles for a pass.
+    /// @param velocities  velocities that damping and friction are computed from, in m/s
     /// @param step        time until the next pass, from which the skin of a new list is chosen, in s; 0 if unknown
     void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
 
-    /// The part of prepare() that brings the list up to date.
+    /// Builds a new neighbor list where the present one does not cover the particles' positions. Part of prepare().
     void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
-    /// After prepare() with the same arguments: packs the particles in double if only float was needed so far.
+    /// Packs the particles in double if prepare(), called before with the same arguments, has packed them in float
+    /// only.
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
 
     PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {
         return pairConstants<double>(pairMaterials[p.material * materialCount + i.material], p.radius + i.radius);
     }
 
-    /// Sorted index of the particle in a lane slot of the list.
+    /// Index, in the order of the neighbor list, of the particle in a lane slot.
     std::uint32_t sortedIndexAt(std::size_t laneSlot) const {
         return static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]);
     }
 
-    /// Calls visit(sorted index, P, P.P) for every particle within the cutoff of the one in a lane slot. Which entries
-    /// of a row lie beyond the cutoff is unpredictable, so they are first filtered without branches.
+    /// Calls visit(sorted index, P, P.P) for every particle within the cutoff of the particle in a lane slot. Which
+    /// listed neighbors lie beyond the cutoff is unpredictable, so they are filtered first, without branches.
     template <class Visit>
     void forEachNeighbor(std::size_t laneSlot, const Visit& visit) const {
         const PackedParticle& p = packed[sortedIndexAt(laneSlot)];
         const double cutoffSq = terms.cutoff * terms.cutoff;
-        constexpr std::uint32_t kAtOnce = 128;  // chosen: longer than most rows
+        constexpr std::uint32_t kAtOnce = 128;  // entries filtered together; chosen: longer than most rows
         std::array<std::uint32_t, kAtOnce> within;
         const RowBlock& block = list.rows.blocks[NeighborRows::blockOf(laneSlot)];
         const std::size_t first = list.rows.at(laneSlot, 0);
@@ -85,7 +86,8 @@ struct PairTraversal {
         }
     }
 
-    /// Calls visit(P, P.P) for a pair, with coincidentSeparation() for P where the two coincide.
+    /// Calls visit(P, P.P) for a pair of particles, with the stand-in coincidentSeparation() for P where the two
+    /// coincide.
     template <class Visit>
     static void visitPair(const PackedParticle& p, const PackedParticle& i, const Visit& visit) {
         Vec3 separation = separationOf(p, i);
@@ -101,7 +103,7 @@ struct PairTraversal {
     /// Calls body(lane slot) for every particle, divided among the threads.
     template <class Body>
     void forEachParticle(const Body& body) const {
-        constexpr std::size_t kGrain = 64;  // chosen: a particle of a dense scene takes half a microsecond
+        constexpr std::size_t kGrain = 64;  // particles for a thread; chosen: each takes up to 0.5 microseconds
         inParallel(list.count(), kGrain, body);
     }
 

@@ -1,6 +1,6 @@
-// The kernel over the neighbors of a cluster, compiled once per instruction set. The force law is that of
-// pair_formulas-inl.h; energy and matrix entries are written here in the quantities that the force has computed
-// already. A neighbor beyond the cutoff adds zeros instead of being skipped.
+// SIMD kernels that sum over the neighbors of a cluster of particles, compiled once per instruction set. The force law
+// comes from law/pair_formulas-inl.h. Energies and matrix entries are computed here from quantities that the force
+// needs anyway. A neighbor beyond the cutoff is not skipped but adds zeros.
 #include "engine/forces/simd_forces.h"
 
 #include <algorithm>
@@ -19,27 +19,29 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-// The formulas of the law, compiled for this instruction set.
+// The formulas of the force law, compiled for this instruction set.
 #include "engine/law/pair_formulas-inl.h"
 
-/// 1/x^2 in T such that no rounded 1/D^2 exceeds it for D at or beyond the rounded x.
+/// The number 1/x^2 rounded to T in such a way that for every distance D at or beyond the rounded x the rounded 1/D^2
+/// does not exceed it.
 template <class T>
 T roundedInverse(double inverseSq) {
     if constexpr (std::is_same_v<T, double>) return inverseSq;
     return T(1) / static_cast<T>(1.0 / inverseSq);
 }
 
-/// The law's constants in every lane. Separations P are in units of PairTraversal::unit, in meters for double.
+/// The constants of the force law, broadcast to every SIMD lane. Separations P are in units of PairTraversal::unit, in
+/// meters for double.
 template <class T, Variant variant>
 struct Law {
     using V = Lanes<T>;
     static constexpr Tag<T> kTag{};
     static constexpr bool kHasUnit = std::is_same_v<T, float>;
 
-    PairConstants<V> constants;  ///< bd times the unit, since V.P has P in units
+    PairConstants<V> constants;  ///< as in the law, but with bd times the unit, since V.P has P in units
     V unitSq, perUnit;
-    V reach, inverseReach, inverseReachCubed, a, b, halfSlope;  ///< of the energy
-    V damping, dampingWeight, stiffnessWeight;                  ///< of the matrix
+    V reach, inverseReach, inverseReachCubed, a, b, halfSlope;  ///< constants of the pair energy
+    V damping, dampingWeight, stiffnessWeight;                  ///< constants of the matrix
 
     static V set(T value) { return hn::Set(kTag, value); }
     static V set64(double value) { return set(static_cast<T>(value)); }
@@ -86,13 +88,14 @@ struct Law {
         return separationSq;
     }
 
-    /// A force in newtons in the unit of coefficient * P with P in units.
+    /// Converts a force from newtons to the unit of a coefficient (N/m) times P in units.
     V perUnitOf(V newtons) const {
         if constexpr (kHasUnit) return hn::Mul(perUnit, newtons);
         return newtons;
     }
 
-    /// pairEnergy() of pair_law.h with D = guardedSq * inverse in place of a square root.
+    /// Pair energy as in pairEnergy() of law/pair_law.h, with the distance D computed as guardedSq * inverse instead of
+    /// by a square root.
     V energy(V distanceSq, V inverseSq, V inverse) const {
         const V guardedSq = larger(distanceSq, constants.coreSq);
         const V guarded = hn::Mul(guardedSq, inverse);
@@ -103,8 +106,8 @@ struct Law {
         return hn::IfThenElseZero(hn::Lt(distanceSq, constants.reachSq), hn::Add(outside, inside));
     }
 
-    /// (damping b_d s_d + stiffness max(k, 0)) / D^2 with the weights of the matrix. In the core the force softens with
-    /// approach, so that k counts as 0 there.
+    /// (damping b_d s_d + stiffness max(k, 0)) / D^2 with the weights of the matrix. Inside the core distance the force
+    /// decreases with approach, so k counts as 0 there.
     V along(V distanceSq, V inverseSq, V inverse) const {
         const V slope = hn::Mul(inverseSq, hn::Sub(hn::Mul(set(T(4)), inverseSq), hn::Add(a, a)));
         const V k = hn::Mul(hn::Mul(constants.b1, hn::Mul(inverse, inverseSq)), slope);
@@ -118,31 +121,31 @@ struct Law {
     }
 };
 
-/// Friction of pairs: the force is -damping times velocity.
+/// Friction of the pairs in the SIMD lanes: the friction force is -damping times the slip velocity.
 template <class V>
 struct Slip {
-    Vector3<V> velocity;  ///< V_t, m/s
-    V damping;            ///< c_t, kg/s
+    Vector3<V> velocity;  ///< slip velocity V_t, m/s
+    V damping;            ///< coefficient c_t, kg/s
 };
 
 /// @param separationSq  P.P in units
 /// @param approach      V.P with P in units
-/// @param normalForce   the conservative force, N
+/// @param normalForce   conservative part of the pair force, N
 template <class T>
 HWY_INLINE Slip<Lanes<T>> slipOf(const Row<T>& row, Lanes<T> separationSq, Lanes<T> approach, Lanes<T> friction,
                                  Lanes<T> normalForce) {
-    // The entries that pad a row have P = 0: they shall give zero and not NaN.
+    // The entries that pad a row have P = 0; the lower bound makes them give 0 instead of NaN.
     const auto share = hn::Div(approach, atLeast(separationSq, double{std::numeric_limits<T>::min()}));
     const auto velocity = difference(row.velocity, scaled(share, row.separation));
     return {velocity, slipDamping(friction, normalForce, dot(velocity, velocity))};
 }
 
-/// The rows of a matrix for a vector of lanes as they fill up: every pair is written, and the write position moves on
-/// only where the pair has an entry.
+/// The matrix rows of the particles in a SIMD vector while they are filled. Every pair is written without a branch, but
+/// the write position of a row moves on only if the pair has an entry in the matrix.
 template <class T>
 struct MatrixRows {
     PairMatrix* matrix;
-    std::size_t first;  ///< slot of the first lane
+    std::size_t first;  ///< lane slot of the particle in the first lane
     std::array<std::uint32_t, kClusterSize> length = {};
 
     template <bool hasFriction>
@@ -169,7 +172,7 @@ struct MatrixRows {
     void finish() const { std::copy_n(length.begin(), hn::Lanes(Tag<T>()), &matrix->rows.length[first]); }
 };
 
-/// The particles that a pass in T reads.
+/// The packed particles that a pass in T, double or float, reads.
 template <class T>
 const auto& packedIn(const PairTraversal& pairs) {
     if constexpr (std::is_same_v<T, double>)
@@ -178,12 +181,13 @@ const auto& packedIn(const PairTraversal& pairs) {
         return pairs.packedFloat;
 }
 
-/// Whether the next neighbors are loaded while the present ones are worked on. Where there are enough registers, the
-/// units that shuffle and those that calculate are then busy together.
+/// Whether the next neighbors are loaded while the forces of the present neighbors are computed. With enough registers,
+/// as in AVX-512, the shuffle and arithmetic units are then busy at the same time.
 constexpr bool kLoadsAhead = HWY_TARGET <= HWY_AVX3;
 
-/// Sums for a vector of lanes, from a lane of the cluster on. Flattened: where anything in the loop is a call, every
-/// vector goes through memory, and it takes twice as long under AVX-512.
+/// Sums over the pairs of the particles in one SIMD vector, which begins at a lane of the cluster. The flatten
+/// attribute inlines every call: with a call left in the loop, all vectors go through memory, which takes twice as long
+/// with AVX-512.
 template <class Source, Variant variant>
 HWY_FLATTEN void sumLanes(const PairTraversal& pairs, const PairSums& wanted, std::size_t cluster, std::size_t lane,
                           ClusterSums& sums) {
@@ -214,7 +218,7 @@ HWY_FLATTEN void sumLanes(const PairTraversal& pairs, const PairSums& wanted, st
             coincident = hn::Or(coincident, source.sharePosition(entry, isCoincident));
         V approach = hn::Zero(kTag);
         if constexpr (kTerms.damping) approach = dot(row.velocity, row.separation);
-        // The entries that pad a row have P = 0 and add nothing.
+        // The entries that pad a row have P = 0, so their force is zero.
         const V inverseSq = guardedInverseSq(distanceSq, law.constants.coreSq);
         const V inverse = squareRoot(inverseSq);
         addScaled(force, coefficientFrom<kTerms>(inverseSq, inverse, approach, law.constants), row.separation);

@@ -1,6 +1,6 @@
-// How the SIMD kernels read packed particles: the neighbors in one group of row entries, one in each lane. Records are
-// loaded in blocks of 128 bits and transposed, which takes half the time of gather instructions. Included once per
-// instruction set by Highway's rules; so is the guard below.
+// How the SIMD kernels load packed particles: one neighbor of each particle of the cluster, one in each lane. Packed
+// particles are loaded in blocks of 128 bits and transposed, which takes half the time of gather instructions. Highway
+// includes this file once per instruction set, hence the unusual include guard below.
 #if defined(ENGINE_SIMD_PARTICLES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ENGINE_SIMD_PARTICLES_INL_H
 #undef ENGINE_SIMD_PARTICLES_INL_H
@@ -22,29 +22,29 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-/// Positions and velocities of the particles in the lanes.
+/// Positions and velocities of the particles in the SIMD lanes.
 template <class Position, class Velocity>
 struct Loaded {
     Vector3<Position> position;
-    Vector3<Velocity> velocity;  ///< zero where it is not needed
+    Vector3<Velocity> velocity;  ///< zero where no term of the force needs it
 };
 
-/// The pairs of the lanes' own particles and one neighbor of each.
+/// One pair of particles in each SIMD lane: a particle of the cluster and one of its neighbors.
 template <class T>
 struct Row {
-    Vector3<Lanes<T>> separation;  ///< P, in units of length
+    Vector3<Lanes<T>> separation;  ///< P, in the unit of the packed coordinates
     Vector3<Lanes<T>> velocity;    ///< V, m/s
     hn::Mask<Tag<T>> isPair;       ///< false where the entry only pads the row
 };
 
-/// Entries in the longest row of a vector of lanes, from a slot on.
+/// Length of the longest row of neighbors among the particles in one SIMD vector, which begins at a lane slot.
 template <class T>
 std::uint32_t longestRow(const NeighborRows& rows, std::size_t firstSlot) {
     return *std::max_element(&rows.length[firstSlot], &rows.length[firstSlot] + hn::Lanes(Tag<T>()));
 }
 
-/// Prefetches the entries some groups ahead. Measured with `globular bench --filter forces` on Zen 5: a tenth less time
-/// at 256,000 particles, whose rows come from memory; nothing at 32,000.
+/// Prefetches the row entries that the loop over neighbors will read some rounds later. Measured with `globular bench
+/// --filter forces` on Zen 5: a tenth less time at 256,000 particles, whose rows come from memory; nothing at 32,000.
 template <class Entry>
 HWY_INLINE void prefetchRows(const Entry* entry) {
     constexpr std::size_t kGroups = 96;
@@ -52,9 +52,9 @@ HWY_INLINE void prefetchRows(const Entry* entry) {
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// A vector of blocks of 128 bits, each from the record of every `every`-th index.
-/// @param base    the block in the first record
-/// @param stride  numbers from record to record
+/// A SIMD vector of 128-bit blocks, one from the packed particle of every `every`-th index in a list of indices.
+/// @param base    address of the block in the first packed particle
+/// @param stride  numbers from one packed particle to the next
 template <class D>
 HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const std::int32_t* indices,
                                  std::size_t every) {
@@ -69,7 +69,7 @@ HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t st
 }
 #endif
 
-/// Particles in double: positions in meters.
+/// Loads particles in double precision, with positions in meters.
 struct DoubleLanes {
     using T = double;
     using V = Lanes<double>;
@@ -78,7 +78,7 @@ struct DoubleLanes {
     static constexpr hn::Rebind<std::int64_t, Tag<double>> kWide{};
     static constexpr std::int64_t kStride = sizeof(PackedParticle) / sizeof(double);
 
-    const double* base;  ///< the first packed particle
+    const double* base;  ///< address of the first packed particle
     hn::Vec<decltype(kIndices)> ownIndices;
     Loaded<V, V> own;
 
@@ -96,7 +96,7 @@ struct DoubleLanes {
         x = {field(0), field(1), field(2)};
         if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
 #else
-        // Two numbers each of every other record.
+        // Two numbers of every other particle.
         const auto pairs = [](const double* field, const std::int32_t* first) {
             return blocksFrom(kTag, field, kStride, first, 2);
         };
@@ -113,7 +113,7 @@ struct DoubleLanes {
         return {x, v};
     }
 
-    /// @param indices  the entries that `others` were loaded from
+    /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>
     Row<double> row(const std::int32_t* indices, const Loaded<V, V>& others) const {
         Row<double> row;
@@ -124,14 +124,14 @@ struct DoubleLanes {
         return row;
     }
 
-    /// Those of some pairs with P.P = 0 that may share their position: in double, all of them.
+    /// Of the given pairs, whose P.P is 0, the pairs that may share their position: in double precision, all of them.
     hn::Mask<Tag<double>> sharePosition(const std::int32_t* /*indices*/, hn::Mask<Tag<double>> pairs) const {
         return pairs;
     }
 };
 
-/// Particles in float: positions are whole numbers of a unit, modulo 2^32, whose differences are exact anywhere in the
-/// world; separations are in that unit.
+/// Loads particles in single precision. Positions are fixed-point numbers modulo 2^32, whose differences are exact
+/// anywhere in the world; separations are in the same fixed-point units.
 struct FloatLanes {
     using T = float;
     using V = Lanes<float>;
@@ -141,7 +141,7 @@ struct FloatLanes {
     static constexpr std::int64_t kStride = sizeof(PackedParticleFloat) / sizeof(float);
 
     const PackedParticleFloat* packed;
-    const float* base;  ///< the first packed particle; positions are the bits of integers
+    const float* base;  ///< address of the first packed particle; its positions are bits of integers
     I ownIndices;
     Loaded<I, V> own;
 
@@ -160,7 +160,7 @@ struct FloatLanes {
         x = {whole(field(0)), whole(field(1)), whole(field(2))};
         if constexpr (needsVelocity) v = {field(4), field(5), field(6)};
 #else
-        // Four numbers each of every fourth record, then the transpose of four such vectors but for its last row.
+        // Loads four numbers of every fourth particle, then transposes four such vectors, except for the last row.
         const auto fields = [&](const float* field) {
             static constexpr hn::Repartition<double, Tag<float>> kTwos{};
             const auto fours = [&](std::size_t first) { return blocksFrom(kTag, field, kStride, indices + first, 4); };
@@ -179,7 +179,7 @@ struct FloatLanes {
         return {x, v};
     }
 
-    /// @param indices  the entries that `others` were loaded from
+    /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>
     Row<float> row(const std::int32_t* indices, const Loaded<I, V>& others) const {
         Row<float> row;
@@ -190,7 +190,8 @@ struct FloatLanes {
         return row;
     }
 
-    /// Those of some pairs with P.P = 0 that share their position; the others are only less than a unit apart.
+    /// Of the given pairs, whose P.P is 0, the pairs that share their position; the other pairs are less than a unit
+    /// apart.
     hn::Mask<Tag<float>> sharePosition(const std::int32_t* indices, hn::Mask<Tag<float>> pairs) const {
         std::array<std::uint8_t, 8> bits = {};
         std::array<std::int32_t, kClusterSize> own32;
