@@ -28,8 +28,8 @@ struct PairMatrix {
 
     std::vector<double> mass;            ///< mass of each particle, kg
     std::vector<Matrix3> own;            ///< terms of obstacles in the particles' diagonal blocks, kg; may be empty
-    std::vector<PackedParticle> packed;  ///< positions; multiply() overwrites the velocities
-    NeighborRows rows;                   ///< neighbors of each particle with which it has an entry
+    std::vector<PackedParticle> packed;  ///< particles; their velocities hold a factor of products
+    NeighborRows rows;                   ///< neighbors with an entry in the matrix, for each particle
     Entries along;                       ///< coefficients of P P^T, kg/m^2
     Entries across;                      ///< coefficients of the unit matrix, kg; empty without friction
 

@@ -15,7 +15,7 @@ namespace {
 /// Sums over the pairs of one particle.
 struct ParticleSums {
     Vec3 force = Vec3::Zero();  ///< N
-    double energy = 0.0;        ///< half of the energies of the pairs, J
+    double energy = 0.0;        ///< half of the energies of the particle's pairs, J
 };
 
 /// Two particles p and i within the cutoff, with their separation P and its square P.P as PairTraversal::visitPair()

@@ -38,7 +38,7 @@ struct Law {
     static constexpr Tag<T> kTag{};
     static constexpr bool kHasUnit = std::is_same_v<T, float>;
 
-    PairConstants<V> constants;  ///< as in the law, but with bd times the unit, since V.P has P in units
+    PairConstants<V> constants;  ///< constants of the pair; bd is times the unit of P
     V unitSq, perUnit;
     V reach, inverseReach, inverseReachCubed, a, b, halfSlope;  ///< constants of the pair energy
     V damping, dampingWeight, stiffnessWeight;                  ///< constants of the matrix

@@ -13,7 +13,7 @@ namespace engine {
 /// Sums over the pairs of each particle of a cluster, by lane.
 struct ClusterSums {
     std::array<double, kClusterSize> x, y, z;  ///< force, N
-    std::array<double, kClusterSize> energy;   ///< half of the energies of the pairs, J
+    std::array<double, kClusterSize> energy;   ///< half of the energies of each particle's pairs, J
     /// One bit for each lane: whether a neighbor of the particle has the same position, as far as the packed
     /// coordinates tell. In double precision also set where P.P underflows to 0.
     std::uint32_t coincident = 0;

@@ -1,4 +1,5 @@
-// Each particle's contacts: found at the step's start, then acting as a force or along its path.
+// Contacts of particles with obstacles: found at the start of a step, then applied as a force or along the particle's
+// path.
 #include "engine/stepping/drift.h"
 
 #include <cmath>
@@ -24,10 +25,11 @@ BallisticState ballisticStateOf(const Simulation& simulation, std::size_t p) {
 
 constexpr std::uint32_t kNoNeighbor = std::numeric_limits<std::uint32_t>::max();
 
-/// Clearance of a particle about which nothing is known.
+/// Clearance (distance from obstacles) of a particle about which nothing is known, m.
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
-/// Share of a radius by which a clearance is taken too small. Chosen: far above what roundings add up to.
+/// Share of the particle's radius by which its clearance from obstacles is reduced for safety. Chosen: far above the
+/// sum of all rounding errors.
 constexpr double kMargin = 1e-3;
 
 }  // namespace
@@ -44,10 +46,11 @@ void prepareDrift(Simulation& simulation) {
     cache.clearance.resize(particles.count(), kUnknown);
     cache.cachedNeighbors.resize(particles.count(), kNoNeighbor);
     copy(particles.position, cache.startPositions);
-    // Computed from the particles as they are: the evaluator knows the cutoff at its last evaluation, and a resumed run
-    // has not made that one.
+    // The cutoff is computed from the present particles. The cutoff of the last force evaluation would not do, since a
+    // resumed run has not made that evaluation.
     cache.startCutoff = termsFor(cache.evaluator.law(), particles).cutoff;
-    // Verlet has evaluated the forces at the start, and has brought the list up to date for that where it needs one.
+    // A Verlet stepper has evaluated the forces at the start of the step, and with them has brought the neighbor list
+    // up to date if the force method uses one.
     cache.startIsListed = (isVerlet(simulation.stepper) && cache.evaluator.needsList()) ||
                           covers(cache.evaluator.list(), cache.startPositions, cache.startCutoff);
 }
@@ -62,8 +65,8 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     const BallisticState state = ballisticStateOf(simulation, p);
     const Contacts contacts = contactsInStep(obstacles, state, h, isVerlet(simulation.stepper));
     cache.clearance[p] = contacts.gap - kMargin * state.probe.radius;
-    // A particle without neighbors feels the obstacle alone, and the sweep is as good as exact. Among others its
-    // contact is part of what the whole heap does.
+    // On a particle without neighbors only the obstacle acts, and the sweep is nearly exact. With neighbors, its
+    // contact is coupled to the forces in the heap around it.
     const auto hasNoNeighbor = [&] {
         return cache.startIsListed && cache.evaluator.hasNoNeighborWithin(cache.startPositions, cache.startCutoff, p,
                                                                           cache.cachedNeighbors[p]);

@@ -1,5 +1,5 @@
-// Drift and contacts: what the steppers other than the paper's do to each particle besides the pair forces. A step
-// calls prepareDrift once, then chooseSweptContact for each particle, and only then moves particles.
+// How steppers other than the paper's move particles and treat their contacts with obstacles. A step calls
+// prepareDrift() once, then chooseSweptContact() for each particle, and moves particles only after that.
 #pragma once
 
 #include <cmath>
@@ -8,15 +8,16 @@
 
 namespace engine {
 
-/// Sizes the step cache's arrays by particle, notes the positions at the step's start, and invalidates the displacement
-/// bound, because each particle takes a path of its own from here.
+/// Prepares the step cache for a step in a scene with obstacles: resizes the arrays that have an entry for each
+/// particle, and stores the positions at the start of the step.
 void prepareDrift(Simulation& simulation);
 
 /// Decides whether the obstacles act on a particle along its path in a step of h seconds (a swept contact) or as a
-/// force. Called at the step's start, before the particle moves. Returns the force, N; zero where the contact is swept.
+/// force at the start of the step. Called before the particle moves. Returns the force, N; zero where the contact is
+/// swept.
 Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h);
 
-/// Whether a particle certainly touches no obstacle.
+/// Whether a particle is known to touch no obstacle, without computing its distance from any.
 bool isClearOfObstacles(const Simulation& simulation, std::size_t p);
 
 /// Moves a particle with a swept contact for h seconds; its velocity changes where it meets an obstacle.
@@ -35,9 +36,9 @@ inline void drift(Simulation& simulation, std::size_t p, double h) {
 /// swept, the force is zero, but not the energy.
 ContactSums resolvedContacts(const Simulation& simulation, std::size_t p, const Vec3& velocity);
 
-/// Adds the obstacles' damping and stiffness on particles whose contacts are not swept to the matrix of a step of h
-/// seconds. Both are added whatever the matrix holds of the pairs: the weight of a heap makes contacts stiffer than
-/// anything else.
+/// Adds damping and stiffness of contacts with obstacles to the matrix of an implicit step of h seconds, for particles
+/// whose contacts are not swept. Stiffness is added even by the stepper that treats only damping implicitly, because
+/// the contacts under the weight of a heap are stiffer than any pair of particles.
 void addContacts(const Simulation& simulation, double h, PairMatrix& matrix);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Assembles the matrix in the middle of the step, solves for the change of velocity, and kicks.
+// The implicit step: assembles the matrix in the middle of the step, solves for the change of velocity, and applies it.
 #include "engine/stepping/implicit_step.h"
 
 #include <cmath>
@@ -13,7 +13,8 @@
 namespace engine {
 namespace {
 
-/// Solves for d, half the change of velocity, in the matrix's order.
+/// Solves the linear system for d, half the change of velocity over the step, with the particles in the order of the
+/// matrix.
 void solveForChange(Simulation& simulation, double h) {
     ImplicitScratch& scratch = simulation.cache->implicit;
     const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
@@ -49,7 +50,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
                    [&](std::size_t place) { particles.velocity[order[place]] += change[place]; });
     };
     addChange();
-    recordEnergy(simulation, pairEnergy);  // in the middle of the step, where the velocities are the mean ones
+    recordEnergy(simulation, pairEnergy);  // at this point the velocities are those in the middle of the step
     addChange();
 }
 
@@ -61,7 +62,7 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
     const std::size_t grain = contactGrain(simulation.setup.obstacles);
     prepareDrift(simulation);
     inParallel(particles.count(), grain, [&](std::size_t p) {
-        chooseSweptContact(simulation, p, h);  // the force at the start is not used
+        chooseSweptContact(simulation, p, h);  // the force that it returns is not needed
         drift(simulation, p, 0.5 * h);
         particles.velocity[p] *= decay;
     });

@@ -1,5 +1,5 @@
-// Compiled once per instruction set. The coordinates of particles lie side by side, three numbers each, so three SIMD
-// vectors hold those of as many particles as one vector has lanes.
+// SIMD code, compiled once per instruction set. The coordinates of the particles lie side by side in memory, three
+// numbers a particle, so three SIMD vectors hold the coordinates of as many particles as one vector has lanes.
 #include "engine/stepping/kick_drift.h"
 
 #include <array>
@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Arrays of the particles; force, position and velocity hold three numbers a particle.
+/// Raw arrays of the particles' quantities; force, position and velocity have three numbers a particle.
 struct Numbers {
     const double* mass;
     const double* force;
@@ -25,7 +25,7 @@ struct Numbers {
     double* velocity;
 };
 
-/// Kicks and drifts as many particles at a time as D has lanes.
+/// Updates the velocities and positions of as many particles at a time as D has lanes.
 template <class D, bool addsWeight>
 class Kicker {
     using V = hn::Vec<D>;
@@ -43,7 +43,8 @@ class Kicker {
 
     static std::size_t lanes() { return hn::Lanes(kTag); }
 
-    /// Moves the particles from index `first` on, as many as there are lanes; returns whether they are valid.
+    /// Moves as many particles as there are lanes, from index `first` on; returns whether their new positions and
+    /// velocities are valid.
     bool move(const Numbers& all, std::size_t first) const {
         const V mass = hn::LoadU(kTag, all.mass + first);
         const V perMass = hn::Div(h_, mass);
@@ -65,10 +66,10 @@ class Kicker {
     }
 
  private:
-    /// A NaN is not below any limit.
+    /// Whether the numbers are below a limit in magnitude, lane by lane; a NaN is not.
     static hn::Mask<D> isBelow(V number, double limit) { return hn::Lt(hn::Abs(number), hn::Set(kTag, limit)); }
 
-    /// For each lane of the first, second or third vector, which particle its number belongs to.
+    /// For each lane of one of the three vectors of coordinates, the particle that the coordinate belongs to.
     static Indices particlesOf(std::size_t vector) {
         std::array<std::int64_t, kMost> of;
         for (std::size_t lane = 0; lane < lanes(); ++lane)

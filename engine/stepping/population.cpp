@@ -1,6 +1,7 @@
-// Every random number is a function of (seed, emitter, schedule, emission), so a few counters are the whole state of an
-// emitter, and a resumed run draws what the uninterrupted one would have drawn. Room is looked for in linked cells:
-// time and memory are linear in the particles, however many are emitted at once.
+// Emission and removal of particles. Every random number is a function of seed, emitter, schedule and emission, so the
+// state of an emitter is a few counters, and a resumed run draws the same numbers as an uninterrupted one. Free space
+// for a new particle is searched in linked cells, so that time and memory are linear in the number of particles even if
+// many are emitted at once.
 #include "engine/stepping/population.h"
 
 #include <algorithm>
@@ -16,10 +17,11 @@
 namespace engine {
 namespace {
 
-/// Chosen: how often in an interval an emission that has to wait is tried again. Each try ends a step.
+/// How many times per interval between emissions an emission that has found no room is tried again. Chosen: each try
+/// ends a time step, so few are wanted.
 constexpr double kTriesPerInterval = 4.0;
 
-/// What a random number is for: its stream within the emitter.
+/// The purposes of an emitter's random numbers; each purpose has a stream of random numbers of its own.
 enum class Purpose : std::uint64_t { site = 0, jitterFirst = 1, jitterSecond = 2 };
 
 /// The index of an emitter in the set-up, of one of its schedules, and of an emission of that schedule.
@@ -89,7 +91,7 @@ bool isEmissionDue(const Simulation& simulation) {
     return false;
 }
 
-/// The largest radius of the particles there are and of those that may be emitted, m.
+/// The largest radius of the present particles and of the particles that emitters may add, m.
 double largestRadiusOf(const Simulation& simulation) {
     double largest = 0.0;
     for (const double radius : simulation.particles.radius) largest = std::max(largest, radius);
@@ -98,8 +100,8 @@ double largestRadiusOf(const Simulation& simulation) {
     return largest;
 }
 
-/// Width of cells in which an emission finds all particles in its way, and the audit all that act on a new particle, m;
-/// 0 where neither is needed.
+/// Cell width (m) with which neighboring cells contain all particles that may block an emission and, where the energy
+/// is recorded, all particles that act on a new one. 0 where neither is needed.
 double cellWidthFor(const Simulation& simulation) {
     const double largestRadius = largestRadiusOf(simulation);
     double width = simulation.cache->energy ? cutoffRatio(simulation.setup.materials) * 2.0 * largestRadius : 0.0;
@@ -108,7 +110,7 @@ double cellWidthFor(const Simulation& simulation) {
     return width;
 }
 
-/// Emits what the emitter of this index has due, and adds the new particles to the cells.
+/// Emits the particles that the emitter of this index has due, where there is room, and adds them to the cells.
 void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
     const Setup& setup = simulation.setup;
     const Emitter& emitter = setup.emitters[index];
@@ -127,7 +129,7 @@ void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
             }
             append(simulation.particles, particle);
             cells.add(particle.position);
-            // A delay shifts the schedule, or the particles that had to wait would come in a burst.
+            // A delay shifts the whole schedule; otherwise the delayed particles would come in a burst.
             ++schedule.births;
             if (schedule.delayed)
                 schedule.origin = schedule.due - static_cast<double>(schedule.births - 1) * emitter.interval;
@@ -148,7 +150,7 @@ void emitDue(Simulation& simulation) {
     if (width > 0.0) cells = LinkedCells(width, simulation.particles.position);
     for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) emitFrom(e, simulation, cells);
     if (simulation.particles.count() == first) return;
-    requireValid(simulation, 0.0);  // an emitter may stand anywhere
+    requireValid(simulation, 0.0);  // an emitter may stand outside the world's limit
     simulation.cache->forcesCurrent = false;
     addEnergyOfEmitted(simulation, first, cells);
 }

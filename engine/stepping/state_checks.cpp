@@ -1,4 +1,4 @@
-// Vectorized checks of all particles, and the message where one fails.
+// Vectorized checks of positions and velocities, and the error message that names an invalid particle.
 #include "engine/stepping/state_checks.h"
 
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace engine {
 namespace {
 
-/// Checks number by number, without a branch, so that the compiler vectorizes the loop.
+/// Whether every component of the vectors begin to end - 1 is below a limit in magnitude. Written without a branch, so
+/// that the compiler vectorizes the loop.
 bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t end, double limit) {
     if (begin == end) return true;
     const double* const numbers = vectors.front().data();
@@ -20,7 +21,8 @@ bool areBelow(const std::vector<Vec3>& vectors, std::size_t begin, std::size_t e
     return others == 0;
 }
 
-/// Names the particle and the settings that have an effect. An automatic stepper ignores physics.step.
+/// Throws an InstabilityError that names a particle and the settings to change. The automatic stepper ignores
+/// physics.step, so physics.error is named for it.
 [[noreturn]] void report(const Simulation& simulation, std::size_t p, double h) {
     const Vec3& x = simulation.particles.position[p];
     std::ostringstream text;

@@ -1,5 +1,5 @@
-// Whether positions and velocities are numbers that the engine can go on from. Checked after particles were emitted and
-// after every move, before anything is computed from them.
+// Checks whether positions and velocities are numbers that the engine can compute with. They are checked whenever
+// particles have been emitted or moved, before anything is computed from them.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,11 @@
 
 namespace engine {
 
-/// A position further out than this counts as lost, m: beyond it the cell grid and float pictures lose their meaning.
+/// Bound on every coordinate of a position, m. Beyond it cell grids and pictures in single precision are no longer
+/// accurate.
 inline constexpr double kWorldLimit = 1e8;
 
-/// The largest speed whose square is still finite in double with room to spare, m/s.
+/// Bound on every component of a velocity, m/s: the square of a speed stays finite in double, with a wide margin.
 inline constexpr double kFastest = 1e150;
 
 /// Whether every component is below the limit in magnitude; written so that a NaN fails.
@@ -19,20 +20,22 @@ inline bool areBelow(const Vec3& vector, double limit) {
     return std::abs(vector.x()) < limit && std::abs(vector.y()) < limit && std::abs(vector.z()) < limit;
 }
 
-/// Whether a particle is within the world's limit and the square of its speed is finite.
+/// Whether the position of a particle is within the world's limit and its velocity within the bound on velocities.
 inline bool isValid(const Vec3& position, const Vec3& velocity) {
     return areBelow(position, kWorldLimit) && areBelow(velocity, kFastest);
 }
 
-/// Whether all particles are valid.
+/// Whether the positions and velocities of all particles are valid.
 bool isValid(const Particles& particles);
 
-/// Throws an InstabilityError that names the first invalid particle, or else the fastest one.
-/// @param h  length of the step that could not be taken, s
+/// Throws an InstabilityError that names the first particle with an invalid position or velocity or, if there is none,
+/// the fastest particle.
+/// @param h  length of the rejected time step, s
 [[noreturn]] void reportInstability(const Simulation& simulation, double h);
 
-/// Does nothing if all particles are valid, and otherwise throws an InstabilityError that names the first invalid one.
-/// @param h  length of the step that led here, s
+/// Throws an InstabilityError that names the first particle with an invalid position or velocity; does nothing if there
+/// is none.
+/// @param h  length of the time step that led to this state, s; 0 before the first step
 void requireValid(const Simulation& simulation, double h);
 
 }  // namespace engine

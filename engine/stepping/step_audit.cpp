@@ -1,4 +1,5 @@
-// Energies are summed over the particles in chunks of fixed size, so that a verdict does not depend on the threads.
+// The audit of time steps. Energies are summed in chunks of fixed size, so that whether a step is accepted does not
+// depend on the number of threads.
 #include "engine/stepping/step_audit.h"
 
 #include <cmath>
@@ -11,10 +12,11 @@
 namespace engine {
 namespace {
 
-/// Chosen: a speed far below any visible motion, in radii per second.
+/// Speed that is added to the motion when the allowed energy gain is computed, in radii per second. Chosen: far below
+/// any visible motion.
 constexpr double kSlow = 0.1;
 
-/// Derived: a thousand roundings of the energies whose difference is judged.
+/// Relative rounding error of an energy. Derived: a thousand roundings of the energies whose difference is judged.
 constexpr double kRounding = 1e-13;
 
 double contactEnergyOf(const Simulation& simulation, std::size_t p) {
@@ -23,7 +25,7 @@ double contactEnergyOf(const Simulation& simulation, std::size_t p) {
     return sumContacts(simulation.setup.obstacles, {particles.position[p], Vec3::Zero(), particles.radius[p]}).energy;
 }
 
-/// Pair energy of a new particle with all particles that were there before it, J.
+/// Energy of the pairs of a new particle with all particles of lower index, J.
 double energyWithEarlier(const Simulation& simulation, std::size_t p, const LinkedCells& cells) {
     double energy = 0.0;
     cells.forEachNear(simulation.particles.position[p], [&](std::size_t i) {
@@ -32,7 +34,8 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p, const Link
     return energy;
 }
 
-/// A single particle may move any distance, unless it may have passed through an obstacle without a swept contact.
+/// Whether a step may move particles by more than their radius: only where there is a single particle that cannot have
+/// passed through an obstacle.
 bool mayGoFar(const Simulation& simulation) {
     if (simulation.particles.count() > 1) return false;
     return simulation.particles.count() == 0 || simulation.setup.obstacles.shapes.empty() ||
@@ -44,7 +47,7 @@ bool movedTooFar(const Simulation& simulation, const SavedState& saved) {
     if (mayGoFar(simulation)) return false;
     const double far = largestOver(particles.count(), [&](std::size_t p) {
         const double distanceSq = squaredLength(particles.position[p] - saved.position[p]);
-        return distanceSq <= particles.radius[p] * particles.radius[p] ? 0.0 : 1.0;  // a NaN is too far
+        return distanceSq <= particles.radius[p] * particles.radius[p] ? 0.0 : 1.0;  // a NaN counts as too far
     });
     return far > 0.0;
 }
@@ -109,11 +112,11 @@ void restore(Simulation& simulation, const SavedState& saved) {
     particles.velocity = saved.velocity;
     StepCache& cache = *simulation.cache;
     cache.clearance.clear();
-    cache.cachedNeighbors.clear();  // a resumed run would not have them
+    cache.cachedNeighbors.clear();  // a resumed run does not have them either
     cache.forcesCurrent = saved.forcesCurrent;
     if (saved.forcesCurrent) {
         cache.forces = saved.forces;
-        cache.evaluator.renewList(particles);  // prepareDrift() takes current forces to imply a current list
+        cache.evaluator.renewList(particles);  // prepareDrift() expects a current list with current forces
     }
     cache.energy = saved.energy;
     cache.kinetic = saved.kinetic;

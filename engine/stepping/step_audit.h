@@ -1,5 +1,5 @@
-// The audit: no step may gain energy, and no step may carry a particle past what it is about to meet. A step that does
-// is rejected: the state before it is restored. Called after every step but the paper's.
+// The audit of time steps. A step is rejected if it gains energy or moves a particle by more than its radius; then the
+// state before it is restored. Every step is audited, except those of the paper's stepper.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace engine {
 
-/// Share of the kinetic energy that a step may gain. Chosen: rounding and truncation of a good step stay below it.
+/// Share of the kinetic energy that a step may gain. Chosen: rounding and truncation errors of a good step are smaller.
 inline constexpr double kEnergyAllowance = 1e-3;
 
-/// Energy that a step from this state may gain, J: the share above of the kinetic energy, increased by that of a slow
-/// motion of a tenth of a radius per second, so that a scene can come to rest.
+/// Energy that a step from this state may gain, J: the share kEnergyAllowance of the kinetic energy. To the kinetic
+/// energy that of a slow motion, a tenth of a radius per second, is added, so that a scene can come to rest.
 double energyAllowance(const Simulation& simulation);
 
-/// Energy of one particle without the pairs', or the sum of it over particles, J.
+/// Energy of one particle, or of many, without the energy of pairs, J.
 struct ParticleEnergy {
     double kinetic = 0.0;
-    double potential = 0.0;  ///< in gravity and at the obstacles
+    double potential = 0.0;  ///< energy in gravity and at the obstacles
 
     ParticleEnergy& operator+=(const ParticleEnergy& other) {
         kinetic += other.kinetic;
@@ -28,8 +28,8 @@ struct ParticleEnergy {
     }
 };
 
-/// Energy of one particle in its present state.
-/// @param contacts  its energy at the obstacles, J
+/// Energy of one particle in its present state, without the energy of pairs.
+/// @param contacts  energy of the particle at the obstacles, J
 inline ParticleEnergy particleEnergy(const Simulation& simulation, std::size_t p, double contacts) {
     const Particles& particles = simulation.particles;
     const double mass = particles.mass[p];
@@ -37,20 +37,22 @@ inline ParticleEnergy particleEnergy(const Simulation& simulation, std::size_t p
             contacts - mass * dot(simulation.setup.gravity, particles.position[p])};
 }
 
-/// Records the energy and the kinetic energy of the present state, J, where the stepper knows both sums.
+/// Records the energy of the present state for the audit, from the sums over particles and over pairs (J).
 void recordEnergy(Simulation& simulation, const ParticleEnergy& own, double pairEnergy);
 
-/// Records the energy of the present state where only the pairs' energy (J) is known; the particles' is summed here.
+/// Records the energy of the present state for the audit; the sum over particles is computed here, the pair energy (J)
+/// is given.
 void recordEnergy(Simulation& simulation, double pairEnergy);
 
-/// Records that no forces can be computed from the present state; the step will be rejected.
+/// Records a NaN as the energy, so that the audit will reject the step. For states from which no forces can be
+/// computed.
 void markInvalid(Simulation& simulation);
 
-/// Adds the energy of the particles from index `first` on, which have just been emitted, to the recorded energy. The
-/// cells hold all particles and are at least as wide as the pairs' cutoff.
+/// Adds the energy of newly emitted particles, those from index `first` on, to the recorded energy.
+/// @param cells  contain all particles; at least as wide as the cutoff of the pair forces
 void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedCells& cells);
 
-/// A state that can be restored, and what the step from it is judged by.
+/// The state before a step, which can be restored, and the energies by which the step is judged.
 struct SavedState {
     double time = 0.0;  ///< s
     std::vector<Vec3> position;
@@ -60,18 +62,18 @@ struct SavedState {
     bool forcesCurrent = false;
     std::optional<double> energy;
     double kinetic = 0.0;
-    double allowance = 0.0;  ///< J
+    double allowance = 0.0;  ///< energy that the next step may gain, J
     StepStatistics steps;
 };
 
-/// Saves the state; the memory of `saved` is used again.
+/// Saves the present state in `saved`, whose memory is used again.
 void save(const Simulation& simulation, SavedState& saved);
 
-/// Restores a saved state. Particles emitted since then are removed, and the steps since then are no longer counted,
-/// but their cost is.
+/// Restores a saved state. Particles that were emitted after it was saved are removed. Steps taken after it are no
+/// longer counted, but the force evaluations that they have cost are.
 void restore(Simulation& simulation, const SavedState& saved);
 
-/// Why the step since `saved` must be rejected; nothing if it is accepted.
+/// The reason to reject the step that led from the saved state to the present one; empty if the step is accepted.
 std::optional<StepLimit> rejectionReason(const Simulation& simulation, const SavedState& saved);
 
 }  // namespace engine

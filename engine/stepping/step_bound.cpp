@@ -1,7 +1,7 @@
-// Sums over each particle's pairs, and the eigenvalues that bound the step.
+// Computes the bound on the time step from sums over each particle's pairs and from eigenvalues.
 //
-// The pair's conservative part has stiffness k along n = P/D and -F/D across it; only what stiffens limits the step,
-// so negative parts count as zero. Its damping has b_d s_d along n and nothing across.
+// The conservative force of a pair has the stiffness k along n = P/D and -F/D across n. Only positive stiffness limits
+// the step, so negative parts count as zero. The damping of a pair is b_d s_d along n and zero across n.
 #include "engine/stepping/step_bound.h"
 
 #include <Eigen/Eigenvalues>
@@ -39,8 +39,8 @@ double largestEigenvalue(const Matrix3& matrix) {
     return Eigen::SelfAdjointEigenSolver<Matrix3>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
-/// The longest stable step of a mode with this squared frequency (1/s^2) and decay rate (1/s), s; infinite where both
-/// are zero. See step_bound.h for the derivation.
+/// The longest stable step (s) of a mode of motion with this squared frequency (1/s^2) and decay rate (1/s); infinite
+/// where both are zero. See step_bound.h for the derivation.
 double longestStep(StepperKind stepper, double frequencySq, double decay) {
     if (stepper == StepperKind::implicitDamping) return 2.0 / std::sqrt(frequencySq);
     if (stepper == StepperKind::symplecticEuler || stepper == StepperKind::leapfrog)
@@ -48,11 +48,11 @@ double longestStep(StepperKind stepper, double frequencySq, double decay) {
     return 2.0 / (decay + std::sqrt(decay * decay + frequencySq));
 }
 
-/// Damping C and stiffness K of all pairs, each as a matrix without mass.
+/// Damping C and stiffness K of all pairs of particles, each as a matrix without the mass.
 struct PairSystem {
     PairMatrix damping;
     PairMatrix stiffness;
-    std::vector<double> mass;  ///< kg, in the matrices' order
+    std::vector<double> mass;  ///< mass of each particle in the order of the matrices, kg
 };
 
 PairSystem systemOf(const PairTraversal& pairs, const Particles& particles) {
@@ -70,11 +70,11 @@ double dotOf(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return sumOver(a.size(), [&](std::size_t p) { return dot(a[p], b[p]); });
 }
 
-/// Improves a bound h. The sums over one particle's pairs overestimate, since all its neighbors would have to move
-/// against it. Power iteration on M^-1 (h^2 K + 2 h C) finds the mode that really limits the step; the Rayleigh
-/// quotients of that mode are its squared frequency and its decay rate.
+/// Improves a bound h on the time step (s). The sums over the pairs of one particle overestimate the eigenvalues, since
+/// all its neighbors would have to move against it. Power iteration on M^-1 (h^2 K + 2 h C) finds the mode that really
+/// limits the step; the Rayleigh quotients of that mode are its squared frequency and its decay rate.
 double refined(const PairTraversal& pairs, const Particles& particles, StepperKind stepper, double h) {
-    constexpr int kIterations = 40;  // chosen: quotients settle to a few per cent
+    constexpr int kIterations = 40;  // chosen: the quotients are then accurate to a few percent
     PairSystem system = systemOf(pairs, particles);
     const std::size_t count = particles.count();
     std::vector<Vec3> x(count), kx(count), cx(count), mx(count);

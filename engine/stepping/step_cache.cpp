@@ -1,4 +1,4 @@
-// Copies of a step cache, and how it is emptied.
+// Copying and invalidating the step cache.
 #include "engine/stepping/step_cache.h"
 
 namespace engine {
@@ -17,7 +17,7 @@ StepCachePointer::StepCachePointer(StepCachePointer&& other) noexcept = default;
 StepCachePointer& StepCachePointer::operator=(const StepCachePointer& other) {
     if (this == &other) return *this;
     if (cache_)
-        *cache_ = *other;  // keeps the memory
+        *cache_ = *other;  // reuses the memory of the present cache
     else
         cache_ = std::make_unique<StepCache>(*other);
     return *this;

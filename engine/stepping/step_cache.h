@@ -1,6 +1,7 @@
-// What one step leaves for the next: forces, energy, the neighbor list, and memory that is used again. Part of every
-// Simulation, and of no use outside the engine. A run that is resumed without it, or after invalidate(), goes on with
-// the same motion; only the bits may differ, because sums over pairs run in the order of the neighbor list.
+// Data that one time step leaves for the next: forces, energy, the neighbor list, and memory to be used again. Part of
+// every Simulation, used only inside the engine. A run that is resumed without these data, or after invalidate(),
+// continues the same motion, but the last bits may differ, because sums over pairs run in the order of the neighbor
+// list.
 #pragma once
 
 #include <cstdint>
@@ -14,42 +15,43 @@
 
 namespace engine {
 
-/// Memory of the implicit steppers.
+/// Matrix and vectors of the implicit steppers, kept so that their memory is used again.
 struct ImplicitScratch {
     PairMatrix matrix;
     SolverScratch solver;
-    std::vector<Vec3> rightHandSide;  ///< N s, in the matrix's order
-    std::vector<Vec3> change;         ///< half the change of velocity, m/s, in the matrix's order
+    std::vector<Vec3> rightHandSide;  ///< right-hand side of the linear system, in the matrix's order, N s
+    std::vector<Vec3> change;         ///< half the change of velocity, in the matrix's order, m/s
 };
 
 struct StepCache {
-    ForceEvaluator evaluator;  ///< with the neighbor list
+    ForceEvaluator evaluator;  ///< force evaluator with the neighbor list
 
-    std::vector<Vec3> forces;  ///< of pairs and gravity, N; those that the next step starts with if forcesCurrent
+    std::vector<Vec3> forces;  ///< forces of pairs and gravity, N; valid for the next step if forcesCurrent
     bool forcesCurrent = false;
-    std::optional<double> energy;  ///< after the last step as the audit counts it, J; see step_audit.h
-    double kinetic = 0.0;          ///< the kinetic share of it, J
+    std::optional<double> energy;  ///< total energy after the last step, J; see step_audit.h
+    double kinetic = 0.0;          ///< kinetic energy after the last step, J
 
-    /// Distance from each particle's surface to the nearest obstacle that is certain as long as steps alone move it, m;
-    /// empty where nothing is known.
+    /// Lower bound on the distance from each particle's surface to the nearest obstacle, m. Valid as long as particles
+    /// are moved by steps only; empty where nothing is known.
     std::vector<double> clearance;
-    std::vector<std::uint8_t> swept;  ///< whether obstacles meet the particle along its way in this step, 0 or 1
+    std::vector<std::uint8_t> swept;  ///< 1 if a particle's contact is swept in this step, else 0
 
-    Scratch<std::vector<Vec3>> startPositions;  ///< at the step's start, m
-    double startCutoff = 0.0;                   ///< cutoff of the pairs at startPositions, m
+    Scratch<std::vector<Vec3>> startPositions;  ///< positions at the step's start, m
+    double startCutoff = 0.0;                   ///< cutoff of the pair forces at the step's start, m
     bool startIsListed = false;                 ///< whether the neighbor list covers startPositions within startCutoff
-    /// For each particle near obstacles the neighbor found last, where the next search begins.
+    /// For each particle near obstacles, the index of the neighbor that was found last. The next search for a neighbor
+    /// begins with it.
     Scratch<std::vector<std::uint32_t>> cachedNeighbors;
 
-    Scratch<std::vector<Vec3>> predictedVelocities;  ///< velocity Verlet's, m/s
+    Scratch<std::vector<Vec3>> predictedVelocities;  ///< velocities from which velocity Verlet computes damping, m/s
     Scratch<ImplicitScratch> implicit;
 
-    /// RMS over the mass of the acceleration that the implicit steppers' solver may leave out, m/s^2. Set by the
-    /// automatic stepper whenever it runs one of them.
+    /// Tolerance of the implicit steppers' solver as an acceleration: the mass-weighted RMS that it may leave out,
+    /// m/s^2. Set by the automatic stepper before it runs an implicit stepper, otherwise 0.
     double toleratedAcceleration = 0.0;
 
-    /// To be called after particles were removed or changed by anything but a step: all that was known by index or by
-    /// position is forgotten. The memory and the tolerance stay.
+    /// Marks as unknown everything that depends on the indices or the positions of the particles. To be called after
+    /// particles were removed, or were changed by anything but a step.
     void invalidate();
 };
 

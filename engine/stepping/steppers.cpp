@@ -1,4 +1,4 @@
-// The choice among the functions that take a step, and tables of names and orders.
+// Calls the function of the stepper in use, and has the tables of names and orders.
 #include "engine/stepping/steppers.h"
 
 #include <cmath>
@@ -45,7 +45,7 @@ void takeStep(Simulation& simulation, double h) {
         case StepperKind::linearlyImplicit:
             return implicitStep(simulation, h, {.damping = 0.5 * h, .stiffness = 0.25 * h * h});
         case StepperKind::automatic:
-            break;  // a simulation always has one of the others in use
+            break;  // never in use itself: it puts another stepper into use
     }
 }
 

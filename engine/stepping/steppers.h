@@ -1,5 +1,5 @@
-// The steppers by name and by order, and the one call that takes a step with any of them. Emission and checks are the
-// caller's.
+// Takes a time step with any of the steppers, and lists their names and orders of convergence. The caller emits
+// particles and checks the result of a step.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace engine {
 
-/// Moves the particles by one step of h seconds with the simulation's stepper in use. The caller advances the time.
+/// Moves the particles by one step of h seconds with the stepper that the simulation has in use. The caller advances
+/// the simulation's time.
 void takeStep(Simulation& simulation, double h);
 
 /// The smallest number of equal steps, at least one, that last a duration (s) and are each no longer than a bound (s).
@@ -25,20 +26,20 @@ inline constexpr std::array kSteppers = {StepperKind::symplecticEuler,  StepperK
                                          StepperKind::leapfrog,         StepperKind::implicitDamping,
                                          StepperKind::linearlyImplicit, StepperKind::automatic};
 
-/// Name in scene files and reports: "symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping",
+/// Name of a stepper in scene files and reports: "symplectic-euler", "velocity-verlet", "leapfrog", "implicit-damping",
 /// "linearly-implicit" or "auto".
 std::string_view nameOf(StepperKind stepper);
 
-/// Name in reports of what limited a step: "given step", "wanted error", "energy audit" and so on.
+/// Name in reports of what limited the length of a step: "given step", "wanted error", "energy audit" and so on.
 std::string_view nameOf(StepLimit limit);
 
-/// Order of convergence of the positions, where there is damping.
+/// Order of convergence of a stepper's positions in a motion with damping: 1 or 2.
 int orderOf(StepperKind stepper);
 
-/// Factor by which the error changes where the step changes by a factor: the factor to the power of the order.
+/// Factor by which a stepper's error changes if the step changes by a factor: that factor to the power of the order.
 double errorRatio(StepperKind stepper, double stepRatio);
 
-/// Factor by which the step has to change for the error to change by a factor; the inverse of errorRatio().
+/// Factor by which the step must change for the error to change by a factor; the inverse function of errorRatio().
 double stepRatio(StepperKind stepper, double errorRatio);
 
 }  // namespace engine

@@ -1,9 +1,9 @@
-// Small steps near obstacles, one leap elsewhere.
+// Moves a particle among obstacles by small steps near a surface and by one long straight leap elsewhere.
 //
-// A leap is safe as long as it is no longer than the distance to the nearest surface. Near a surface, a small step
-// covers at most a fraction of the distances to the barrier and to the repulsor (whose force goes like D^-4), and lasts
-// at most a fraction of the contact's own oscillation. Each small step is half a drift, the implicit midpoint rule for
-// m dv/dt = F - C v, and half a drift.
+// A leap is safe if it is no longer than the distance to the nearest surface. Near a surface, a small step covers at
+// most a fraction of the distances to the barrier and to the repulsor (whose force goes like D^-4), and lasts at most a
+// fraction of the contact's own oscillation. Each small step is half a drift, the implicit midpoint rule for m dv/dt =
+// F - C v, and half a drift.
 #include "engine/stepping/swept_contact.h"
 
 #include <Eigen/LU>
@@ -13,26 +13,29 @@
 namespace engine {
 namespace {
 
-/// Fraction of the distances above that a small step may cover, and of the contact's 1/frequency that it may last.
-/// Measured: rebounds of 0.01 to 1 kg at 1 to 1000 m/s are within 0.5 % of those at a tenth of this fraction.
+/// A small step near an obstacle may cover this fraction of the distances to the barrier and to the repulsor, and may
+/// last this fraction of the contact's 1/frequency. Measured: rebounds of 0.01 to 1 kg at 1 to 1000 m/s are within 0.5
+/// % of those at a tenth of this fraction.
 constexpr double kFraction = 0.1;
 
-/// A step that covers less than this share of a contact's depth needs no sweep. Measured on drops and dams: half or
-/// twice as much changes the errors by less than the stepper's own.
+/// A step that covers less than this share of a contact's depth needs no sweep. Measured on drops and dams: with half
+/// or twice this share the errors change by less than the error of the stepper itself.
 constexpr double kResolved = 0.2;
 
-/// Share of the limit of stability up to which contacts act as explicit forces. Chosen.
+/// Contacts act as explicit forces in steps up to this share of the limit of stability. Chosen: a safe distance from
+/// the limit.
 constexpr double kStable = 0.5;
 
-/// Chosen: far more small steps than any meeting needs. A particle caught between obstacles waits there for its next
-/// step.
+/// Largest number of small steps in one time step. Chosen: far more than any contact needs. A particle that is caught
+/// between obstacles then stays where it is until the next time step.
 constexpr int kMostSteps = 20000;
 
 /// How deep a particle may enter a solid whose repulsor cannot stop it, in radii or half thicknesses. Chosen: a
 /// particle that grazes the solid this deep goes on nearly straight, as off a hard surface.
 constexpr double kGrazeDepth = 0.1;
 
-/// How deep under the surface the straight path ahead leads, m.
+/// Largest depth (m) under the surface of a sphere that a particle reaches if it continues straight ahead; infinite for
+/// other surfaces.
 double depthOfStraightPath(const Surface& surface, const Vec3& velocity) {
     if (surface.curvature == 0.0) return std::numeric_limits<double>::infinity();
     const double radius = 1.0 / surface.curvature;
@@ -42,7 +45,8 @@ double depthOfStraightPath(const Surface& surface, const Vec3& velocity) {
     return radius - (radius + surface.height) * sine;
 }
 
-/// Whether the particle has the energy to get to a depth (m) under the surface against the repulsor.
+/// Whether the particle's kinetic energy suffices to reach a depth (m) under the surface against the force of the
+/// repulsor.
 bool canReach(double depth, const Surface& surface, const RepulsorLaw& law, const BallisticState& state) {
     Surface surfaceAtDepth = surface;
     surfaceAtDepth.height = -depth;
@@ -50,9 +54,9 @@ bool canReach(double depth, const Surface& surface, const RepulsorLaw& law, cons
     return kinetic + surfaceEnergy(surface, law, state.probe) > surfaceEnergy(surfaceAtDepth, law, state.probe);
 }
 
-/// How deep under the face the barrier lies, as a positive depth, m. Under a plane the particle may come as near to the
-/// repulsor as its core. A solid has a far side, and an off-center hit can miss the repulsor's core: a particle too
-/// fast for the repulsor to deflect is stopped at the barrier immediately.
+/// Depth of the reflecting barrier under a face of an obstacle, m, positive. Under a plane the particle may come as
+/// close to the repulsor as the core distance. A solid has a far side, and an off-center hit can miss the repulsor's
+/// core: a particle too fast for the repulsor to deflect is stopped at the barrier immediately.
 double barrierDepth(const Surface& surface, const RepulsorLaw& law, const BallisticState& state) {
     const double radius = state.probe.radius;
     const double core = law.coreFraction * (radius + surface.repulsorRadius);
@@ -71,12 +75,11 @@ struct ContactBounds {
     double damping = 0.0;                                    ///< largest damping of a contact, kg/s
 };
 
-/// Finds the bounds, and calls visit(surface, contact) for each contact.
+/// Finds the bounds on a particle's contacts, and calls visit(surface, contact) for each contact.
 /// @param pathLength  of the coming step, m. The barrier, which is costly to find, is left out where the scale is far
-/// above
-///                    the path length or another surface has a smaller scale.
-/// The lambda is forced inline: most surfaces are far, and a call takes longer than to see that. Measured with
-/// `globular simulate powder --threads 1`: a twentieth less time.
+///                    above the path length or another surface has a smaller scale. The lambda is forced inline,
+///                    because most surfaces are far away, and a call takes longer than finding that out. Measured with
+///                    `globular simulate powder --threads 1`: a twentieth less time.
 template <class Visit>
 ContactBounds findContactBounds(const Obstacles& obstacles, const BallisticState& state, double pathLength,
                                 const Visit& visit) {
@@ -86,7 +89,7 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const BallisticState
         obstacles, state.probe.position, [&](const Surface& surface) __attribute__((always_inline)) {
             const double gap = surface.height - radius;
             bounds.gap = std::min(bounds.gap, gap);
-            // At worst a step ends this share of half the thickness beyond the barrier: still on the near side.
+            // At worst a step ends this far beyond the barrier, which is still on the near side of the solid.
             const double least = 0.5 * std::min(radius + surface.repulsorRadius, surface.halfThickness);
             const double above = std::min(surface.height, radius);
             const double shallow = std::max(least, above);
@@ -103,7 +106,8 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const BallisticState
     return bounds;
 }
 
-/// The longest small step that the bounds allow, s; the remaining time is divided evenly.
+/// The longest small step (s) that the bounds on the contacts allow, such that the remaining time (s) is divided
+/// evenly.
 double smallStepFor(const ContactBounds& bounds, double mass, double speed, double remaining) {
     const double leap =
         std::max(bounds.gap, kFraction * std::min(bounds.scale, 0.1 * bounds.scale + std::max(0.0, -bounds.gap)));
@@ -122,7 +126,8 @@ void applyFriction(BallisticState& state, const Vec3& normal, double impulse) {
     if (speed > 0.0) velocity -= std::min(1.0, impulse / (state.mass * speed)) * slip;
 }
 
-/// The implicit midpoint kick of the contacts at the particle's position.
+/// Changes the velocity by the forces of the contacts at the particle's position over a step (s), by the implicit
+/// midpoint rule.
 void kick(const Obstacles& obstacles, BallisticState& state, double step) {
     Vec3 force = Vec3::Zero();
     Matrix3 damping = Matrix3::Zero();
@@ -162,7 +167,7 @@ Contacts contactsInStep(const Obstacles& obstacles, const BallisticState& state,
             addForce(surface, contact, state.probe, contacts.force);
         });
     contacts.gap = bounds.gap;
-    // An explicit contact is stable up to h^2 k + 2 h b = 4 m.
+    // A contact that acts as an explicit force is stable up to h^2 k + 2 h b = 4 m.
     const double load = duration * (duration * bounds.stiffness + 2.0 * bounds.damping);
     contacts.needsSweep = pathLength > bounds.gap &&
                           (pathLength > kResolved * bounds.scale || (isExplicit && load > kStable * 4.0 * state.mass));

@@ -7,28 +7,29 @@
 
 namespace engine {
 
-/// A particle that only obstacles act on for a while.
+/// A moving particle on which, for a while, only the forces of obstacles act.
 struct BallisticState {
-    Probe probe;        ///< the particle as obstacles see it
+    Probe probe;        ///< position, velocity, radius and contact constants of the particle
     double mass = 1.0;  ///< kg
 };
 
-/// A particle's contacts at the start of a step.
+/// The contacts of a particle with obstacles at the start of a step.
 struct Contacts {
-    double gap = 0.0;           ///< distance from its surface to the nearest obstacle's, m; negative in contact
-    bool needsSweep = false;    ///< whether the step is too long for them to act as forces
-    Vec3 force = Vec3::Zero();  ///< sum over the contacts as sumContacts() has it, N
+    double gap = 0.0;           ///< distance from the particle to the nearest obstacle, m; negative in contact
+    bool needsSweep = false;    ///< whether the step is too long for contacts to act as forces
+    Vec3 force = Vec3::Zero();  ///< sum of the contact forces, N
 };
 
-/// The contacts of a step of this duration (s). They need a sweep where the particle may cover more than a fraction of
-/// a contact's depth in the step, or, where contacts act explicitly, comes near the limit of stability.
+/// Finds the contacts of a particle for a step of this duration (s). They need a sweep where the particle may cover
+/// more than a fraction of a contact's depth in the step, or where contacts act as explicit forces and the step is near
+/// the limit of stability.
 Contacts contactsInStep(const Obstacles& obstacles, const BallisticState& state, double duration, bool isExplicit);
 
-/// Moves the particle for a duration (s) under the forces of the obstacles alone, those of section 3.2 of the paper.
-/// At any finite speed its center stays on the side of a plane, of a box's face and of a sphere that it came from.
-/// Where the repulsor cannot stop it, it is reflected at a barrier, which is a departure from the paper: under a plane
-/// the barrier lies at the law's core distance from the repulsor, in a solid a tenth of the particle's radius or of
-/// half the solid's thickness under the surface. The error is of second order in the duration.
+/// Moves a particle for a duration (s) under the forces of the obstacles alone (section 3.2 of the paper). At any
+/// finite speed its center stays on the side of a plane, of a box's face and of a sphere that it came from. Where the
+/// repulsor cannot stop it, it is reflected at a barrier under the surface, which is a departure from the paper. Under
+/// a plane the barrier lies at the law's core distance from the repulsor, in a solid a tenth of the particle's radius
+/// or of half the solid's thickness under the surface. The error is of second order in the duration.
 void advanceThroughContacts(const Obstacles& obstacles, BallisticState& state, double duration);
 
 }  // namespace engine

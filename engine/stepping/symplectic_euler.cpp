@@ -1,4 +1,4 @@
-// The forces on all particles, then one kick and drift of each.
+// The paper's stepper: the forces on all particles, then the update of velocities and positions.
 #include "engine/stepping/symplectic_euler.h"
 
 #include "engine/core/exp_negative.h"
@@ -27,7 +27,7 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .hasWeight = hasObstacles};
     return holdsInRanges(
         particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
-            // Pairs, weight, obstacles: the order is part of the bits.
+            // The forces are added in the order pairs, weight, obstacles; another order would change the last bits.
             if (hasObstacles)
                 addExternalForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
             return kickAndDrift(step, begin, end, particles);
@@ -38,7 +38,7 @@ void advanceInEqualSteps(Simulation& simulation, double time) {
     const double from = simulation.time;
     const double count = stepCount(time - from, simulation.setup.step);
     const double h = (time - from) / count;
-    if (simulation.steps.count == 0) requireValid(simulation, h);  // every later step is checked at its end
+    if (simulation.steps.count == 0) requireValid(simulation, h);  // the state after every step is checked below
     for (double step = 0.0; step < count; step += 1.0) {
         simulation.time = from + step * h;
         emitDue(simulation);

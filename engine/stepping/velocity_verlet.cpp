@@ -1,4 +1,5 @@
-// One force evaluation a step: the forces at its end are those that the next step starts with.
+// Velocity Verlet with one force evaluation per step: the forces at the end of a step are kept for the start of the
+// next.
 #include "engine/stepping/velocity_verlet.h"
 
 #include "engine/core/exp_negative.h"
@@ -11,7 +12,7 @@
 namespace engine {
 namespace {
 
-/// Evaluates the forces of pairs and gravity into the step cache; returns the pair energy, J.
+/// Evaluates the forces of pairs and gravity and stores them in the step cache; returns the pair energy, J.
 double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocities, double h) {
     ++simulation.steps.forceEvaluations;
     return simulation.cache->evaluator.evaluateFree(simulation.particles, velocities, simulation.cache->forces, h);
@@ -28,8 +29,8 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     Particles& particles = simulation.particles;
     const bool hasDrag = simulation.setup.drag > 0.0;
     const double decay = expNegative(simulation.setup.drag * h);
-    // Before contacts are chosen: whether a particle has neighbors is read from the list, which must hold new
-    // particles.
+    // The forces, and with them the neighbor list, must be current before contacts are chosen: whether a particle has
+    // neighbors is read from the list, which must contain new particles.
     if (!simulation.cache->forcesCurrent) evaluateForces(simulation, particles.velocity, h);
     prepareDrift(simulation);
     std::vector<Vec3>& predicted = simulation.cache->predictedVelocities;

@@ -1,4 +1,4 @@
-// Velocity Verlet with swept contacts; called by takeStep.
+// Velocity Verlet with swept contacts. Called by takeStep().
 #pragma once
 
 #include "engine/state/simulation.h"
@@ -12,9 +12,9 @@ namespace engine {
 inline constexpr double kWholeStep = 1.0;
 inline constexpr double kHalfStep = 0.5;
 
-/// One step of h seconds: half a kick, a drift, half a kick, with one force evaluation. The damping in the second kick
-/// needs a velocity that is not known yet, and gets a predicted one. The drag acts in the middle, which keeps the step
-/// symmetric.
+/// Takes one step of h seconds: half a kick, a drift, half a kick, with one force evaluation. The damping in the second
+/// kick needs a velocity that is not known yet, and gets a predicted one. The drag acts in the middle, which keeps the
+/// step symmetric.
 void velocityVerletStep(Simulation& simulation, double h, double lambda);
 
 }  // namespace engine
