@@ -1,5 +1,4 @@
-// Measures the accuracy of all steppers on one scene: makes and times all runs, then the reference run, and compares
-// them. See accuracy.h.
+// Makes and times the runs of all steppers on a scene, finds the reference run and compares them. See accuracy.h.
 #include "studies/accuracy/accuracy.h"
 
 #include <algorithm>
@@ -13,8 +12,7 @@ namespace {
 /// Runs longer than this (s) are timed only once. Chosen: their time varies little from one run to the next.
 constexpr double kLongRun = 5.0;
 
-/// Short runs are repeated until all repetitions of one have taken kTimed seconds together, but at most kMostRounds
-/// times. Both numbers are chosen.
+/// Short runs are repeated until they have taken kTimed seconds in total, but at most kMostRounds times. Chosen.
 constexpr double kTimed = 0.3;
 constexpr int kMostRounds = 12;
 

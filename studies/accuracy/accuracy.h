@@ -92,8 +92,7 @@ struct SceneAccuracy {
 };
 
 /// Runs the whole study of a scene.
-/// @throws engine::InstabilityError if the scene becomes unstable before the window, or if too few runs finish
-/// to find a reference
+/// @throws engine::InstabilityError if the scene does not reach the window, or too few runs finish to find a reference
 SceneAccuracy measureAccuracy(const std::string& name, const scenes::Scene& scene, const AccuracySettings& settings,
                               const RunListener& listener);
 
@@ -113,9 +112,8 @@ enum class CostAxis {
     forceEvaluations  ///< work of a run, in force evaluations
 };
 
-/// A gnuplot script for a work-precision diagram: the error of the runs against their cost, on logarithmic axes.
-/// gnuplot writes the SVG to standard output. Only resolved runs are drawn; the key says how many runs of a stepper did
-/// not finish.
+/// A gnuplot script for a work-precision diagram: the error of the resolved runs against their cost, on logarithmic
+/// axes, as SVG on standard output. The key says how many runs of a stepper did not finish.
 std::string accuracyPlot(const SceneAccuracy& scene, CostAxis axis);
 
 }  // namespace studies

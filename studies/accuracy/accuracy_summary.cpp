@@ -1,5 +1,4 @@
-// Evaluates the runs of the study of accuracy: their errors, the orders of convergence, and the automatic stepper
-// beside the fixed ones. See accuracy.h.
+// Evaluates runs: their errors, the orders of convergence, the automatic stepper beside fixed ones. See accuracy.h.
 #include "studies/accuracy/accuracy.h"
 
 #include <algorithm>

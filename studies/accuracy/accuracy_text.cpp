@@ -1,5 +1,4 @@
-// The results of the study of accuracy as text: CSV tables, and work-precision diagrams as gnuplot scripts. See
-// accuracy.h.
+// The results of the study of accuracy as text: CSV tables and gnuplot scripts of plots. See accuracy.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,8 +34,7 @@ std::string fieldsOf(const SceneAccuracy& scene, const AccuracyRow& row) {
                      fieldIf(isFinished, row.linearDrift), fieldIf(isFinished, row.angularDrift));
 }
 
-/// Three CSV fields: the best fixed stepper, its cost, and the automatic stepper's cost over it. They are empty if
-/// there is no such stepper.
+/// Three CSV fields: the best fixed stepper, its cost, and the automatic stepper's cost over it; empty without one.
 std::string comparison(const std::optional<HandPicked>& picked, double cost) {
     if (!picked) return ",,";
     return csvFields(engine::nameOf(picked->stepper), picked->cost, cost / picked->cost);
@@ -62,8 +60,7 @@ const std::array kCurveStyles = {
     CurveStyle{{engine::StepperKind::velocityVerlet, 0.0, {}, engine::Precision::singles}, "#56b4e9", 6, 1.0, 1.2},
     CurveStyle{{engine::StepperKind::automatic, 0.0, {}}, "#d62728", 13, 1.2, 2.6}};
 
-/// Errors above this many radii say only that a run is useless, so the axes do not extend to them and curves leave the
-/// plot there.
+/// Errors above this many radii say only that a run is useless, so the plot does not extend to them.
 constexpr double kUselessError = 10.0;
 
 constexpr const char* kKey = R"(set format y "10^{%L}"

@@ -17,16 +17,14 @@ namespace {
 /// a position (1e-16 m at radii of 0.1 m).
 constexpr double kTwinDistance = 1e-9;
 
-/// Tolerance of the implicit steppers' linear solver in reference runs. Chosen: the solver's errors must stay below the
-/// change by halving the step.
+/// Tolerance of the linear solver in reference runs. Chosen: its errors stay below the change by halving the step.
 constexpr double kReferenceSolverTolerance = 1e-10;
 
 /// If two runs from nearly the same state end further apart than this share of the smallest error, the motion is
 /// chaotic: positions show how rounding errors are amplified, not how good the steppers are. Chosen.
 constexpr double kChaoticShare = 0.1;
 
-/// The reference is fine enough when halving its step changes the result by at most this share of the smallest error.
-/// Chosen.
+/// Chosen: the reference is fine enough if halving its step changes it by at most this share of the smallest error.
 constexpr double kSettledShare = 0.05;
 
 /// An error is resolved if it is this many times the change that the last halving of the reference's step made; it is

@@ -21,8 +21,7 @@ std::string_view nameOf(ErrorMetric metric);
 /// The difference of two states at the end of the window by the given metric, radii.
 double difference(const Window& window, ErrorMetric metric, const engine::Particles& a, const engine::Particles& b);
 
-/// The largest difference of center of mass, radius of gyration, R90 and z90, in mean radii of the reference's
-/// particles.
+/// The largest difference of center of mass, radius of gyration, R90 and z90, in mean radii of the particles.
 double statisticsDifference(const engine::Particles& particles, const engine::Particles& reference);
 
 /// How the reference run was made and how good it is.
@@ -42,8 +41,7 @@ struct Reference {
     ReferenceFacts facts;
 };
 
-/// Called after every run of the study, with the purpose of the run: "run", "again" (timed once more), "twin" or
-/// "reference".
+/// Called after every run with the purpose of the run: "run", "again" (to time it once more), "twin" or "reference".
 using RunListener = std::function<void(const WindowRun&, std::string_view purpose)>;
 
 /// How long the search for the reference may take, and who is told about its runs.

@@ -1,5 +1,4 @@
-// Runs a window of a scene: copies the state at its start, changes the stepper and advances frame by frame against the
-// clock. See window_run.h.
+// Runs a window of a scene with another stepper, frame by frame against the clock. See window_run.h.
 #include "studies/accuracy/window_run.h"
 
 #include <chrono>
@@ -12,8 +11,7 @@
 namespace studies {
 namespace {
 
-/// A new simulation in the state at the start of the window, with another stepper and without anything that the scene's
-/// own stepper has cached.
+/// A new simulation in the state at the start of the window, without what the scene's own stepper has cached.
 engine::Simulation begin(const Window& window, const Variant& variant) {
     engine::Setup setup = window.start.setup;
     setup.initial = {};

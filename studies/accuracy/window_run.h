@@ -1,5 +1,4 @@
-// A timed run over a window of a scene, with any stepper, from a state that all runs have in common. The study of
-// accuracy consists of such runs.
+// A timed run over a window of a scene by any stepper, from one state. The study of accuracy consists of such runs.
 #pragma once
 
 #include <optional>
@@ -61,8 +60,7 @@ struct WindowRun {
     double evaluationCost = 0.0;     ///< cost of the whole run, in force evaluations
 };
 
-/// Runs a window of a scene once. A run that takes longer than secondsLimit (wall-clock time, s) ends at the next frame
-/// and counts as too slow.
+/// Runs a window of a scene once. After secondsLimit (s of wall-clock time) it ends at the next frame as too slow.
 WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit);
 
 }  // namespace studies

@@ -39,8 +39,7 @@ struct Packing {
 constexpr std::array kPackings = {Packing{"solid", "solid", 1.0}, Packing{"settled solid", "solid", 0.76},
                                   Packing{"liquid", "liquid", 1.0}, Packing{"powder", "powder", 1.0}};
 
-/// The largest number of particles that whole steps are measured with. Chosen: with a million, one measurement would
-/// take minutes.
+/// The largest number of particles in measurements of steps. Chosen: with a million, each would take minutes.
 constexpr std::size_t kMostStepped = 100000;
 
 /// Median time of a call of the work, s. The caller has called it once before, so that its memory is allocated.

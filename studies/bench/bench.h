@@ -54,8 +54,7 @@ struct BenchSettings {
 /// the listener with each of them when it is done.
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener);
 
-/// The names and materials of all measurements that runBench() can make, as a text for the error message about a filter
-/// that finds none.
+/// The names and materials of all measurements of runBench(), for the error message about a filter that finds none.
 std::string benchRowsText();
 
 /// Measures simulating and drawing whole frames of a scene (kSimulateFrame and kDrawFrame): medians over the `rounds`

@@ -1,5 +1,4 @@
-// Makes cubes of particles on a face-centered cubic lattice, by cutting a lattice that is slightly too large to the
-// wanted number of particles. See fcc_cube.h.
+// Makes a cube of particles by cutting a lattice that is slightly too large to the wanted number. See fcc_cube.h.
 #include "studies/common/fcc_cube.h"
 
 #include <cmath>
@@ -19,8 +18,7 @@ engine::Setup fccCube(const std::string& material, std::size_t count, const FccC
     setup.gravity = Vec3::Zero();
     const double spacing = shape.spacing * 2.0 * setup.materials[0].radius;
     const double side = std::cbrt(static_cast<double>(count) / std::sqrt(2.0)) * spacing;
-    // A face-centered cubic lattice has sqrt(2) particles in a cube whose side is the distance of nearest neighbors.
-    // One spacing more makes sure that there are enough particles.
+    // The lattice has sqrt(2) particles per cubed spacing. One spacing more makes sure that there are enough particles.
     auto positions =
         engine::boxPositions(Vec3::Zero(), Vec3::Constant(side + spacing), {.spacing = spacing, .jitter = 0.05});
     positions.resize(std::min(count, positions.size()));

@@ -24,8 +24,7 @@ struct BulkStatistics {
 /// Position and extent of the particles; all numbers are 0 if there are none.
 BulkStatistics bulkStatistics(const engine::Particles& particles);
 
-/// The largest difference of the four statistics of two sets of particles, m. The difference of the centers of mass is
-/// their distance.
+/// The largest difference of the four statistics of two sets of particles, m; that of the centers is their distance.
 double largestDifference(const BulkStatistics& a, const BulkStatistics& b);
 
 /// Distances between corresponding particles of two states, each divided by the particle's radius.
@@ -44,8 +43,7 @@ bool sameBirths(const engine::Particles& a, const engine::Particles& b);
 /// @return  infinite errors if the particles differ and common is 0
 PositionError positionError(const engine::Particles& particles, const engine::Particles& reference, std::size_t common);
 
-/// The particles, each moved along every axis by a pseudorandom distance of up to `radii` times its own radius. The
-/// distances are the same in every call.
+/// The particles, each moved along every axis by up to `radii` times its radius: pseudorandom, the same in every call.
 engine::Particles displaced(engine::Particles particles, double radii);
 
 /// Sums of the magnitudes of the momenta of all particles, the scale for drifts of the total momenta.

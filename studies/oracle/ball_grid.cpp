@@ -1,5 +1,4 @@
-// Sorts balls into the cells of a uniform grid by a counting sort, and walks from cell to cell along a ray (Amanatides
-// and Woo 1987). See ball_grid.h.
+// Sorts balls into cells by a counting sort, and walks along a ray (Amanatides and Woo 1987). See ball_grid.h.
 #include "studies/oracle/ball_grid.h"
 
 #include <algorithm>

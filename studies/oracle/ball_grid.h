@@ -37,8 +37,7 @@ class BallGrid {
     using Cell = std::array<int, 3>;
 
     std::size_t cellIndex(const Cell& cell) const;
-    /// The cell number of a coordinate (m) along an axis; that of the nearest cell if the coordinate is outside the
-    /// grid.
+    /// The number of the cell along an axis that contains a coordinate (m), or that is nearest to it.
     int cellAlong(std::size_t axis, double coordinate) const;
     /// Calls visit(cell index) for every cell of the grid that a cube around a point touches.
     template <typename Visit>

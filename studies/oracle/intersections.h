@@ -1,5 +1,4 @@
-// Intersections of rays with spheres, boxes and the ground, in double precision, for the oracle (the exact ray caster
-// that judges the renderer). Header only.
+// Intersections of the oracle's rays with spheres, boxes and the ground, in double precision. Header only.
 #pragma once
 
 #include <algorithm>
@@ -78,9 +77,8 @@ struct BoxInterval {
     int axis = 0;  ///< axis normal to the face through which the ray enters
 };
 
-/// The part of a ray that lies inside an axis-aligned box. The ray is inside the box where it is inside the slabs of
-/// all three axes: after the last entry into a slab and before the first exit from one. If it misses the box, the
-/// result has enter > exit.
+/// The part of a ray inside an axis-aligned box: after the last entry into the slab of an axis and before the first
+/// exit from one. If the ray misses the box, enter > exit.
 inline BoxInterval boxInterval(const Ray& ray, const dvec3& minimum, const dvec3& maximum) {
     BoxInterval interval;
     for (int axis = 0; axis < 3; ++axis) {

@@ -14,8 +14,7 @@
 namespace oracle {
 namespace {
 
-/// The square root of the metaball kernel at a point: 1 - d^2/R^2 at the distance d from the center of the ball, and 0
-/// beyond the ball's reach R.
+/// The square root of a ball's kernel: 1 - d^2/R^2 at a distance d from its center, and 0 beyond its reach R.
 double kernelRoot(const Ball& ball, const dvec3& point) {
     const dvec3 offset = point - ball.center;
     const double squared = glm::dot(offset, offset);
@@ -194,8 +193,7 @@ dvec3 shoulder(const dvec3& color) {
     return glm::mix(kept / peak * color, dvec3(kept), 1.0 - 1.0 / (1.0 + 0.06 * (peak - kept)));
 }
 
-/// The sky visibility where a ray meets a surface: on particles that of the particle, on obstacles and the ground that
-/// of the point.
+/// The sky visibility of a hit: on particles that of the particle, on obstacles and the ground that of the point.
 AxisVisibility skyVisibility(const Scene& scene, const Hit& hit) {
     return hit.kind == Hit::Kind::particle ? hit.sky : scene.sky.at(hit.point);
 }
@@ -256,8 +254,7 @@ std::vector<Ball> ballsOf(const render::View& view) {
         balls.push_back({dvec3(particle.center), double(view.field.reach) * double(particle.radius), 1.0});
     if (view.field.skin == render::Skin::plain || view.style == render::Style::spheres) return balls;
     std::vector<Extent> extents;
-    // Two balls influence each other below the mean of their reaches. At such distances balls of half the reach
-    // overlap.
+    // Two balls influence each other below the mean of their reaches, where balls of half the reach overlap.
     for (const Ball& ball : balls) extents.push_back({ball.center, 0.5 * ball.reach});
     const BallGrid grid(extents);
     std::vector<Ball> smooth = balls;
@@ -331,8 +328,7 @@ double meanRadius(const render::View& view) {
 }
 
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal) {
-    // The ray's origin is lifted off its own surface by about a million roundings of its coordinates, which is far
-    // below anything visible.
+    // The ray begins above its own surface, by about a million roundings of its coordinates, which is never visible.
     const double lift = 1e-9 * (1.0 + glm::length(point));
     return traceCasters(scene, {point + lift * normal, unitToLight(scene.view)}).kind != Hit::Kind::none;
 }

@@ -32,8 +32,7 @@ struct Ball {
     double weight = 1.0;
 };
 
-/// The balls of the metaball field of a view, one for each particle. If the view asks for a smooth surface, the balls
-/// are moved and weighted.
+/// The balls of a view's metaball field, one for each particle, moved and weighted if its skin is smooth.
 std::vector<Ball> ballsOf(const render::View& view);
 
 /// A view with all that is computed once for all rays. Holds a reference to the view.
@@ -73,8 +72,7 @@ struct Picture {
 /// @throws std::domain_error if the eye is at its target, or up is parallel to the view
 Ray pixelRay(const render::View& view, render::PictureSize size, double px, double py);
 
-/// The nearest hit along a ray; its kind is Kind::none if the ray meets nothing. With a view in place of a scene, every
-/// ball is tried.
+/// The nearest hit along a ray; Kind::none if there is none. With a view in place of a scene, every ball is tried.
 Hit trace(const render::View& view, const Ray& ray);
 Hit trace(const Scene& scene, const Ray& ray);
 
@@ -87,9 +85,8 @@ double fieldThreshold(const render::View& view);
 /// Mean radius of the particles, m; 0 without particles.
 double meanRadius(const render::View& view);
 
-/// Whether a point of a surface with this normal lies in a hard shadow: whether particles (as spheres or as the
-/// metaball surface, by the style of the view) or obstacles hide the light. Light::shadows is ignored here; shade()
-/// respects it.
+/// Whether a point of a surface with this normal lies in a hard shadow of particles (spheres or the metaball surface,
+/// by style) or of obstacles. Light::shadows is ignored here; shade() respects it.
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal);
 
 /// The share of the light that reaches a point of a surface with this normal: lightVisibility in shading_model.h. If

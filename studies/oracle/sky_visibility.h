@@ -19,8 +19,7 @@ using AxisVisibility = std::array<double, 6>;
 
 inline constexpr AxisVisibility kAllVisible = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
-/// Sky visibility in a direction d of unit length: the sum over the axes a of d_a^2 times the visibility along the axis
-/// in the direction of the sign of d_a.
+/// Sky visibility in a direction d of unit length: the sum over the axes of d_a^2 times the value on d's side.
 double visibilityToward(const AxisVisibility& values, const glm::dvec3& d);
 
 /// The sky visibility of every point of a view.

@@ -107,8 +107,7 @@ inline double shiftFor(const dvec3& point, std::uint64_t salt) {
     return static_cast<double>(z >> 11) * 0x1p-53;
 }
 
-/// Origins of rays to the light for the soft shadows of metaballs. They sample a quadratic B-spline filter with equal
-/// weights.
+/// Origins of shadow rays to the light that sample the filter of metaball shadows, a B-spline, with equal weights.
 inline std::vector<dvec3> fieldShadowOrigins(const ShadedPoint& shaded, double particleRadius) {
     constexpr int kPerAxis = 3;
     const double step = 0.5 * shaded.softness * particleRadius;

@@ -31,8 +31,7 @@ class Random {
     std::uint64_t state_ = 0;
 };
 
-/// Height of the liquid surface at a distance x (m) from the left wall, m: high on the left, then a slope, low on the
-/// right, and a small rise at the far wall.
+/// Height of the liquid at a distance x (m) from the left wall, m: high, a slope, low, a small rise at the far wall.
 double surfaceHeight(double x) {
     const double t = std::clamp((x - 2.0) / 5.0, 0.0, 1.0);
     const double wall = std::clamp((x - 9.0) / 2.0, 0.0, 1.0);

@@ -1,5 +1,4 @@
-// Measures flicker: the differences between successive pictures of a still scene while the camera moves slowly. See
-// FlickerRow in pictures.h.
+// Measures flicker: how successive pictures differ while the camera moves slowly. See FlickerRow in pictures.h.
 
 #include <cmath>
 

@@ -44,8 +44,7 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
             medianOf(&DrawTimes::readBack)};
 }
 
-/// Wall-clock time of drawing and encoding `count` frames, s. Each frame is drawn while the one before is encoded, as
-/// when a scene is rendered.
+/// Wall-clock time of drawing `count` frames, each while the one before is encoded, as in the rendering of a scene, s.
 double overlapped(render::Renderer& renderer, const std::vector<render::View>& frames, int count,
                   const std::function<void(const render::Image&)>& encode) {
     constexpr auto kInOrder = tbb::filter_mode::serial_in_order;

@@ -96,8 +96,7 @@ using RowsListener = std::function<void(const std::vector<Row>&)>;
 /// @throws render::SystemError
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, const RowsListener<PictureRow>& listener);
 
-/// How steady pictures of a still scene are while the camera moves slowly. I_k is the picture of frame k, in steps of
-/// an 8-bit channel.
+/// How steady pictures of a still scene are while the camera moves slowly. I_k is picture k, in 8-bit steps.
 struct FlickerRow : PictureSubject {
     double change = 0.0;  ///< mean RMS of I_(k+1) - I_k over the frames; contains the motion
     double jerk = 0.0;    ///< mean RMS of I_(k+1) - 2 I_k + I_(k-1) over the frames; small for a motion
@@ -146,8 +145,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows);
 std::string flickerCsv(const std::vector<FlickerRow>& rows);
 std::string smoothingCsv(const std::vector<SmoothingRow>& rows);
 
-/// gnuplot scripts for two plots: milliseconds per frame against the number of particles, and 1 - SSIM against
-/// milliseconds per frame.
+/// gnuplot scripts: milliseconds per frame against the number of particles, and 1 - SSIM against milliseconds.
 std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& smoothing);
 std::string pictureErrorsPlot(const std::vector<PictureRow>& rows);
 

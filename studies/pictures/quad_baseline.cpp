@@ -13,8 +13,7 @@
 
 namespace studies {
 
-// These functions are template arguments of members of a class with external linkage, so they must not be in the
-// unnamed namespace.
+// Not in the unnamed namespace, because these functions are in the types of a class with external linkage.
 inline void deleteBuffer(const render::Gl& gl, GLuint name) {
     gl.DeleteBuffers(1, &name);
 }

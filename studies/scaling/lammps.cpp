@@ -1,5 +1,4 @@
-// Writes the input script of LAMMPS for the comparison of speeds, and reads the time from its output. The caller starts
-// the program. See scaling.h.
+// Writes LAMMPS' input script and reads the time from its output. The caller starts the program. See scaling.h.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -21,11 +20,6 @@ double densityOf(PeerForce force) {
     return force == PeerForce::lennardJones ? 0.8442 : 3.0;
 }
 
-/// The cutoff of the pair force, in reduced units: the radius of a sphere that holds kPeerNeighbors particles.
-double cutoffOf(PeerForce force) {
-    return std::cbrt(kPeerNeighbors / (4.0 / 3.0 * std::numbers::pi * densityOf(force)));
-}
-
 }  // namespace
 
 std::string nameOf(PeerForce force) {
@@ -33,7 +27,8 @@ std::string nameOf(PeerForce force) {
 }
 
 std::string lammpsScript(PeerForce force) {
-    const double cutoff = cutoffOf(force);
+    // A sphere whose radius is the cutoff holds kPeerNeighbors particles.
+    const double cutoff = std::cbrt(kPeerNeighbors / (4.0 / 3.0 * std::numbers::pi * densityOf(force)));
     const std::string style =
         force == PeerForce::lennardJones
             ? fmt::format("pair_style lj/cut/opt {:.4f}\npair_coeff 1 1 1.0 1.0\n", cutoff)

@@ -36,8 +36,7 @@ constexpr PublishedRow kTable2[] = {{100, 2.3},    {1000, 11.9},  {1100, 21.7}, 
 /// The paper's time step, s.
 constexpr double kStep = 0.01;
 
-/// The time step in cubes of particles, s. Chosen: the solid contracts under its attraction, which would be unstable at
-/// the paper's step.
+/// The time step in cubes, s. Chosen: the contraction of the solid would be unstable at the paper's step.
 constexpr double kCubeStep = 0.002;
 
 /// Number of steps of a run, with neighbor lists and for the method that visits every pair. Chosen: with 22 steps a

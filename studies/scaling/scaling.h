@@ -58,8 +58,7 @@ using ScalingListener = std::function<void(const ScalingRow&)>;
 std::vector<ScalingRow> measureScene(const std::string& name, const scenes::Scene& scene,
                                      const ScalingSettings& settings, const ScalingListener& listener);
 
-/// Measures cubes of moving particles of a material on face-centered cubic lattices at the rest length, without
-/// gravity.
+/// Measures cubes of moving particles of a material, on a lattice at the rest length and without gravity.
 std::vector<ScalingRow> measureCubes(const std::string& material, const ScalingSettings& settings,
                                      const ScalingListener& listener);
 
@@ -80,8 +79,7 @@ enum class PeerForce { lennardJones, dissipative };
 
 std::string nameOf(PeerForce force);
 
-/// The input script for LAMMPS: a cube of kPeerParticles particles melts; then kPeerSteps steps are timed, with lists
-/// that are rebuilt by displacement.
+/// The input script for LAMMPS: a cube melts, then kPeerSteps steps are timed, with lists rebuilt by displacement.
 std::string lammpsScript(PeerForce force);
 
 /// Time of the timed steps according to LAMMPS' output, s; nothing if the output does not say.
@@ -95,7 +93,7 @@ struct PeerRow {
     std::string name;
     double secondsPerStep = 0.0;  ///< time per step of LAMMPS
     double ratio = 0.0;           ///< our particle-steps per second over those of LAMMPS, in double precision
-    double ratioInFloat = 0.0;  ///< particle-steps per second over those of LAMMPS, with our forces in single precision
+    double ratioInFloat = 0.0;    ///< our particle-steps per second over those of LAMMPS, in single precision
 
     double particleStepsPerSecond() const { return kPeerParticles / secondsPerStep; }
 };

@@ -1,5 +1,4 @@
-// The observables of the hard cases: each is one number for a run, such as a largest speed, which is compared with the
-// limit of the case. Called by stability.cpp.
+// The observables of the hard cases: one number for a run, which is compared with a limit. Called by stability.cpp.
 #pragma once
 
 #include "studies/stability/stability.h"

@@ -120,8 +120,7 @@ double meanNearestDistance(const std::vector<Vec3>& positions) {
     return sum / static_cast<double>(positions.size());
 }
 
-/// A round piece of a face-centered cubic lattice whose neighbors are 1 apart: the `count` sites nearest to one of its
-/// sites.
+/// A round piece of a face-centered cubic lattice with neighbors 1 apart: the `count` sites nearest to one of them.
 std::vector<Vec3> roundLattice(std::size_t count) {
     // The lattice has sqrt(2) sites per unit volume. A ball of this radius holds more than twice as many as needed.
     const double volume = 2.0 * static_cast<double>(count) / std::numbers::sqrt2;

@@ -34,12 +34,10 @@ double slowKinetic(const Particles& particles) {
     return sum;
 }
 
-/// Rounding error of sums of potential energies over all particles, relative to the sum: about 1e-16 for each of a
-/// thousand particles, and a margin.
+/// Relative rounding error of sums of potential energies: about 1e-16 for each of a thousand particles, and a margin.
 constexpr double kSumRounding = 1e-12;
 
-/// Whether a run can be compared with the reference run: whether it has as many frames, and as many particles at the
-/// end.
+/// Whether a run has as many frames and as many particles at the end as the reference run.
 bool isComparable(const ObservableInput& input) {
     return input.reference != nullptr && input.reference->frames.size() == input.run.frames.size() &&
            input.reference->frames.back().count() == input.run.frames.back().count();
@@ -91,8 +89,7 @@ double measure(scenes::Observable observable, const ObservableInput& input) {
     return kFunctions[static_cast<std::size_t>(observable)](input);
 }
 
-/// Observable: the largest drift of momentum, |P(t) - P(0)| / sum |p(0)|, over the frames of a run, or that of angular
-/// momentum if it is larger.
+/// Observable: the largest |P(t) - P(0)| / sum |p(0)| of the linear or the angular momentum over the frames of a run.
 double momentumDrift(const ObservableInput& input) {
     const Particles& first = input.run.frames.front();
     const MomentumScale scale = momentumScale(first);
@@ -132,8 +129,7 @@ double largestSpeed(const ObservableInput& input) {
     return largest;
 }
 
-/// Observable: the median speed of the particles at the end of a run. It is near zero for a heap at rest, even while a
-/// few particles still fall onto the heap.
+/// Observable: the median speed at the end of a run, near zero for a heap at rest, even if a few particles still fall.
 double medianSpeed(const ObservableInput& input) {
     std::vector<double> speeds;
     for (const Vec3& velocity : input.run.frames.back().velocity) speeds.push_back(velocity.norm());

@@ -1,5 +1,4 @@
-// Observables of time stepping: the engine's bound of the step, the order of convergence, and the cost in comparison
-// with explicit steps.
+// Observables of time stepping: the step bound, the order of convergence, and the cost beside explicit steps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,8 +65,7 @@ bool isStable(const Simulation& state, double h) {
     return true;
 }
 
-/// The largest stable step from a state, s, to within 1 %. Found by bisection between a quarter of a guess and four
-/// times the guess.
+/// The largest stable step from a state, s, to 1 %, by bisection between a quarter of a guess and four times the guess.
 double measuredLimit(const Simulation& state, double guess) {
     double stable = 0.25 * guess;
     double unstable = 4.0 * guess;
@@ -94,8 +92,7 @@ engine::Particles endAfter(const scenes::Scene& scene, int steps) {
 
 }  // namespace
 
-/// Observable: the engine's step bound for the state at the end of a run, over the largest step that is measured to be
-/// stable in that state.
+/// Observable: the engine's step bound at the end of a run, over the largest step that is measured to be stable there.
 double stepBound(const ObservableInput& input) {
     const StepperKind stepper = explicitStepper(input.scene);
     const double bound = boundOf(input, stepper);

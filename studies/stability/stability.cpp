@@ -1,5 +1,4 @@
-// Runs the hard cases: loads each variant as a scene of its own, runs it with both steppers and compares its observable
-// with the limit. See stability.h.
+// Runs the hard cases: each variant is loaded as a scene of its own and run with both steppers. See stability.h.
 #include "studies/stability/stability.h"
 
 #include <fmt/format.h>
@@ -18,8 +17,7 @@
 namespace studies {
 namespace {
 
-/// The core distance of the paper's program, in rest lengths: it clamps the distance of two equal particles at one
-/// radius.
+/// The core distance of the paper's program, which clamps the distance of two particles at one radius, in rest lengths.
 constexpr double kPaperCore = 0.5;
 
 /// A scene with the paper's stepper, step and core distance.
