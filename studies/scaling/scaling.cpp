@@ -41,8 +41,8 @@ constexpr double kCubeStep = 0.002;
 
 /// Number of steps of a run, with neighbor lists and for the method that visits every pair. Chosen: with 22 steps a
 /// cube of any size rebuilds its list twice; with 20 some rebuild it only once.
-constexpr std::uint64_t kSteps = 22;
-constexpr std::uint64_t kStepsOfEveryPair = 2;
+constexpr std::uint64_t kRunSteps = 22;
+constexpr std::uint64_t kRunStepsOfEveryPair = 2;
 
 /// The state of a simulation without further births and with forces by another method.
 Simulation frozen(const Simulation& from, ForceMethod method, Precision precision) {
@@ -65,7 +65,8 @@ void takeSteps(Simulation& simulation, std::uint64_t count) {
 class MethodTimer {
  public:
     MethodTimer(const Simulation& from, ForceMethod method, Precision precision, const ScalingSettings& settings)
-        : start_(frozen(from, method, precision)), steps_(method == ForceMethod::grid ? kSteps : kStepsOfEveryPair) {
+        : start_(frozen(from, method, precision)),
+          steps_(method == ForceMethod::grid ? kRunSteps : kRunStepsOfEveryPair) {
         takeSteps(start_, 1);  // builds the neighbor list and allocates memory
         const double once = run();
         runCount_ = std::max(1, static_cast<int>(std::ceil(settings.secondsPerRound / once)));
