@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 /// Paths by name.
 using Names = std::map<std::string, std::string>;
 
-void addRoot(const fs::path& root, Names& names) {
+Names namesBelow(const fs::path& root) {
+    Names names;
     std::error_code error;
     for (fs::recursive_directory_iterator file(root, error), end; !error && file != end; file.increment(error)) {
         if (file->path().extension() != ".toml") continue;
@@ -29,11 +30,6 @@ void addRoot(const fs::path& root, Names& names) {
         names.emplace(file->path().lexically_relative(root).replace_extension().generic_string(),
                       file->path().string());
     }
-}
-
-Names namesBelow(const std::vector<std::string>& roots) {
-    Names names;
-    for (const std::string& root : roots) addRoot(root, names);
     return names;
 }
 
@@ -68,18 +64,18 @@ std::string titleOf(const std::string& path) {
 
 }  // namespace
 
-std::vector<LibraryEntry> listScenes(const std::vector<std::string>& roots) {
+std::vector<LibraryEntry> listScenes(const std::string& root) {
     std::vector<LibraryEntry> entries;
-    for (const auto& [name, path] : namesBelow(roots)) entries.push_back({name, titleOf(path), path});
+    for (const auto& [name, path] : namesBelow(root)) entries.push_back({name, titleOf(path), path});
     return entries;
 }
 
-std::string resolveScene(const std::string& nameOrPath, const std::vector<std::string>& roots) {
+std::string resolveScene(const std::string& nameOrPath, const std::string& root) {
     std::error_code ignored;
     const fs::path path(nameOrPath);
     const bool exists = fs::exists(path, ignored) && !fs::is_directory(path, ignored);
     if (exists || path.extension() == ".toml") return nameOrPath;
-    const Names names = namesBelow(roots);
+    const Names names = namesBelow(root);
     if (const auto found = names.find(nameOrPath); found != names.end()) return found->second;
     std::vector<std::string> matches;
     for (const auto& [full, file] : names)

@@ -1,4 +1,4 @@
-// The built-in scenes: scene files below a list of root folders, each known by its name. Used by every command that
+// The built-in scenes: scene files below a root folder, each known by its name. Used by every command that
 // takes a SCENE.
 #pragma once
 
@@ -13,13 +13,12 @@ struct LibraryEntry {
     std::string path;
 };
 
-/// All built-in scenes, sorted by name. If several roots have a scene of the same name, that of the first root is used.
-/// Roots that do not exist are skipped.
-std::vector<LibraryEntry> listScenes(const std::vector<std::string>& roots);
+/// All scenes below a root folder, sorted by name. There are none if the folder does not exist.
+std::vector<LibraryEntry> listScenes(const std::string& root);
 
 /// The file that a SCENE argument refers to. An existing file, or anything that ends in .toml, is a path; everything
 /// else is the name of a built-in scene, in full ("paper/figure-2") or its last part ("figure-2").
 /// @throws InputError with the nearest name, if there is no such scene
-std::string resolveScene(const std::string& nameOrPath, const std::vector<std::string>& roots);
+std::string resolveScene(const std::string& nameOrPath, const std::string& root);
 
 }  // namespace scenes

@@ -39,7 +39,7 @@ const std::vector<Constants> kPaper = {
 }  // namespace
 
 TEST_CASE("every shipped scene loads and has a title") {
-    const std::vector<scenes::LibraryEntry> entries = scenes::listScenes({kScenes});
+    const std::vector<scenes::LibraryEntry> entries = scenes::listScenes(kScenes);
     CHECK(entries.size() >= kPaper.size());
     for (const scenes::LibraryEntry& entry : entries) {
         INFO(entry.name);
@@ -63,7 +63,7 @@ TEST_CASE("the scenes of docs/ load, and the README shows the first of them as i
 }
 
 TEST_CASE("every shipped scene opens with a comment") {
-    for (const scenes::LibraryEntry& entry : scenes::listScenes({kScenes})) {
+    for (const scenes::LibraryEntry& entry : scenes::listScenes(kScenes)) {
         INFO(entry.name);
         std::string line;
         std::ifstream file(entry.path);
@@ -74,7 +74,7 @@ TEST_CASE("every shipped scene opens with a comment") {
 
 TEST_CASE("no camera of a shipped scene comes close to its target or the ground") {
     int paths = 0;
-    for (const scenes::LibraryEntry& entry : scenes::listScenes({kScenes})) {
+    for (const scenes::LibraryEntry& entry : scenes::listScenes(kScenes)) {
         INFO(entry.name);
         const scenes::Scene scene = scenes::loadScene(entry.path, {});
         if (scene.camera.keys.size() == 1) continue;

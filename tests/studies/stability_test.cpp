@@ -46,7 +46,7 @@ const std::string kStudy = "[study]\nnumber = 7\nobservable = \"largest-speed\"\
 
 std::vector<scenes::LibraryEntry> hardCases() {
     std::vector<scenes::LibraryEntry> cases;
-    for (const scenes::LibraryEntry& entry : scenes::listScenes({GLOBULAR_SOURCE "/scenes/library"}))
+    for (const scenes::LibraryEntry& entry : scenes::listScenes(GLOBULAR_SOURCE "/scenes/library"))
         if (entry.name.rfind("hard/", 0) == 0) cases.push_back(entry);
     return cases;
 }

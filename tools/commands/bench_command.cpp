@@ -76,7 +76,7 @@ void benchFrames(const BenchOptions& options, int threads,
         const bool draws = settings.wants(studies::kDrawFrame, name);
         if (!draws && !settings.wants(studies::kSimulateFrame, name)) continue;
         if (draws && !context) context.emplace(openContext(backendOf(options.draw), threads));
-        const scenes::Scene scene = scenes::loadScene(scenes::resolveScene(name, sceneFolders()), {});
+        const scenes::Scene scene = scenes::loadScene(scenes::resolveScene(name, sceneFolder()), {});
         for (const studies::BenchRow& row :
              studies::benchFrames(name, scene, draws ? &*context : nullptr, settings.rounds))
             if (settings.wants(row.name, name)) listener(row);

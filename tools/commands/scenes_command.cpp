@@ -18,7 +18,7 @@ void addScenesCommand(CLI::App& program) {
     command.add_flag("--json", *json, "one JSON object a line");
     command.footer("Example: globular scenes");
     command.callback([json] {
-        const auto list = scenes::listScenes(sceneFolders());
+        const auto list = scenes::listScenes(sceneFolder());
         std::size_t width = 0;
         for (const auto& scene : list) width = std::max(width, scene.name.size());
         for (const auto& scene : list) {

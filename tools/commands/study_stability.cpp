@@ -31,7 +31,7 @@ constexpr std::string_view kHardFolder = "hard/";
 /// The built-in hard cases, ordered by their number.
 std::vector<studies::CaseOptions> allCases() {
     std::vector<std::pair<int, studies::CaseOptions>> cases;
-    for (const scenes::LibraryEntry& entry : scenes::listScenes(sceneFolders())) {
+    for (const scenes::LibraryEntry& entry : scenes::listScenes(sceneFolder())) {
         if (entry.name.rfind(kHardFolder, 0) != 0) continue;
         const scenes::Scene scene = scenes::loadScene(entry.path, {});
         cases.push_back({scene.study ? scene.study->number : 0, {entry.name.substr(kHardFolder.size()), entry.path}});
@@ -46,7 +46,7 @@ std::vector<studies::CaseOptions> allCases() {
 studies::CaseOptions caseNamed(const std::string& name, const std::vector<studies::CaseOptions>& builtIn) {
     for (const studies::CaseOptions& known : builtIn)
         if (known.name == name) return known;
-    return {fs::path(name).stem().string(), scenes::resolveScene(name, sceneFolders())};
+    return {fs::path(name).stem().string(), scenes::resolveScene(name, sceneFolder())};
 }
 
 std::vector<studies::CaseOptions> chosenCases(const StabilityOptions& options) {

@@ -58,11 +58,11 @@ int threadCount(const RunOptions& options) {
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     scenes::Overrides overrides(options.changes.begin(), options.changes.end());
     overrides.insert(overrides.end(), more.begin(), more.end());
-    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolders()), overrides, limitsOf(options.limits));
+    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limitsOf(options.limits));
 }
 
 std::string runName(const SceneOptions& options) {
-    const bool isFile = scenes::resolveScene(options.scene, sceneFolders()) == options.scene;
+    const bool isFile = scenes::resolveScene(options.scene, sceneFolder()) == options.scene;
     return isFile ? fs::path(options.scene).stem().string() : options.scene;
 }
 
@@ -101,12 +101,12 @@ render::PictureSize parseSize(const std::string& text, const std::string& flag) 
     return {*width, *height};
 }
 
-std::vector<std::string> sceneFolders() {
+std::string sceneFolder() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     const fs::path installed = program.parent_path().parent_path() / "share" / "globular" / "scenes";
-    if (!error && fs::is_directory(installed)) return {installed.string()};
-    return {GLOBULAR_SOURCE_SCENES};
+    if (!error && fs::is_directory(installed)) return installed.string();
+    return GLOBULAR_SOURCE_SCENES;
 }
 
 FrameRange frameRange(const std::string& text, int count) {

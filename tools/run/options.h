@@ -97,8 +97,8 @@ DrawJob drawJob(const scenes::Scene& scene, const DrawOptions& draw, const RunOp
 /// @throws scenes::InputError if the text is not two whole numbers
 render::PictureSize parseSize(const std::string& text, const std::string& flag);
 
-/// The folders of the built-in scenes: beside the installed program, or else in the sources that it was built from.
-std::vector<std::string> sceneFolders();
+/// The folder of the built-in scenes: beside the installed program, or else in the sources that it was built from.
+std::string sceneFolder();
 
 /// The frames that "A-B" or "A" names; an empty text stands for all.
 /// @param count  the scene has frames 0 to count - 1
