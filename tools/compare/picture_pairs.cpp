@@ -42,13 +42,30 @@ std::map<std::string, fs::path> pngsBelow(const fs::path& folder) {
     return pictures;
 }
 
+/// A new folder below the system's temporary folder; removed with its content when the object is destroyed.
+struct TemporaryFolder {
+    std::string path = (fs::temp_directory_path() / "globular-XXXXXX").string();
+
+    TemporaryFolder() {
+        if (::mkdtemp(path.data()) == nullptr)
+            throw render::SystemError(fmt::format("cannot create folder {}: {}", path, std::strerror(errno)));
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
 PictureSet decodeVideo(const fs::path& video) {
     PictureSet set;
-    set.decodedFrames = std::make_shared<TemporaryFolder>();
+    const auto folder = std::make_shared<TemporaryFolder>();
+    set.decodedFrames = folder;
     // "file:" keeps ffmpeg from taking a path with a colon for a protocol. Percent signs are doubled, because ffmpeg
     // reads the path as a pattern.
     std::string pattern = "file:";
-    for (const char c : set.decodedFrames->path().string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+    for (const char c : folder->path) pattern += c == '%' ? std::string("%%") : std::string(1, c);
     pattern += "/frame-%05d.png";
     render::ChildProcess ffmpeg(
         {"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-i", "file:" + video.string(),
@@ -58,7 +75,7 @@ PictureSet decodeVideo(const fs::path& video) {
     if (const std::string ending = ffmpeg.wait(); !ending.empty())
         throw render::SystemError(
             fmt::format("ffmpeg cannot decode {}: {}: {}", video.string(), ending, ffmpeg.output()));
-    set.pictures = pngsBelow(set.decodedFrames->path());
+    set.pictures = pngsBelow(folder->path);
     return set;
 }
 
@@ -68,18 +85,6 @@ bool hasExtension(const fs::path& path, std::string_view extension) {
     const std::string own = path.extension().string();
     return std::equal(own.begin(), own.end(), extension.begin(), extension.end(),
                       [](unsigned char a, char b) { return std::tolower(a) == b; });
-}
-
-TemporaryFolder::TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "globular-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-        throw render::SystemError(fmt::format("cannot create folder {}: {}", pattern, std::strerror(errno)));
-    path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
 }
 
 PictureSet picturesOf(const fs::path& path) {

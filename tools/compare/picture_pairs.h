@@ -16,26 +16,12 @@ namespace tools {
 /// @param extension  in lower case, such as ".png"
 bool hasExtension(const std::filesystem::path& path, std::string_view extension);
 
-/// A new folder below the system's temporary folder; removed with its content when the object is destroyed.
-class TemporaryFolder {
- public:
-    /// @throws render::SystemError
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
- private:
-    std::filesystem::path path_;
-};
-
 /// The actual or the expected pictures of a comparison, by name. The names in a folder are the paths of all PNG files
 /// below it ("liquid/frame-00012.png"); those in a video are what `render` calls its frames.
 struct PictureSet {
     std::map<std::string, std::filesystem::path> pictures;
-    bool isSingle = false;                           ///< the set is one file, whose name does not matter
-    std::shared_ptr<TemporaryFolder> decodedFrames;  ///< folder of a video's frames, kept while the set is in use
+    bool isSingle = false;                      ///< the set is one file, whose name does not matter
+    std::shared_ptr<const void> decodedFrames;  ///< keeps the temporary folder with the frames of a video; else null
 };
 
 /// The pictures that a path stands for: one file, all PNG files below a folder, or the frames of a video. There are

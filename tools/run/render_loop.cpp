@@ -80,13 +80,11 @@ class RenderRun {
     static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
         if (!job.folder) return nullptr;
         // The encoder is checked first, so that no frames of another run are removed for a video that cannot be made.
-        if (!job.videoPath.empty() && job.folder->overwrite) requireVideo(videoOptions(job));
+        if (!job.videoPath.empty() && job.folder->overwrite) {
+            render::requireEncoder(videoOptions(job));
+            const render::AtomicFile canBeCreated(job.videoPath);
+        }
         return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
-    }
-
-    static void requireVideo(const render::VideoOptions& options) {
-        render::requireEncoder(options);
-        const render::AtomicFile canBeCreated(options.path);
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
