@@ -20,7 +20,6 @@
 namespace {
 
 constexpr int kOutsideFailed = 1;
-constexpr int kInputWrong = 2;
 constexpr int kUnstable = 3;
 
 /// Makes glibc keep freed memory. Every frame and every neighbor list asks for the memory that the last one has freed.
@@ -49,10 +48,8 @@ int run(CLI::App& program, int argc, char** argv) {
         // Flushed here, so that a full disk behind standard output is reported like any other failure.
         tools::flushStandardOutput();
         return 0;
-    } catch (const tools::UsageError& error) {
-        return report(error.what(), kInputWrong);
     } catch (const scenes::InputError& error) {
-        return report(error.what(), kInputWrong);
+        return report(error.what(), tools::kInputErrorCode);
     } catch (const engine::InstabilityError& error) {
         return report(error.what(), kUnstable);
     } catch (const tools::ExitStatus& status) {

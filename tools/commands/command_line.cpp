@@ -1,5 +1,5 @@
-// Checks of flags, and the messages for command lines that CLI11 rejects.
-#include "tools/commands/command_line.h"
+// The flags that several commands share, checks of flags, and the messages for command lines that CLI11 rejects.
+#include "tools/commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "scenes/text/edit_distance.h"
+#include "tools/system/process.h"
 #include "tools/system/text.h"
 
 namespace tools {
@@ -59,10 +60,54 @@ std::string unknownWordMessage(const CLI::App& command, const std::string& word)
 }
 
 [[noreturn]] void failWithoutCommand(const CLI::App& app) {
-    throw UsageError(fmt::format("missing command; see {} --help", callOf(app)));
+    throw ExitStatus(kInputErrorCode, fmt::format("missing command; see {} --help", callOf(app)));
 }
 
 }  // namespace
+
+void addTo(CLI::App& command, RunOptions& options) {
+    command.add_flag("--quiet", options.quiet, "no progress and no summary");
+    command.add_flag("--json", options.json, "progress and result as JSON, one object a line, on stdout");
+    command.add_option("--threads", options.threads, "how many threads to use (default: all of the machine)")
+        ->check(CLI::Range(1, 1024));
+}
+
+void addTo(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.scene, "a scene file, or the name of a built-in scene (see globular scenes)")
+        ->required();
+    command.add_option("--set", options.changes, "change a key of the scene, e.g. --set physics.step=0.005")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--limit", options.limits, "allow a larger scene: particles=N, frames=N or pixels=N (of a picture)")
+        ->type_name("NAME=N")
+        ->allow_extra_args(false);
+}
+
+void addTo(CLI::App& command, DrawOptions& options) {
+    command.add_option("--size", options.size, "picture size in pixels (default: the scene's)")->type_name("WxH");
+    command.add_option("--style", options.style, "spheres or metaballs (default: the scene's)")
+        ->check(CLI::IsMember({"spheres", "metaballs"}));
+    command.add_option("--quality", options.quality, "draft, normal or final (default: normal)")
+        ->check(CLI::IsMember({"draft", "normal", "final"}));
+    addBackendFlag(command, options);
+}
+
+void addBackendFlag(CLI::App& command, DrawOptions& options) {
+    command.add_option("--gl", options.backend, "OpenGL backend: osmesa or egl (default: osmesa)")->type_name("NAME");
+}
+
+void addTo(CLI::App& command, FolderOptions& options, const std::string& fallback) {
+    command.add_option("-o,--output", options.path, "folder for frames and run.json (default: " + fallback + ")")
+        ->type_name("DIR");
+    CLI::Option* resume =
+        command.add_flag("--resume", options.resume, "go on with a run that ended early: what is whole stays");
+    command.add_flag("--overwrite", options.overwrite, "remove the frames of another run from the folder first")
+        ->excludes(resume);
+    command.add_option("--checkpoint", options.checkpointSeconds, "seconds between two checkpoints (default: 5)")
+        ->type_name("SECONDS")
+        ->check(numberAtLeastZero());
+}
 
 CLI::Validator numberFrom(double least, double most) {
     return numberThat([=](double value) { return value >= least && value <= most; },
@@ -90,9 +135,9 @@ void runCommandLine(CLI::App& program, int argc, char** argv) {
         const bool isIncomplete = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
         const bool hasExtras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
         if ((isIncomplete || hasExtras) && !unknown.empty())
-            throw UsageError(unknownWordMessage(command, unknown.front()));
+            throw ExitStatus(kInputErrorCode, unknownWordMessage(command, unknown.front()));
         if (isIncomplete && !commandNames(command).empty()) failWithoutCommand(command);
-        throw UsageError(error.what());
+        throw ExitStatus(kInputErrorCode, error.what());
     }
     if (program.get_subcommands().empty()) failWithoutCommand(program);
 }

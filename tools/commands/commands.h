@@ -1,12 +1,16 @@
-// The subcommands of the program, called by main(). Each function adds a command with its flags, its help, and the code
-// that runs when it is called. Failures come back to main() as exceptions.
+// The subcommands of the program, added by main(), and what they add to CLI11: flags that several of them share, checks
+// of numbers, and messages that suggest the nearest known name.
 #pragma once
 
-#include "tools/commands/command_line.h"
+#include <CLI/CLI.hpp>
+#include <string>
+
 #include "tools/run/options.h"
 
 namespace tools {
 
+/// Each function adds a command with its flags, its help, and the code that runs when it is called. Failures of that
+/// code come back to main() as exceptions.
 void addRenderCommand(CLI::App& program);
 void addStripCommand(CLI::App& program);
 void addSimulateCommand(CLI::App& program);
@@ -35,5 +39,15 @@ inline constexpr const char* kErrorSampleNotes =
 /// Adds only the flag --gl, the OpenGL backend, for commands that choose the size, style and quality of pictures
 /// themselves.
 void addBackendFlag(CLI::App& command, DrawOptions& options);
+
+/// Checks that the value of a flag is a finite number: from least to most, both included, at least 0, or above 0.
+/// CLI11's own checks accept NaN and infinity, and their messages name the largest double as the upper bound.
+CLI::Validator numberFrom(double least, double most);
+CLI::Validator numberAtLeastZero();
+CLI::Validator numberAboveZero();
+
+/// Runs the command that was called, or prints what --help or another flag of the program asks for.
+/// @throws ExitStatus with kInputErrorCode if there is no command or a flag is wrong, and whatever the command throws
+void runCommandLine(CLI::App& program, int argc, char** argv);
 
 }  // namespace tools

@@ -1,5 +1,5 @@
 // The options that several commands share, as plain data, and what they mean. The commands fill them in from flags
-// (tools/commands/shared_flags.cpp).
+// (tools/commands/command_line.cpp).
 #pragma once
 
 #include <string>

@@ -9,6 +9,9 @@
 
 namespace tools {
 
+/// The exit code of the program if the scene or the command line is wrong.
+inline constexpr int kInputErrorCode = 2;
+
 /// A shell reports a program that a signal ended with this code plus the number of the signal.
 inline constexpr int kSignalExitBase = 128;
 
