@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <iterator>
-#include <set>
 
 #include "engine/run/checkpoint.h"
 #include "render/output/atomic_file.h"
@@ -176,7 +175,8 @@ void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes
     if (later != all.end()) all.erase(later, std::prev(all.end()));
     while (std::distance(all.begin(), all.upper_bound(frame)) > kCheckpointCount) all.erase(all.begin());
     writeManifest();
-    removeUnlistedCheckpoints();
+    for (const fs::path& file : filesIn(folder_))
+        if (const auto old = kCheckpointNames.frameOf(file); old && all.count(*old) == 0) removeFile(file);
 }
 
 void FrameFolder::writeReport(const Json& json) const {
@@ -187,13 +187,6 @@ void FrameFolder::writeManifest() {
     writeFile(folder_ / "manifest.json", encodeManifest(manifest_));
     isManifestCurrent_ = true;
     lastManifest_ = std::chrono::steady_clock::now();
-}
-
-void FrameFolder::removeUnlistedCheckpoints() const {
-    std::set<fs::path> listed;
-    for (const auto& [frame, record] : manifest_.checkpoints) listed.insert(folder_ / kCheckpointNames.fileName(frame));
-    for (const fs::path& file : filesIn(folder_))
-        if (kCheckpointNames.frameOf(file) && listed.count(file) == 0) removeFile(file);
 }
 
 }  // namespace tools

@@ -90,7 +90,6 @@ class FrameFolder {
  private:
     void keepIntactFrames();
     void writeManifest();
-    void removeUnlistedCheckpoints() const;
 
     std::filesystem::path folder_;
     FolderLock lock_;

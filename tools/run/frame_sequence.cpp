@@ -71,7 +71,8 @@ std::optional<SequencedFrame> FrameSequence::next() {
     if (frame.isWanted && frame.number == position_)
         run_.report.stateHash = engine::stateHash(run_.simulation.particles);
     if (frame.isWanted && !frame.isKept) frame.stateHash = run_.report.stateHash;
-    if (isNew && isCheckpointDue()) {
+    const std::chrono::duration<double> sinceCheckpoint = std::chrono::steady_clock::now() - lastCheckpoint_;
+    if (isNew && sinceCheckpoint.count() >= checkpointSeconds_) {
         frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
         frame.report = checkpointReport();
         lastCheckpoint_ = std::chrono::steady_clock::now();
@@ -98,11 +99,6 @@ Json FrameSequence::checkpointReport() const {
     Json report = encodeErrors(run_.report.errors);
     report["range"] = rangeOf(frames_);
     return report;
-}
-
-bool FrameSequence::isCheckpointDue() const {
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - lastCheckpoint_;
-    return since.count() >= checkpointSeconds_;
 }
 
 void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes) {

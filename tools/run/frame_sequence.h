@@ -52,7 +52,6 @@ class FrameSequence {
  private:
     bool resume();
     bool advanceTo(int frame);
-    bool isCheckpointDue() const;
     Json checkpointReport() const;
 
     const scenes::Scene& scene_;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "engine/core/hash.h"
@@ -80,15 +79,14 @@ Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& n
 }
 
 std::string differences(const Json& there, const Json& here) {
-    std::vector<std::string> keys;
-    for (const Json* identity : {&there, &here})
-        for (const auto& item : identity->items())
-            if (std::find(keys.begin(), keys.end(), item.key()) == keys.end()) keys.push_back(item.key());
+    Json all = there;
+    all.update(here);
     std::string text;
-    for (const std::string& key : keys) {
-        if (textOf(there, key) == textOf(here, key)) continue;
-        text += fmt::format("{}{}: {} there, {} here", text.empty() ? "" : "; ", key, textOf(there, key),
-                            textOf(here, key));
+    for (const auto& item : all.items()) {
+        const std::string before = textOf(there, item.key());
+        const std::string now = textOf(here, item.key());
+        if (before != now)
+            text += fmt::format("{}{}: {} there, {} here", text.empty() ? "" : "; ", item.key(), before, now);
     }
     return text;
 }

@@ -47,23 +47,16 @@ void Progress::frameDone(int frame, double sceneTime) {
         return;
     }
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    if (isTerminal_)
-        drawBar(elapsed);
-    else if (elapsed - lastLineSeconds_ >= kLineInterval)
-        printLine(elapsed);
-}
-
-void Progress::drawBar(double elapsed) const {
-    const std::int64_t filled = kBarWidth * doneCount_ / total_;
-    printToStderr(fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{} {:.1f} frames/s, {} ", title_, "", filled, "",
-                              kBarWidth - filled, doneCount_, total_, doneCount_ / elapsed,
-                              timeLeft(doneCount_, total_, elapsed)));
-}
-
-void Progress::printLine(double elapsed) {
-    lastLineSeconds_ = elapsed;
-    printToStderr(fmt::format("{}: frame {} of {}, {:.1f} frames/s, {}\n", title_, doneCount_, total_,
-                              doneCount_ / elapsed, timeLeft(doneCount_, total_, elapsed)));
+    const std::string rate =
+        fmt::format("{:.1f} frames/s, {}", doneCount_ / elapsed, timeLeft(doneCount_, total_, elapsed));
+    if (isTerminal_) {
+        const std::int64_t filled = kBarWidth * doneCount_ / total_;
+        printToStderr(fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{} {} ", title_, "", filled, "", kBarWidth - filled,
+                                  doneCount_, total_, rate));
+    } else if (elapsed - lastLineSeconds_ >= kLineInterval) {
+        lastLineSeconds_ = elapsed;
+        printToStderr(fmt::format("{}: frame {} of {}, {}\n", title_, doneCount_, total_, rate));
+    }
 }
 
 }  // namespace tools

@@ -26,9 +26,6 @@ class Progress {
     void frameDone(int frame, double sceneTime);
 
  private:
-    void drawBar(double elapsed) const;
-    void printLine(double elapsed);
-
     std::string title_;
     int total_ = 0;
     int doneCount_ = 0;

@@ -59,20 +59,19 @@ Table parseCsv(const std::string& csv, std::size_t skippedColumns) {
 }
 
 std::string textTable(const Table& table) {
-    std::vector<std::size_t> widths;
-    for (const std::string& text : table.head) widths.push_back(text.size());
-    for (const Cells& row : table.rows)
-        for (std::size_t column = 0; column < row.size(); ++column)
-            widths[column] = std::max(widths[column], row[column].size());
+    std::vector<Cells> lines = {table.head};
+    lines.insert(lines.end(), table.rows.begin(), table.rows.end());
+    std::vector<std::size_t> widths(table.head.size());
+    for (const Cells& line : lines)
+        for (std::size_t column = 0; column < line.size(); ++column)
+            widths[column] = std::max(widths[column], line[column].size());
     std::string text;
-    const auto addLine = [&](const Cells& row) {
-        text += fmt::format("{:{}}", row[0], widths[0]);
-        for (std::size_t column = 1; column < row.size(); ++column)
-            text += fmt::format("  {:>{}}", row[column], widths[column]);
+    for (const Cells& line : lines) {
+        text += fmt::format("{:{}}", line[0], widths[0]);
+        for (std::size_t column = 1; column < line.size(); ++column)
+            text += fmt::format("  {:>{}}", line[column], widths[column]);
         text += '\n';
-    };
-    addLine(table.head);
-    for (const Cells& row : table.rows) addLine(row);
+    }
     return text;
 }
 
