@@ -23,15 +23,14 @@ void recordMemory(Preview& preview) {
 }  // namespace
 
 std::uint64_t plannedBirths(const scenes::Scene& scene) {
-    constexpr double kOnTime = 1e-9;  // s; the tolerance with which emitters decide that a birth is due
     std::uint64_t sum = 0;
     for (const engine::Emitter& emitter : scene.setup.emitters) {
         const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
         // An emitter does not emit any more at its end time, `until`, but it does at the last frame.
-        const double end = std::min(lastFrame + kOnTime, emitter.until - 2.0 * kOnTime);
+        const double end = std::min(lastFrame + engine::kSameMoment, emitter.until - 2.0 * engine::kSameMoment);
         if (end < emitter.start) continue;
         const double events = std::floor((end - emitter.start) / emitter.interval) + 1.0;
-        const double schedules = emitter.pick == engine::Pick::all ? static_cast<double>(emitter.sites.size()) : 1.0;
+        const auto schedules = static_cast<double>(engine::initialState(emitter).schedules.size());
         sum += static_cast<std::uint64_t>(std::min(static_cast<double>(emitter.limit), events * schedules));
     }
     return sum;
