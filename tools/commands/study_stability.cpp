@@ -2,10 +2,9 @@
 // own, and fails unless all come out as they must.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "scenes/build/library.h"
@@ -30,16 +29,15 @@ constexpr std::string_view kHardFolder = "hard/";
 
 /// The built-in hard cases, ordered by their number.
 std::vector<studies::CaseOptions> allCases() {
-    std::vector<std::pair<int, studies::CaseOptions>> cases;
+    std::multimap<int, studies::CaseOptions> byNumber;
     for (const scenes::LibraryEntry& entry : scenes::listScenes(sceneFolder())) {
-        if (entry.name.rfind(kHardFolder, 0) != 0) continue;
+        if (!entry.name.starts_with(kHardFolder)) continue;
         const scenes::Scene scene = scenes::loadScene(entry.path, {});
-        cases.push_back({scene.study ? scene.study->number : 0, {entry.name.substr(kHardFolder.size()), entry.path}});
+        byNumber.insert({scene.study ? scene.study->number : 0, {entry.name.substr(kHardFolder.size()), entry.path}});
     }
-    std::stable_sort(cases.begin(), cases.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<studies::CaseOptions> sorted;
-    for (auto& [number, options] : cases) sorted.push_back(std::move(options));
-    return sorted;
+    std::vector<studies::CaseOptions> cases;
+    for (const auto& [number, options] : byNumber) cases.push_back(options);
+    return cases;
 }
 
 /// The built-in hard case of that name, or else the scene file or built-in scene that the name stands for.
