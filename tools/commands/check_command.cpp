@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/steppers.h"

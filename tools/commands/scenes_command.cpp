@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "scenes/build/library.h"
 #include "tools/commands/commands.h"

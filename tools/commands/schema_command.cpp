@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "scenes/schema/schema_export.h"
 #include "tools/commands/commands.h"

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "scenes/model/particle_file.h"
 #include "tools/commands/commands.h"

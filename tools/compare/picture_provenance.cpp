@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "render/picture/system_error.h"
 #include "tools/run/manifest.h"
 #include "tools/system/json.h"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "engine/error_control/error_estimate.h"
 #include "engine/error_control/long_error_estimate.h"

@@ -1,7 +1,7 @@
 // JSON as the program reads and writes it, with the members in the order in which they were added.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace tools {

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "tools/system/json.h"
 #include "tools/system/process.h"
