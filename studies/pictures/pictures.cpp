@@ -81,7 +81,7 @@ double secondsOfVideo(const render::VideoOptions& options, const std::vector<ren
 void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
                      render::Renderer& renderer, PictureRow& row) {
     // Drawing the frames takes at most about a second and a half. Chosen: slow frames take about the same time each.
-    const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.draw)));
+    const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.moving.draw)));
     const render::Image image = renderer.draw(frames.front());
     row.png = secondsOf([&] { render::encodePng(image); }, 3);
     row.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); }) / count;
@@ -117,14 +117,6 @@ std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const ren
     return windows;
 }
 
-/// Median times of drawing a frame, s.
-struct DrawingTimes {
-    double baseline = 0.0;
-    double fewestBaseline = 0.0;
-    double draw = 0.0;
-    DrawTimes stages;
-};
-
 /// Times drawing with the baseline and with the renderer. They draw every frame by turns, so that changes of the
 /// machine's speed affect both alike.
 /// @param fewest  another view for the baseline to draw by turns with the frames; null: none
@@ -142,7 +134,7 @@ DrawingTimes measureDrawing(QuadBaseline& quads, render::Renderer& renderer, con
         draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }));
         times.push_back(renderer.times());
     }
-    return {median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline), median(draw), medianStages(times)};
+    return {median(draw), medianStages(times), median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline)};
 }
 
 /// The views that are drawn to measure the times of pictures of one style and one number of particles.
@@ -156,15 +148,8 @@ void measureTimes(const PictureSettings& settings, render::Context& context, con
     render::Renderer renderer(context, row.size, row.quality);
     {
         QuadBaseline quads(context, row.size);
-        const DrawingTimes moving = measureDrawing(quads, renderer, views.frames, &views.fewest);
-        row.baseline = moving.baseline;
-        row.fewestBaseline = moving.fewestBaseline;
-        row.draw = moving.draw;
-        row.stages = moving.stages;
-        const DrawingTimes resting =
-            measureDrawing(quads, renderer, framesAtRest(views.frames.front(), settings.frames));
-        row.atRestBaseline = resting.baseline;
-        row.atRest = resting.draw;
+        row.moving = measureDrawing(quads, renderer, views.frames, &views.fewest);
+        row.atRest = measureDrawing(quads, renderer, framesAtRest(views.frames.front(), settings.frames));
     }
     measureEncoding(settings, views.frames, renderer, row);
 }

@@ -56,24 +56,28 @@ struct PictureSubject {
     render::Quality quality = render::Quality::normal;
 };
 
+/// Median times over some frames, s.
+struct DrawingTimes {
+    double draw = 0.0;              ///< time to draw a frame and read it back
+    render::DrawTimes stages = {};  ///< times of the stages of the renderer
+    double baseline = 0.0;          ///< time to draw the frame with the baseline
+    double fewestBaseline = 0.0;    ///< time of the baseline for the smallest number of particles in the study
+};
+
 /// What the study measures of one picture. All times are in seconds.
 struct PictureRow : PictureSubject {
-    render::DrawTimes stages = {};  ///< times of the renderer's stages, medians over the frames
-    double png = 0.0;               ///< time to encode a frame as PNG
-    double mp4 = 0.0;               ///< time to encode a frame of a video
-    double mp4Once = 0.0;           ///< time that a video takes besides its frames
-    double draw = 0.0;              ///< median time to draw a frame and read it back, the camera moving
-    double atRest = 0.0;            ///< median time with a still camera, the particles moving
-    double atRestBaseline = 0.0;    ///< time of the baseline with a still camera
-    double withPng = 0.0;           ///< time per frame if one is encoded as PNG while the next is drawn
-    double withMp4 = 0.0;           ///< time per frame if one is encoded for a video while the next is drawn
-    double baseline = 0.0;          ///< median time of the baseline, the camera moving
-    double fewestBaseline = 0.0;    ///< time of the baseline with the smallest number of particles in the study
+    DrawingTimes moving = {};  ///< times of drawing while the camera moves
+    DrawingTimes atRest = {};  ///< times of drawing while the particles move before a still camera
+    double png = 0.0;          ///< time to encode a frame as PNG
+    double mp4 = 0.0;          ///< time to encode a frame of a video
+    double mp4Once = 0.0;      ///< time that a video takes besides its frames
+    double withPng = 0.0;      ///< time per frame if one is encoded as PNG while the next is drawn
+    double withMp4 = 0.0;      ///< time per frame if one is encoded for a video while the next is drawn
     PictureError error = {};
 
-    double ratio() const { return draw / baseline; }
-    double ratioToFewest() const { return draw / fewestBaseline; }
-    double ratioAtRest() const { return atRest / atRestBaseline; }
+    double ratio() const { return moving.draw / moving.baseline; }
+    double ratioToFewest() const { return moving.draw / moving.fewestBaseline; }
+    double ratioAtRest() const { return atRest.draw / atRest.baseline; }
 };
 
 struct PictureSettings {

@@ -62,10 +62,11 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
         "normal_error_degrees\n";
     for (const PictureRow& row : rows) {
         csv += subjectFields(row);
+        const render::DrawTimes& stages = row.moving.stages;
         for (const double seconds :
-             {row.stages.bin, row.stages.occlusion, row.stages.shadow, row.stages.cast, row.stages.color,
-              row.stages.openGl, row.stages.readBack, row.png, row.mp4, row.mp4Once, row.draw, row.atRest, row.withPng,
-              row.withMp4, row.baseline, row.atRestBaseline, row.fewestBaseline})
+             {stages.bin, stages.occlusion, stages.shadow, stages.cast, stages.color, stages.openGl, stages.readBack,
+              row.png, row.mp4, row.mp4Once, row.moving.draw, row.atRest.draw, row.withPng, row.withMp4,
+              row.moving.baseline, row.atRest.baseline, row.moving.fewestBaseline})
             csv += fmt::format(",{:.4g}", 1e3 * seconds);
         csv += fmt::format(",{:.3g},{:.3g},{:.3g},{:.4g},{:.5f},{:.3g},{:.3g},{:.3g}\n", row.ratio(), row.ratioAtRest(),
                            row.ratioToFewest(), row.error.rmse, row.error.ssim, row.error.wrongHits, row.error.depth,
@@ -88,12 +89,12 @@ std::string smoothingCsv(const std::vector<SmoothingRow>& rows) {
 }
 
 std::string pictureTimesPlot(const std::vector<PictureRow>& rows, const std::vector<SmoothingRow>& smoothing) {
-    std::vector<Curve> curves =
-        curvesOf(rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.draw); });
+    std::vector<Curve> curves = curvesOf(
+        rows, [](const PictureRow& row) { return fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.moving.draw); });
     Curve quads{"lit quads, no more", "linespoints pointtype 2 linecolor rgb '#7f7f7f' dashtype 2"};
     for (const PictureRow& row : rows)
         if (row.style == render::Style::spheres && row.quality == render::Quality::draft && hasFirstSize(rows, row))
-            quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.baseline);
+            quads.points += fmt::format("{} {:.6g}\n", row.particles, 1e3 * row.moving.baseline);
     curves.push_back(quads);
     Curve plain{"metaballs, normal, plain skin", "linespoints pointtype 4 linecolor rgb '#e69f00' dashtype 3"};
     for (const SmoothingRow& row : smoothing)
@@ -112,7 +113,7 @@ std::string pictureErrorsPlot(const std::vector<PictureRow>& rows) {
         "set title \"Error against the exact picture, and what it costs\"\n"
         "set key top right samplen 2 font \",13\"\n",
         curvesOf(rows, [](const PictureRow& row) {
-            return fmt::format("{:.6g} {:.6g}\n", 1e3 * row.draw, 1.0 - row.error.ssim);
+            return fmt::format("{:.6g} {:.6g}\n", 1e3 * row.moving.draw, 1.0 - row.error.ssim);
         }));
 }
 

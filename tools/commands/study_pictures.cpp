@@ -59,21 +59,21 @@ studies::FlickerSettings flickerSettingsFor(const PicturesOptions& options) {
 }
 
 void reportRow(const PicturesOptions& options, const studies::PictureRow& row) {
-    reportProgress(
-        options,
-        {{"event", "row"},
-         {"style", studies::nameOf(row.style)},
-         {"particles", row.particles},
-         {"width", row.size.width},
-         {"quality", studies::nameOf(row.quality)},
-         {"seconds", row.draw},
-         {"ratio", row.ratio()},
-         {"ratio_at_rest", row.ratioAtRest()},
-         {"ratio_to_fewest", row.ratioToFewest()},
-         {"ssim", row.error.ssim}},
-        fmt::format("{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
-                    studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
-                    studies::nameOf(row.quality), 1e3 * row.draw, row.ratio(), 1e3 * row.baseline, row.error.ssim));
+    reportProgress(options,
+                   {{"event", "row"},
+                    {"style", studies::nameOf(row.style)},
+                    {"particles", row.particles},
+                    {"width", row.size.width},
+                    {"quality", studies::nameOf(row.quality)},
+                    {"seconds", row.moving.draw},
+                    {"ratio", row.ratio()},
+                    {"ratio_at_rest", row.ratioAtRest()},
+                    {"ratio_to_fewest", row.ratioToFewest()},
+                    {"ssim", row.error.ssim}},
+                   fmt::format("{} {} {}x{} {}: {:.4g} ms, {:.2f} of the quads' {:.4g} ms, SSIM {:.5f}\n",
+                               studies::nameOf(row.style), row.particles, row.size.width, row.size.height,
+                               studies::nameOf(row.quality), 1e3 * row.moving.draw, row.ratio(),
+                               1e3 * row.moving.baseline, row.error.ssim));
 }
 
 /// Measures everything. Each table is written again after each of its rows, because the study takes long and an
@@ -106,8 +106,8 @@ std::string summaryOf(const PictureResults& results) {
     for (const studies::PictureRow& row : results.rows)
         table.rows.push_back({studies::nameOf(row.style), fmt::format("{}", row.particles),
                               fmt::format("{}x{}", row.size.width, row.size.height), studies::nameOf(row.quality),
-                              milliseconds(row.draw), milliseconds(row.atRest), milliseconds(row.withPng),
-                              milliseconds(row.withMp4), milliseconds(row.baseline), ratio(row.ratio()),
+                              milliseconds(row.moving.draw), milliseconds(row.atRest.draw), milliseconds(row.withPng),
+                              milliseconds(row.withMp4), milliseconds(row.moving.baseline), ratio(row.ratio()),
                               ratio(row.ratioAtRest()), ratio(row.ratioToFewest()),
                               fmt::format("{:.3f}", row.error.rmse), fmt::format("{:.5f}", row.error.ssim),
                               fmt::format("{:.4f}", 100.0 * row.error.wrongHits)});
