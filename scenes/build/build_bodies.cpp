@@ -51,17 +51,12 @@ void checkPoints(Section& section, BuildContext& context) {
                expected);
 }
 
-engine::Packing packingOf(const Body& body, const BuildContext& context) {
-    engine::Packing packing;
-    packing.spacing = body.section.number("spacing");
-    packing.jitter = body.section.number("jitter");
-    packing.seed = engine::scatter(context.seed ^ engine::scatter(body.index));
-    return packing;
-}
-
 std::vector<Vec3> packedPositions(const Body& body, const BuildContext& context) {
     const Section& section = body.section;
-    const engine::Packing packing = packingOf(body, context);
+    engine::Packing packing;
+    packing.spacing = section.number("spacing");
+    packing.jitter = section.number("jitter");
+    packing.seed = engine::scatter(context.seed ^ engine::scatter(body.index));
     const std::string& shape = section.string("shape");
     if (shape == "ball") return engine::ballPositions(section.vector("center"), section.number("radius"), packing);
     if (shape == "box") return engine::boxPositions(section.vector("minimum"), section.vector("maximum"), packing);

@@ -128,7 +128,7 @@ double widthShare(double length, const CameraPlacement& camera, const Section& l
 
 void checkScaleBar(Section& section, const Section& look, const CameraPath& camera, BuildContext& context) {
     constexpr double kMaxShare = 0.8;  // share of the picture's width; chosen: leaves room for margins at any size
-    for (const CameraKey& key : camera.keys) {
+    for (const CameraKey& key : camera) {
         const double share = widthShare(section.number("scale_bar"), key.placement, look);
         if (share <= kMaxShare) continue;
         report(section, "scale_bar", context,
@@ -166,8 +166,8 @@ CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
     for (Section& section : sections) checkCamera(section, context);
     if (sections.size() > 1) checkPath(sections, context);
     for (const Section& section : sections) {
-        if (!section.isValid()) return {{CameraKey{}}};
-        path.keys.push_back({section.has("time") ? section.number("time") : 0.0, placementFrom(section)});
+        if (!section.isValid()) return {CameraKey{}};
+        path.push_back({section.has("time") ? section.number("time") : 0.0, placementFrom(section)});
     }
     return path;
 }

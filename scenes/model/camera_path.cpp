@@ -34,12 +34,12 @@ CameraPlacement placementOf(const Numbers& numbers, render::Projection projectio
 /// both sides monotone.
 Numbers slopesAt(const CameraPath& path, std::size_t key) {
     Numbers slopes{};
-    if (key == 0 || key + 1 == path.keys.size()) return slopes;
-    const double before = path.keys[key].time - path.keys[key - 1].time;
-    const double after = path.keys[key + 1].time - path.keys[key].time;
-    const Numbers from = numbersOf(path.keys[key - 1].placement);
-    const Numbers here = numbersOf(path.keys[key].placement);
-    const Numbers to = numbersOf(path.keys[key + 1].placement);
+    if (key == 0 || key + 1 == path.size()) return slopes;
+    const double before = path[key].time - path[key - 1].time;
+    const double after = path[key + 1].time - path[key].time;
+    const Numbers from = numbersOf(path[key - 1].placement);
+    const Numbers here = numbersOf(path[key].placement);
+    const Numbers to = numbersOf(path[key + 1].placement);
     for (std::size_t k = 0; k < slopes.size(); ++k) {
         const double left = (here[k] - from[k]) / before;
         const double right = (to[k] - here[k]) / after;
@@ -55,14 +55,14 @@ Numbers slopesAt(const CameraPath& path, std::size_t key) {
 }  // namespace
 
 CameraPlacement cameraAt(const CameraPath& path, double time) {
-    const auto next = std::upper_bound(path.keys.begin(), path.keys.end(), time,
-                                       [](double t, const CameraKey& key) { return t < key.time; });
-    if (next == path.keys.begin()) return path.keys.front().placement;
-    if (next == path.keys.end()) return path.keys.back().placement;
-    const auto index = static_cast<std::size_t>(next - path.keys.begin());
-    const double length = next->time - path.keys[index - 1].time;
-    const double u = (time - path.keys[index - 1].time) / length;
-    const Numbers from = numbersOf(path.keys[index - 1].placement);
+    const auto next =
+        std::upper_bound(path.begin(), path.end(), time, [](double t, const CameraKey& key) { return t < key.time; });
+    if (next == path.begin()) return path.front().placement;
+    if (next == path.end()) return path.back().placement;
+    const auto index = static_cast<std::size_t>(next - path.begin());
+    const double length = next->time - path[index - 1].time;
+    const double u = (time - path[index - 1].time) / length;
+    const Numbers from = numbersOf(path[index - 1].placement);
     const Numbers to = numbersOf(next->placement);
     const Numbers slopesFrom = slopesAt(path, index - 1);
     const Numbers slopesTo = slopesAt(path, index);

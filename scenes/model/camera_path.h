@@ -14,9 +14,7 @@ struct CameraKey {
 
 /// A fixed camera (one key), or the path of a moving one. There is at least one key, the times of the keys increase,
 /// and all have the same projection.
-struct CameraPath {
-    std::vector<CameraKey> keys;
-};
+using CameraPath = std::vector<CameraKey>;
 
 /// Where the camera is at a time in s. Before the first key of the path it is placed as at that key, after the last as
 /// at the last. Between two keys every coordinate of eye, target and up, the angle of view and the half height follow a

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <sstream>
 #include <type_traits>
 #include <vector>
 
@@ -59,10 +60,7 @@ struct PlyHeader {
     std::vector<PlyProperty> properties;  ///< names and types of the numbers of a row, in order
     std::size_t size = 0;                 ///< bytes of the header itself
 
-    bool has(std::string_view name) const {
-        return std::any_of(properties.begin(), properties.end(),
-                           [&](const PlyProperty& property) { return property.name == name; });
-    }
+    bool has(std::string_view name) const { return std::ranges::count(properties, name, &PlyProperty::name) > 0; }
 };
 
 /// Largest size of a PLY header. Chosen: ten times the longest header that this program writes or understands.
@@ -72,7 +70,7 @@ const std::vector<std::string_view> kRealProperties = {"x", "y", "z", "vx", "vy"
 const std::vector<std::string_view> kIndexProperties = {"material", "id"};
 
 bool contains(const std::vector<std::string_view>& names, std::string_view name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::ranges::count(names, name) > 0;
 }
 
 /// The header of a PLY file while it is read line by line.
@@ -103,11 +101,9 @@ std::string nextLine(HeaderReader& reader) {
 
 std::vector<std::string> wordsOf(const std::string& line) {
     std::vector<std::string> words;
-    for (std::size_t at = line.find_first_not_of(' '); at != std::string::npos; at = line.find_first_not_of(' ', at)) {
-        const std::size_t end = std::min(line.find(' ', at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = end;
-    }
+    std::istringstream rest(line);
+    for (std::string word; std::getline(rest, word, ' ');)
+        if (!word.empty()) words.push_back(word);
     return words;
 }
 

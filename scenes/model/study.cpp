@@ -1,7 +1,7 @@
 // The table of all observables of the stability study, and the variants of a scene as overrides of its keys.
 #include "scenes/model/study.h"
 
-#include <algorithm>
+#include <sstream>
 
 namespace scenes {
 
@@ -51,12 +51,10 @@ const ObservableInfo& infoOf(Observable observable) {
 
 Overrides overridesOf(std::string_view variant) {
     Overrides overrides;
-    while (!variant.empty()) {
-        const std::size_t end = variant.find(';');
-        std::string_view assignment = variant.substr(0, end);
-        assignment.remove_prefix(std::min(assignment.find_first_not_of(' '), assignment.size()));
-        if (!assignment.empty()) overrides.emplace_back(std::string(assignment));
-        variant = end == std::string_view::npos ? std::string_view{} : variant.substr(end + 1);
+    std::istringstream assignments{std::string(variant)};
+    for (std::string assignment; std::getline(assignments, assignment, ';');) {
+        assignment.erase(0, assignment.find_first_not_of(' '));
+        if (!assignment.empty()) overrides.emplace_back(assignment);
     }
     return overrides;
 }

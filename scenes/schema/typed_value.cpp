@@ -59,21 +59,10 @@ MaybeValue numberOf(const Subject& subject, const Value& value) {
 MaybeValue choiceOf(const Subject& subject, const Value& value) {
     const std::vector<std::string> choices(subject.key.choices.begin(), subject.key.choices.end());
     if (value.kind != ValueKind::string) return reject(subject, value);
-    if (std::find(choices.begin(), choices.end(), value.string) != choices.end())
-        return TypedValue::ofString(value.string);
+    if (std::ranges::count(choices, value.string) > 0) return TypedValue::ofString(value.string);
     const std::string nearest = nearestName(value.string, choices);
     const std::string hint = nearest.empty() ? "" : fmt::format(", did you mean {}?", tomlString(nearest));
     return reject(subject, value.position, tomlString(value.string), subject.expected + hint);
-}
-
-MaybeValue stringOf(const Subject& subject, const Value& value) {
-    if (value.kind != ValueKind::string) return reject(subject, value);
-    return TypedValue::ofString(value.string);
-}
-
-MaybeValue booleanOf(const Subject& subject, const Value& value) {
-    if (value.kind != ValueKind::boolean) return reject(subject, value);
-    return TypedValue::ofBoolean(value.boolean);
 }
 
 MaybeValue typedOf(const Subject& subject, const Value& value);
@@ -138,9 +127,11 @@ MaybeValue typedOf(const Subject& subject, const Value& value) {
         case Type::integer:
             return numberOf(subject, value);
         case Type::boolean:
-            return booleanOf(subject, value);
+            if (value.kind == ValueKind::boolean) return TypedValue::ofBoolean(value.boolean);
+            break;
         case Type::string:
-            return stringOf(subject, value);
+            if (value.kind == ValueKind::string) return TypedValue::ofString(value.string);
+            break;
         case Type::choice:
             return choiceOf(subject, value);
         case Type::vec3:
@@ -162,7 +153,7 @@ MaybeValue typedOf(const Subject& subject, const Value& value) {
         case Type::colorList:
             return listOf(subject, value, Type::color);
     }
-    return std::nullopt;
+    return reject(subject, value);
 }
 
 }  // namespace

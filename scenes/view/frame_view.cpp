@@ -28,14 +28,12 @@ Vec3 particleColor(const Scene& scene, const engine::Particles& particles, std::
 }
 
 render::Camera cameraOf(const CameraPlacement& placement) {
-    render::Camera camera;
-    camera.projection = placement.projection;
-    camera.eye = toFloat(placement.eye);
-    camera.target = toFloat(placement.target);
-    camera.up = toFloat(placement.up);
-    camera.verticalFov = toFloat(placement.verticalFov);
-    camera.halfHeight = toFloat(placement.halfHeight);
-    return camera;
+    return {.projection = placement.projection,
+            .eye = toFloat(placement.eye),
+            .target = toFloat(placement.target),
+            .up = toFloat(placement.up),
+            .verticalFov = toFloat(placement.verticalFov),
+            .halfHeight = toFloat(placement.halfHeight)};
 }
 
 }  // namespace
@@ -53,8 +51,7 @@ std::string timeText(const Scene& scene, double time) {
 
 render::View frameView(const Scene& scene, const engine::Particles& particles, double time) {
     render::View view = scene.look.common;
-    const CameraPlacement camera = cameraAt(scene.camera, time);
-    view.camera = cameraOf(camera);
+    view.camera = cameraOf(cameraAt(scene.camera, time));
     // The ground fades with the distance from the point below the camera's target.
     if (view.ground) view.ground->center = {view.camera.target.x, view.ground->height, view.camera.target.z};
     if (scene.look.hasTimeStamp) view.overlay.stamp = timeText(scene, time);

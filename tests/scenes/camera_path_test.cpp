@@ -35,7 +35,7 @@ CameraPath randomPath(unsigned seed) {
             *vector = Vec3(uniform(), std::round(2.0 * uniform()), uniform());  // y often repeats
         placement.verticalFov = 0.2 + uniform();
         placement.halfHeight = 1.0 + uniform();
-        path.keys.push_back({time, placement});
+        path.push_back({time, placement});
         time += 0.05 + 2.0 * uniform();
     }
     return path;
@@ -52,7 +52,7 @@ std::vector<double> numbersOf(const scenes::CameraPlacement& camera) {
 
 TEST_CASE("a single camera does not move") {
     const scenes::Scene scene = sceneOf(kBall + "[camera]\neye = [1, 2, 3]\n");
-    REQUIRE(scene.camera.keys.size() == 1);
+    REQUIRE(scene.camera.size() == 1);
     for (const double time : {-1.0, 0.0, 0.7, 1e9}) CHECK(cameraAt(scene.camera, time).eye == Vec3(1.0, 2.0, 3.0));
 }
 
@@ -77,20 +77,19 @@ TEST_CASE("between keys a path follows the published cubic") {
     CHECK(cameraAt(scene.camera, 0.25).eye.z() == Approx(9.0 + 2.0 * 5.0 / 32.0).epsilon(1e-15));
     CHECK(cameraAt(scene.camera, 1.75).eye.z() == Approx(10.0 + 5.0 / 32.0).epsilon(1e-15));
     // A number that does not change keeps its bits.
-    CHECK(cameraAt(scene.camera, 0.3).verticalFov == scene.camera.keys[0].placement.verticalFov);
+    CHECK(cameraAt(scene.camera, 0.3).verticalFov == scene.camera[0].placement.verticalFov);
     CHECK(cameraAt(scene.camera, 0.3).target == Vec3(0.0, 0.0, 0.0));
 }
 
 TEST_CASE("no number leaves the interval between its values at the keys") {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const CameraPath path = randomPath(seed);
-        for (std::size_t key = 0; key + 1 < path.keys.size(); ++key) {
-            const auto from = numbersOf(path.keys[key].placement);
-            const auto to = numbersOf(path.keys[key + 1].placement);
+        for (std::size_t key = 0; key + 1 < path.size(); ++key) {
+            const auto from = numbersOf(path[key].placement);
+            const auto to = numbersOf(path[key + 1].placement);
             for (int part = 0; part <= 50; ++part) {
                 const double share = part / 50.0;
-                const auto now =
-                    numbersOf(cameraAt(path, (1.0 - share) * path.keys[key].time + share * path.keys[key + 1].time));
+                const auto now = numbersOf(cameraAt(path, (1.0 - share) * path[key].time + share * path[key + 1].time));
                 for (std::size_t k = 0; k < now.size(); ++k) {
                     INFO("seed " << seed << ", key " << key << ", number " << k << ", part " << part);
                     CHECK(now[k] >= std::min(from[k], to[k]) - 1e-14);  // rounding of numbers up to 2
@@ -105,12 +104,12 @@ TEST_CASE("the velocity does not jump at a key") {
     constexpr double kShort = 1e-6;
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const CameraPath path = randomPath(seed);
-        for (std::size_t key = 0; key < path.keys.size(); ++key) {
-            const double time = path.keys[key].time;
+        for (std::size_t key = 0; key < path.size(); ++key) {
+            const double time = path[key].time;
             const auto before = numbersOf(cameraAt(path, time - kShort));
             const auto here = numbersOf(cameraAt(path, time));
             const auto after = numbersOf(cameraAt(path, time + kShort));
-            const bool isEnd = key == 0 || key + 1 == path.keys.size();
+            const bool isEnd = key == 0 || key + 1 == path.size();
             for (std::size_t k = 0; k < here.size(); ++k) {
                 INFO("seed " << seed << ", key " << key << ", number " << k);
                 const double arriving = (here[k] - before[k]) / kShort;
@@ -128,14 +127,14 @@ TEST_CASE("a camera inherits from the one before what it leaves out") {
         sceneOf(kBall +
                 "[[camera]]\ntime = 0\nprojection = \"orthographic\"\nhalf_height = 4\ntarget = [0, 1, 0]\n"
                 "[[camera]]\ntime = 1\nhalf_height = 2\n[[camera]]\ntime = 2\neye = [5, 5, 5]\n");
-    REQUIRE(scene.camera.keys.size() == 3);
-    for (const scenes::CameraKey& key : scene.camera.keys) {
+    REQUIRE(scene.camera.size() == 3);
+    for (const scenes::CameraKey& key : scene.camera) {
         CHECK(key.placement.projection == render::Projection::orthographic);
         CHECK(key.placement.target == Vec3(0.0, 1.0, 0.0));
     }
-    CHECK(scene.camera.keys[1].placement.halfHeight == 2.0);
-    CHECK(scene.camera.keys[2].placement.halfHeight == 2.0);
-    CHECK(scene.camera.keys[1].placement.eye == Vec3(0.0, 2.0, 10.0));
+    CHECK(scene.camera[1].placement.halfHeight == 2.0);
+    CHECK(scene.camera[2].placement.halfHeight == 2.0);
+    CHECK(scene.camera[1].placement.eye == Vec3(0.0, 2.0, 10.0));
 }
 
 TEST_CASE("the view at a time has the camera of that time") {
@@ -147,7 +146,7 @@ TEST_CASE("the view at a time has the camera of that time") {
 }
 
 TEST_CASE("overrides refer to the cameras of a path by number") {
-    CHECK(sceneOf(kBall + kPath, {"camera[1].eye=[7, 7, 7]"}).camera.keys.at(1).placement.eye == Vec3(7.0, 7.0, 7.0));
+    CHECK(sceneOf(kBall + kPath, {"camera[1].eye=[7, 7, 7]"}).camera.at(1).placement.eye == Vec3(7.0, 7.0, 7.0));
     CHECK(problemsOf(kBall + kPath, {"camera.fov=20"}) ==
           Lines{"--set camera.fov=20: camera is a list, write camera[0].fov"});
 }

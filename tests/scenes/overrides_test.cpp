@@ -72,7 +72,7 @@ TEST_CASE("overrides of unknown keys are rejected") {
 TEST_CASE("where an override changes the shape, keys of the former shape are ignored") {
     const std::string text = kBall + "[camera]\nprojection = \"orthographic\"\nhalf_height = 3\n";
     CHECK(problemsOf(text, {"camera.projection=perspective"}) == Lines{});
-    CHECK(sceneOf(text, {"camera.projection=perspective"}).camera.keys.at(0).placement.projection ==
+    CHECK(sceneOf(text, {"camera.projection=perspective"}).camera.at(0).placement.projection ==
           render::Projection::perspective);
     CHECK(problemsOf(text, {"camera.projection=perspective", "camera.half_height=2"}) ==
           Lines{"--set camera.half_height=2: half_height does not apply to projection \"perspective\", only to "

@@ -77,7 +77,7 @@ TEST_CASE("no camera of a shipped scene comes close to its target or the ground"
     for (const scenes::LibraryEntry& entry : scenes::listScenes(kScenes)) {
         INFO(entry.name);
         const scenes::Scene scene = scenes::loadScene(entry.path, {});
-        if (scene.camera.keys.size() == 1) continue;
+        if (scene.camera.size() == 1) continue;
         ++paths;
         for (int frame = 0; frame < scenes::frameCount(scene); ++frame) {
             const scenes::CameraPlacement camera = scenes::cameraAt(scene.camera, scenes::frameTime(scene, frame));
@@ -137,7 +137,7 @@ TEST_CASE("the paper's scenes have its gravity, obstacles and particles") {
 
 TEST_CASE("the floor line of figure 3 is the last but one row of its picture, as published") {
     const scenes::Scene scene = paperScene("figure-3");
-    const scenes::CameraPlacement& camera = scene.camera.keys.at(0).placement;
+    const scenes::CameraPlacement& camera = scene.camera.at(0).placement;
     // The row of y = -5, counted from the top: half_height corresponds to half the rows.
     const double row = 0.5 * scene.size.height * (1.0 + (camera.target.y() + 5.0) / camera.halfHeight);
     // Published: row 542 of 543. This picture has one row more, half a row at each edge.

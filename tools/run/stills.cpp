@@ -21,7 +21,7 @@ namespace {
 void trimOverlay(const scenes::Scene& scene, const std::vector<int>& frames, int frame, render::Overlay& overlay) {
     overlay.stamp.clear();
     if (frame != frames.back()) overlay.colorBar.reset();
-    if (frame != frames.front() && scene.camera.keys.size() == 1) overlay.scaleBar.reset();
+    if (frame != frames.front() && scene.camera.size() == 1) overlay.scaleBar.reset();
 }
 
 StillPictures drawAll(const DrawJob& job, const StillSelection& selection) {
