@@ -20,6 +20,28 @@ inline Key key(std::string_view name, Type type, std::string_view unit, std::str
     return {.name = name, .type = type, .unit = unit, .help = help};
 }
 
+/// The key of a point in space.
+inline Key position(std::string_view name, std::string_view help) {
+    return key(name, Type::vec3, "m", help).within(kWithinWorld);
+}
+
+inline Key velocity(std::string_view name, std::string_view help) {
+    return key(name, Type::vec3, "m/s", help).within(kWithinWorld);
+}
+
+inline Key length(std::string_view name, std::string_view help) {
+    return key(name, Type::number, "m", help).within(kPositive);
+}
+
+/// The key of a number from 0 to 1.
+inline Key share(std::string_view name, std::string_view help) {
+    return key(name, Type::number, "", help).within(kUnitInterval);
+}
+
+inline Key color(std::string_view name, std::string_view help) {
+    return key(name, Type::color, "", help).within(kUnitInterval);
+}
+
 std::vector<Key> topKeys();
 std::vector<Key> physicsKeys();
 std::vector<Key> worldKeys();

@@ -16,23 +16,18 @@ std::vector<Key> bodyKeys() {
             .oneOf({"box", "ball", "grid", "points", "file"}),
         key("material", Type::string, "", "name of a [[material]]")
             .derivedAs("the first; for a file, the materials in it"),
-        key("velocity", Type::vec3, "m/s", "velocity of every particle, in addition to those of points and files")
-            .defaultsTo("[0, 0, 0]")
-            .within(kWithinWorld),
-        key("center", Type::vec3, "m", "center of the body")
-            .defaultsTo("[0, 0, 0]")
-            .within(kWithinWorld)
-            .onlyFor({"ball", "grid"}),
-        key("radius", Type::number, "m", "radius of the ball").required().within(kPositive).onlyFor({"ball"}),
-        key("minimum", Type::vec3, "m", kMinimumHelp).required().within(kWithinWorld).onlyFor({"box"}),
-        key("maximum", Type::vec3, "m", kMaximumHelp).required().within(kWithinWorld).onlyFor({"box"}),
+        velocity("velocity", "velocity of every particle, in addition to those of points and files")
+            .defaultsTo("[0, 0, 0]"),
+        position("center", "center of the body").defaultsTo("[0, 0, 0]").onlyFor({"ball", "grid"}),
+        length("radius", "radius of the ball").required().onlyFor({"ball"}),
+        position("minimum", kMinimumHelp).required().onlyFor({"box"}),
+        position("maximum", kMaximumHelp).required().onlyFor({"box"}),
         key("counts", Type::counts, "", "number of particles along x, y and z")
             .required()
             .within({1.0, 1e6})
             .onlyFor({"grid"}),
-        key("spacing", Type::number, "m", "distance of nearest neighbors")
+        length("spacing", "distance of nearest neighbors")
             .derivedAs("two particle radii")
-            .within(kPositive)
             .onlyFor({"box", "ball", "grid"}),
         key("jitter", Type::number, "", "random displacement, as a share of the spacing")
             .defaultsTo("0")
@@ -49,9 +44,8 @@ std::vector<Key> bodyKeys() {
         key("file", Type::string, "", "PLY file as `globular simulate` writes it, relative to the scene file")
             .required()
             .onlyFor({"file"}),
-        key("particle_radius", Type::number, "m", "radius of this body's particles")
-            .derivedAs("of the material; for a file, the radii in it")
-            .within(kPositive),
+        length("particle_radius", "radius of this body's particles")
+            .derivedAs("of the material; for a file, the radii in it"),
         key("particle_mass", Type::number, "kg", "mass of this body's particles")
             .derivedAs("of the material; for a file, the masses in it")
             .within(kPositive),
@@ -63,23 +57,19 @@ std::vector<Key> emitterKeys() {
         key("shape", Type::choice, "", "individual points of emission, or a disc filled with them")
             .defaultsTo("\"point\"")
             .oneOf({"point", "disc"}),
-        key("position", Type::vec3, "m", "point of emission, or center of the disc")
-            .derivedAs("none: this or positions is required")
-            .within(kWithinWorld),
+        position("position", "point of emission, or center of the disc")
+            .derivedAs("none: this or positions is required"),
         key("positions", Type::vec3List, "m", "several points of emission")
             .derivedAs("none: this or position is required")
             .within(kWithinWorld)
             .onlyFor({"point"}),
-        key("velocity", Type::vec3, "m/s", "velocity of emitted particles")
-            .defaultsTo("[0, 0, 0]")
-            .within(kWithinWorld),
+        velocity("velocity", "velocity of emitted particles").defaultsTo("[0, 0, 0]"),
         key("direction", Type::vec3, "", "normal of the disc, of any length")
             .derivedAs("of the velocity")
             .onlyFor({"disc"}),
-        key("radius", Type::number, "m", "radius of the disc").required().within(kPositive).onlyFor({"disc"}),
-        key("spacing", Type::number, "m", "distance of the disc's points of emission")
+        length("radius", "radius of the disc").required().onlyFor({"disc"}),
+        length("spacing", "distance of the disc's points of emission")
             .derivedAs("two particle radii")
-            .within(kPositive)
             .onlyFor({"disc"}),
         key("interval", Type::number, "s",
             "time between emissions of each point, or of the whole emitter if it picks points at random")
@@ -112,30 +102,20 @@ std::vector<Key> obstacleKeys() {
         key("shape", Type::choice, "", "shape of the obstacle; a container is the inside of a box")
             .required()
             .oneOf({"plane", "box", "container", "sphere"}),
-        key("point", Type::vec3, "m", "any point of the plane")
-            .defaultsTo("[0, 0, 0]")
-            .within(kWithinWorld)
-            .onlyFor({"plane"}),
+        position("point", "any point of the plane").defaultsTo("[0, 0, 0]").onlyFor({"plane"}),
         key("normal", Type::vec3, "", "direction away from the solid side, of any length")
             .defaultsTo("[0, 1, 0]")
             .onlyFor({"plane"}),
-        key("minimum", Type::vec3, "m", kMinimumHelp)
-            .derivedAs("from center and size")
-            .within(kWithinWorld)
-            .onlyFor({"box", "container"}),
-        key("maximum", Type::vec3, "m", kMaximumHelp)
-            .derivedAs("from center and size")
-            .within(kWithinWorld)
-            .onlyFor({"box", "container"}),
-        key("center", Type::vec3, "m", "center; required for a sphere")
+        position("minimum", kMinimumHelp).derivedAs("from center and size").onlyFor({"box", "container"}),
+        position("maximum", kMaximumHelp).derivedAs("from center and size").onlyFor({"box", "container"}),
+        position("center", "center; required for a sphere")
             .derivedAs("from minimum and maximum")
-            .within(kWithinWorld)
             .onlyFor({"box", "container", "sphere"}),
         key("size", Type::vec3, "m", "edge lengths")
             .derivedAs("from minimum and maximum")
             .within(kPositive)
             .onlyFor({"box", "container"}),
-        key("radius", Type::number, "m", "radius of the sphere").required().within(kPositive).onlyFor({"sphere"}),
+        length("radius", "radius of the sphere").required().onlyFor({"sphere"}),
         key("repulsor", Type::choice, "",
             "what repels particles: a repulsor below the surface, or, as in the paper, one as large as the sphere")
             .defaultsTo("\"surface\"")
@@ -147,9 +127,8 @@ std::vector<Key> obstacleKeys() {
         key("edges", Type::boolean, "", "whether the edges are drawn as lines")
             .derivedAs("true for a container, false for a box")
             .onlyFor({"box", "container"}),
-        key("color", Type::color, "", "color of the surface, or of the edges of a container")
+        color("color", "color of the surface, or of the edges of a container")
             .derivedAs("gray; for a container look.edge_color")
-            .within(kUnitInterval)
             .onlyFor({"box", "container", "sphere"}),
     };
 }

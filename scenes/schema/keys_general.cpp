@@ -54,12 +54,8 @@ std::vector<Key> physicsKeys() {
 
 std::vector<Key> worldKeys() {
     return {
-        key("minimum", Type::vec3, "m", "corner with the smallest coordinates")
-            .derivedAs("no bound")
-            .within(kWithinWorld),
-        key("maximum", Type::vec3, "m", "corner with the largest coordinates")
-            .derivedAs("no bound")
-            .within(kWithinWorld),
+        position("minimum", "corner with the smallest coordinates").derivedAs("no bound"),
+        position("maximum", "corner with the largest coordinates").derivedAs("no bound"),
     };
 }
 
@@ -73,7 +69,7 @@ std::vector<Key> materialKeys() {
             "row of Table 1 of the paper, or a named substance, that the other keys take their defaults from")
             .defaultsTo("\"liquid\"")
             .oneOf(presets),
-        key("radius", Type::number, "m", "radius of a particle").derivedAs(preset).within(kPositive),
+        length("radius", "radius of a particle").derivedAs(preset),
         key("mass", Type::number, "kg", "mass of a particle").derivedAs(preset).within(kPositive),
         key("b1", Type::number, "N m^4", "strength of repulsion and attraction").derivedAs(preset).within(kNotNegative),
         key("bd", Type::number, "kg/s", "strength of damping: viscosity").derivedAs(preset).within(kNotNegative),
@@ -89,7 +85,7 @@ std::vector<Key> materialKeys() {
         key("core", Type::number, "", "share of the rest length below which the force grows no further")
             .derivedAs(preset)
             .within(kOpenUnitInterval),
-        key("color", Type::color, "", "color of the particles").derivedAs("by preset").within(kUnitInterval),
+        color("color", "color of the particles").derivedAs("by preset"),
     };
 }
 

@@ -9,6 +9,11 @@ namespace {
 /// Range of the color of a light, which may be brighter than 1. The upper bound is chosen to catch typing mistakes.
 constexpr Range kLight{.low = 0.0, .high = 100.0};
 
+/// The key of the color of a light.
+Key light(std::string_view name, std::string_view help) {
+    return key(name, Type::color, "", help).within(kLight);
+}
+
 void append(std::vector<Key>& keys, std::vector<Key> more) {
     for (Key& row : more) keys.push_back(std::move(row));
 }
@@ -35,15 +40,9 @@ std::vector<Key> colorKeys() {
         key("color_range", Type::interval, "m/s or s", "speeds or ages of the first and the last color")
             .derivedAs("[0, 5] for speed, [0, duration] for age")
             .onlyFor({"speed", "age"}),
-        key("background_top", Type::color, "", "background at the upper edge of the picture")
-            .defaultsTo("\"#b4c4d4\"")
-            .within(kUnitInterval),
-        key("background_bottom", Type::color, "", "background at the lower edge of the picture")
-            .defaultsTo("\"#e6ebf0\"")
-            .within(kUnitInterval),
-        key("edge_color", Type::color, "", "color of the edges of boxes and containers")
-            .defaultsTo("[1, 0.9, 0]")
-            .within(kUnitInterval),
+        color("background_top", "background at the upper edge of the picture").defaultsTo("\"#b4c4d4\""),
+        color("background_bottom", "background at the lower edge of the picture").defaultsTo("\"#e6ebf0\""),
+        color("edge_color", "color of the edges of boxes and containers").defaultsTo("[1, 0.9, 0]"),
         key("edge_width", Type::number, "pixels", "width of the edges of boxes and containers, at any quality")
             .defaultsTo("1.5")
             .within({0.0, 64.0, true}),
@@ -54,34 +53,24 @@ std::vector<Key> lightKeys() {
     return {
         key("light_direction", Type::vec3, "", "direction toward the light, of any length")
             .defaultsTo("[0.4, 0.8, 0.45]"),
-        key("light_color", Type::color, "", "color of the light").defaultsTo("[1, 1, 1]").within(kLight),
+        light("light_color", "color of the light").defaultsTo("[1, 1, 1]"),
         key("shadows", Type::boolean, "", "whether the light casts shadows").defaultsTo("true"),
-        key("ambient_sky", Type::color, "", "ambient light from above").defaultsTo("[0.35, 0.35, 0.35]").within(kLight),
-        key("ambient_ground", Type::color, "", "ambient light from below").defaultsTo("[0.2, 0.2, 0.2]").within(kLight),
-        key("specular", Type::number, "", "specular reflectance of the particles at normal incidence; 0 is matte")
-            .defaultsTo("0")
-            .within(kUnitInterval),
+        light("ambient_sky", "ambient light from above").defaultsTo("[0.35, 0.35, 0.35]"),
+        light("ambient_ground", "ambient light from below").defaultsTo("[0.2, 0.2, 0.2]"),
+        share("specular", "specular reflectance of the particles at normal incidence; 0 is matte").defaultsTo("0"),
         key("gloss", Type::integer, "", "sharpness of highlights: their exponent is 2 to the power of this")
             .defaultsTo("6")
             .within({0.0, 10.0}),
-        key("shadow_softness", Type::number, "", "width of the penumbra in particle radii; 0 is sharp")
-            .defaultsTo("0")
-            .within(kUnitInterval),
-        key("occlusion", Type::number, "", "strength of ambient occlusion: how much darker crevices are")
-            .defaultsTo("0")
-            .within(kUnitInterval),
+        share("shadow_softness", "width of the penumbra in particle radii; 0 is sharp").defaultsTo("0"),
+        share("occlusion", "strength of ambient occlusion: how much darker crevices are").defaultsTo("0"),
         key("exposure", Type::number, "",
             "factor of all light before highlights are compressed to below 1; 0 leaves the light as it is")
             .defaultsTo("0")
             .within({0.0, 10.0}),
         key("ground", Type::boolean, "", "whether a horizontal plane is drawn").defaultsTo("false"),
         key("ground_height", Type::number, "m", "height of the drawn plane").defaultsTo("0").within(kWithinWorld),
-        key("ground_color", Type::color, "", "color of the drawn plane")
-            .defaultsTo("[0.6, 0.6, 0.6]")
-            .within(kUnitInterval),
-        key("ground_fade", Type::number, "m", "distance at which the drawn plane has half faded into the background")
-            .defaultsTo("30")
-            .within(kPositive),
+        color("ground_color", "color of the drawn plane").defaultsTo("[0.6, 0.6, 0.6]"),
+        length("ground_fade", "distance at which the drawn plane has half faded into the background").defaultsTo("30"),
         key("metaball_reach", Type::number, "", "radius of a metaball's field in particle radii; larger is smoother")
             .defaultsTo("2.5")
             .within({1.2, 4.0}),
@@ -99,27 +88,15 @@ std::vector<Key> surfaceKeys() {
             "strength of mirror reflections of the surroundings, times the Fresnel term")
             .defaultsTo("0")
             .within({0.0, 4.0}),
-        key("mirror_top", Type::color, "", "reflected color of the surroundings above")
-            .defaultsTo("[0.9, 0.9, 0.9]")
-            .within(kLight),
-        key("mirror_horizon", Type::color, "", "reflected color of the surroundings at the horizon")
-            .defaultsTo("[0.6, 0.6, 0.6]")
-            .within(kLight),
-        key("mirror_bottom", Type::color, "", "reflected color of the surroundings below")
-            .defaultsTo("[0.2, 0.2, 0.2]")
-            .within(kLight),
-        key("metal", Type::number, "", "1: reflections have the color of the particles, and there is no diffuse light")
-            .defaultsTo("0")
-            .within(kUnitInterval),
-        key("roughness", Type::number, "", "1: as bright at the rim as in the middle, like dust")
-            .defaultsTo("0")
-            .within(kUnitInterval),
+        light("mirror_top", "reflected color of the surroundings above").defaultsTo("[0.9, 0.9, 0.9]"),
+        light("mirror_horizon", "reflected color of the surroundings at the horizon").defaultsTo("[0.6, 0.6, 0.6]"),
+        light("mirror_bottom", "reflected color of the surroundings below").defaultsTo("[0.2, 0.2, 0.2]"),
+        share("metal", "1: reflections have the color of the particles, and there is no diffuse light").defaultsTo("0"),
+        share("roughness", "1: as bright at the rim as in the middle, like dust").defaultsTo("0"),
         key("translucency", Type::number, "", "light from behind that shines through thin parts")
             .defaultsTo("0")
             .within({0.0, 4.0}),
-        key("absorption", Type::number, "", "how much more saturated and darker the color of thick parts is")
-            .defaultsTo("0")
-            .within(kUnitInterval),
+        share("absorption", "how much more saturated and darker the color of thick parts is").defaultsTo("0"),
         key("glow", Type::number, "", "strength of the particles' own light, in the square of their color")
             .defaultsTo("0")
             .within(kLight),
@@ -136,19 +113,14 @@ std::vector<Key> cameraKeys() {
         key("projection", Type::choice, "", "perspective, or orthographic without foreshortening")
             .defaultsTo("\"perspective\"")
             .oneOf({"perspective", "orthographic"}),
-        key("eye", Type::vec3, "m", "position of the camera").defaultsTo("[0, 2, 10]").within(kWithinWorld),
-        key("target", Type::vec3, "m", "point in the middle of the picture")
-            .defaultsTo("[0, 0, 0]")
-            .within(kWithinWorld),
+        position("eye", "position of the camera").defaultsTo("[0, 2, 10]"),
+        position("target", "point in the middle of the picture").defaultsTo("[0, 0, 0]"),
         key("up", Type::vec3, "", "direction that is upward in the picture, of any length").defaultsTo("[0, 1, 0]"),
         key("fov", Type::number, "degrees", "full vertical angle of view")
             .defaultsTo("40")
             .within({1.0, 170.0})
             .onlyFor({"perspective"}),
-        key("half_height", Type::number, "m", "half the height of the picture")
-            .defaultsTo("5")
-            .within(kPositive)
-            .onlyFor({"orthographic"}),
+        length("half_height", "half the height of the picture").defaultsTo("5").onlyFor({"orthographic"}),
     };
 }
 
@@ -170,9 +142,7 @@ std::vector<Key> overlayKeys() {
             .defaultsTo("false"),
         key("color_label", Type::string, "", "name of the quantity at the color bar; its unit is added")
             .derivedAs("speed or age"),
-        key("ink", Type::color, "", "color of text and lines")
-            .derivedAs("dark or light, whichever contrasts with the background")
-            .within(kUnitInterval),
+        color("ink", "color of text and lines").derivedAs("dark or light, whichever contrasts with the background"),
         key("size", Type::number, "", "size of the text; 1 is 3 % of the picture's shorter side, at least 11 pixels")
             .defaultsTo("1")
             .within({0.5, 4.0}),
