@@ -15,7 +15,7 @@ struct AccuracySettings {
     int firstFrame = 0;                                           ///< frame at which the window begins
     int frameCount = 15;                                          ///< length of the window, frames
     std::vector<int> stepsPerFrame = {1, 2, 4, 8, 16, 32, 64};    ///< steps per frame of the fixed steppers, rising
-    std::vector<double> errors = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3};  ///< asked of the automatic stepper, radii per second
+    std::vector<double> errors = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3};  ///< errors asked of the automatic stepper, radii/s
     int rounds = 3;                  ///< how often a run is timed; long runs are timed fewer times, short ones more
     double runLimit = 60.0;          ///< wall-clock limit of a run, s; a longer run is given up as too slow
     double referenceBudget = 180.0;  ///< wall-clock limit of all runs of the reference together, s

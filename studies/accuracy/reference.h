@@ -27,10 +27,10 @@ double statisticsDifference(const engine::Particles& particles, const engine::Pa
 /// How the reference run was made and how good it is.
 struct ReferenceFacts {
     Variant variant;                              ///< stepper and step of the reference run
-    ErrorMetric metric = ErrorMetric::positions;  ///< by which all runs are compared with the reference
+    ErrorMetric metric = ErrorMetric::positions;  ///< how all runs are compared with the reference
     double change = 0.0;                          ///< change of the result by the last halving of the step, radii
     double twinSeparation = 0.0;  ///< distance at the end of two runs that began 1e-9 radii apart, radii
-    double resolution = 0.0;      ///< smaller errors cannot be told from the reference's own, radii
+    double resolution = 0.0;      ///< smallest error that can be told from the reference's own, radii
     bool birthsDiffer = false;    ///< whether times of births depend on the step even in the finest runs
     bool settled = false;         ///< whether the last halving changed less than 1/20 of the smallest error
     double seconds = 0.0;         ///< wall-clock time of the finest run of the reference

@@ -30,7 +30,7 @@ Window openWindow(const scenes::Scene& scene, int firstFrame, int frameCount);
 struct Variant {
     engine::StepperKind stepper = engine::StepperKind::velocityVerlet;
     double asked = 0.0;  ///< step, s; for the automatic stepper the wanted error, radii per second of motion
-    std::optional<double> solverTolerance;  ///< of the implicit steppers; nothing: the scene's
+    std::optional<double> solverTolerance;  ///< tolerance of the implicit steppers; nothing: the scene's
     engine::Precision precision = engine::Precision::doubles;
 };
 

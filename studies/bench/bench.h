@@ -40,7 +40,7 @@ struct BenchRow {
 };
 
 struct BenchSettings {
-    std::string filter;  ///< only measurements whose name and material, joined by a space, contain it
+    std::string filter;  ///< text that the name and material of a measurement, joined by a space, must contain
     std::vector<std::size_t> counts = {1000, 2000, 10000, 32000, 100000, 1000000};
     double secondsPerRound = 0.1;
     int rounds = 5;

@@ -42,7 +42,7 @@ std::optional<double> powerLawExponent(const std::vector<PowerLawPoint>& points)
         uu += u * u;
         uv += u * (std::log(point.y) - meanV);
     }
-    constexpr double kRounding = 1e-18;  // chosen: above the square of rounding errors of u, 1e-16
+    constexpr double kRounding = 1e-18;  // chosen: above the square of rounding errors of logarithms, 1e-16
     if (uu <= kRounding) return std::nullopt;
     return uv / uu;
 }

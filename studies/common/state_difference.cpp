@@ -51,7 +51,7 @@ double largestDifference(const BulkStatistics& a, const BulkStatistics& b) {
 }
 
 bool sameBirths(const engine::Particles& a, const engine::Particles& b) {
-    constexpr double kSameTime = 1e-9;  // s; chosen: far above the rounding of a time, far below a step
+    constexpr double kSameTime = 1e-9;  // tolerance of birth times, s; chosen: far above rounding, far below a step
     if (a.count() != b.count()) return false;
     for (std::size_t p = 0; p < a.count(); ++p)
         if (a.material[p] != b.material[p] || std::abs(a.birthTime[p] - b.birthTime[p]) > kSameTime) return false;

@@ -46,7 +46,7 @@ class BallGrid {
     dvec3 low_{0.0};
     double cellSize_ = 1.0;                   ///< side of a cell, m
     std::array<int, 3> cellCounts_{0, 0, 0};  ///< number of cells along each axis
-    std::vector<std::uint32_t> begin_;        ///< where each cell's list begins in lists_, and where the last one ends
+    std::vector<std::uint32_t> begin_;  ///< where the list of each cell begins in lists_, and where the last one ends
     Indices lists_;
 };
 

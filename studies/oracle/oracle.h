@@ -42,7 +42,7 @@ struct Scene {
 
     const render::View& view;
     std::vector<Ball> balls;
-    std::optional<BallGrid> grid;  ///< empty: every ball is tried for every ray
+    std::optional<BallGrid> grid;  ///< grid of the balls; empty: every ball is tried for every ray
     SkyVisibility sky;
 
     /// The indices of all balls that a ray may cross, and perhaps of some that it misses.

@@ -73,7 +73,7 @@ inline bool staysNegative(const Quartic& c) {
 /// All distinct roots of a polynomial in [low, high], ascending. A double root, where the polynomial touches zero
 /// without changing its sign, is found if its computed value is exactly zero there.
 inline std::vector<double> rootsIn(const Quartic& c, double low, double high) {
-    std::array<Quartic, 4> chain{c};  // c and its first three derivatives; the last one is linear, hence monotone
+    std::array<Quartic, 4> chain{c};  // the polynomial and three derivatives, of which the last is linear
     for (std::size_t order = 1; order < chain.size(); ++order) chain[order] = derivative(chain[order - 1]);
     std::vector<double> roots;
     for (std::size_t order = chain.size(); order-- > 0;) {

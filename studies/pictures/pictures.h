@@ -81,7 +81,7 @@ struct PictureRow : PictureSubject {
 };
 
 struct PictureSettings {
-    std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};  ///< at least one number
+    std::vector<std::size_t> particles = {2000, 10000, 50000, 200000};  ///< numbers of particles, at least one
     std::vector<render::PictureSize> sizes = {{1280, 720}, {1920, 1080}};
     int frames = 11;         ///< number of frames that medians are taken of
     int encodedFrames = 20;  ///< number of frames in measurements with encoding

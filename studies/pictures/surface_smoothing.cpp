@@ -50,7 +50,7 @@ constexpr int kPoolVolume = kPoolSide * kPoolSide * kPoolDepth;
 /// A level pool on a jittered lattice with a spacing of 1 m, seen from above. The paper's liquid settles at a spacing
 /// of 0.76 diameters, which gives the radius of 0.658.
 render::View levelPool(const render::View& appearance) {
-    constexpr double kJitter = 0.12;  // chosen: as in dam_break_view.cpp
+    constexpr double kJitter = 0.12;  // lattice spacings; chosen: as in dam_break_view.cpp
     render::View view = appearance;
     view.particles.clear();
     view.ground.reset();

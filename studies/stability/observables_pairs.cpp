@@ -72,7 +72,7 @@ double work(Pair& pair, double from, double to) {
 /// D, relative to U. Near the reach U is a difference of terms as large as the depth of the well, which is b1/(12 D0^3)
 /// for c_r = 2, so the difference is divided by no less than this.
 double lawError(Pair& pair, const engine::Material& material) {
-    constexpr int kPanels = 60;  // chosen: quadrature errs by 1e-15 on the steepest panel
+    constexpr int kPanels = 60;  // of the integral; chosen: the quadrature errs by 1e-15 on the steepest panel
     const double rest = pair.restLength();
     const double core = material.coreFraction * rest;
     const double floor = material.repulsion / (12.0 * rest * rest * rest);

@@ -50,7 +50,7 @@ Simulation continued(const Run& run, StepperKind stepper) {
 /// an unstable step their distance grows exponentially.
 bool isStable(const Simulation& state, double h) {
     constexpr int kSteps = 200;      // number of steps; chosen: finds a mode that grows by 3.5 % a step
-    constexpr double kApart = 1e-9;  // initial distance, radii; chosen: far above rounding
+    constexpr double kApart = 1e-9;  // initial distance of the two runs, radii; chosen: far above rounding
     constexpr double kGrowth = 1000.0;
     Simulation one = state;
     Simulation other = state;

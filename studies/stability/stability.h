@@ -77,7 +77,7 @@ bool paperIsAsExpected(const CaseResult& result);
 struct CaseOptions {
     std::string name;
     std::string path;    ///< path of the scene file
-    bool quick = false;  ///< run the quick variants only
+    bool quick = false;  ///< whether only the quick variants are run
 };
 
 /// Runs all variants of a hard case.
