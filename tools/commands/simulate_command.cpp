@@ -42,10 +42,7 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames,
         }
         sequence.finish();
     }
-    FinishedRun run = sequence.take();
-    run.json = runJson(scene, run);
-    folder.writeReport(run.json);
-    return run;
+    return sequence.take();
 }
 
 void simulate(SimulateOptions options) {

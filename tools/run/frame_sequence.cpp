@@ -114,4 +114,12 @@ void FrameSequence::finish() {
     run_.report.stateHash = engine::stateHash(run_.simulation.particles);
 }
 
+FinishedRun FrameSequence::take() {
+    if (folder_ != nullptr) {
+        run_.json = runJson(scene_, run_);
+        folder_->writeReport(run_.json);
+    }
+    return std::move(run_);
+}
+
 }  // namespace tools

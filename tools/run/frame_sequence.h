@@ -45,9 +45,12 @@ class FrameSequence {
     /// Writes the last checkpoint and completes the report, when all frames are stored.
     void finish();
 
+    /// Writes run.json, if there is a folder, and hands over the results.
+    /// @pre finish() has been called
+    FinishedRun take();
+
     const engine::Simulation& simulation() const { return run_.simulation; }
     RunReport& report() { return run_.report; }
-    FinishedRun take() { return std::move(run_); }
 
  private:
     bool resume();

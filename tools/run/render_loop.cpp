@@ -67,12 +67,7 @@ class RenderRun {
             frames_.finish();
             if (video_ && report().frames > 0) video_->finish();
         }
-        FinishedRun run = frames_.take();
-        if (folder_) {
-            run.json = runJson(*job_.scene, run);
-            folder_->writeReport(run.json);
-        }
-        return run;
+        return frames_.take();
     }
 
  private:
