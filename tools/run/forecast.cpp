@@ -13,7 +13,7 @@ namespace tools {
 namespace {
 
 void recordMemory(Preview& preview) {
-    constexpr std::size_t kFramesInFlight = 4;  // as many as the render loop has in its pipeline
+    constexpr std::size_t kFramesInFlight = 4;  // in the pipeline of the render loop
     const std::size_t count = preview.simulation.particles.count();
     if (count == 0 || count < preview.mostParticles) return;
     preview.mostParticles = count;

@@ -20,10 +20,10 @@ namespace tools {
 /// One frame of a run.
 struct SequencedFrame {
     int number = 0;
-    double time = 0.0;                     ///< seconds
-    bool isWanted = true;                  ///< whether a file of the frame was asked for; if not, it is only simulated
-    bool isKept = false;                   ///< the frame's file exists already; the simulation may be at another frame
-    std::string stateHash;                 ///< hash of the particles; empty if no file is to be written
+    double time = 0.0;      ///< seconds
+    bool isWanted = true;   ///< whether the frame was asked for; if not, it is simulated, but not written
+    bool isKept = false;    ///< the frame's file exists already; the simulation may be at another frame
+    std::string stateHash;  ///< hash of the particles; empty if no file is to be written
     std::vector<std::uint8_t> checkpoint;  ///< encoded checkpoint of this frame; empty if none is due
     Json report;                           ///< what the run has measured so far, for the checkpoint
 };

@@ -44,7 +44,8 @@ std::vector<std::uint8_t> readFile(const fs::path& path) {
     try {
         return scenes::readFile(path.string());
     } catch (const scenes::InputError& error) {
-        // What the program reads this way it has written itself, so that it is not the user's input that is wrong.
+        // The program has written the files that it reads here, so that one that cannot be read is no mistake of the
+        // user.
         throw render::SystemError(error.what());
     }
 }
