@@ -69,7 +69,7 @@ SceneAccuracy measureAccuracy(const std::string& name, const scenes::Scene& scen
                               const RunListener& listener) {
     const Window window = openWindow(scene, settings.firstFrame, settings.frameCount);
     const std::vector<WindowRun> runs = timedRuns(window, settings, listener);
-    const Reference reference = findReference(window, runs, {settings.referenceBudget, listener});
+    const Reference reference = findReference(window, runs, settings.referenceBudget, listener);
 
     SceneAccuracy accuracy;
     accuracy.name = name;

@@ -87,10 +87,10 @@ double smallestError(const Window& window, ErrorMetric metric, const std::vector
 
 /// Runs the window of the scene to its end without a time limit.
 /// @throws engine::InstabilityError
-WindowRun runWhole(const Window& window, const Variant& variant, const ReferenceBudget& budget,
-                   std::string_view purpose) {
+WindowRun runWhole(const Window& window, const Variant& variant, std::string_view purpose,
+                   const RunListener& listener) {
     WindowRun run = runWindow(window, variant, kInfinity);
-    budget.listener(run, purpose);
+    listener(run, purpose);
     if (run.ending != Ending::finished) throw engine::InstabilityError(run.failureMessage);
     return run;
 }
@@ -113,16 +113,17 @@ double difference(const Window& window, ErrorMetric metric, const engine::Partic
     return positionError(a, b, window.start.particles.count()).rms;
 }
 
-Reference findReference(const Window& window, const std::vector<WindowRun>& runs, const ReferenceBudget& budget) {
+Reference findReference(const Window& window, const std::vector<WindowRun>& runs, double budget,
+                        const RunListener& listener) {
     const WindowRun& finest = finestOfBetterStepper(window, runs);
     Window displacedWindow = window;
     displacedWindow.start.particles = displaced(std::move(displacedWindow.start.particles), kTwinDistance);
-    const WindowRun twin = runWhole(displacedWindow, finest.variant, budget, "twin");
+    const WindowRun twin = runWhole(displacedWindow, finest.variant, "twin", listener);
 
     Reference reference;
     ReferenceFacts& facts = reference.facts;
     facts.variant = {finest.variant.stepper, finest.variant.asked / 4.0, kReferenceSolverTolerance};
-    reference.run = runWhole(window, facts.variant, budget, "reference");
+    reference.run = runWhole(window, facts.variant, "reference", listener);
     double spent = reference.run.seconds;
     facts.twinSeparation =
         difference(window, metricFor(twin.particles, finest.particles), twin.particles, finest.particles);
@@ -132,7 +133,7 @@ Reference findReference(const Window& window, const std::vector<WindowRun>& runs
     if (facts.birthsDiffer || facts.twinSeparation > kChaoticShare * smallest) facts.metric = ErrorMetric::statistics;
     do {
         facts.variant.asked /= 2.0;
-        WindowRun halved = runWhole(window, facts.variant, budget, "reference");
+        WindowRun halved = runWhole(window, facts.variant, "reference", listener);
         spent += halved.seconds;
         facts.birthsDiffer = facts.birthsDiffer || !sameBirths(reference.run.particles, halved.particles);
         if (facts.birthsDiffer) facts.metric = ErrorMetric::statistics;
@@ -140,7 +141,7 @@ Reference findReference(const Window& window, const std::vector<WindowRun>& runs
         reference.run = std::move(halved);
         facts.settled =
             facts.change <= kSettledShare * smallestError(window, facts.metric, runs, reference.run.particles);
-    } while (!facts.settled && spent + 2.0 * reference.run.seconds <= budget.seconds);
+    } while (!facts.settled && spent + 2.0 * reference.run.seconds <= budget);
     facts.seconds = reference.run.seconds;
     facts.resolution =
         kResolvedFactor * std::max(facts.change, difference(window, facts.metric, twin.particles, finest.particles));

@@ -44,17 +44,13 @@ struct Reference {
 /// Called after every run with the purpose of the run: "run", "again" (to time it once more), "twin" or "reference".
 using RunListener = std::function<void(const WindowRun&, std::string_view purpose)>;
 
-/// How long the search for the reference may take, and who is told about its runs.
-struct ReferenceBudget {
-    double seconds = 0.0;  ///< wall-clock limit of all reference runs together; at least two are made
-    RunListener listener;
-};
-
 /// Finds the reference run by refining the better of velocity Verlet and implicit damping: the step is halved until the
 /// result changes by no more than a twentieth of the smallest error among the measured runs, or until the budget is
 /// spent.
 /// @param runs  the measured runs of all steppers, those of each stepper in the order of falling steps
+/// @param budget  wall-clock limit of all reference runs together, s; at least two are made
 /// @throws engine::InstabilityError if neither stepper finished two of the runs
-Reference findReference(const Window& window, const std::vector<WindowRun>& runs, const ReferenceBudget& budget);
+Reference findReference(const Window& window, const std::vector<WindowRun>& runs, double budget,
+                        const RunListener& listener);
 
 }  // namespace studies

@@ -39,21 +39,6 @@ void recordFrame(Run& run) {
     run.stepsUntil.push_back(run.end.steps.count);
 }
 
-scenes::Scene atReferenceStep(scenes::Scene scene) {
-    scene.setup.stepper = scene.study->referenceStepper;
-    scene.setup.step = *scene.study->referenceStep;
-    return scene;
-}
-
-/// Computes the observable of a run. If a run that the observable needs becomes unstable, the outcome is a failure.
-void measureInto(Outcome& outcome, const ObservableInput& input) {
-    try {
-        outcome.value = measure(input.scene.study->observable, input);
-    } catch (const engine::InstabilityError& error) {
-        outcome.failure = Failure{input.run.end.time, error.what()};
-    }
-}
-
 /// Runs a scene with its stepper and compares the observable with the limit.
 Outcome outcomeOf(const scenes::Scene& scene, const Run* reference) {
     const Run run = runScene(scene);
@@ -64,14 +49,21 @@ Outcome outcomeOf(const scenes::Scene& scene, const Run* reference) {
     outcome.steps = run.end.steps;
     outcome.particles = run.end.particles.count();
     outcome.seconds = run.seconds;
-    if (!run.failure) measureInto(outcome, {scene, run, reference});
+    try {
+        if (!run.failure) outcome.value = measure(scene.study->observable, {scene, run, reference});
+    } catch (const engine::InstabilityError& error) {
+        // A run that the observable makes itself has become unstable.
+        outcome.failure = Failure{run.end.time, error.what()};
+    }
     outcome.passes = limitRatio(*scene.study, outcome.value) <= 1.0;
     return outcome;
 }
 
 /// Runs the scene at its reference step. A reference that becomes unstable is a fault of the scene file.
-Run referenceRun(const scenes::Scene& scene) {
-    Run run = runScene(atReferenceStep(scene));
+Run referenceRun(scenes::Scene scene) {
+    scene.setup.stepper = scene.study->referenceStepper;
+    scene.setup.step = *scene.study->referenceStep;
+    Run run = runScene(scene);
     if (run.failure)
         throw scenes::InputError(scene.sourceName,
                                  fmt::format("the reference became unstable: {}", run.failure->message));

@@ -301,10 +301,12 @@ TEST_CASE(
     for (const double step : {0.004, 0.002})
         runs.push_back(studies::runWindow(window, {StepperKind::velocityVerlet, step, {}}, 60.0));
     runs.push_back(studies::runWindow(window, {StepperKind::symplecticEuler, 0.002, {}}, 60.0));
-    const studies::ReferenceBudget budget{1.0, [](const studies::WindowRun&, std::string_view) {}};
-    CHECK_FALSE(studies::findReference(window, runs, budget).facts.birthsDiffer);
+    const auto reference = [&] {
+        return studies::findReference(window, runs, 1.0, [](const studies::WindowRun&, std::string_view) {});
+    };
+    CHECK_FALSE(reference().facts.birthsDiffer);
     runs.back().particles.birthTime.back() = 0.01;
-    const studies::Reference coarse = studies::findReference(window, runs, budget);
+    const studies::Reference coarse = reference();
     CHECK_FALSE(coarse.facts.birthsDiffer);
     CHECK(coarse.facts.metric == studies::ErrorMetric::positions);
     const AccuracyRow row = studies::rowOf(window, runs.back(), coarse);
@@ -320,7 +322,7 @@ TEST_CASE(
     CHECK_FALSE(strange.resolved);
 
     runs[1].particles.birthTime.back() = 0.01;
-    const studies::Reference fine = studies::findReference(window, runs, budget);
+    const studies::Reference fine = reference();
     CHECK(fine.facts.birthsDiffer);
     CHECK(fine.facts.metric == studies::ErrorMetric::statistics);
     CHECK(studies::rowOf(window, runs.back(), fine).error > 0.0);
