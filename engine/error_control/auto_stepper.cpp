@@ -1,5 +1,5 @@
-// Estimates errors and costs, chooses, and goes on. Costs are counted in force evaluations, never timed, so that a
-// choice depends on the states alone.
+// The automatic stepper: estimates errors and costs of the candidate steppers and chooses one. Costs are counted in
+// force evaluations, never timed, so that a choice depends only on the states.
 #include "engine/error_control/auto_stepper.h"
 
 #include <algorithm>
@@ -24,40 +24,41 @@ constexpr std::array kCandidates = {StepperKind::velocityVerlet, StepperKind::le
                                     StepperKind::linearlyImplicit};
 static_assert(kRunsOfEstimate == kCandidates.size() + 1);
 
-/// Chosen: every so many error estimates all candidates are compared.
+/// Number of error estimates from one comparison of all candidates to the next. Chosen.
 constexpr std::uint64_t kEstimatesPerComparison = 5;
 
-/// Chosen: an interval in which the acceleration has grown by this factor since the last estimate is run again, with an
-/// estimate.
+/// If the acceleration in an interval is larger by this factor than at the last error estimate, the interval is run
+/// again with an estimate. Chosen.
 constexpr double kSurprisingGrowth = 2.0;
 
-/// Chosen: a step is settled when it would change by less than this factor.
+/// The step of a candidate counts as settled if a new measurement changes it by less than this factor. Chosen.
 constexpr double kSettledRatio = 1.5;
 
-/// Measured on the scenes of `globular study accuracy`: beyond these limits a growth of errors reflects one event, not
-/// the motion as a whole.
+/// Limits on the factor by which errors grow beyond one interval. Measured on the scenes of `globular study accuracy`:
+/// outside these limits the growth is due to a single event, not to the motion as a whole.
 constexpr double kLeastGrowth = 0.5;
 constexpr double kMostGrowth = 16.0;
 
-/// Chosen: trials in a row of a candidate until its step has settled, the first time and later.
+/// Largest number of trial runs in a row until the step of a candidate has settled, at its first measurement and later.
+/// Chosen.
 constexpr int kMostFirstTrials = 6;
 constexpr int kMostTrials = 2;
 
-/// Chosen: a candidate that costs this many times as much as another is not measured any further.
+/// A candidate that costs this many times as much as another candidate is not measured any further. Chosen.
 constexpr double kHopelessCostRatio = 3.0;
 
-/// Chosen: force evaluations that a candidate may take over the interval, at first. The limit is doubled while no
-/// candidate gets through with it.
+/// Number of force evaluations that a candidate may take for the interval in the first round of trials. The number is
+/// doubled until a candidate completes the interval. Chosen.
 constexpr double kFirstEvaluations = 16.0;
 
-/// Chosen: the longest pause that a costly estimate causes, in intervals.
+/// The longest pause after a costly error estimate, in intervals. Chosen.
 constexpr double kLongestCostPause = 64.0;
 
-/// Chosen: the velocity that the implicit steppers' solver may leave out, as a share of the wanted error over the time
-/// for which a wrong velocity counts; small beside the error of the step itself.
+/// Velocity that the implicit steppers' solver may leave out, as a share of the wanted error divided by kErrorHorizon.
+/// Chosen: small compared with the error of the step itself.
 constexpr double kSolverShare = 0.2;
 
-/// Chosen: intervals until the next estimate where a step has not settled, or has only just changed.
+/// Intervals until the next error estimate while the step has not settled or has just changed. Chosen.
 constexpr std::uint64_t kShortPause = 2;
 
 AutoChoice& choiceOf(Simulation& simulation, StepperKind stepper) {
@@ -68,13 +69,13 @@ bool isSettled(double ratio) {
     return std::max(ratio, 1.0 / ratio) < kSettledRatio;
 }
 
-/// Changes the step (s) of a choice, and the cost with it.
+/// Sets the step (s) of a candidate, and its cost at this step, which follows from a trial run.
 void fit(AutoChoice& choice, const Trial& trial, double step, double interval) {
     choice.step = std::clamp(step, kShortestStep, interval);
     choice.cost = costAt(trial, choice.step);
 }
 
-/// Updates a choice by a trial of it.
+/// Sets the step of a candidate to the step at which a trial run predicts the wanted error.
 void choose(AutoChoice& choice, const Trial& trial, double wantedError, double interval) {
     const double wanted = wantedStep(trial, wantedError);
     fit(choice, trial, wanted, interval);
@@ -83,26 +84,27 @@ void choose(AutoChoice& choice, const Trial& trial, double wantedError, double i
                                                              : StepLimit::error;
 }
 
-/// Cost of the cheapest candidate that has been measured, force evaluations per second of motion.
+/// Cost of the cheapest candidate measured so far, in force evaluations per second of motion.
 double cheapestCost(const Simulation& simulation) {
     double least = std::numeric_limits<double>::infinity();
     for (const AutoChoice& choice : simulation.automatic.choices) least = std::min(least, choice.cost);
     return least;
 }
 
-/// Marks a choice as unknown.
+/// Marks the step and the cost of a candidate as unknown.
 void forget(AutoChoice& choice) {
     choice.step = 0.0;
     choice.cost = std::numeric_limits<double>::infinity();
 }
 
-/// Sets how exactly the implicit steppers' solver works. To be called before a candidate runs.
+/// Sets the tolerance of the implicit steppers' solver. To be called before a run with the candidate.
 void setSolverTolerance(Simulation& simulation, const AutoChoice& choice) {
     simulation.cache->toleratedAcceleration = acceptableResidual(simulation) / std::max(1.0, choice.growth);
 }
 
-/// Measures a candidate and updates its choice. Repeats that while the step has to become much shorter, and the first
-/// time until the step has settled; ends early where the candidate costs far more than another one or than it may.
+/// Measures error and cost of a candidate by trial runs and updates its step. Trials are repeated while the step must
+/// become much shorter and, at the candidate's first measurement, until the step has settled. They end early if the
+/// candidate costs far more than another candidate or exceeds the allowed number of force evaluations.
 Trial measureCandidate(Simulation& simulation, double time, StepperKind stepper, double mostEvaluations,
                        Simulation* finer) {
     AutoChoice& choice = choiceOf(simulation, stepper);
@@ -139,7 +141,7 @@ Trial measureCandidate(Simulation& simulation, double time, StepperKind stepper,
     return trial;
 }
 
-/// Index of the cheapest candidate.
+/// Index of the cheapest candidate in kCandidates.
 std::size_t cheapest(Simulation& simulation) {
     const auto best = std::min_element(kCandidates.begin(), kCandidates.end(), [&](StepperKind a, StepperKind b) {
         return choiceOf(simulation, a).cost < choiceOf(simulation, b).cost;
@@ -147,7 +149,7 @@ std::size_t cheapest(Simulation& simulation) {
     return static_cast<std::size_t>(best - kCandidates.begin());
 }
 
-/// Records the error that a trial estimates for the step in use.
+/// Records, for the report, the error that a trial run predicts for the step in use.
 void recordEstimate(AutoState& state, const Trial& trial) {
     const AutoChoice& choice = state.choices[static_cast<std::size_t>(trial.stepper)];
     const double ratio = stepRatioTo(trial, choice.step);
@@ -157,7 +159,7 @@ void recordEstimate(AutoState& state, const Trial& trial) {
     state.largestError = std::max(state.largestError, error);
 }
 
-/// Replaces the simulation by the finer run of a trial; what was learned of the candidates stays.
+/// Replaces the simulation by the finer run of a trial, but keeps what is known of the candidates.
 void continueFrom(Simulation& simulation, Simulation&& finer) {
     StepStatistics steps = simulation.steps;
     steps += finer.steps;
@@ -167,13 +169,13 @@ void continueFrom(Simulation& simulation, Simulation&& finer) {
     simulation.steps = steps;
 }
 
-/// A trial of a candidate, and its finer run, from which the simulation may go on.
+/// The trial of a candidate and the end state of its finer run, from which the simulation may continue.
 struct MeasuredCandidate {
     Trial trial;
     Simulation finer;
 };
 
-/// Adapts a candidate's step to how its errors grow beyond one interval.
+/// Measures how the errors of a candidate grow beyond one interval, and adapts the candidate's step to this growth.
 void applyLongEstimate(Simulation& simulation, double time, const Trial& near) {
     AutoState& state = simulation.automatic;
     const double interval = time - simulation.time;
@@ -185,7 +187,8 @@ void applyLongEstimate(Simulation& simulation, double time, const Trial& near) {
     const double nearError = near.error * errorRatio(near.stepper, ratio);
     if (!(nearError > 0.0)) return;
     const double seen = simulation.setup.error / nearError;
-    // The growth known so far counts as much as the new one: a single collision may happen to fall into this estimate.
+    // The previous growth counts as much as the new one, because a single collision may fall into this estimate by
+    // chance.
     const double likely = std::clamp(seen, kLeastGrowth, kMostGrowth);
     const double growth = choice.followed ? std::sqrt(choice.growth * likely) : likely;
     fit(choice, far.trial, far.step * stepRatio(near.stepper, seen / growth), interval);
@@ -193,10 +196,10 @@ void applyLongEstimate(Simulation& simulation, double time, const Trial& near) {
     choice.followed = true;
 }
 
-/// Estimates how the errors of the cheapest candidate grow beyond one interval, and then of the one that is the
-/// cheapest after that, until the cheapest has been followed in this way: near its limit of stability a stepper may
-/// seem cheap over one interval. Damping of one candidate's errors is taken to damp those of another that has never
-/// been followed, too.
+/// Measures the error growth beyond one interval for the cheapest candidate, and repeats this with the candidate that
+/// is then the cheapest, until the cheapest candidate is one whose growth has been measured. Without this a stepper
+/// near its limit of stability may seem cheap over one interval. If a candidate's errors are found to be damped, the
+/// errors of candidates whose growth was never measured are assumed to be damped, too.
 void followCheapest(Simulation& simulation, double time,
                     const std::array<MeasuredCandidate, kCandidates.size()>& measured) {
     std::array<bool, kCandidates.size()> followed{};
@@ -214,15 +217,16 @@ void followCheapest(Simulation& simulation, double time,
     }
 }
 
-/// Intervals to run before the next estimate: they must cost at least what the estimate did, except after the first.
+/// Number of intervals to run before the next error estimate. Except after the first estimate, they must cost at least
+/// as much as the estimate did.
 std::uint64_t pauseAfter(std::uint64_t estimateCount, bool isSteady, double estimateIntervals) {
     const std::uint64_t pause = isSteady ? std::min(kLongestPause, 2 * estimateCount) : kShortPause;
     if (estimateCount == 1) return pause;
     return std::max(pause, static_cast<std::uint64_t>(std::min(kLongestCostPause, estimateIntervals)));
 }
 
-/// Measures all candidates, the one in use first, and how the errors of the cheapest grow; returns the cheapest one
-/// after that.
+/// Measures all candidates, beginning with the stepper in use, and how the errors of the cheapest candidates grow
+/// beyond the interval. Returns the candidate that is the cheapest in the end.
 MeasuredCandidate compare(Simulation& simulation, double time) {
     AutoState& state = simulation.automatic;
     const double interval = time - simulation.time;
@@ -243,8 +247,8 @@ MeasuredCandidate compare(Simulation& simulation, double time) {
     return std::move(measured[cheapest(simulation)]);
 }
 
-/// Runs the interval up to the given time with an error estimate, chooses the step and, now and then, the stepper, and
-/// goes on from the finer run.
+/// Runs the interval up to the given time (s) with an error estimate, chooses the step and, at every
+/// kEstimatesPerComparison-th estimate, the stepper, and continues from the finer run.
 void estimateAndChoose(Simulation& simulation, double time) {
     AutoState& state = simulation.automatic;
     const double interval = time - simulation.time;
@@ -258,10 +262,11 @@ void estimateAndChoose(Simulation& simulation, double time) {
         measured.trial = measureCandidate(simulation, time, simulation.stepper, kAny, &measured.finer);
     }
     const Trial& trial = measured.trial;
-    state.estimateCost -= forceEvaluationsOf(measured.finer);  // the run goes on from these, so they are no extra cost
+    // The run continues from the finer run, whose cost is therefore not extra.
+    state.estimateCost -= forceEvaluationsOf(measured.finer);
     const AutoChoice& choice = choiceOf(simulation, trial.stepper);
     recordEstimate(state, trial);
-    // One collision that needs a much shorter step must not set the step of many frames.
+    // A single collision that needs a much shorter step must not determine the step of many frames.
     const double knownStep = known[static_cast<std::size_t>(trial.stepper)].step;
     const bool isSteady =
         isSettled(stepRatioTo(trial, choice.step)) && (knownStep == 0.0 || isSettled(choice.step / knownStep));
@@ -282,21 +287,22 @@ double rmsAccelerationSince(const Simulation& simulation, const SavedState& befo
     return std::sqrt(sumSq / static_cast<double>(count)) / duration;
 }
 
-/// Smallest radius of the particles, of which there is at least one, m.
+/// Smallest radius of the particles, m. There must be at least one particle.
 double smallestRadius(const Particles& particles) {
     return *std::min_element(particles.radius.begin(), particles.radius.end());
 }
 
-/// Whether the motion has changed since the last estimate, for example by an impact.
+/// Whether the motion since a saved state differs much from the motion at the last error estimate, for example after an
+/// impact.
 bool hasMotionChanged(const Simulation& simulation, const SavedState& before) {
-    // Changes of velocity below the wanted error do not matter.
+    // Accelerations too small to cause the wanted error do not count.
     const double least =
         simulation.setup.error * smallestRadius(simulation.particles) / (simulation.time - before.time);
     return rmsAccelerationSince(simulation, before) >
            kSurprisingGrowth * std::max(simulation.automatic.rmsAcceleration, least);
 }
 
-/// Whether the numbers of a choice are possible; NaNs are not.
+/// Whether the stored step, cost and growth of a candidate are possible values; NaNs are not.
 bool isChoice(const AutoChoice& choice) {
     const bool isUnknown = choice.step == 0.0;
     return (isUnknown || choice.step >= kShortestStep) && std::isfinite(choice.step) && choice.cost >= 0.0 &&

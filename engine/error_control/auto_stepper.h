@@ -1,30 +1,31 @@
-// The automatic stepper. Now and then it measures the error and the cost of each candidate on the next interval,
-// estimates how the errors of the cheapest grow beyond it, and goes on with the cheapest one after that, at the step
-// that just meets the wanted error. Called by advance().
+// The automatic stepper. From time to time it measures the error and the cost of each candidate stepper over the next
+// interval, and estimates how the errors of the cheapest candidates grow beyond the interval. It then continues with
+// the candidate that costs least at a step that just meets the wanted error. Called by advance().
 #pragma once
 
 #include "engine/state/simulation.h"
 
 namespace engine {
 
-/// Chosen: intervals from one error estimate to the next, at most. An estimate of the stepper in use costs two
-/// intervals more than none, a comparison of all candidates some dozens, or a hundred where the errors of two of them
-/// are followed. Estimates are close together at the start and spread out to this many intervals.
+/// Largest number of intervals from one error estimate to the next; at the start of a run estimates are closer
+/// together. Chosen by cost: to estimate the error of the stepper in use costs as much as two intervals, and to compare
+/// all candidates as much as some dozens, or a hundred if the error growth of two candidates is measured.
 inline constexpr std::uint64_t kLongestPause = 16;
 
-/// Simulations that an estimate holds at most beside the one it begins from: the finer run of each candidate, and the
-/// one that runs.
+/// Largest number of copies of the simulation that an error estimate holds in memory at the same time: one finer run
+/// for each candidate, and the run in progress.
 inline constexpr std::size_t kRunsOfEstimate = 5;
 
-/// Brings the simulation to the given time (s); one call is one interval, for example a frame. The choices depend on
-/// the states alone, never on a clock.
+/// Advances the simulation to the given time (s) by one interval, for example a frame, with the automatic stepper. Its
+/// choices depend only on the states, never on a clock.
 void advanceAutomatically(Simulation& simulation, double time);
 
-/// RMS over the mass of the acceleration that the implicit candidates' solver may leave out at the wanted error where
-/// errors do not grow, m/s^2.
+/// Tolerance of the implicit steppers' solver for the wanted error, as the mass-weighted RMS of the acceleration that
+/// the solver may leave out, m/s^2. Where errors grow beyond the interval, the automatic stepper lowers it.
 double acceptableResidual(const Simulation& simulation);
 
-/// Whether a run can have led to this state of the automatic stepper with this candidate in use.
+/// Whether a run can have led to this state of the automatic stepper and to this stepper in use. Checked for states
+/// that come from a file.
 bool isReachable(const AutoState& state, StepperKind inUse);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// The loop of emission, a step and a verdict on it.
+// The loop of audited steps: emit particles, take a step, and accept or reject the step.
 #include "engine/error_control/checked_steps.h"
 
 #include <algorithm>
@@ -15,13 +15,14 @@
 namespace engine {
 namespace {
 
-/// Chosen: accepted steps in a row before a longer one is tried again.
+/// Number of accepted steps after which a restricted step is doubled. Chosen.
 constexpr std::uint32_t kAcceptedBeforeLonger = 8;
 
-/// Chosen: how many steps a run can go back. An accepted step may lead to a state from which no step is accepted.
+/// Number of steps that can be taken back. More than one is needed, because an accepted step may lead to a state from
+/// which no step is accepted. Chosen.
 constexpr std::size_t kHistory = 4;
 
-/// Computes the energy of the present state, and the forces with it.
+/// Computes and records the energy and the forces of the present state.
 void establishEnergy(Simulation& simulation) {
     requireValid(simulation, 0.0);
     Particles& particles = simulation.particles;
@@ -32,16 +33,17 @@ void establishEnergy(Simulation& simulation) {
     recordEnergy(simulation, pairEnergy);
 }
 
-/// The implicit steppers know the energy in the middle of a step only. The state at the end of an interval is seen by
-/// others and never taken back, so the last step is also judged by the energy at its end.
+/// Computes the energy after the last step of an interval where the stepper does not. The implicit steppers know the
+/// energy in the middle of a step only, but the state at the end of an interval is used outside and never taken back,
+/// so the last step is also audited by the energy at its end.
 void checkIntervalEnd(Simulation& simulation) {
     if (isVerlet(simulation.stepper) || std::isnan(*simulation.cache->energy)) return;
     if (!isValid(simulation.particles)) return markInvalid(simulation);
     establishEnergy(simulation);
 }
 
-/// The time at which the next step must end at the latest, s: the one that was asked for, or the next emission before
-/// it, as otherwise a new particle would act on the others only from the start of the following step.
+/// The latest time at which the next step must end, s: the requested time, or an emission before it. A step across an
+/// emission would leave the new particle without forces until the start of the next step.
 double nextStop(const Simulation& simulation, double time) {
     double stop = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
@@ -49,7 +51,7 @@ double nextStop(const Simulation& simulation, double time) {
     return stop < time - kSameMoment ? stop : time;
 }
 
-/// The states before the last few steps, the latest at the end.
+/// The saved states before the last few steps, with the latest at the end.
 class History {
  public:
     void add(const Simulation& simulation) {
@@ -60,7 +62,7 @@ class History {
 
     const SavedState& latest() const { return states_.back(); }
 
-    /// Restores the latest state, or the one before it where the latest has just been tried.
+    /// Restores the latest saved state or, if `further`, the state before that.
     void goBack(Simulation& simulation, bool further) {
         if (further && states_.size() > 1) states_.pop_back();
         restore(simulation, states_.back());
@@ -92,7 +94,7 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         if (count == 1.0 && stop == time) checkIntervalEnd(simulation);
         if (const auto rejection = rejectionReason(simulation, history.latest())) {
             if (h < kShortestStep) reportInstability(simulation, h);
-            // Two rejections in a row are evidence against the step that led here.
+            // Two rejections in a row suggest that the previous step, although accepted, was bad.
             history.goBack(simulation, ++rejectedInRow % 2 == 0);
             ++simulation.steps.rejected;
             restriction = {0.5 * h, *rejection, 0};

@@ -1,4 +1,4 @@
-// Runs the same interval twice from one state and compares the ends.
+// The error estimate: runs the same interval twice from one state and compares the end states.
 #include "engine/error_control/error_estimate.h"
 
 #include <algorithm>
@@ -13,31 +13,32 @@
 namespace engine {
 namespace {
 
-/// Chosen: the least share of the first run's error by which the two runs are taken to differ. Their steps can differ
-/// by less than they were asked to where the audit has shortened both.
+/// Smallest value that is assumed for 1 - (h'/h)^p, the difference of the two runs over the error of the first. The
+/// ratio h'/h of their mean steps is near 1 where the audit has shortened the steps of both. Chosen.
 constexpr double kLeastContrast = 0.3;
 
-/// Chosen: the largest factor by which one measurement changes a step. Further away the error no longer goes like a
-/// power of the step.
+/// Largest factor by which one measurement changes a step. Chosen: for larger changes the error no longer behaves like
+/// a power of the step.
 constexpr double kMostChange = 3.0;
 
-/// Runs the simulation to the end of the trial in steps no longer than `step` (s); returns whether it got there.
+/// Runs the simulation to the end of the trial in steps no longer than `step` (s); returns whether it reached the end.
 bool run(Simulation& simulation, const TrialRun& trialRun, double step, double mostEvaluations) {
     if (simulation.stepper != trialRun.stepper) {
         simulation.stepper = trialRun.stepper;
-        simulation.cache->energy.reset();  // steppers know it at different moments of a step
+        simulation.cache->energy.reset();  // steppers know the energy at different moments of a step
         simulation.restriction = {};
     }
     simulation.steps = {};
     if (trialRun.stepper != StepperKind::symplecticEuler)
         return advanceChecked(simulation, trialRun.time, step, StepLimit::error, mostEvaluations);
     simulation.setup.step = step;
-    // Unlike advance(), this removes no particles: the two runs are compared particle by particle.
+    // Unlike advance(), this function removes no particles, because the two runs are compared particle by particle.
     advanceInEqualSteps(simulation, trialRun.time);
     return true;
 }
 
-/// RMS of dx + T dv over the particles that were there at the start, in radii; T is the horizon, s.
+/// RMS of dx + T dv over the first `count` particles, in radii, where dx and dv are the differences of positions and
+/// velocities and T is the horizon (s).
 double difference(const Particles& a, const Particles& b, std::size_t count, double horizon) {
     double sumSq = 0.0;
     for (std::size_t p = 0; p < count; ++p) {
@@ -66,7 +67,7 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
     if (trial.restricted) trial.reason = there.restriction.reason;
     const Particles coarse = std::move(there.particles);
     there = simulation;
-    // Half the steps that the first run took, which the audit and emissions may have shortened.
+    // The second run takes half the mean step of the first run, whose steps the audit and emissions may have shortened.
     run(there, trialRun, 0.5 * trial.step, std::numeric_limits<double>::infinity());
     const double contrast = std::max(kLeastContrast, 1.0 - errorRatio(trialRun.stepper, meanStep() / trial.step));
     const std::size_t count = simulation.particles.count();
@@ -74,13 +75,14 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
     trial.spent += forceEvaluationsOf(there);
     if (finer == nullptr) return trial;
     *finer = std::move(there);
-    finer->cache->implicit = {};  // its memory is large, and several may be kept
+    finer->cache->implicit = {};  // the matrix is large, and several runs may be kept
     return trial;
 }
 
 double wantedStep(const Trial& trial, double wanted) {
     const double change = trial.error > 0.0 ? stepRatio(trial.stepper, wanted / trial.error) : kMostChange;
-    // Steps that the audit kept from growing will not grow for a larger error either; those that emissions ended may.
+    // If the audit has limited the steps, a larger wanted error does not allow longer ones; if only emissions have, it
+    // does.
     if (trial.restricted || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
     return trial.asked * std::min(change, kMostChange);
 }

@@ -1,4 +1,4 @@
-// At most two trials over many intervals, and interpolation between them.
+// The error estimate over many intervals: at most two trial runs, and interpolation between their results.
 #include "engine/error_control/long_error_estimate.h"
 
 #include <algorithm>
@@ -9,21 +9,21 @@
 namespace engine {
 namespace {
 
-/// Chosen: factors by which a step may change without a second trial. Near a stepper's limit of stability twice the
-/// step has been seen to err fifty times as much (`study accuracy solid`, velocity Verlet at 1/480 and 1/240 s).
+/// Factors by which a step may change without a second trial run. Chosen: near a stepper's limit of stability, twice
+/// the step was seen to cause fifty times the error (`study accuracy solid`, velocity Verlet at 1/480 and 1/240 s).
 constexpr double kSafeLess = 1.0 / 1.5;
 constexpr double kSafeMore = 1.15;
 
-/// Chosen: intervals that a trial covers at most; its two runs cost three or six times as many. Where frames are close
-/// together the trial covers less time.
+/// Largest number of intervals in a trial run. With short intervals a trial therefore covers less time. Chosen: the two
+/// runs of a trial together cost three to six times as much as the intervals that they cover.
 constexpr double kMostIntervals = 12.0;
 
-/// Chosen: a longer step is worth a second trial from this factor on.
+/// A longer step is tried only if it is longer by at least this factor. Chosen.
 constexpr double kWorthMore = 1.4;
 
-/// The step at which log-log interpolation between two trials, one with a smaller and one with a larger error, gives
-/// the wanted error. Found by bisection, because a library's logarithms differ in their last bits from machine to
-/// machine.
+/// The step at which log-log interpolation between two trials, one with a smaller and one with a larger error than
+/// wanted, gives the wanted error. It is found by bisection, because the logarithms of a library differ in their last
+/// bits from machine to machine.
 double interpolatedStep(const Trial& less, const Trial& more, double wanted) {
     constexpr int kHalvings = 40;
     struct Point {
@@ -45,7 +45,7 @@ LongEstimate estimateLongError(const Simulation& simulation, StepperKind stepper
     const double intervalCount = std::min(kMostIntervals, stepCount(kLongEstimateSeconds, interval));
     LongEstimate estimate;
     const auto measureAt = [&](double asked) {
-        // The horizon is 0: what a wrong velocity leads to happens within the trial.
+        // The horizon is 0, because a trial is long enough to show what an error in a velocity leads to.
         const Trial trial = measure(simulation, {simulation.time + intervalCount * interval, stepper, asked, 0.0});
         estimate.spent += trial.spent;
         estimate.step = std::min(wantedStep(trial, wanted), interval);
@@ -65,7 +65,7 @@ LongEstimate estimateLongError(const Simulation& simulation, StepperKind stepper
     if (less.error > 0.0 && less.error <= wanted && more.error > wanted)
         estimate.step = interpolatedStep(less, more, wanted);
     else if (second.error <= wanted || second.error > kWasted * first.error)
-        estimate.step = next;  // a longer step was not tried, or a shorter one does not help
+        estimate.step = next;  // a longer step passed the trial, or a shorter step does not help
     return estimate;
 }
 

@@ -1,25 +1,28 @@
-// How errors develop beyond one interval, by damping or by collisions: finds the step that meets the wanted error where
-// an estimate over one interval would miss it. Called by the automatic stepper when it has compared its candidates.
+// Error estimate over several intervals. Beyond one interval errors shrink by damping or grow by collisions, so the
+// step that meets the wanted error may differ from the step that an estimate over one interval gives. Called by the
+// automatic stepper after it has compared its candidates.
 #pragma once
 
 #include "engine/error_control/error_estimate.h"
 
 namespace engine {
 
-/// Length of the trials, s. Chosen: as long as an impact takes, and short enough that collisions after it do not
-/// multiply its errors.
+/// Duration of the trial runs, s. Chosen: as long as an impact takes, and short enough that later collisions do not
+/// multiply the errors of the impact.
 inline constexpr double kLongEstimateSeconds = 0.2;
 
 struct LongEstimate {
-    double step = 0.0;   ///< at which the error is the wanted one, as far as the trials show, s
-    double spent = 0.0;  ///< force evaluations
-    Trial trial;         ///< the last one; over many intervals its cost is seldom that of a single event
+    double step = 0.0;   ///< step at which the error is the wanted error, as far as the trials show, s
+    double spent = 0.0;  ///< force evaluations of all trials
+    Trial trial;         ///< the last trial run
 };
 
-/// Finds the step at which a stepper's error over kLongEstimateSeconds, in whole intervals (s) and at most twelve, is
-/// the set-up's. Begins at the step (s), at most one interval, that meets the error over one interval; a much different
-/// step gets a trial, too.
-/// @throws InstabilityError
+/// Finds the step at which a stepper's error over kLongEstimateSeconds, rounded up to whole intervals and at most
+/// twelve, is the error that the setup asks for. The first trial runs with the given step; if the result is a much
+/// different step, a second trial runs with that.
+/// @param step      step that meets the wanted error over one interval, s
+/// @param interval  length of an interval, s
+/// @throws InstabilityError if a run becomes unstable
 LongEstimate estimateLongError(const Simulation& simulation, StepperKind stepper, double step, double interval);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Counts of the run's statistics, times weights.
+// Computes the cost of steps from the counts in a run's statistics, times measured weights.
 #include "engine/error_control/step_cost.h"
 
 #include <algorithm>
@@ -6,11 +6,11 @@
 namespace engine {
 namespace {
 
-/// Measured: the seconds of steps of liquid, solid, oil, splash and honey against their counts in `globular study
-/// accuracy`.
+/// Costs of an implicit step in scenes without friction. Measured: the times of steps in the scenes liquid, solid, oil,
+/// splash and honey, compared with their counts, in `globular study accuracy`.
 constexpr ImplicitCosts kWithoutFriction{.matrix = 1.0, .product = 0.15};
 
-/// Measured in the same way on lava and mud.
+/// Costs of an implicit step in scenes with friction. Measured in `globular study accuracy` on the scenes lava and mud.
 constexpr ImplicitCosts kWithFriction{.matrix = 0.8, .product = 0.13};
 
 }  // namespace

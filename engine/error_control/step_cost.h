@@ -1,5 +1,5 @@
-// The cost of steps, counted instead of timed: it is the same on every machine, so that choices may depend on it. The unit is
-// one force evaluation, a pass over all pairs.
+// The cost of time steps. It is counted instead of timed, so that it is the same on every machine and choices may
+// depend on it. The unit is one force evaluation, which is a pass over all pairs of particles.
 #pragma once
 
 #include "engine/state/simulation.h"
@@ -12,7 +12,8 @@ struct ImplicitCosts {
     double product = 0.0;
 };
 
-/// Depends on friction, which makes a force evaluation more expensive but not a product.
+/// The costs of an implicit step for the materials of a setup. Friction makes a force evaluation more expensive but not
+/// a product, so both costs are lower with friction.
 ImplicitCosts implicitCosts(const Setup& setup);
 
 /// Cost of the simulation's steps so far, in force evaluations.
