@@ -1,4 +1,4 @@
-// Table 1 of the paper, the substances that it names, and the symmetric mixture of two materials.
+// The material presets, and the symmetric mixture of two materials.
 #include "engine/law/material.h"
 
 #include <algorithm>
@@ -8,11 +8,10 @@
 namespace engine {
 
 /// Table 1, row by row, with the published masses of 1 kg; then the substances that the paper names without constants.
-/// The substances were chosen by their appearance at g = 9.81 m/s^2: b_d over the mass sets the viscosity,
-/// b1 / (D0^4 m g) how far a pile is compressed by its own weight (at 5 to 10 it levels like a liquid, at 20 it keeps
-/// the slope of a crystal), c_r the cohesion; c_r stays below 1.8, above which matter collapses under its own
-/// attraction.
-/// Columns: name, radius, mass, b1, b_d, c_r, c_d and, where there is friction, mu.
+/// The substances were chosen by their appearance at g = 9.81 m/s^2: b_d over the mass sets the viscosity, b1 / (D0^4 m
+/// g) how far a pile is compressed by its own weight (at 5 to 10 it levels like a liquid, at 20 it keeps the slope of a
+/// crystal), and c_r the cohesion. c_r stays below 1.8, above which matter collapses under its own attraction. Columns:
+/// name, radius, mass, b1, b_d, c_r, c_d and, where there is friction, mu.
 std::span<const Material> materialPresets() {
     static const std::array<Material, 11> presets = {{
         {"liquid", 0.15, 1.0, 0.01, 1.0, 1.0, 2.0},

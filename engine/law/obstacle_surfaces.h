@@ -1,6 +1,6 @@
-// Obstacles as surfaces: to a particle, each face of an obstacle is a signed distance, a normal and a repulsor behind
-// it. One contact law then serves all shapes. It acts as a force here and in forces/external_forces.cpp, as in section
-// 3.2 of the paper, and along the path of fast particles in stepping/swept_contact.cpp.
+// The faces of obstacles as seen from a particle: a signed distance, a normal and a repulsor behind the face, so that
+// one contact law serves all shapes. The law is applied as a force here and in forces/external_forces.cpp, as in
+// section 3.2 of the paper, and along the path of fast particles in stepping/swept_contact.cpp.
 #pragma once
 
 #include <cmath>
@@ -21,8 +21,8 @@ struct Surface {
     double curvature = 0.0;                                          ///< 1/radius of a solid sphere, otherwise 0; 1/m
 };
 
-// forEachSurface(shape, point, repulsorRadius, visit) calls visit(Surface) for each face of a shape that can act on a
-// particle at a point (m), whatever its distance.
+// The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
+// can act on a particle at the point (m), at any distance.
 
 template <class Visit>
 void forEachSurface(const Plane& plane, const Vec3& point, double repulsorRadius, const Visit& visit) {
@@ -75,11 +75,11 @@ void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& 
         std::visit([&](const auto& shape) { forEachSurface(shape, point, obstacles.law.radius, visit); }, obstacle);
 }
 
-/// Whether a shape may have a surface nearer than a reach (m). A cheap test, without a square root or a normal, for the
-/// many obstacles that are far away.
+/// Whether a shape may have a surface within a distance `reach` (m) of a point. A cheap test, without a square root or
+/// a normal, that excludes the many obstacles that are far away.
 template <class Shape>
 bool mayReach(const Shape& shape, const Vec3& point, double reach) {
-    constexpr double kSlack = 1.0 + 1e-9;  // chosen: far above the sum of the roundings
+    constexpr double kSlack = 1.0 + 1e-9;  // chosen: far above the sum of all rounding errors
     if constexpr (std::is_same_v<Shape, Sphere>) {
         const double within = shape.radius + reach;
         return squaredLength(point - shape.center) < kSlack * within * within;
@@ -107,11 +107,12 @@ void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius
             obstacle);
 }
 
-/// A particle and a surface that it touches, as a pair: the repulsor lies repulsorRadius behind the surface.
+/// The contact of a particle and a surface, treated as a pair of particles: the particle and the repulsor, which lies
+/// repulsorRadius behind the surface.
 struct Contact {
     PairConstants<double> constants = {};
-    double distance = 0.0;    ///< from the particle to the repulsor, at least the core distance, m
-    double beyondCore = 0.0;  ///< how much deeper than the core distance the particle is, m
+    double distance = 0.0;    ///< distance to the repulsor, at least the core distance, m
+    double beyondCore = 0.0;  ///< how much closer than the core distance it is, m
 };
 
 inline Contact contactWith(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
@@ -125,29 +126,30 @@ inline Contact contactWith(const Surface& surface, const RepulsorLaw& law, const
     return contact;
 }
 
-/// Force along the normal on a particle with this normal speed (m/s), in newtons. A particle deeper than the core
-/// distance feels the force at the core: it can only be pushed out on the near side.
+/// Force of a contact along the surface's normal on a particle with this normal speed (m/s), in newtons. On a particle
+/// closer to the repulsor than the core distance acts the force at the core distance, so that it can only be pushed out
+/// on the side of the surface.
 inline double normalForce(const Contact& contact, double normalSpeed) {
     return repulsorForce(contact.distance, normalSpeed, contact.constants);
 }
 
-/// Energy of the contact's conservative part, in joules.
+/// Energy of the conservative part of a contact's force, in joules.
 inline double contactEnergy(const Contact& contact) {
     return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
 }
 
-/// Energy of a particle at this surface, in joules; 0 where it does not touch the surface.
+/// Energy of a particle at a surface of an obstacle, in joules; 0 where the particle does not touch the surface.
 inline double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
     return surface.height >= probe.radius ? 0.0 : contactEnergy(contactWith(surface, law, probe));
 }
 
-/// The part of a velocity (m/s) along a surface of this normal.
+/// The tangential part of a velocity (m/s) at a surface with this normal.
 inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
     return velocity - dot(velocity, normal) * normal;
 }
 
-/// Adds the contact's force on the particle, in newtons, friction included. Forced inline: a call takes half of its
-/// time.
+/// Adds the force of a contact on the particle, in newtons, friction included. Forced inline, because a function call
+/// would take half of the time.
 [[gnu::always_inline]] inline void addForce(const Surface& surface, const Contact& contact, const Probe& probe,
                                             Vec3& force) {
     force += normalForce(contact, dot(probe.velocity, surface.normal)) * surface.normal;
@@ -156,13 +158,13 @@ inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
     force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
 }
 
-/// Damping of the normal motion, in kg/s.
+/// Damping of a contact along the surface's normal, in kg/s.
 inline double dampingAlong(const Contact& contact) {
     const double distanceSq = contact.distance * contact.distance;
     return pairDampingOverSq(distanceSq, contact.constants) * distanceSq;
 }
 
-/// Stiffness of the normal motion, in N/m; 0 deeper than the core, where the force is constant.
+/// Stiffness of a contact along the surface's normal, in N/m; 0 inside the core distance, where the force is constant.
 inline double stiffnessAlong(const Contact& contact) {
     return contact.beyondCore > 0.0 ? 0.0 : std::max(0.0, pairStiffness(contact.distance, contact.constants));
 }

@@ -1,4 +1,4 @@
-// Obstacles as forces, as the paper has them, and the energy that goes with these forces.
+// The forces of obstacles on a particle, as in the paper, and the energy of these forces.
 #include "engine/law/obstacles.h"
 
 #include "engine/core/parallel.h"

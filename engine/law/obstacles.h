@@ -1,6 +1,6 @@
 // Fixed obstacles (section 3.2 of the paper). A particle that touches one is repelled by a repulsor: a particle at rest
-// behind the closest point of the surface, which acts on that particle alone. Shapes are plain data; what they are to a
-// particle is in obstacle_surfaces.h.
+// behind the closest point of the surface, which acts on that particle alone. The shapes here are plain data;
+// obstacle_surfaces.h computes their distance from a particle.
 #pragma once
 
 #include <cstddef>
@@ -33,17 +33,17 @@ struct Box {
 struct Sphere {
     Vec3 center = Vec3::Zero();    ///< m
     double radius = 0.5;           ///< m
-    bool literalRepulsor = false;  ///< the repulsor has the sphere's own radius and center, as in the paper
+    bool literalRepulsor = false;  ///< repulsor with the sphere's radius and center, as in the paper
 };
 
 using Obstacle = std::variant<Plane, Container, Box, Sphere>;
 
-/// The constants of the repulsors (section 3.2), the same for all obstacles.
+/// The constants of the force between particles and repulsors (section 3.2 of the paper), the same for all obstacles.
 struct RepulsorLaw {
     double radius = 0.5;         ///< m
     double repulsion = 10.0;     ///< b1, N m^4
-    double dampingFactor = 5.0;  ///< b_d = this times the c_d of the particle's material, kg/s
-    double coreFraction = 0.25;  ///< core distance over rest length, see Material::coreFraction
+    double dampingFactor = 5.0;  ///< b_d over the c_d of the particle's material, kg/s
+    double coreFraction = 0.25;  ///< core distance over rest length
 };
 
 struct Obstacles {
@@ -51,16 +51,16 @@ struct Obstacles {
     RepulsorLaw law;
 };
 
-/// Particles that a thread is given at a time in loops over the contacts of each particle.
+/// Number of particles that a thread processes at a time in loops over the contacts of each particle.
 std::size_t contactGrain(const Obstacles& obstacles);
 
-/// A particle as obstacles need it.
+/// The quantities of a particle on which its contacts with obstacles depend.
 struct Probe {
     Vec3 position = Vec3::Zero();  ///< m
     Vec3 velocity = Vec3::Zero();  ///< m/s
     double radius = 0.15;          ///< m
-    double dampingReach = 1.0;     ///< c_d of its material
-    double friction = 0.0;         ///< mu of its material
+    double dampingReach = 1.0;     ///< damping reach c_d of the particle's material, in rest lengths
+    double friction = 0.0;         ///< friction coefficient mu of the particle's material
 };
 
 /// Force of the obstacles on a particle, and the particle's energy at them.
@@ -69,8 +69,8 @@ struct ContactSums {
     double energy = 0.0;        ///< energy of the conservative part of the force, J
 };
 
-/// Sums over all obstacles that a particle touches; zero where it touches none. Planes push along their normal however
-/// deep the particle is. Source: section 3.2.
+/// Sums force and energy over all obstacles that a particle touches; zero where it touches none. Planes push along
+/// their normal however deep the particle is. Source: section 3.2.
 ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe);
 
 }  // namespace engine

@@ -11,11 +11,12 @@
 // because s_r b1/D^5 (1 - D^2/D0^2) = b1/D (1/D^2)(1 - D^2/R^2)(1/D^2)(1 - D^2/D0^2). Rounding keeps the order of
 // quotients: at and beyond the cutoff both terms are exactly zero.
 //
-// The guard near D = 0 is the only departure: below the core distance the coefficient keeps the value it has there, so
-// that the force falls linearly to zero instead of growing without bound, and the energy is finite. With the core at
-// the radius of equal particles (a share of 1/2) this is the clamp of D in the published program.
+// The treatment of small distances is the only departure from the paper: below the core distance the coefficient keeps
+// its value at the core distance, so that the force falls linearly to zero instead of growing without bound, and the
+// energy is finite. With a core distance of half the rest length, which is the radius of equal particles, the published
+// program limits D in the same way.
 
-/// The constants of one pair, worked out once from its material and its rest length.
+/// The constants of the force law for one pair, computed once from the pair's material and rest length.
 template <class Number>
 struct PairConstants {
     Number b1;                ///< b1, N m^4
@@ -29,7 +30,7 @@ struct PairConstants {
     Number cutoffSq;          ///< square of the distance at and beyond which nothing acts, m^2
 };
 
-/// 1/D^2 of a pair, in 1/m^2, with D no smaller than the core distance.
+/// 1/D^2 of a pair, in 1/m^2, where D counts as no smaller than the core distance.
 template <class Number>
 [[gnu::always_inline]] inline Number guardedInverseSq(Number distanceSq, Number coreSq) {
     return reciprocal(larger(distanceSq, coreSq));
@@ -37,7 +38,7 @@ template <class Number>
 
 /// Coefficient of P in the conservative part of equation 2, in N/m.
 /// @param inverseSq  guardedInverseSq() of the pair, 1/m^2
-/// @param inverse    its square root, 1/m
+/// @param inverse    square root of inverseSq, 1/m
 template <PairTerms terms, class Number>
 [[gnu::always_inline]] inline Number conservativeFrom(Number inverseSq, Number inverse,
                                                       const PairConstants<Number>& c) {
@@ -46,7 +47,8 @@ template <PairTerms terms, class Number>
     return c.b1 * inverse * (toRest * toReach);
 }
 
-/// Coefficient of P in equation 2, in N/m; the parameters are those of conservativeFrom() and pairCoefficient().
+/// Coefficient of P in equation 2, in N/m, from 1/D^2 (1/m^2) and 1/D (1/m) with D no smaller than the core distance,
+/// and from `approach`, which is V.P (m^2/s).
 template <PairTerms terms, class Number>
 [[gnu::always_inline]] inline Number coefficientFrom(Number inverseSq, Number inverse, Number approach,
                                                      const PairConstants<Number>& c) {
@@ -61,8 +63,9 @@ template <PairTerms terms, class Number>
     }
 }
 
-/// Coefficient of P in equation 2, in N/m; exactly zero at and beyond the cutoff. It is the same when p and i are
-/// swapped, so that the force negates bit for bit. Source: Cote 2024, equations 2, 5 and 6, but for the core.
+/// Coefficient of P in equation 2, in N/m; exactly zero at and beyond the cutoff. The result is the same when particles
+/// p and i are swapped, so that the force changes its sign and no bit else. Source: Cote 2024, equations 2, 5 and 6,
+/// but for the core.
 /// @param distanceSq  P.P, in m^2
 /// @param approach    V.P, in m^2/s
 template <PairTerms terms, class Number>
@@ -72,26 +75,28 @@ template <PairTerms terms, class Number>
     return coefficientFrom<terms>(inverseSq, squareRoot(inverseSq), approach, c);
 }
 
-/// Damping of a pair along the line between the two, over D^2: b_d s_d / D^2, in kg/(s m^2). Times P P^T it is the
-/// pair's damping matrix, times V.P the coefficient of P that damps. Zero at and beyond the damping's reach.
+/// Damping of a pair along the line between the two particles, divided by D^2: b_d s_d / D^2, in kg/(s m^2). Multiplied
+/// by P P^T it is the damping matrix of the pair; multiplied by V.P it is the damping part of the coefficient of P.
+/// Zero at and beyond the reach of the damping.
 template <class Number>
 [[gnu::always_inline]] inline Number pairDampingOverSq(Number distanceSq, const PairConstants<Number>& c) {
     return c.bd * positivePart(guardedInverseSq(distanceSq, c.coreSq) - c.inverseDampingSq);
 }
 
-/// Friction, a departure from the paper, whose law has nothing tangential: the coefficient c_t of -V_t, in kg/s.
+/// Coefficient c_t of the friction force -c_t V_t, in kg/s. The paper has no friction: its force has no tangential
+/// part.
 ///   c_t = mu N / max(|V_t|, kStickingSpeed),   N = max(0, conservative force),   V_t = V - (V.n) n
-/// So the friction is Coulomb's mu N against the slip; below the sticking speed a viscous creep stands in for static
-/// friction. It only removes energy, since F.V = -c_t V_t^2. It conserves linear momentum but not angular momentum,
-/// since particles have no spin to take it up.
-/// @param normalForce  the conservative force along n, in newtons
+/// This is Coulomb friction, mu N against the slip velocity V_t. Below the sticking speed, viscous creep takes the
+/// place of static friction. Friction only removes energy, since F.V = -c_t V_t^2. It conserves linear but not angular
+/// momentum, since particles have no spin.
+/// @param normalForce  conservative force along n, in newtons
 /// @param slipSq       |V_t|^2, in m^2/s^2
 template <class Number>
 [[gnu::always_inline]] inline Number slipDamping(Number friction, Number normalForce, Number slipSq) {
     return friction * positivePart(normalForce) / atLeast(squareRoot(slipSq), kStickingSpeed);
 }
 
-/// Constants of a particle and an obstacle's repulsor as a pair (section 3.2): c_r = c_d = 1.
+/// Constants of the pair of a particle and the repulsor of an obstacle (section 3.2 of the paper): c_r = c_d = 1.
 /// @param restLength  D0, the sum of the two radii, in meters
 /// @param core        the core distance, in meters
 template <class Number>
@@ -106,9 +111,9 @@ template <class Number>
     return c;
 }
 
-/// Force along a surface's normal on a particle in contact, in newtons.
-/// @param distance     from the particle to the repulsor, at least the core distance, in meters
-/// @param normalSpeed  of the particle along the normal, in m/s
+/// Force of an obstacle along its surface's normal on a particle in contact with it, in newtons.
+/// @param distance     distance of the particle from the repulsor, at least the core distance, in meters
+/// @param normalSpeed  velocity of the particle along the normal, in m/s
 template <class Number>
 [[gnu::always_inline]] inline Number repulsorForce(Number distance, Number normalSpeed,
                                                    const PairConstants<Number>& c) {

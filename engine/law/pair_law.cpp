@@ -1,4 +1,4 @@
-// The separation that stands in for that of coincident particles.
+// The random separation that is used in place of P where two particles coincide.
 #include "engine/law/pair_law.h"
 
 #include "engine/core/random.h"
@@ -14,8 +14,8 @@ std::array<double, 3> coincidentSeparation(std::uint32_t idP, std::uint32_t idI,
         direction[component] = symmetricUnit(randomBits(low, high, component));
         lengthSq += direction[component] * direction[component];
     }
-    // A point in a cube, scaled to the length: the directions of the cube's diagonals are a little likelier than those
-    // of its axes, which does not matter here.
+    // The direction is that of a random point in a cube. Directions of the cube's diagonals are a little more likely
+    // than those of its axes, which does not matter here.
     const double sign = idP < idI ? 1.0 : -1.0;
     const double scale = lengthSq > 0.0 ? sign * kCoincidentShare * restLength / std::sqrt(lengthSq) : 0.0;
     for (double& component : direction) component *= scale;

@@ -1,7 +1,7 @@
-// The force between two particles: equations 2, 5 and 6 of Cote 2024, with the pair energy, the stiffness and the
-// friction that go with it. Start reading here. The force and the friction are in pair_formulas-inl.h, which serves
-// every path: plain numbers and SIMD vectors, particles and obstacles. This file has what is computed with plain
-// numbers alone: the constants of a pair, its energy and its stiffness.
+// The force between two particles: equations 2, 5 and 6 of Cote 2024, and the pair energy, stiffness and friction that
+// belong to it. Start reading here. Force and friction are in pair_formulas-inl.h, which is compiled both for plain
+// numbers and for SIMD vectors and serves particles and obstacles. This file has what is computed with plain numbers
+// only: constants, energy and stiffness of a pair.
 //
 // Symbols. P = x_p - x_i is the separation of particles p and i, D its length, V = v_p - v_i their relative velocity.
 // D0 = r_p + r_i is the rest length, R = c_r D0 where repulsion and attraction end, S = c_d D0 where damping ends.
@@ -17,16 +17,17 @@
 
 namespace engine {
 
-/// The terms that a kernel is compiled with.
+/// The terms of the force law that a kernel over pairs is compiled with.
 struct PairTerms {
-    bool attraction = true;   ///< needed where c_r is above 1
-    bool damping = true;      ///< needed where b_d is above 0
-    bool friction = false;    ///< needed where mu is above 0
-    bool equalReach = false;  ///< allowed where R = S in every damped pair: both terms then end with one factor
+    bool attraction = true;   ///< attraction, where c_r is above 1
+    bool damping = true;      ///< damping, where b_d is above 0
+    bool friction = false;    ///< friction, where mu is above 0
+    bool equalReach = false;  ///< R = S in every damped pair, which allows a shorter formula
 };
 
-/// Calls visit.operator()<terms>() with the leanest combination of terms that is compiled and has all that are needed,
-/// and returns its result. Friction is needed by few scenes and shares one kernel that has everything.
+/// Calls visit.operator()<terms>() with the cheapest compiled combination of terms that contains all needed terms, and
+/// returns the result of visit. Few scenes need friction, so there is only one combination with friction, which
+/// contains everything.
 template <class Visit>
 auto withTerms(PairTerms needed, const Visit& visit) {
     if (needed.friction) return visit.template operator()<PairTerms{true, true, true}>();
@@ -37,17 +38,19 @@ auto withTerms(PairTerms needed, const Visit& visit) {
     return visit.template operator()<PairTerms{false, false}>();
 }
 
-/// Conservative terms alone.
+/// The terms of the conservative force: attraction and repulsion without damping and friction.
 inline constexpr PairTerms kConservative{.attraction = true, .damping = false};
 
-/// The terms of obstacles (section 3.2), which never attract.
+/// The terms of the force between particles and obstacles (section 3.2 of the paper): repulsion and damping, no
+/// attraction.
 inline constexpr PairTerms kRepulsorTerms{.attraction = false, .damping = true};
 
-/// Below this slip speed friction is viscous, m/s. Chosen: a heap of twenty layers that creeps at this speed everywhere
-/// moves a centimeter in ten seconds.
+/// Slip speed below which friction is viscous, m/s. Chosen: if all layers of a heap creep over each other at this
+/// speed, it moves a centimeter in ten seconds.
 inline constexpr double kStickingSpeed = 1e-3;
 
-// What the formulas need of plain numbers; simd_vectors-inl.h has the same functions for SIMD vectors.
+// The functions that pair_formulas-inl.h needs, for plain numbers. core/simd_vectors-inl.h has the same functions for
+// SIMD vectors.
 template <std::floating_point Number>
 Number larger(Number a, Number b) {
     return std::max(a, b);
@@ -69,10 +72,11 @@ Number squareRoot(Number number) {
     return std::sqrt(number);
 }
 
-// Inside this namespace on purpose; the first lines of the file say why.
+// Included inside namespace engine on purpose: the formulas are compiled again in other namespaces, for SIMD vectors.
 #include "engine/law/pair_formulas-inl.h"
 
-/// Constants of a pair of the given material (see mixed() for unlike ones).
+/// Constants of the force law for a pair of particles of the given material; for unlike particles that is mixed() of
+/// the two.
 /// @param restLength  D0 = r_i + r_p, in meters
 template <std::floating_point Number>
 PairConstants<Number> pairConstants(const Material& material, double restLength) {
@@ -94,8 +98,8 @@ PairConstants<Number> pairConstants(const Material& material, double restLength)
 
 /// Pair energy U(D) of the conservative part, in joules: minus the integral of the force from the cutoff.
 ///   U = b1 { (D^-3 - R^-3)/3 - A (1/D - 1/R) + B (R - D) },  A = 1/D0^2 + 1/R^2,  B = 1/(D0^2 R^2)
-/// Below the core distance Dc, where F = F(Dc) D/Dc:  U = U(Dc) + F(Dc) (Dc^2 - D^2) / (2 Dc).
-/// Forced inline, so that a kernel computes once what the force and the energy of a pair have in common.
+/// Below the core distance Dc, where F = F(Dc) D/Dc: U = U(Dc) + F(Dc) (Dc^2 - D^2) / (2 Dc). Forced inline, so that
+/// subexpressions that force and energy of a pair share are computed once.
 template <std::floating_point Number>
 [[gnu::always_inline]] inline Number pairEnergy(Number distance, const PairConstants<Number>& c) {
     if (distance * distance >= c.reachSq) return Number(0);
@@ -126,11 +130,13 @@ Number pairStiffness(Number distance, const PairConstants<Number>& c) {
     return c.b1 * (Number(4) * inverseCubed * inverse * inverse - Number(2) * a * inverseCubed);
 }
 
-/// A stand-in for P, in meters, where two particles coincide exactly and P has no direction: a vector of length
-/// kCoincidentShare * restLength drawn from their ids. Swapping the ids negates it bit for bit.
+/// Replacement for the separation P (m) of two particles that coincide exactly, where P has no direction: a random
+/// vector of length kCoincidentShare * restLength, determined by the particles' ids. Swapping the ids only changes its
+/// sign.
 std::array<double, 3> coincidentSeparation(std::uint32_t idP, std::uint32_t idI, double restLength);
 
-/// Chosen: long enough for the linear core to separate the pair within a few steps, short beside any core.
+/// Length of the replacement for the separation of coincident particles, in rest lengths. Chosen: long enough for the
+/// force to separate the pair within a few steps, short compared with any core distance.
 inline constexpr double kCoincidentShare = 0.01;
 
 }  // namespace engine
