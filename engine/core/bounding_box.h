@@ -1,5 +1,5 @@
-// Axis-aligned bounding box of a set of vectors: positions, displacements or velocities. Half its diagonal bounds how
-// far any of them is from the motion that all have in common.
+// Axis-aligned bounding box of a set of vectors: positions, displacements or velocities. The distance from its middle
+// bounds how much a vector differs from what all vectors have in common.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ struct BoundingBox {
     Vec3 low;   ///< smallest coordinates
     Vec3 high;  ///< largest coordinates
 
-    /// The box that contains every vector.
+    /// A box without bounds, which contains every vector.
     static BoundingBox unbounded() {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
     }
 
-    /// Whether a vector is inside or on the surface; a NaN is not.
+    /// Whether a vector is inside the box or on its surface; a NaN is not.
     bool contains(const Vec3& vector) const {
         return (vector.array() >= low.array()).all() && (vector.array() <= high.array()).all();
     }
@@ -39,7 +39,7 @@ struct BoundingBox {
     }
 };
 
-/// The box of vectorOf(index) over 0 ... count - 1; count is at least 1.
+/// The bounding box of the vectors vectorOf(0) to vectorOf(count - 1); count is at least 1.
 template <class VectorOf>
 BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
     const auto boxOf = [&](std::size_t begin, std::size_t end) {
@@ -57,7 +57,8 @@ BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
     return box;
 }
 
-/// The largest distance of vectorOf(index) from a vector, over 0 ... count - 1; a NaN counts as infinitely far.
+/// The largest distance of the vectors vectorOf(0) to vectorOf(count - 1) from a given vector; a NaN counts as
+/// infinitely far.
 template <class VectorOf>
 double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
     return std::sqrt(largestOver(count, [&](std::size_t index) {
@@ -66,11 +67,11 @@ double farthestFrom(const Vec3& from, std::size_t count, const VectorOf& vectorO
     }));
 }
 
-/// Whether no vectorOf(index) over 0 ... count - 1 is further than a distance from a vector, or NaN.
+/// Whether all vectors vectorOf(0) to vectorOf(count - 1) are within a distance from a given vector; a NaN is not.
 template <class VectorOf>
 bool areWithin(double distance, const Vec3& from, std::size_t count, const VectorOf& vectorOf) {
     return holdsInRanges(count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
-        bool areNear = true;  // no branch and no dependence on the vector before, so that the loop vectorizes
+        bool areNear = true;  // combined without a branch, so that the loop vectorizes
         for (std::size_t index = begin; index < end; ++index)
             areNear &= squaredLength(vectorOf(index) - from) <= distance * distance;
         return areNear;

@@ -1,4 +1,5 @@
-// The exponential of the drag, written out because the library's may differ in its last bit from machine to machine.
+// The exponential function, by which drag reduces velocities. Written out because the last bit of the library's
+// function may differ from machine to machine.
 #pragma once
 
 namespace engine {

@@ -11,7 +11,8 @@
 namespace engine {
 namespace {
 
-/// The targets that this machine has, whatever has been chosen. Read once, before anything is chosen.
+/// Highway's targets (instruction sets) that this machine supports and that were compiled. Read once, before a target
+/// is chosen, since the choice hides the other targets.
 std::int64_t available() {
     static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
     return targets;

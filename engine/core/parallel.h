@@ -1,5 +1,5 @@
-// Loops and sums over particles on all threads, with the same bits for any number of them: each index writes to itself
-// alone, and sums are taken over chunks of fixed size whose results are added up in order.
+// Loops and sums over particles on all threads. Results have the same bits for any number of threads: the loop body for
+// an index writes only to that index, and sums are taken over chunks of fixed size, whose results are added in order.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -18,9 +18,9 @@ inline std::size_t threadCount() {
     return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
-/// A few ranges are assigned to threads in the same way every time, so that what a thread has written is still in its
-/// cache. Many ranges are stolen by threads that are done with their own. Isolated, so that a waiting thread does not
-/// begin to draw a whole frame meanwhile.
+/// Divides the indices 0 ... count - 1 into ranges among the threads. A few ranges are assigned to threads in the same
+/// way every time, so that data that a thread has written are still in its cache; many ranges are balanced by work
+/// stealing. Isolated, so that a waiting thread does not begin another task, such as drawing a whole frame.
 template <class Ranges>
 void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
     constexpr std::size_t kFew = 256;  // chosen: pair forces of up to 16,384 particles, loops over up to 262,144
@@ -34,8 +34,8 @@ void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
     });
 }
 
-/// Calls body(begin, end) for ranges that together are 0 ... count - 1. More than `grain` indices are worth another
-/// thread.
+/// Calls body(begin, end), on several threads, for ranges that together cover the indices 0 ... count - 1. Up to
+/// `grain` indices are processed by one thread.
 template <class Body>
 void inRanges(std::size_t count, std::size_t grain, const Body& body) {
     if (count <= grain)
@@ -44,7 +44,7 @@ void inRanges(std::size_t count, std::size_t grain, const Body& body) {
         splitUp(count, grain, body);
 }
 
-/// Whether holds(begin, end) is true for all ranges that inRanges() makes.
+/// Whether holds(begin, end) is true for all of the ranges into which inRanges() divides the indices 0 ... count - 1.
 template <class Holds>
 bool holdsInRanges(std::size_t count, std::size_t grain, const Holds& holds) {
     std::atomic<bool> all = true;
@@ -54,7 +54,7 @@ bool holdsInRanges(std::size_t count, std::size_t grain, const Holds& holds) {
     return all;
 }
 
-/// Calls body(index) for 0 ... count - 1, divided as inRanges() does.
+/// Calls body(index) for all indices 0 ... count - 1, divided among the threads like inRanges().
 template <class Body>
 void inParallel(std::size_t count, std::size_t grain, const Body& body) {
     inRanges(count, grain, [&](std::size_t begin, std::size_t end) {
@@ -62,12 +62,13 @@ void inParallel(std::size_t count, std::size_t grain, const Body& body) {
     });
 }
 
-/// Grain of a loop that does a little to each particle. One thread would do some thousand particles as fast, but what
-/// it writes leaves its cache line by line when other threads read it. Measured with `globular bench` on two Zen 5
-/// cores: with 8192, steps and scenes of 2000 to 6000 particles take a tenth longer; with 512, steps of 1000.
+/// Number of particles that a thread processes at a time in loops with little work for each particle. One thread would
+/// be as fast for some thousand particles, but the other threads would then have to fetch the results from its cache.
+/// Measured with `globular bench` on two Zen 5 cores: with 8192, steps and scenes of 2000 to 6000 particles take a
+/// tenth longer; with 512, steps of 1000.
 inline constexpr std::size_t kParticleGrain = 1024;
 
-/// Copies a vector into the memory of another.
+/// Copies a vector into another vector on several threads, and uses the memory of the other vector again.
 template <class T>
 void copy(const std::vector<T>& from, std::vector<T>& to) {
     to.resize(from.size());
@@ -76,10 +77,11 @@ void copy(const std::vector<T>& from, std::vector<T>& to) {
     });
 }
 
-/// Number of terms of a partial sum. The bits of every sum depend on it.
+/// Number of terms in each partial sum of a parallel sum. The last bits of every sum depend on this number.
 inline constexpr std::size_t kSumChunk = 1024;
 
-/// ofChunk(begin, end) for each chunk of 0 ... count - 1, in order; no chunk is empty.
+/// Returns the results of ofChunk(begin, end) for consecutive chunks of kSumChunk indices, which together cover 0 ...
+/// count - 1. No chunk is empty.
 template <class Result, class OfChunk>
 std::vector<Result> resultsOfChunks(std::size_t count, const OfChunk& ofChunk) {
     std::vector<Result> results((count + kSumChunk - 1) / kSumChunk);
@@ -89,7 +91,7 @@ std::vector<Result> resultsOfChunks(std::size_t count, const OfChunk& ofChunk) {
     return results;
 }
 
-/// Sum of term(index) over 0 ... count - 1.
+/// Sum of term(0) to term(count - 1), computed on several threads in an order that does not depend on their number.
 template <class Sum = double, class Term>
 Sum sumOver(std::size_t count, const Term& term) {
     const auto sumOf = [&](std::size_t begin, std::size_t end) {
@@ -102,7 +104,7 @@ Sum sumOver(std::size_t count, const Term& term) {
     return sum;
 }
 
-/// The largest term(index) over 0 ... count - 1, or 0; no term may be NaN.
+/// The largest of 0 and term(0) to term(count - 1), computed on several threads. No term may be NaN.
 template <class Term>
 double largestOver(std::size_t count, const Term& term) {
     const auto largestOf = [&](std::size_t begin, std::size_t end) {

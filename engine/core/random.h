@@ -1,5 +1,6 @@
-// Random numbers as pure functions of a key: nothing to store, nothing to carry over a resume, the same on every
-// machine. Used for jitter, for the choice among nozzles and for the direction of coincident particles.
+// Random numbers as pure functions of a key. No state has to be stored when a run is interrupted, and the numbers are
+// the same on every machine. Used for jitter, for the choice among emission sites and for the direction in which
+// coincident particles are separated.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ inline std::uint64_t randomBits(std::uint64_t seed, std::uint64_t stream, std::u
     return scatter(scatter(scatter(seed) ^ stream) ^ index);
 }
 
-/// A double in [-1, 1) from the upper 53 of the bits, which it represents exactly.
+/// A random number in [-1, 1) made from the upper 53 of 64 random bits, without rounding.
 inline double symmetricUnit(std::uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1.0p-52 - 1.0;
 }

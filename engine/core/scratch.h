@@ -1,12 +1,13 @@
-// Memory that is kept from one use to the next, so that it need not be allocated again. Between uses its contents mean
-// nothing.
+// Work memory that is kept from one use to the next, so that it need not be allocated again. Its contents have no
+// meaning between uses.
 #pragma once
 
 #include <utility>
 
 namespace engine {
 
-/// A T that copies do not take over: a copy of the object that it is part of begins with an empty T, or keeps its own.
+/// Wraps a T, for example a vector, that is left out when the object that contains it is copied: copy construction
+/// makes an empty T, and copy assignment keeps the old T.
 template <class T>
 struct Scratch : T {
     Scratch() = default;

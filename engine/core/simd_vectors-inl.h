@@ -1,5 +1,5 @@
 // Arithmetic on SIMD vectors: three-component vectors with a vector for each coordinate, and the functions that the
-// formulas of engine/law need. Included by the kernels, once per instruction set by Highway's rules; so is the guard
+// formulas of engine/law need. Highway includes this file once per instruction set, hence the unusual include guard
 // below.
 #if defined(ENGINE_SIMD_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ENGINE_SIMD_VECTORS_INL_H
@@ -45,7 +45,8 @@ HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-// pair_law.h has these functions for plain numbers.
+// The functions that law/pair_formulas-inl.h needs, for SIMD vectors. law/pair_law.h has the same functions for plain
+// numbers.
 template <class V>
 HWY_INLINE V larger(V a, V b) {
     return hn::Max(a, b);

@@ -1,5 +1,5 @@
-// The vector type of the simulation, and the few operations whose order of summation is part of the promise that a
-// scene gives the same bits everywhere. Used by every file of the engine.
+// The vector type of the simulation, and those operations whose order of summation must be fixed so that a scene gives
+// the same bits on every machine. Used by every file of the engine.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +14,7 @@ inline double dot(const Vec3& a, const Vec3& b) {
     return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
 }
 
-/// Squared length, summed like dot().
+/// Squared length of a vector, with the components summed in the order x, y, z.
 inline double squaredLength(const Vec3& a) {
     return dot(a, a);
 }

@@ -1,4 +1,4 @@
-// Which loop brings a simulation to a point in time.
+// Starts simulations, and chooses the loop of steps that advances them: equal, checked or automatic steps.
 #include "engine/run/advance.h"
 
 #include "engine/error_control/auto_stepper.h"

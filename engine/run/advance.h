@@ -1,18 +1,18 @@
-// The door to the engine: how a simulation starts, and how it gets to a point in time. Callers ask for a time and get
-// there exactly; which steps lead there is decided in error_control/.
+// The public interface of the engine: starts a simulation and advances it to a point in time. Callers name a time,
+// which is reached exactly; error_control/ decides which steps lead there.
 #pragma once
 
 #include "engine/state/simulation.h"
 
 namespace engine {
 
-/// A simulation at time zero, with the particles that emitters have due then.
+/// Returns a simulation at time zero, which includes the particles that emitters emit at that time.
 Simulation start(const Setup& setup);
 
-/// Brings the simulation to the given time (s), which is hit exactly. The paper's stepper takes equal steps no longer
-/// than the set-up's; the others also take back and retry what the audit does not let pass. Particles that are outside
-/// the bounds of the world now are removed before the first step.
-/// @throws InstabilityError when a particle is no longer finite or has left what the engine can represent.
+/// Advances the simulation to the given time (s), which is reached exactly. The paper's stepper takes equal steps that
+/// are no longer than the setup's step; with all other steppers, steps that fail the audit (step_audit.h) are taken
+/// back and retried. Particles that are outside the bounds of the world are removed before the first step.
+/// @throws InstabilityError if a position or velocity becomes infinite, NaN or too large for the engine
 void advance(Simulation& simulation, double time);
 
 }  // namespace engine

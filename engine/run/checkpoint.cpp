@@ -123,7 +123,7 @@ void exchangeOptional(Archive& archive, Optional& value) {
     if (exists) archive(*value);
 }
 
-/// The set-up determines the numbers of emitters and schedules, so these are not stored.
+/// The setup determines the numbers of emitters and schedules, so these are not stored.
 template <class Archive, class Emitters>
 void exchangeEmitters(Archive& archive, Emitters& emitters) {
     for (auto& emitter : emitters) {
@@ -162,7 +162,7 @@ void exchange(Archive& archive, State& simulation) {
     exchangeStatistics(archive, simulation.steps);
 }
 
-/// Hash of the numbers of materials, emitters and schedules: a checkpoint fits a set-up only if the hashes agree.
+/// Hash of the numbers of materials, emitters and schedules: a checkpoint fits a setup only if the hashes agree.
 std::uint64_t shapeOf(const Simulation& simulation) {
     std::uint64_t hash = fnv1a(simulation.setup.materials.size(), kFormat);
     for (const EmitterState& state : simulation.emitters) hash = fnv1a(state.schedules.size(), hash);

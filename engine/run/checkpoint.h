@@ -1,6 +1,7 @@
 // A simulation's state as bytes and back, so that a run can go on where another one ended, with the same bits. The
-// caller reads and writes the files. Everything that the next step depends on is included, also the positions that the
-// neighbor list was built for, because sums over pairs run in its order; scratch memory and the set-up are not.
+// caller reads and writes the files. Everything that the next step depends on is included, even the positions from
+// which the neighbor list was built, because the order of the list determines the order of sums over pairs. Scratch
+// memory and the setup are not included.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +13,17 @@
 
 namespace engine {
 
-/// The bytes are not those of a state of the simulation's set-up; what() says why.
+/// Thrown if the bytes of a checkpoint are not those of a state of the given setup; what() gives the reason.
 class CheckpointError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The state as little-endian bytes; the last eight are a checksum of the others (FNV-1a). Some 130 bytes a particle.
+/// Encodes the state of a simulation as little-endian bytes, about 130 a particle. The last eight bytes are a checksum
+/// (FNV-1a) of the bytes before.
 std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation);
 
-/// The simulation of a set-up at an encoded state. The run goes on with the same bits as the one that was encoded.
-/// @throws CheckpointError for bytes that are damaged, or of a set-up with other materials or emitters
+/// Restores a simulation from its setup and an encoded state. The run continues with the same bits as the encoded run.
+/// @throws CheckpointError if the bytes are damaged or belong to a setup with other materials or emitters
 Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> bytes);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Sums over particles, in order of birth.
+// Energy, momentum and hash of a state, as sums over the particles in the order of their indices.
 #include "engine/run/diagnostics.h"
 
 #include <algorithm>

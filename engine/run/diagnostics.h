@@ -1,5 +1,5 @@
-// Measurements of a state: energy, linear and angular momentum, and a hash that two runs share exactly when every bit
-// of their particles agrees. Sums run in a fixed order, so that they do not depend on threads.
+// Measurements of a state: energy, linear and angular momentum, largest speed, and a hash that is equal for two runs if
+// every bit of their particles agrees. Sums run in a fixed order, so that they do not depend on the number of threads.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@ namespace engine {
 
 struct Energy {
     double kinetic = 0.0;   ///< J
-    double pairs = 0.0;     ///< sum of U(D), J
-    double contacts = 0.0;  ///< at obstacles, J
-    double gravity = 0.0;   ///< sum of -m g.x, J
+    double pairs = 0.0;     ///< sum of the pair energies U(D), J
+    double contacts = 0.0;  ///< energy at obstacles, J
+    double gravity = 0.0;   ///< potential energy, the sum of -m g.x, J
 
     double total() const { return kinetic + pairs + contacts + gravity; }
 };
 
-/// Energy of a state under the evaluator's law.
+/// Energy of a set of particles under the force law of an evaluator.
 Energy energy(ForceEvaluator& evaluator, const Particles& particles);
 
-/// Energy of a simulation's state under its own law.
+/// Energy of the present state of a simulation.
 Energy energy(Simulation& simulation);
 
 Vec3 linearMomentum(const Particles& particles);   ///< kg m/s

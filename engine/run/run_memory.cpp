@@ -1,4 +1,5 @@
-// Counts member by member, as state/simulation.h, stepping/step_cache.h and forces/pair_matrix.h declare them.
+// Counts the bytes of all arrays of a run, which state/simulation.h, stepping/step_cache.h and forces/pair_matrix.h
+// declare.
 #include "engine/run/run_memory.h"
 
 #include "engine/error_control/auto_stepper.h"
@@ -7,16 +8,16 @@
 namespace engine {
 namespace {
 
-/// Bytes of the particles, and of what every stepper keeps for each of them.
+/// Bytes of the particles, and of the arrays that every stepper keeps with an entry for each particle.
 std::size_t bytesOfState(const Simulation& simulation) {
     constexpr std::size_t kState = 2 * sizeof(Vec3) + 3 * sizeof(double) + 2 * sizeof(std::uint32_t);
-    constexpr std::size_t kForces = 3 * sizeof(Vec3);  // with predicted velocities and positions at the start
+    constexpr std::size_t kForces = 3 * sizeof(Vec3);  // forces, predicted velocities and positions at the step's start
     constexpr std::size_t kDrift = sizeof(double) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
     const std::size_t initial = simulation.setup.initial.count() * kState;
     return initial + simulation.particles.count() * (kState + kForces + kDrift + sizeof(PackedParticle));
 }
 
-/// Bytes of the states that the audit can restore, and of the one that the automatic stepper saves.
+/// Bytes of the saved states: four that checked steps can restore, and one that the automatic stepper keeps.
 std::size_t bytesBefore(const Simulation& simulation) {
     constexpr std::size_t kStates = 5;
     return kStates * 3 * sizeof(Vec3) * simulation.particles.count();

@@ -1,5 +1,4 @@
-// An estimate of the memory that a run needs, from its neighbor list, which is the largest part. Used by `globular
-// check`.
+// Estimates the memory that a run needs. The largest part is the neighbor list. Used by `globular check`.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +7,8 @@
 
 namespace engine {
 
-/// Bytes that a run in this state holds at most if its particles stay as many and as close to each other: those of a
-/// step by the stepper that needs most, or of an error estimate by the automatic one.
+/// Largest number of bytes that a run from this state will hold, provided that the number of particles and their
+/// distances stay the same: the memory of a step or, for the automatic stepper, of an error estimate.
 std::size_t peakBytes(const Simulation& simulation);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Each function checks one part of the state: particles, emitters, time steps.
+// Checks the parts of a simulation's state one after another: particles, emitters, time steps.
 #include "engine/run/state_validation.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ bool haveEqualLengths(const Simulation& simulation) {
     return areEqual;
 }
 
-/// Whether a particle has the radius, mass and material that the set-up gives it, at the start or by an emitter.
+/// Whether a particle has the radius, mass and material that the setup gives it, at the start or by an emitter.
 bool isOfSetup(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
     const Particles& initial = simulation.setup.initial;
@@ -61,7 +61,7 @@ bool areStepsPossible(const Simulation& simulation) {
     const bool isKnown = simulation.setup.stepper == StepperKind::automatic
                              ? isReachable(simulation.automatic, simulation.stepper)
                              : simulation.stepper == simulation.setup.stepper;
-    // A NaN restriction fails the comparison.
+    // The comparison is false for a NaN.
     return isKnown && restriction.seconds >= 0.5 * kShortestStep && isLimit(restriction.reason);
 }
 

@@ -1,15 +1,16 @@
-// Whether a simulation is in a state that a run of its set-up can have reached. Called where a state comes from
-// outside: what the engine indexes by, and how many steps it takes, must not depend on a damaged file.
+// Checks whether a run of a simulation's setup can have reached its state. Called for states that come from a file:
+// neither array indices nor the number of steps may depend on damaged data.
 #pragma once
 
 #include "engine/state/simulation.h"
 
 namespace engine {
 
-/// What is impossible about the state, for example "a particle is not in the world"; nullptr if nothing is.
+/// Says what is impossible about the state of a simulation, for example "a particle is not in the world"; nullptr if
+/// nothing is.
 const char* stateError(const Simulation& simulation);
 
-/// Whether all positions lie in the world; a NaN does not.
+/// Whether all positions lie within kWorldLimit of the origin along every axis; a NaN does not.
 bool isInWorld(const std::vector<Vec3>& positions);
 
 }  // namespace engine

@@ -1,4 +1,5 @@
-// Lattices cut to shape. Jitter is keyed by the index in the lattice, so that a body is the same on every machine.
+// Fills shapes with lattices of positions. The random displacement of a position is a function of seed and index, so
+// that a body is the same on every machine.
 #include "engine/state/bodies.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace engine {
 namespace {
 
-/// Relative slack so that lattice points exactly on a face belong to the body.
+/// Relative tolerance with which lattice points exactly on the surface of a body count as inside.
 constexpr double kFaceSlack = 1e-9;
 
 Vec3 jitterOf(const Packing& packing, std::uint64_t place) {
@@ -20,8 +21,8 @@ Vec3 jitterOf(const Packing& packing, std::uint64_t place) {
     return packing.jitter * packing.spacing * offset;
 }
 
-/// Calls visit(position) for the face-centered cubic lattice around a center that fills a box of the given half extent.
-/// A lattice of cube edge a = sqrt(2) spacing has a point wherever the sum of its half-edge coordinates is even.
+/// Calls visit(position) for the points of a face-centered cubic lattice in a box of the given center and half extent
+/// (m). A lattice of cube edge a = sqrt(2) spacing has a point wherever the sum of its half-edge coordinates is even.
 template <class Visit>
 void forEachLatticePoint(const Vec3& center, const Vec3& halfExtent, double spacing, const Visit& visit) {
     const double halfEdge = spacing / std::sqrt(2.0);

@@ -1,4 +1,5 @@
-// Bodies: shapes filled with particles at time zero. Called by scenes/; the simulation only sees the particles.
+// Fills the shapes of bodies with particles at time zero. Called by scenes/; the simulation itself knows only the
+// particles.
 #pragma once
 
 #include <array>
@@ -9,11 +10,11 @@
 
 namespace engine {
 
-/// How a body is packed with particles.
+/// Spacing and jitter of the particles that fill a body.
 struct Packing {
     double spacing = 0.3;    ///< distance of nearest neighbors, m
-    double jitter = 0.0;     ///< random displacement of each coordinate, up to this share of the spacing
-    std::uint64_t seed = 1;  ///< of the jitter
+    double jitter = 0.0;     ///< largest random displacement of a coordinate, in spacings
+    std::uint64_t seed = 1;  ///< seed of the random displacements
 };
 
 /// Face-centered cubic positions inside a ball, in meters.

@@ -7,7 +7,7 @@
 namespace engine {
 namespace {
 
-/// Relative slack so that sites exactly on the rim of a disc are inside it.
+/// Relative tolerance with which sites exactly on the rim of a disc count as inside.
 constexpr double kRimSlack = 1.0 + 1e-9;
 
 }  // namespace
@@ -16,7 +16,7 @@ PlaneAxes axesAcross(const Vec3& direction) {
     const double length = std::sqrt(squaredLength(direction));
     if (length == 0.0) return {};
     const Vec3 unit = direction / length;
-    // The axis that lies least along the direction, so that the product is never short.
+    // A coordinate axis that is far from parallel to the direction, so that the cross product is not small.
     const Vec3 axis = std::abs(unit.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
     Vec3 first = axis.cross(unit);
     first /= std::sqrt(squaredLength(first));

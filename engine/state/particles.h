@@ -16,7 +16,7 @@ struct Particles {
     std::vector<double> radius;           ///< m
     std::vector<double> mass;             ///< kg
     std::vector<double> birthTime;        ///< s
-    std::vector<std::uint32_t> material;  ///< index of the particle's material in the list of the set-up
+    std::vector<std::uint32_t> material;  ///< index of the particle's material in the list of the setup
     std::vector<std::uint32_t> id;        ///< particles are numbered 0, 1, 2, ... in order of birth
     std::uint32_t nextId = 0;
 
@@ -36,7 +36,7 @@ void forEachArray(ParticleArrays& particles, Visit&& visit) {
     visit(particles.id);
 }
 
-/// A particle to append. The material is an index into the materials of the set-up.
+/// A particle to append. The material is an index into the materials of the setup.
 struct NewParticle {
     Vec3 position = Vec3::Zero();  ///< m
     Vec3 velocity = Vec3::Zero();  ///< m/s

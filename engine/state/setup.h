@@ -1,5 +1,5 @@
-// What a scene says about a motion: everything that a run depends on but its state. Filled in by scenes/, read by all
-// of the engine, changed by nothing once a run has started.
+// The setup of a run: everything that a scene says about the motion. Filled in by scenes/ and read by all of the
+// engine; it does not change once a run has started.
 #pragma once
 
 #include <cstddef>
@@ -16,45 +16,47 @@
 namespace engine {
 
 enum class StepperKind {
-    symplecticEuler,   ///< equations 7 and 8 of the paper, as printed
-    velocityVerlet,    ///< second order; damping from the predicted velocity
+    symplecticEuler,   ///< symplectic Euler, equations 7 and 8 of the paper, as printed
+    velocityVerlet,    ///< velocity Verlet: second order; damping from the predicted velocity
     leapfrog,          ///< Groot-Warren modified velocity Verlet with lambda = 1/2: first order, stable at longer steps
-    implicitDamping,   ///< second order; damping by the implicit midpoint rule
+    implicitDamping,   ///< second order; damping alone by the implicit midpoint rule
     linearlyImplicit,  ///< second order; damping and stiffness by the linearized implicit midpoint rule
-    automatic          ///< chooses the cheapest of the others, but for the paper's, at the wanted error
+    automatic          ///< chooses the cheapest of the steppers above, except the first, at the wanted error
 };
 
-/// Number of steppers that can take a step: all but the automatic one, which is the last.
+/// Number of steppers that can take a step: all enumerators but the last, the automatic stepper, which chooses among
+/// them.
 inline constexpr std::size_t kStepperKinds = static_cast<std::size_t>(StepperKind::automatic);
 
-/// Whether the stepper is a form of velocity Verlet, which has no system to solve and knows the energy at a step's end.
+/// Whether a stepper is a form of velocity Verlet. These steppers solve no linear system and know the energy at the end
+/// of a step.
 constexpr bool isVerlet(StepperKind stepper) {
     return stepper == StepperKind::velocityVerlet || stepper == StepperKind::leapfrog;
 }
 
 enum class ForceMethod {
-    reference,  ///< every pair, serial: the paper's way
-    grid        ///< pairs of neighboring cells, threaded
+    reference,  ///< all pairs, one after another, as in the paper
+    grid        ///< pairs from a neighbor list, on all threads
 };
 
-/// Arithmetic of the pair forces; the state is always in double.
+/// Precision in which pair forces are computed; the state of a simulation is always in double.
 enum class Precision { doubles, singles };
 
-/// Everything the scene says about the motion.
+/// Everything that a scene says about the motion.
 struct Setup {
     std::vector<Material> materials = {Material{}};
     Vec3 gravity = Vec3(0.0, -9.8, 0.0);  ///< m/s^2
-    double drag = 0.0;                    ///< k, 1/s: free motion decays like exp(-k t)
+    double drag = 0.0;                    ///< drag coefficient k, 1/s: free motion decays like exp(-k t)
     Obstacles obstacles;
-    std::optional<BoundingBox> world;  ///< a particle outside is removed from the run
+    std::optional<BoundingBox> world;  ///< bounds of the world; particles outside are removed
     std::vector<Emitter> emitters;
-    Particles initial;  ///< at time zero
+    Particles initial;  ///< particles at time zero
     StepperKind stepper = StepperKind::velocityVerlet;
     double step = 0.01;   ///< longest step, s; a frame is divided evenly; the automatic stepper does not use it
     double error = 1e-2;  ///< position error that the automatic stepper aims at, radii per second of motion
-    double solverTolerance = 1e-4;  ///< the implicit steppers' solver stops at this residual over the right-hand side
+    double solverTolerance = 1e-4;  ///< relative residual at which the implicit steppers' solver stops
     ForceMethod forces = ForceMethod::grid;
-    Precision precision = Precision::doubles;  ///< of pair forces where all particles have one material and one radius
+    Precision precision = Precision::doubles;  ///< precision where all particles have one material and one radius
     std::uint64_t seed = 1;
 };
 

@@ -1,4 +1,4 @@
-// Counting: steps, particles, emissions.
+// Statistics of steps, and counts of particles and emissions.
 #include "engine/state/simulation.h"
 
 #include <algorithm>

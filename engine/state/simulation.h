@@ -1,5 +1,5 @@
-// The state of a run: what the scene set up, where the particles are now, and what the steps so far were like. Plain
-// data: run/advance.h starts a run and moves it on; what steps keep for each other is in stepping/step_cache.h.
+// The state of a run as plain data: the setup, the particles, and statistics of the steps so far. run/advance.h starts
+// and advances a run; data that one step leaves for the next are in stepping/step_cache.h.
 #pragma once
 
 #include <array>
@@ -13,69 +13,69 @@
 
 namespace engine {
 
-/// What kept a step from being longer.
+/// The reason why a time step was not longer.
 enum class StepLimit {
     fixed,         ///< the scene's fixed step
     error,         ///< the wanted error
-    displacement,  ///< a particle may not move further than its radius in one step
-    audit,         ///< a longer step gained energy
-    frame          ///< the interval that was asked for, e.g. one frame
+    displacement,  ///< a longer step moved a particle further than its radius
+    audit,         ///< a longer step gained energy and was rejected
+    frame          ///< the end of the requested interval, e.g. a frame
 };
 inline constexpr std::size_t kStepLimits = 5;
 
-/// Whether a value read from outside is one of the limits.
+/// Whether a value that was read from a file is one of the enumerators of StepLimit.
 constexpr bool isLimit(StepLimit limit) {
     return static_cast<std::size_t>(limit) < kStepLimits;
 }
 
-/// Counts and lengths of the steps of a run.
+/// Statistics of the time steps of a run.
 struct StepStatistics {
     std::uint64_t count = 0;
     double shortest = 0.0;                               ///< s
     double longest = 0.0;                                ///< s
     std::uint64_t forceEvaluations = 0;                  ///< passes over all pairs
     std::uint64_t products = 0;                          ///< products of the implicit steppers' matrix with a vector
-    std::uint64_t rejected = 0;                          ///< steps taken back and retried at half the length
-    std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< number of steps, by StepLimit
-    std::array<std::uint64_t, kStepperKinds> takenBy{};  ///< number of steps, by StepperKind
+    std::uint64_t rejected = 0;                          ///< steps that were taken back and retried at half the length
+    std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< number of steps that each StepLimit has limited
+    std::array<std::uint64_t, kStepperKinds> takenBy{};  ///< number of steps that each StepperKind has taken
 
     StepStatistics& operator+=(const StepStatistics& other);
 };
 
-/// Counts one step of h seconds.
+/// Adds one step of h seconds to the statistics.
 void record(StepStatistics& steps, double h, StepLimit limit, StepperKind stepper);
 
-/// The longest step that the audit allows for a while, after it has rejected a longer one.
+/// Upper bound on the following steps that the audit sets when it rejects a step. Accepted steps raise it again.
 struct StepRestriction {
     double seconds = std::numeric_limits<double>::infinity();
     StepLimit reason = StepLimit::audit;
-    std::uint32_t passed = 0;  ///< accepted steps since the restriction was set
+    std::uint32_t passed = 0;  ///< number of accepted steps since the restriction was set
 };
 
-/// What the automatic stepper knows of one candidate.
+/// What the automatic stepper knows of one of the steppers among which it chooses.
 struct AutoChoice {
-    double step = 0.0;  ///< the step that just meets the wanted error, s; 0 before the first estimate
-    double cost = std::numeric_limits<double>::infinity();  ///< at that step, force evaluations per second of motion
-    StepLimit reason = StepLimit::error;                    ///< what keeps the step from being longer
-    double growth = 1.0;    ///< factor by which errors grow beyond one interval; the measured rate is multiplied by it
-    bool followed = false;  ///< whether the growth was measured on this candidate, not taken over from another
+    double step = 0.0;  ///< step that just meets the wanted error, s; 0 before the first estimate
+    double cost = std::numeric_limits<double>::infinity();  ///< cost at that step, force evaluations per second
+    StepLimit reason = StepLimit::error;                    ///< reason why the step is not longer
+    double growth = 1.0;                                    ///< factor by which errors grow beyond one interval
+    bool followed = false;  ///< whether the growth was measured with this stepper, not taken from another
 };
 
 struct AutoState {
-    std::array<AutoChoice, kStepperKinds> choices;  ///< by StepperKind
-    std::uint64_t intervalCount = 0;                ///< intervals run so far
+    std::array<AutoChoice, kStepperKinds> choices;  ///< candidates, by StepperKind
+    std::uint64_t intervalCount = 0;                ///< number of intervals run so far
     std::uint64_t nextEstimate = 0;                 ///< index of the interval in which the error is estimated next
     std::uint64_t estimateCount = 0;                ///< number of error estimates so far
-    double errorSum = 0.0;                          ///< sum of the estimates, radii per second
-    double largestError = 0.0;                      ///< largest estimate, radii per second
+    double errorSum = 0.0;                          ///< sum of the error estimates, radii per second
+    double largestError = 0.0;                      ///< largest error estimate, radii per second
     double rmsAcceleration = 0.0;  ///< RMS of the acceleration other than gravity at the last estimate, m/s^2
-    double estimateCost = 0.0;     ///< force evaluations that estimates have cost and the run did not go on with
+    double estimateCost = 0.0;     ///< force evaluations spent on error estimates and not used by the run
 };
 
 struct StepCache;
 
-/// Owns a step cache. Its type is known to stepping/ alone, so that a reader of the state need not know the neighbor
-/// list; copying a simulation copies the cache with it.
+/// Owns the step cache of a simulation and copies it with the simulation. The type of the cache is incomplete here, so
+/// that code that reads the state does not depend on neighbor lists.
 class StepCachePointer {
  public:
     StepCachePointer();  ///< an empty cache
@@ -98,28 +98,29 @@ struct Simulation {
     Setup setup;
     Particles particles;
     std::vector<EmitterState> emitters;
-    std::uint64_t removedCount = 0;                     ///< particles that have left a bounded world
-    std::uint64_t largestCountBeforeRemoval = 0;        ///< most particles there were when some were removed
+    std::uint64_t removedCount = 0;                     ///< particles removed outside a bounded world
+    std::uint64_t largestCountBeforeRemoval = 0;        ///< largest number of particles at any removal
     double time = 0.0;                                  ///< s
-    StepperKind stepper = StepperKind::velocityVerlet;  ///< in use; never the automatic one
+    StepperKind stepper = StepperKind::velocityVerlet;  ///< stepper in use; never automatic
     StepRestriction restriction;
     AutoState automatic;
     StepStatistics steps;
     StepCachePointer cache;
 };
 
-/// The run left the finite numbers. what() names time, step, particle, position, speed, step size and what to change.
+/// Thrown when a run has become unstable. what() names time, step, particle, position, speed, step size and what to
+/// change.
 class InstabilityError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The largest number of particles that the run has had so far, now or when some were removed.
+/// The largest number of particles that the run has had so far.
 std::uint64_t largestCount(const Simulation& simulation);
 
-/// Particles that all emitters have emitted.
+/// Number of particles that all emitters together have emitted.
 std::uint64_t birthCount(const Simulation& simulation);
 
-/// Emissions that found their place taken when they were due, over all emitters; each counts once.
+/// Number of emissions, of all emitters together, that had to wait for room when they were due; each counts once.
 std::uint64_t refusalCount(const Simulation& simulation);
 
 }  // namespace engine

@@ -24,7 +24,7 @@ constexpr double kTriesPerInterval = 4.0;
 /// The purposes of an emitter's random numbers; each purpose has a stream of random numbers of its own.
 enum class Purpose : std::uint64_t { site = 0, jitterFirst = 1, jitterSecond = 2 };
 
-/// The index of an emitter in the set-up, of one of its schedules, and of an emission of that schedule.
+/// The index of an emitter in the setup, of one of its schedules, and of an emission of that schedule.
 struct Emission {
     std::uint64_t emitter = 0;
     std::uint64_t schedule = 0;
