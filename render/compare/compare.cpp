@@ -37,7 +37,7 @@ void checkLimits(Comparison& comparison, const CompareLimits& limits) {
                                                 metrics.ssim, limits.ssim));
 }
 
-using Color = std::array<double, 3>;
+using Color = glm::dvec3;
 
 /// The color scale of heatMap(), 8-bit sRGB. Chosen: its lightness rises throughout, so that it can be read in gray as
 /// well.
@@ -49,10 +49,7 @@ Color colorOf(double heat) {
     const double position = heat * (kStops.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
     const double part = position - static_cast<double>(below);
-    Color color;
-    for (std::size_t channel = 0; channel < 3; ++channel)
-        color[channel] = (1.0 - part) * kStops[below][channel] + part * kStops[below + 1][channel];
-    return color;
+    return (1.0 - part) * kStops[below] + part * kStops[below + 1];
 }
 
 int differenceOf(const Image& actual, const Image& expected, std::size_t k) {
@@ -104,9 +101,9 @@ Image heatMap(const Image& actual, const Image& expected) {
         const int largest = std::max({differenceOf(actual, expected, k), differenceOf(actual, expected, k + 1),
                                       differenceOf(actual, expected, k + 2)});
         const double gray = (expected.rgb[k] + expected.rgb[k + 1] + expected.rgb[k + 2]) / (3.0 * 5.0);
-        const Color color = largest == 0 ? Color{gray, gray, gray} : colorOf(std::log2(largest) / std::log2(255.0));
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            image.rgb[k + channel] = static_cast<std::uint8_t>(std::lround(color[channel]));
+        const Color color = largest == 0 ? Color(gray) : colorOf(std::log2(largest) / std::log2(255.0));
+        for (int channel = 0; channel < 3; ++channel)
+            image.rgb[k + static_cast<std::size_t>(channel)] = static_cast<std::uint8_t>(std::lround(color[channel]));
     }
     return image;
 }

@@ -190,12 +190,6 @@ Section readSingle(SectionsReader& reader, const char* name) {
                                        : defaultSection(reader, info);
 }
 
-/// A table without defaults.
-std::optional<Section> readOptional(SectionsReader& reader, const char* name) {
-    if (findEntry(reader.document.root, name) == nullptr) return std::nullopt;
-    return readSingle(reader, name);
-}
-
 void readItems(SectionsReader& reader, const TableInfo& info, const Value& list, std::vector<Section>& sections) {
     for (std::size_t index = 0; index < list.items.size(); ++index) {
         const Value& item = list.items[index];
@@ -280,8 +274,9 @@ Sections readSections(const Document& document, ProblemList& problems) {
         .emitters = readList(reader, "emitter"),
         .obstacles = readList(reader, "obstacle"),
         .cameras = readList(reader, "camera"),
-        .study = readOptional(reader, "study"),
+        .study = {},
     };
+    if (findEntry(document.root, "study") != nullptr) sections.study = readSingle(reader, "study");
     // A scene without a [material] uses the default preset.
     if (sections.materials.empty()) sections.materials.push_back(defaultSection(reader, *findTable("material")));
     if (sections.cameras.empty()) sections.cameras.push_back(defaultSection(reader, *findTable("camera")));

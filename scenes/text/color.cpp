@@ -32,19 +32,16 @@ struct MapCurve {
     std::vector<Chroma> controlPoints;
 };
 
-const std::vector<MapCurve>& curves() {
-    static const std::vector<MapCurve> kCurves = {
-        // Violet, blue, teal, green, yellow.
-        {"lagoon", 0.30, 0.92, {{0.034, -0.092}, {-0.046, -0.119}, {-0.092, -0.028}, {-0.168, 0.085}, {-0.046, 0.185}}},
-        // Night, purple, red, orange, pale yellow.
-        {"ember", 0.22, 0.93, {{0.015, -0.063}, {0.138, -0.070}, {0.244, 0.089}, {0.116, 0.186}, {-0.025, 0.118}}},
-        // Blue, gray, yellow. It avoids red against green, for color-blind viewers.
-        {"dusk", 0.28, 0.91, {{-0.006, -0.090}, {-0.014, -0.064}, {-0.020, 0.0}, {-0.008, 0.059}, {-0.015, 0.124}}},
-        // Deep blue to the white of ice.
-        {"glacier", 0.30, 0.96, {{0.008, -0.111}, {-0.039, -0.156}, {-0.062, -0.071}, {-0.009, -0.005}}},
-    };
-    return kCurves;
-}
+const std::vector<MapCurve> kCurves = {
+    // Violet, blue, teal, green, yellow.
+    {"lagoon", 0.30, 0.92, {{0.034, -0.092}, {-0.046, -0.119}, {-0.092, -0.028}, {-0.168, 0.085}, {-0.046, 0.185}}},
+    // Night, purple, red, orange, pale yellow.
+    {"ember", 0.22, 0.93, {{0.015, -0.063}, {0.138, -0.070}, {0.244, 0.089}, {0.116, 0.186}, {-0.025, 0.118}}},
+    // Blue, gray, yellow. It avoids red against green, for color-blind viewers.
+    {"dusk", 0.28, 0.91, {{-0.006, -0.090}, {-0.014, -0.064}, {-0.020, 0.0}, {-0.008, 0.059}, {-0.015, 0.124}}},
+    // Deep blue to the white of ice.
+    {"glacier", 0.30, 0.96, {{0.008, -0.111}, {-0.039, -0.156}, {-0.062, -0.071}, {-0.009, -0.005}}},
+};
 
 Vec3 linearFromOklab(double lightness, const Chroma& chroma) {
     const auto cube = [](double x) { return x * x * x; };
@@ -85,7 +82,7 @@ Polyline polylineOf(const MapCurve& curve) {
 }
 
 const MapCurve& findCurve(std::string_view name) {
-    for (const MapCurve& curve : curves())
+    for (const MapCurve& curve : kCurves)
         if (curve.name == name) return curve;
     throw std::logic_error("scenes: there is no color map " + std::string(name));
 }
@@ -115,13 +112,10 @@ Vec3 rampColor(const std::vector<Vec3>& colors, double parameter) {
     return (1.0 - t) * colors[below] + t * colors[below + 1];
 }
 
-const std::vector<std::string_view>& colorMapNames() {
-    static const std::vector<std::string_view> kNames = [] {
-        std::vector<std::string_view> names;
-        for (const MapCurve& curve : curves()) names.push_back(curve.name);
-        return names;
-    }();
-    return kNames;
+std::vector<std::string_view> colorMapNames() {
+    std::vector<std::string_view> names;
+    for (const MapCurve& curve : kCurves) names.push_back(curve.name);
+    return names;
 }
 
 std::vector<Vec3> colorMap(std::string_view name, int count) {

@@ -21,7 +21,7 @@ std::optional<engine::Vec3> colorFromHex(std::string_view text);
 engine::Vec3 rampColor(const std::vector<engine::Vec3>& colors, double parameter);
 
 /// Names of the built-in, perceptually uniform color maps: "lagoon", "ember", "dusk", "glacier".
-const std::vector<std::string_view>& colorMapNames();
+std::vector<std::string_view> colorMapNames();
 
 /// Evenly spaced colors of a color map from its dark end to its light end, linear RGB in [0,1].
 /// @pre count >= 2
