@@ -12,11 +12,11 @@ namespace render {
 
 /// The limits that two pictures must all keep to pass. Differences are in 8-bit steps of a channel.
 struct CompareLimits {
-    int threshold = 0;   ///< a pixel with a channel that differs by more is noticeable
-    double share = 0.0;  ///< largest share of noticeable pixels
-    int largest = 0;     ///< largest difference of any channel
-    double mean = 0.0;   ///< largest mean difference over all channels of all pixels
-    double ssim = 1.0;   ///< smallest structural similarity
+    int threshold = 0;   ///< a pixel with a channel that differs by more counts as noticeable
+    double share = 0.0;  ///< largest share of noticeable pixels that passes
+    int largest = 0;     ///< largest difference of any channel that passes
+    double mean = 0.0;   ///< largest mean difference over all channels of all pixels that passes
+    double ssim = 1.0;   ///< smallest structural similarity that passes
 };
 
 inline constexpr const char* kProfileNames = "strict, vendor, loose";
@@ -36,7 +36,7 @@ const char* nameOf(CompareRule rule);
 
 struct Comparison {
     CompareRule rule =
-        CompareRule::identical;        ///< the first limit that is exceeded; without one, identical or withinLimits
+        CompareRule::identical;        ///< the first limit that is exceeded; if none is, identical or withinLimits
     std::vector<std::string> reasons;  ///< a sentence for each limit that is exceeded; empty if it passed
     PictureMetrics metrics;            ///< the measured differences; default values for pictures of different sizes
 

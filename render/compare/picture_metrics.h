@@ -16,22 +16,22 @@ struct PixelDifference {
     int x = 0, y = 0;
     std::array<std::uint8_t, 3> actual{};
     std::array<std::uint8_t, 3> expected{};
-    int largest = 0;  ///< largest difference of its three channels
+    int largest = 0;  ///< largest difference of the pixel's three channels
 };
 
 /// How much two pictures differ, in 8-bit steps of a channel, over the pixels that count: all where the mask is not
 /// black.
 struct PictureMetrics {
-    std::size_t pixelCount = 0;          ///< pixels that count
-    std::size_t differing = 0;           ///< pixels with any difference
-    std::size_t noticeable = 0;          ///< pixels with a channel that differs by more than the threshold
+    std::size_t pixelCount = 0;          ///< number of pixels where the mask is not black
+    std::size_t differing = 0;           ///< number of pixels with any difference
+    std::size_t noticeable = 0;          ///< number of pixels with a channel that differs by more than the threshold
     int largest = 0;                     ///< largest difference of any channel
     double mean = 0.0;                   ///< mean difference over all channels of all pixels
     double meanSquare = 0.0;             ///< mean squared difference over all channels of all pixels
     double ssim = 1.0;                   ///< mean structural similarity (Wang et al. 2004); 1 for equal pictures
     std::vector<PixelDifference> worst;  ///< the kWorstPixels pixels with the largest differences, largest first
 
-    /// Share of noticeable pixels among those that count; 0 if no pixel counts.
+    /// Share of noticeable pixels among those where the mask is not black; 0 if it is black everywhere.
     double share() const;
     /// Peak signal-to-noise ratio in dB against a peak of 255: 10 log10(255^2 / meanSquare); infinite for equal
     /// pictures.

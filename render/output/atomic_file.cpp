@@ -91,7 +91,7 @@ AtomicFile::AtomicFile(const fs::path& path) : target_(resolved(path)) {
         descriptor_ = ::open(temporaryPath_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
         if (descriptor_ < 0 && errno != EEXIST) fail("write", target_, errno);
         if (descriptor_ < 0) continue;
-        ::flock(descriptor_, LOCK_EX);  // fails on a file system without locks, where nothing can be done
+        ::flock(descriptor_, LOCK_EX);  // fails on a file system without locks, where the file then stays unlocked
         if (isRemoved(descriptor_)) ::close(std::exchange(descriptor_, -1));
     }
 }

@@ -16,7 +16,7 @@ namespace render {
 /// cache blocks a video encoder for as long.
 inline constexpr std::chrono::duration<double> kProgressTimeout{120.0};
 
-/// The same limit for programs that may sleep for any time, s.
+/// How long a child process that may sleep for any time may make no progress before it is killed, s.
 inline constexpr std::chrono::duration<double> kNoTimeout{1e6};
 
 /// A running program. Its output goes to an unnamed file, because a pipe that is not read would fill up and block both

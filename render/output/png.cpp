@@ -19,7 +19,7 @@
 
 namespace {
 
-/// CRC of a chunk, in place of stb's, which works byte by byte.
+/// Checksum (CRC) of a chunk of a PNG file, in place of the function of stb, which works byte by byte.
 unsigned int checksum(const unsigned char* data, int size) {
     return crc32_gzip_refl(0, data, static_cast<std::uint64_t>(size));
 }

@@ -15,7 +15,7 @@
 namespace render {
 
 struct VideoOptions {
-    std::string path;  ///< path of the video, at which it appears when it is whole
+    std::string path;  ///< path of the video; the file appears there when it is whole
     PictureSize size;
     int fps = 30;
     std::string ffmpeg = "ffmpeg";  ///< the program, looked up on PATH
@@ -32,7 +32,7 @@ void requireEncoder(const VideoOptions& options);
 /// finish(), the destructor kills ffmpeg and removes the temporary file.
 class VideoWriter {
  public:
-    /// @throws SystemError as requireEncoder() does, or when the file cannot be created
+    /// @throws SystemError when ffmpeg cannot be started or has no libx264, or when the file cannot be created
     explicit VideoWriter(VideoOptions options);
 
     /// Appends a frame to the video.
@@ -50,7 +50,7 @@ class VideoWriter {
     VideoOptions options_;
     AtomicFile file_;
     ChildProcess process_;              // the ffmpeg process, destroyed and so killed before its file is removed
-    std::vector<std::uint8_t> padded_;  // a frame padded to an even size; a member to reuse its memory
+    std::vector<std::uint8_t> padded_;  // a frame padded to an even width and height, kept to reuse its memory
 };
 
 }  // namespace render

@@ -17,7 +17,7 @@ struct CoverageMask {
     int top = 0;
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> coverage;  ///< of each pixel, row by row: 0 not covered, 255 completely covered
+    std::vector<std::uint8_t> coverage;  ///< coverage of each pixel, row by row: 0 none, 255 complete
 };
 
 /// A rectangle in pixels of the picture; (0, 0) is its top left corner.
@@ -39,7 +39,7 @@ void coverBox(CoverageMask& mask, const Box& box);
 /// wide.
 CoverageMask widened(const CoverageMask& mask, int radius);
 
-/// A color as red, green and blue in 8-bit sRGB, as in an Image.
+/// A color as three bytes of sRGB: red, green and blue.
 using Bytes = glm::tvec3<std::uint8_t>;
 
 /// Clamps a linear color to [0, 1] and encodes it as 8-bit sRGB.

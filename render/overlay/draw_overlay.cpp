@@ -15,10 +15,11 @@ namespace render {
 namespace {
 
 constexpr double kCapitalHeight = 0.73;  // height of capitals and digits in DejaVu Sans, em
-constexpr int kHaloOpacity = 150;  // out of 255; chosen: text is legible on any picture, and the halo does not dominate
-constexpr double kColorBarHeight = 10.0;  // em; at most half the height of the picture
+constexpr int kHaloOpacity =
+    150;  // opacity of the halo, of 255; chosen: text is legible on any picture, and the halo does not dominate
+constexpr double kColorBarHeight = 10.0;  // height of the color bar, em; at most half the height of the picture
 
-/// The picture, and the lengths that all parts of its overlay share, pixels.
+/// The picture under an overlay, and the lengths in pixels that time stamp, scale bar and color bar share.
 struct Canvas {
     Image& image;
     const Overlay& overlay;

@@ -11,7 +11,7 @@ namespace render {
 
 struct Panel {
     Image image;
-    std::string text;  ///< UTF-8, one line, centered below the image
+    std::string text;  ///< text centered below the image, one line of UTF-8
 };
 
 /// The panels from left to right on white, with thin gaps between them. Their pixels are copied unchanged.

@@ -35,7 +35,7 @@ namespace render {
 
 namespace {
 
-constexpr int kReplacement = 0xFFFD;  // U+FFFD, drawn for bytes that are not UTF-8
+constexpr int kReplacement = 0xFFFD;  // replacement character U+FFFD, drawn for bytes that are not UTF-8
 
 const stbtt_fontinfo& font() {
     static const stbtt_fontinfo kFont = [] {

@@ -24,12 +24,12 @@ struct Tick {
 
 /// A bar in the bottom right corner that shows which color stands for which number.
 struct ColorBar {
-    std::vector<glm::vec3> colors;  ///< linear RGB, evenly spaced from the lower to the upper end; at least one
+    std::vector<glm::vec3> colors;  ///< linear RGB at even distances from the lower to the upper end; at least one
     std::string title;
     std::vector<Tick> ticks;
 };
 
-/// Texts are UTF-8, one line each.
+/// The overlay of a picture. All texts are UTF-8, one line each.
 struct Overlay {
     std::string stamp;  ///< time stamp in the top left corner; empty for none
     std::optional<ScaleBar> scaleBar;

@@ -104,10 +104,10 @@ struct Surface {
     float specular = 0.0F;      ///< reflectance at normal incidence; 0 is matt
     int glossExponent = 6;      ///< base-2 logarithm of the highlight's exponent
     float reflection = 0.0F;    ///< strength of the mirrored surroundings, times Fresnel's factor
-    float metal = 0.0F;         ///< 1: no diffuse light, and reflections take the color of the particle
-    float roughness = 0.0F;     ///< 1: as bright at the rim as in the middle, like dust
+    float metal = 0.0F;         ///< how metallic; at 1 no diffuse light, and reflections have the particle's color
+    float roughness = 0.0F;     ///< how dust-like; at 1 as bright at the rim as in the middle
     float translucency = 0.0F;  ///< share of the light from behind that passes through thin parts
-    float absorption = 0.0F;    ///< how much the color deepens in thick parts
+    float absorption = 0.0F;    ///< how much the color deepens in thick parts, 0 to 1
     float glow = 0.0F;          ///< emitted light
 };
 

@@ -1,4 +1,4 @@
-// Builds the particles that exist from the start: [[body]].
+// Makes the particles that exist from the start, from the [[body]] tables of a scene.
 #include <cmath>
 #include <filesystem>
 #include <numbers>

@@ -1,4 +1,4 @@
-// Formats the numbers of the overlay, and places the ticks of the color bar.
+// Formats the length of the scale bar, and places the ticks of the color bar.
 #include "scenes/build/overlay_text.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace scenes {
 namespace {
 
-/// The smallest step of 1, 2 or 5 times a power of ten that leaves at most five intervals.
+/// The smallest step of 1, 2 or 5 times a power of ten that divides a range of values into at most five intervals.
 double tickStep(double span) {
     const double unit = std::pow(10.0, std::floor(std::log10(span / 5.0)));
     for (const double factor : {1.0, 2.0, 5.0})
@@ -19,7 +19,7 @@ double tickStep(double span) {
     return 10.0 * unit;
 }
 
-/// Exponent of the largest power of ten that is at most a positive number.
+/// Exponent of the largest power of ten that is not above the given positive number.
 int exponentOf(double number) {
     return static_cast<int>(std::floor(std::log10(number) + 1e-9));
 }
@@ -46,9 +46,10 @@ std::string lengthText(double meters) {
 std::vector<render::Tick> ticksBetween(double low, double high) {
     const double step = tickStep(high - low);
     std::vector<render::Tick> ticks;
-    // Integer multiples of the step rather than a sum, so that the third tick from 0 in steps of 0.1 is exactly 0.3.
+    // Ticks are integer multiples of the step rather than sums of steps, so that the third tick from 0 in steps of 0.1
+    // is exactly 0.3.
     const double first = std::ceil(low / step - 1e-9);
-    constexpr int kMaxTicks = 20;  // reached only if the range is smaller than its own rounding error
+    constexpr int kMaxTicks = 20;  // only for a range of values smaller than its own rounding error
     for (int k = 0; k < kMaxTicks && (first + k) * step <= high + 1e-9 * step; ++k) {
         const double value = (first + k) * step + 0.0;  // avoids "-0"
         ticks.push_back({toFloat((value - low) / (high - low)), tickText(value, step)});

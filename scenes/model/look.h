@@ -21,7 +21,7 @@ struct CameraPlacement {
 /// The quantity that a particle's color shows.
 enum class ColorBy { material, speed, age };
 
-/// The tables [look] and [overlay] of a scene, and how its obstacles are drawn.
+/// How a scene is drawn, apart from its cameras: tables [look] and [overlay], and what is drawn of the obstacles.
 struct Look {
     /// What the views of all frames have in common: everything but the particles, the camera, the center of the ground
     /// and the time stamp of the overlay.

@@ -58,7 +58,7 @@ struct PlyProperty {
 struct PlyHeader {
     std::uint64_t rowCount = 0;
     std::vector<PlyProperty> properties;  ///< names and types of the numbers of a row, in order
-    std::size_t size = 0;                 ///< bytes of the header itself
+    std::size_t size = 0;                 ///< size of the header, bytes
 
     bool has(std::string_view name) const { return std::ranges::count(properties, name, &PlyProperty::name) > 0; }
 };

@@ -1,4 +1,4 @@
-// The frames of a scene and the times they show.
+// Computes how many frames the animation of a scene has, and which time each of them shows.
 #include "scenes/model/scene.h"
 
 #include <algorithm>

@@ -59,7 +59,7 @@ struct Study {
     std::optional<double> referenceStep;  ///< time step of the reference run, s
     engine::StepperKind referenceStepper = engine::StepperKind::velocityVerlet;
     std::vector<std::string> vary;   ///< variants of the scene, "KEY=VALUE; KEY=VALUE"; none: the scene as it is
-    std::vector<std::string> quick;  ///< those variants that `--quick` runs; none: all
+    std::vector<std::string> quick;  ///< variants that the option --quick runs; none: all variants
 };
 
 /// The overrides that a variant of a scene consists of; the text "a=1; b=2" has two.

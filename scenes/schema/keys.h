@@ -20,7 +20,7 @@ inline Key key(std::string_view name, Type type, std::string_view unit, std::str
     return {.name = name, .type = type, .unit = unit, .help = help};
 }
 
-/// The key of a point in space.
+/// A key whose value is a point in space.
 inline Key position(std::string_view name, std::string_view help) {
     return key(name, Type::vec3, "m", help).within(kWithinWorld);
 }
@@ -33,7 +33,7 @@ inline Key length(std::string_view name, std::string_view help) {
     return key(name, Type::number, "m", help).within(kPositive);
 }
 
-/// The key of a number from 0 to 1.
+/// A key whose value is a number from 0 to 1.
 inline Key share(std::string_view name, std::string_view help) {
     return key(name, Type::number, "", help).within(kUnitInterval);
 }

@@ -9,7 +9,7 @@ namespace {
 /// Range of the color of a light, which may be brighter than 1. The upper bound is chosen to catch typing mistakes.
 constexpr Range kLight{.low = 0.0, .high = 100.0};
 
-/// The key of the color of a light.
+/// A key whose value is the color of a light.
 Key light(std::string_view name, std::string_view help) {
     return key(name, Type::color, "", help).within(kLight);
 }

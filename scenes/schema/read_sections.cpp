@@ -30,7 +30,7 @@ const TypedValue* defaultOf(const Key& key) {
     return found == kDefaults.end() ? nullptr : &found->second;
 }
 
-/// One table of a scene file while it is read.
+/// A table of a scene file while it is read.
 struct TableReader {
     const TableInfo& info;
     const Value& value;  ///< the table as it is written; empty if the scene does not have it
@@ -170,7 +170,7 @@ Section readOne(const SectionsReader& all, const TableInfo& info, std::string pa
     return std::move(reader.section);
 }
 
-/// A table that the scene does not have, with all defaults.
+/// A table that is not in the scene file: every key has its default.
 Section defaultSection(const SectionsReader& reader, const TableInfo& info) {
     return readOne(reader, info, std::string(info.name), Value{});
 }
@@ -232,7 +232,7 @@ void reportUnknownTables(SectionsReader& reader) {
         if (!isTable || isTableName(entry.key) || findKey("", entry.key) != nullptr) continue;
         reader.mayBeIncomplete = true;
         const std::string nearest = nearestName(entry.key, names);
-        // The position of a table as a value is that of the table's header.
+        // The position of a table's value is that of the table's header.
         reader.problems.add(entry.value.position,
                             fmt::format("unknown table {}{}", tomlString(entry.key),
                                         nearest.empty() ? "" : fmt::format(", did you mean {}?", tomlString(nearest))));

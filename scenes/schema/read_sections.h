@@ -24,7 +24,7 @@ struct Sections {
     std::vector<Section> obstacles;
     std::vector<Section> cameras;  ///< at least one
     std::optional<Section> study;  ///< only if it is written
-    bool mayBeIncomplete = false;  ///< a table could not be read, and may have what seems to be missing
+    bool mayBeIncomplete = false;  ///< a table could not be read, and seemingly missing keys may be in it
 
     /// All tables in the order of the schema.
     std::vector<const Section*> all() const;

@@ -21,10 +21,10 @@ enum class Type {
     choice,
     vec3,  ///< [x, y, z]
     vec3List,
-    color,  ///< "#rrggbb" in sRGB, or [r, g, b] in linear light
+    color,  ///< a color, "#rrggbb" in sRGB or [r, g, b] in linear light
     colorList,
     interval,  ///< [low, high]
-    size,      ///< [width, height] in whole pixels
+    size,      ///< [width, height], whole numbers of pixels
     counts     ///< [nx, ny, nz], whole numbers
 };
 

@@ -1,4 +1,4 @@
-// The schema as columns of text, as text for a terminal, and as Markdown.
+// Writes all keys of scene files as columns of text, as text for a terminal, and as Markdown.
 #include "scenes/schema/schema_export.h"
 
 #include <fmt/format.h>

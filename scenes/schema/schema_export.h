@@ -7,7 +7,7 @@
 
 namespace scenes {
 
-/// A key of the schema as columns of text.
+/// A key of a scene file as columns of text, for lists of all keys.
 struct SchemaRow {
     std::string key;
     std::string type;
@@ -20,7 +20,7 @@ struct SchemaRow {
 
 std::vector<SchemaRow> schemaRows();
 
-/// The whole schema as text for a terminal.
+/// All keys of scene files as text for a terminal.
 std::string schemaText();
 
 /// The whole schema as Markdown: for each table of a scene file a section with a table of its keys.

@@ -34,7 +34,7 @@ const Section::Slot& Section::slot(std::string_view name) const {
 }
 
 void Section::put(std::string_view name, TypedValue value, SourcePosition position, ValueOrigin origin) {
-    // A valid value that was written takes the place of an invalid one. A default does not.
+    // A valid value that was written replaces an invalid one. A default does not: the key still counts as written.
     if (origin == ValueOrigin::given) invalid_.erase(std::string(name));
     slots_.insert_or_assign(std::string(name), Slot{std::move(value), position, origin});
 }

@@ -71,7 +71,7 @@ class Section {
     SourcePosition position_;
     bool isValid_ = true;
     std::map<std::string, Slot, std::less<>> slots_;
-    std::map<std::string, SourcePosition, std::less<>> invalid_;  ///< keys written with invalid values
+    std::map<std::string, SourcePosition, std::less<>> invalid_;  ///< position of each invalid value, by key
 };
 
 }  // namespace scenes

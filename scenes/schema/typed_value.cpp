@@ -14,12 +14,12 @@ namespace {
 
 using engine::Vec3;
 
-/// A valid value; nothing if the value was rejected, with its problems recorded.
+/// The result of validating a value: the valid value, or nothing if it was rejected with its problems recorded.
 using MaybeValue = std::optional<TypedValue>;
 
 /// A value that is being validated: the value of a key, or an element of it.
 struct Subject {
-    const Key& key;  ///< for an element, the key with its type changed to that of an element
+    const Key& key;  ///< the key; for an element of a list, with its type changed to that of the element
     ProblemList& problems;
     std::string name;                          ///< what messages call the value: "gravity" or "gravity[1]"
     std::string expected = expectedText(key);  ///< what the value must be: "three numbers [x, y, z]"
@@ -42,7 +42,7 @@ bool contains(const Range& range, double number) {
            (range.isHighExcluded ? number < range.high : number <= range.high);
 }
 
-/// The value as a finite number within the range of the key.
+/// Validates the value as a finite number within the range of the key.
 MaybeValue numberOf(const Subject& subject, const Value& value) {
     const bool isInteger = value.kind == ValueKind::integer;
     const bool isNumber = isInteger || value.kind == ValueKind::floatingPoint;
@@ -67,7 +67,7 @@ MaybeValue choiceOf(const Subject& subject, const Value& value) {
 
 MaybeValue typedOf(const Subject& subject, const Value& value);
 
-/// The value as a list whose elements are of the given type.
+/// Validates the value as a list whose elements are of the given type.
 MaybeValue listOf(const Subject& subject, const Value& value, Type elementType) {
     const bool mayBeEmpty = elementType == Type::string;
     if (value.kind != ValueKind::array || (value.items.empty() && !mayBeEmpty)) return reject(subject, value);
@@ -89,7 +89,7 @@ MaybeValue listOf(const Subject& subject, const Value& value, Type elementType) 
     return list;
 }
 
-/// The value as a list of so many numbers.
+/// Validates the value as a list of numbers of the given length.
 MaybeValue numbersOf(const Subject& subject, const Value& value, std::size_t length, Type elementType) {
     if (value.kind != ValueKind::array || value.items.size() != length) return reject(subject, value);
     return listOf(subject, value, elementType);

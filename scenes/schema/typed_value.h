@@ -20,8 +20,8 @@ struct TypedValue {
     bool boolean = false;               ///< boolean
     std::string string;                 ///< string, choice
     std::vector<std::string> strings;   ///< stringList
-    std::vector<engine::Vec3> vectors;  ///< vec3, color, counts: one element; vec3List, colorList: all of the list
-    std::vector<double> numbers;        ///< interval, size: two elements; numberList: all of the list
+    std::vector<engine::Vec3> vectors;  ///< the value of a vec3, color or counts; elements of a vec3List or colorList
+    std::vector<double> numbers;        ///< elements of an interval, size or numberList
     std::string canonical;              ///< the value as TOML text, equal for values that mean the same
 
     static TypedValue ofNumber(double number);
@@ -31,7 +31,7 @@ struct TypedValue {
     static TypedValue ofVector(const engine::Vec3& vector);
 };
 
-/// The value, if it is valid for the key; otherwise nothing, with every problem recorded.
+/// Validates the value of a key. Returns nothing, with every problem recorded, if the value is not valid.
 std::optional<TypedValue> validateValue(const Key& key, const Value& value, ProblemList& problems);
 
 }  // namespace scenes

@@ -33,13 +33,13 @@ struct MapCurve {
 };
 
 const std::vector<MapCurve> kCurves = {
-    // Violet, blue, teal, green, yellow.
+    // Color map from violet through blue, teal and green to yellow.
     {"lagoon", 0.30, 0.92, {{0.034, -0.092}, {-0.046, -0.119}, {-0.092, -0.028}, {-0.168, 0.085}, {-0.046, 0.185}}},
-    // Night, purple, red, orange, pale yellow.
+    // Color map from nearly black through purple, red and orange to pale yellow.
     {"ember", 0.22, 0.93, {{0.015, -0.063}, {0.138, -0.070}, {0.244, 0.089}, {0.116, 0.186}, {-0.025, 0.118}}},
-    // Blue, gray, yellow. It avoids red against green, for color-blind viewers.
+    // Color map from blue through gray to yellow. It avoids red against green, for color-blind viewers.
     {"dusk", 0.28, 0.91, {{-0.006, -0.090}, {-0.014, -0.064}, {-0.020, 0.0}, {-0.008, 0.059}, {-0.015, 0.124}}},
-    // Deep blue to the white of ice.
+    // Color map from deep blue to the white of ice.
     {"glacier", 0.30, 0.96, {{0.008, -0.111}, {-0.039, -0.156}, {-0.062, -0.071}, {-0.009, -0.005}}},
 };
 

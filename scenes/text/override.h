@@ -11,7 +11,7 @@ namespace scenes {
 /// name.
 struct Override {
     std::string assignment;  ///< "physics.step=0.005"
-    std::string option;      ///< "--set physics.step=0.005"
+    std::string option;      ///< the option as typed: "--set physics.step=0.005"
 
     /// An override given by --set. Implicit, so that a list of overrides can be written as a list of strings.
     Override(std::string text) : assignment(std::move(text)), option("--set " + assignment) {}

@@ -13,8 +13,8 @@ namespace scenes {
 
 class ProblemList {
  public:
-    /// @param file  the scene file, which messages name
-    /// @param overrides  whose command-line options messages about values in them name instead
+    /// @param file  the scene file, named in the message of each problem
+    /// @param overrides  overrides of the command line; a problem in one of them names its option instead of the file
     ProblemList(std::string file, Overrides overrides);
 
     /// Records a problem. The same message at the same position is recorded once.

@@ -22,7 +22,7 @@ struct Statement {
     StatementKind kind = StatementKind::unknown;
     std::string name;                ///< name of the key or the table, as far as it can be read
     bool hasDoubleBrackets = false;  ///< the header opens with [[
-    bool isClosed = true;            ///< every bracket and quotation mark of the value is closed
+    bool isClosed = true;            ///< every bracket and quotation mark in the value is closed
     std::size_t firstLine = 0;       ///< index of the statement's first line
     std::size_t lastLine = 0;
     SourcePosition position;  ///< position of the statement's first character

@@ -9,7 +9,7 @@
 namespace scenes {
 namespace {
 
-/// Length at which messages cut off the strings of a scene file, bytes.
+/// Messages show no more of a string in a scene file than this, bytes.
 constexpr std::size_t kMaxQuotedLength = 40;
 
 /// Cuts a long string off for a message, but never within the bytes of one UTF-8 character.

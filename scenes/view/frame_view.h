@@ -23,7 +23,7 @@ std::string timeText(const Scene& scene, double time);
 /// @param time  s; determines the camera, and the colors where they show the particles' age
 render::View frameView(const Scene& scene, const engine::Particles& particles, double time);
 
-/// The view of the scene at the current time of its simulation.
+/// The view of the scene at the current time of the simulation.
 render::View frameView(const Scene& scene, const engine::Simulation& simulation);
 
 }  // namespace scenes
