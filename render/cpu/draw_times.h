@@ -6,16 +6,16 @@
 
 namespace render {
 
-/// Wall-clock seconds of one picture; a stage that the view does not need takes next to nothing. The first three stages
-/// run side by side: together they may take more than the picture did, and a stage may include what its thread did for
-/// another stage while it waited.
+/// Wall-clock seconds of the stages of one picture; a stage that the view does not need takes next to nothing. The
+/// first three stages run side by side: together they may take more than the picture did, and a stage may include what
+/// its thread did for another stage while it waited.
 struct DrawTimes {
-    double bin = 0.0;        ///< balls of the skin, spheres, boxes, lines and ground to tiles
-    double occlusion = 0.0;  ///< sky visibility
-    double shadow = 0.0;     ///< the light's grid of spheres and depth map of the metaballs
+    double bin = 0.0;        ///< sorting balls, spheres, boxes, lines and ground into tiles
+    double occlusion = 0.0;  ///< computing the sky visibility
+    double shadow = 0.0;     ///< building the light's grid of spheres and the depth map of the metaballs
     double cast = 0.0;       ///< ray casting of metaballs
     double color = 0.0;      ///< primary hits and shading
-    double openGl = 0.0;     ///< upload of the pixels
+    double openGl = 0.0;     ///< uploading the pixels
     double readBack = 0.0;
 };
 

@@ -1,5 +1,5 @@
-// Pixels that show one thing, which are most, are shaded once. On the pixels of outlines each thing is shaded at the
-// middle of the samples that hit it.
+// Most pixels show one thing and are shaded once. In a pixel that an outline crosses, each thing that its samples hit
+// is shaded once, at the mean position of these samples.
 #include "render/cpu/picture_colors.h"
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace render {
 
 namespace {
 
-/// Columns and rows along the Z curve. Points are shaded in this order, because fewer spheres lie between the light and
-/// a compact group of pixels than between the light and a row of them.
+/// Columns and rows of a tile's pixels along the Z-order curve. Points are shaded in this order, because fewer spheres
+/// lie between the light and a compact group of pixels than between the light and a row of them.
 struct ZCurveTables {
     std::array<float, kTilePixels> column{}, row{};
-    std::array<std::uint8_t, kTilePixels> rank{};  ///< position on the curve of each pixel
+    std::array<std::uint8_t, kTilePixels> rank{};  ///< position of each pixel on the curve
 
     constexpr ZCurveTables() {
         for (std::size_t k = 0; k < kTilePixels; ++k) {
@@ -32,7 +32,7 @@ struct ZCurveTables {
 
 constexpr ZCurveTables kZCurveTables;
 
-/// The middle of each subset of the samples, given as a bit mask, from the pixel's middle.
+/// Mean offset from the pixel's middle, in pixels, of each subset of the four samples. A subset is a bit mask.
 std::array<glm::vec2, 16> sampleMiddles() {
     std::array<glm::vec2, 16> found{};
     for (unsigned samples = 1; samples < found.size(); ++samples) {
@@ -44,7 +44,7 @@ std::array<glm::vec2, 16> sampleMiddles() {
     return found;
 }
 
-/// Where a pixel that shows one thing is shaded, from the pixel's corner.
+/// Position at which a pixel that shows one thing is shaded, in pixels from the pixel's top left corner.
 glm::vec2 shadedPosition(const PictureJob& job) {
     return 0.5F + (job.offsets.size() == 1 ? job.offsets[0] : glm::vec2(0.0F));
 }
@@ -66,24 +66,24 @@ void shadePoints(const PictureJob& job, const ShadingPoints& points, PointColors
     shade(job.shading, job.geometry, points, job.occluders ? &visibility : nullptr, colors);
 }
 
-/// The colors of one tile, along the Z curve.
+/// The colors of one tile's pixels, ordered along the Z curve.
 class TileColors {
  public:
     TileColors(const PictureJob& job, std::size_t tile) : job_(job), tile_(tile) {}
 
-    /// One color for each pixel, of the one thing that it shows.
+    /// Gives each pixel the color of what its first sample hits.
     void colorPixels(std::span<const std::int32_t, kTilePixels> hitIds) {
         ShadingPoints points;
         pixelPoints(job_, tile_, hitIds, points);
         shadePoints(job_, points, colors_);
     }
 
-    /// Replaces the colors of edge pixels.
+    /// Replaces the colors of the pixels that an outline crosses.
     void colorEdges(const TileEdges& edges) {
         std::span<const EdgePixel> pixels = edges.pixels;
         std::span<const EdgeHit> hits = edges.hits;
         while (!pixels.empty()) {
-            // As many pixels as surely fit into one set of points: each has at most four hits.
+            // Each pixel has at most four hits, and one set of shading points has room for a tile of them.
             const std::size_t count = std::min(pixels.size(), kTilePixels / kFourSamples.size());
             hits = hits.subspan(colorSomeEdges(pixels.first(count), hits));
             pixels = pixels.subspan(count);
@@ -105,7 +105,9 @@ class TileColors {
     const PointColors& colors() const { return colors_; }
 
  private:
-    /// Colors edge pixels whose hits are the first of these; returns how many hits they have.
+    /// Colors some of the pixels that an outline crosses.
+    /// @param hits  begins with the hits of these pixels
+    /// @return the number of their hits
     std::size_t colorSomeEdges(std::span<const EdgePixel> pixels, std::span<const EdgeHit> hits) {
         static const std::array<glm::vec2, 16> kSampleMiddles = sampleMiddles();
         const glm::vec2 corner = tileCorner(*job_.contents.geometry.tiles, tile_);
@@ -149,7 +151,7 @@ TileTarget targetOf(const CellLists& tiles, std::size_t tile, std::span<PixelCol
             &pixels[tile / columns * kTileSize * rowLength + tile % columns * kTileSize], rowLength};
 }
 
-/// Encodes colors along the Z curve and writes them to a tile.
+/// Encodes a tile's colors, which are ordered along the Z curve, and writes them to the picture row by row.
 void writeTile(const PointColors& colors, const TileTarget& target) {
     alignas(64) std::array<PixelColor, kTilePixels> encoded;
     encodeColors(colors, encoded.data());
@@ -210,7 +212,7 @@ void colorTile(const PictureJob& job, std::size_t tile, const PictureMean& mean,
 void BackgroundCache::begin(const ShadingGeometry& geometry, const Shading& shading, std::size_t tileCount) {
     Key key{geometry.frame,     geometry.ground,      shading.background,
             shading.openGround, shading.groundCenter, shading.fadeDistance};
-    key.frame.eye = glm::vec3(0.0F);  // all positions are relative to it
+    key.frame.eye = glm::vec3(0.0F);  // ground and background are given relative to the eye
     if (key != key_ || kinds_.size() != tileCount) kinds_.assign(tileCount, TileKind::mixed);
     key_ = key;
 }

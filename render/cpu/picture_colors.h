@@ -20,26 +20,28 @@ struct PictureJob {
     TileContents contents;
     SampleOffsets offsets;
     ShadingGeometry geometry;
-    std::optional<Occluders> occluders;  ///< nothing where nothing casts shadows or occludes the sky
+    std::optional<Occluders> occluders;  ///< empty if nothing casts shadows or occludes the sky
     const Shading& shading;
 };
 
-/// A picture that is the mean of several, which are colored one after another.
+/// A picture that is the mean of several samplings, which are colored one after another.
 struct PictureMean {
-    std::size_t index = 0;  ///< of this picture
-    std::size_t count = 1;
-    std::vector<PointColors>& sums;  ///< of the pictures so far, a tile each; not used for one picture
+    std::size_t index = 0;  ///< number of samplings before this one
+    std::size_t count = 1;  ///< number of samplings
+    std::vector<PointColors>&
+        sums;  ///< per tile: sums of the colors of all samplings so far; not used if there is only one
 };
 
-/// Knows which tiles of the pixels show nothing but background or open ground. They stay as they are in the next
-/// picture while the camera, the background and the ground do not change: in a film whose camera rests a twentieth of
-/// the time to draw a frame is saved (measured by perf on `globular bench --filter "draw frame solid"`).
+/// Remembers which tiles of the last picture show nothing but background, or nothing but ground that nothing occludes.
+/// Their pixels are kept in the next picture while the camera, the background and the ground do not change. In a film
+/// whose camera rests this saves a twentieth of the time to draw a frame (measured by perf on `globular bench --filter
+/// "draw frame solid"`).
 class BackgroundCache {
  public:
-    /// Starts a picture, and forgets all tiles if anything is new that their colors are computed from.
+    /// Starts a picture. Forgets all tiles if the camera, the background or the ground has changed since the last one.
     void begin(const ShadingGeometry& geometry, const Shading& shading, std::size_t tileCount);
 
-    /// Notes what a tile shows in this picture. @return whether its pixels show that already
+    /// Notes what a tile shows in this picture. @return whether the pixels of the tile show it already
     bool keeps(std::size_t tile, TileKind kind);
 
  private:
@@ -57,11 +59,12 @@ class BackgroundCache {
     std::vector<TileKind> kinds_;
 };
 
-/// Colors the pixels of a picture, or adds them to the mean, of which the last picture writes the pixels.
-/// @param pixels  of whole tiles, row by row; as the last picture with this cache left them
+/// Colors the pixels of a picture. If the picture is a mean of several samplings, their colors are added up, and the
+/// last sampling writes the pixels.
+/// @param pixels  pixels of all tiles, row by row, as the last picture with this cache left them
 void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache& cache, std::span<PixelColor> pixels);
 
-/// What the job's first sample of each pixel of the picture hits, row by row.
+/// The surface point that the first sample of each pixel of the picture hits, row by row.
 std::vector<VisiblePoint> visiblePoints(const PictureJob& job);
 
 }  // namespace render

@@ -25,7 +25,8 @@ void PicturePass::prepare(const CameraFrame& frame, const View& view, int depthM
     hasMetaballs_ = view.style == Style::metaballs && !view.particles.empty();
     meanRadius_ = static_cast<float>(meanRadius(view.particles));
     depthMapTexels_ = depthMapTexels;
-    // These run side by side: none needs another's results, and each has parts that keep only one thread busy.
+    // Sky visibility, tiles and shadow casters are found side by side: none needs the others' results, and each has
+    // parts that keep only one thread busy.
     const auto placeBalls = [&] {
         timed(times.bin, [&] {
             drawn_ = drawnSpheres(view);
@@ -73,8 +74,8 @@ void PicturePass::castDepthMap(const View& view, glm::vec2 shift) {
                     : DepthMap{};
 }
 
-// Rays moved by a third of a pixel look at texels moved by a third of a texel, so that the mean of the pictures has the
-// mean of the maps.
+// In final quality the rays of a sampling are moved by a third of a pixel. The texels of the depth map are moved by a
+// third of a texel with them, so that the mean of the samplings shows the mean of nine depth maps.
 void PicturePass::castShadow(const View& view, const Sampling& sampling) {
     if (!depthMap_.empty() && sampling.offset != depthMapShift_) castDepthMap(view, sampling.offset);
 }

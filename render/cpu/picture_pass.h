@@ -26,17 +26,17 @@ namespace render {
 
 /// Which rays are taken through each pixel: one of `count` samplings whose mean is the picture.
 struct Sampling {
-    int samples = 1;         ///< per pixel, 1 or 4
-    glm::vec2 offset{0.0F};  ///< of the sample from the pixel's middle, pixels; with one sample only
-    bool isSparse = false;   ///< metaballs are interpolated between every second pixel where they are smooth
-    std::size_t index = 0;
-    std::size_t count = 1;
+    int samples = 1;         ///< samples per pixel, 1 or 4
+    glm::vec2 offset{0.0F};  ///< offset of a single sample from the pixel's middle, pixels
+    bool isSparse = false;   ///< whether smooth metaballs are cast at every second pixel only and interpolated between
+    std::size_t index = 0;   ///< number of samplings before this one
+    std::size_t count = 1;   ///< number of samplings
 };
 
 class PicturePass {
  public:
-    /// Finds everything that does not depend on the sampling.
-    /// @param depthMapTexels  along the longer side of the depth map
+    /// Prepares everything that does not depend on the sampling.
+    /// @param depthMapTexels  number of texels along the longer side of the depth map
     void prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times);
 
     /// Casts the metaballs' depth map again if this sampling needs its texels elsewhere than the last one.
@@ -45,11 +45,11 @@ class PicturePass {
     /// Casts the metaballs for the camera. Does nothing for spheres.
     void castMetaballs(const Sampling& sampling);
 
-    /// Colors the picture, or adds one sampling to the mean, which the last of them writes.
-    /// @param pixels  of whole tiles, row by row; as the last call left them
+    /// Colors the picture. Of several samplings, whose mean is the picture, the last one writes the pixels.
+    /// @param pixels  pixels of all tiles, row by row, as the last call left them
     void color(const View& view, const Sampling& sampling, std::span<PixelColor> pixels);
 
-    /// What the first sample of each pixel hits, row by row.
+    /// The surface point that the first sample of each pixel hits, row by row.
     std::vector<VisiblePoint> visiblePoints(const View& view, const Sampling& sampling) const;
 
  private:
@@ -64,7 +64,7 @@ class PicturePass {
 
     CameraFrame frame_;
     Shading shading_;
-    float meanRadius_ = 0.0F;  // of the particles, m
+    float meanRadius_ = 0.0F;  // mean radius of the particles, m
     // Spheres
     DrawnSpheres drawn_;
     std::vector<SphereAttributes> sphereAttributes_;
@@ -78,7 +78,7 @@ class PicturePass {
     MetaballHits metaballHits_;
     // Lines, boxes and ground
     LineList lineList_;
-    std::vector<std::uint8_t> boxTiles_;  // 1 where a box may be seen
+    std::vector<std::uint8_t> boxTiles_;  // per tile: 1 where a box may be seen
     std::vector<GroundTile> groundTiles_;
     // Light and sky
     LightBasis light_;
@@ -92,7 +92,7 @@ class PicturePass {
     std::vector<SkyVisibility> particleSky_;
 
     BackgroundCache background_;
-    std::vector<PointColors> sums_;  // of the samplings so far, per tile
+    std::vector<PointColors> sums_;  // per tile: sums of the colors of all samplings so far
 };
 
 }  // namespace render

@@ -10,7 +10,8 @@ namespace render {
 
 namespace {
 
-/// A ray through each pixel of a tile, row by row. @param first  position of the first ray on the picture, pixels
+/// Places one ray through each pixel of a tile, row by row.
+/// @param first  position of the first ray on the picture, pixels
 void placeRays(glm::vec2 first, TileRays& rays) {
     for (std::size_t row = 0; row < kTileSize; ++row) {
         for (std::size_t column = 0; column < kTileSize; ++column) {
@@ -24,7 +25,9 @@ bool hasItems(const CellLists& lists, std::size_t tile) {
     return lists.begin[tile + 1] > lists.begin[tile];
 }
 
-/// Without branches, so that compilers vectorize loops over it. @param depth  0 where there is no surface
+/// Replaces the hit of ray k by another one if that is nearer. It has no branches, so that compilers vectorize loops
+/// that call it.
+/// @param depth  view depth of the other hit, m; 0 if there is none
 void keepNearer(TileRays& rays, std::size_t k, float depth, std::int32_t hitId) {
     const bool isNearer = (depth > 0.0F) & (depth < rays.depth[k]);
     rays.depth[k] = isNearer ? depth : rays.depth[k];
@@ -82,7 +85,7 @@ void TileSamples::findEdges(TileEdges& edges) const {
     for (const std::uint8_t pixel : pixelsWhere(isEdge)) addEdge(pixel, edges);
 }
 
-/// Whether the tile shows nothing but metaballs, without a silhouette: then one sample is as good as four.
+/// Whether the tile shows nothing but metaballs, without a silhouette, so that one sample per pixel is as good as four.
 bool TileSamples::isFilledByMetaballs() const {
     if (!contents_.hasMetaballs(tile_) || !contents_.metaballs->silhouettes[slot()].samples.empty()) return false;
     if (contents_.hasSpheres(tile_) || contents_.boxes[tile_] != 0) return false;
@@ -95,7 +98,8 @@ bool TileSamples::isFilledByMetaballs() const {
     return nearest > 0.0F && farthest < contents_.ground[tile_].nearest;
 }
 
-/// All samples of a pixel see what the ray through its middle hits, apart from those of the tile's silhouettes.
+/// All samples of a pixel hit what the ray through the pixel's middle hits, apart from those samples at silhouettes for
+/// which rays of their own were cast.
 void TileSamples::addMetaballs() {
     struct Found {
         std::array<float, kTilePixels> depth;
@@ -124,7 +128,7 @@ void TileSamples::addEdge(std::uint8_t pixel, TileEdges& edges) const {
     std::array<std::int32_t, kSamples> hitIds;
     for (std::size_t s = 0; s < kSamples; ++s) hitIds[s] = rays_[s].hitId[pixel];
     std::uint8_t count = 0;
-    // Which samples hit the same thing cannot be predicted, so equal ones are found without branches.
+    // Equal hits are found without branches, which would be mispredicted too often.
     for (unsigned left = (1U << kSamples) - 1U; left != 0; ++count) {
         const std::int32_t hitId = hitIds[static_cast<std::size_t>(std::countr_zero(left))];
         unsigned mask = 0;

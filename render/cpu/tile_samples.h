@@ -20,10 +20,10 @@ namespace render {
 /// What the tiles of a picture may show.
 struct TileContents {
     SolidGeometry geometry;
-    const MetaballHits* metaballs;  ///< null if there are none
+    const MetaballHits* metaballs;  ///< null without metaballs
     const LineList& lines;
     std::span<const std::uint8_t> boxes;  ///< per tile: 1 where a box may be seen
-    std::span<const GroundTile> ground;   ///< per tile
+    std::span<const GroundTile> ground;   ///< per tile: the ground that it may show
 
     bool hasSpheres(std::size_t tile) const;
     bool hasLines(std::size_t tile) const;
@@ -31,21 +31,22 @@ struct TileContents {
     TileKind kindOf(std::size_t tile) const;
 };
 
-/// Positions of the samples within a pixel, from its middle: one, or kFourSamples.
+/// Offsets of the samples of a pixel from the pixel's middle, in pixels: a single one, or kFourSamples.
 using SampleOffsets = std::span<const glm::vec2>;
 
 /// A pixel whose samples hit several things.
 struct EdgePixel {
-    std::uint8_t pixel;     ///< column + 16 row
-    std::uint8_t hitCount;  ///< number of different things that its samples hit
+    std::uint8_t pixel;     ///< column + 16 row within the tile
+    std::uint8_t hitCount;  ///< number of different things that the pixel's samples hit
 };
 
+/// One of the things that the samples of an edge pixel hit.
 struct EdgeHit {
-    std::int32_t hitId;        ///< see primary_hits.h
-    std::uint32_t sampleMask;  ///< a bit for each sample that hits it
+    std::int32_t hitId;        ///< what the samples hit, see primary_hits.h
+    std::uint32_t sampleMask;  ///< one bit for each of the pixel's samples, set if the sample hits this thing
 };
 
-/// The edge pixels of a tile, and their hits in the same order.
+/// The edge pixels of a tile, and what their samples hit, one pixel after another.
 struct TileEdges {
     std::vector<EdgePixel> pixels;
     std::vector<EdgeHit> hits;
@@ -56,12 +57,14 @@ class TileSamples {
  public:
     TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile);
 
-    /// What the first sample of each pixel hits, row by row: in pixels without an edge, what all samples hit.
+    /// What the first sample of each pixel hits, row by row, as in primary_hits.h. In a pixel that no outline crosses,
+    /// all samples hit the same.
     std::span<const std::int32_t, kTilePixels> hitIds() const { return samples_[0].hitId; }
 
     std::span<const TileRays> rays() const { return samples_; }
 
-    /// Overwrites `edges`, whose memory is reused.
+    /// Finds the pixels whose samples hit different things.
+    /// @param edges  overwritten; its memory is reused
     void findEdges(TileEdges& edges) const;
 
  private:

@@ -1,5 +1,5 @@
-// The light is a camera in parallel projection: a ray is cast for each texel, and more where an outline runs between
-// two of them, whose shadow would be jagged otherwise.
+// The light is a camera in parallel projection. A ray is cast for each texel, and three more where an outline runs
+// between texels, because the edge of its shadow would be jagged otherwise.
 #include "render/cpu/lighting/depth_map.h"
 
 #include <algorithm>
@@ -33,20 +33,20 @@ CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) 
     return frame;
 }
 
-// Chosen for the eye alone: it makes the edge of a sharp shadow, which is filtered over three texels, a quarter of a
-// radius wide.
+// Texels per radius of the smallest particle in a map for sharp shadows. Chosen by eye: the edge of a shadow, which is
+// filtered over three texels, is then a quarter of a radius wide.
 constexpr float kTexelsPerRadius = 12.0F;
 
-// Heights of neighboring texels that differ by more than so many texels are taken for an outline. At half of it
-// pictures are no nearer to the exact ones (measured).
+// Neighboring texels have an outline between them if their heights differ by more than this many texel sizes. With half
+// as many, pictures come no nearer to the exact ones (measured).
 constexpr float kJump = 4.0F;
 
-constexpr std::size_t kReadAtOnce = 8;  // heights
-constexpr float kMaxSteps = 65535.0F;
+constexpr std::size_t kReadAtOnce = 8;  // number of heights that light_visibility.cpp loads at once
+constexpr float kMaxSteps = 65535.0F;   // largest height that can be stored, in steps of the map
 
-/// Texels lie at multiples of their size in the world, so that a map that grows by a row, or a camera that moves,
-/// leaves the others where they were.
-/// @param eye  of the camera in light space
+/// A depth map without heights. Texels lie at multiples of their size in the world, so that they do not move when the
+/// map grows by a row or the camera moves.
+/// @param eye  position of the camera in light space, m
 DepthMap emptyMap(const Bounds<glm::vec3>& bounds, glm::vec3 eye, float texelSize, int maxTexels) {
     DepthMap map;
     const glm::vec3 extent = bounds.high - bounds.low;
@@ -65,7 +65,7 @@ DepthMap emptyMap(const Bounds<glm::vec3>& bounds, glm::vec3 eye, float texelSiz
     return map;
 }
 
-/// Fills in the heights of an empty map and their bounds.
+/// Casts the heights of an empty depth map and finds their bounds.
 class HeightCast {
  public:
     /// @param top  height of the plane where the light's rays start, m
@@ -95,7 +95,7 @@ class HeightCast {
         });
     }
 
-    /// Casts the first height of each texel.
+    /// Casts the first of the four heights of each texel of a tile.
     void castFirst(std::size_t tile) {
         RayBlock block;
         placeRays(block, tileCorner(scene_.tiles, tile), kZCurve, glm::vec2(-0.25F));
@@ -107,8 +107,8 @@ class HeightCast {
         }
     }
 
-    /// The other three heights of each texel: the mean of the first heights around them if these are near each other,
-    /// otherwise they are cast.
+    /// Finds the other three heights of each texel of a tile. Each is the mean of the first heights around it if these
+    /// differ little; otherwise a ray is cast for it.
     void fillHeights(std::size_t tile) {
         RayBlock block;
         block.count = 0;
@@ -129,7 +129,7 @@ class HeightCast {
         if (block.count > 0) castAdded(tile, block);
     }
 
-    /// Sets a height to the mean of those around it, or adds its ray to the block.
+    /// Sets a height to the mean of the heights around it or, where these differ much, adds its ray to the block.
     template <std::size_t kCount>
     void fillBetween(std::size_t column, std::size_t row, const std::array<float, kCount>& around, RayBlock& block) {
         const auto [lowest, highest] = std::minmax_element(around.begin(), around.end());
@@ -141,7 +141,7 @@ class HeightCast {
         }
         block.x[block.count] = 0.5F * static_cast<float>(column) + 0.25F;
         block.y[block.count] = 0.5F * static_cast<float>(row) + 0.25F;
-        // From a radius before the nearest surface around.
+        // The search begins one radius before the nearest surface around the ray.
         block.minDepth[block.count] = top_ - *highest - scene_.smallestRadius;
         block.maxDepth[block.count] = kNoDepthLimit;
         ++block.count;
@@ -161,7 +161,7 @@ class HeightCast {
             static_cast<std::uint16_t>(std::clamp(steps, 0.0F, kMaxSteps) + 0.5F);
     }
 
-    /// The extremes of each texel's heights, then of five texels in a row, then of five such results in a column.
+    /// Finds the lowest and the highest height of each texel, then of five texels in a row, then of five such rows.
     void findBounds() {
         std::vector<float> lowest(map_.lowest.size()), highest(map_.highest.size());
         forEachRow(0, [&](std::size_t row) {
@@ -196,7 +196,7 @@ class HeightCast {
         });
     }
 
-    /// Reduces each texel of a row and two on each side of it, at multiples of `stride`.
+    /// Reduces, for each texel of a row of the map, five values to one: its own and two on each side, `stride` apart.
     template <typename Reduce>
     void reduceFive(const std::vector<float>& from, std::size_t stride, std::size_t row, const Reduce& reduce,
                     std::vector<float>& to) const {
@@ -233,7 +233,7 @@ DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const
         smallest = std::min(smallest, radius);
     }
     if (bounds.low.x > bounds.high.x) return {};
-    // A soft edge is filtered over three texels, each of half the softness (shading_model.h).
+    // A soft edge is filtered over three texels, each half as wide as the softness (shading_model.h).
     const auto mean = static_cast<float>(meanRadius(view.particles));
     const float softness = view.light.softness;
     const float texelSize = softness > 0.0F ? 0.5F * softness * mean : smallest / kTexelsPerRadius;
