@@ -23,14 +23,15 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// Points that receive light; u, v and height in the light's space.
+/// A vector of points that receive light.
 struct Receivers {
-    V u, v, height;
+    V u, v, height;  // position in light space, m
     Vec3 position, normal;
-    V pixelWidth;  // at the point's depth, m
-    M isFacing;    // turned to the light
+    V pixelWidth;  // width of a pixel at the point's depth, m
+    M isFacing;    // whether the surface is turned to the light
 };
 
+/// Coverage by a sharp edge that is smoothed over the width of a pixel. @param x  distance inside the edge, pixels
 V sharpEdge(V x) {
     return clamp(x + splat(0.5F), 0.0F, 1.0F);
 }
@@ -46,8 +47,8 @@ V softEdge(V x) {
 V sphereCoverage(float height, float radius, const Receivers& at, V square, float softness) {
     const V drop = hn::Max(splat(radius * radius) - square, splat(0.0F));
     const V top = splat(height) + hn::Sqrt(drop);
-    // A point of this very sphere lies at `top`. A hundredth of a radius (chosen) is far above the rounding and
-    // invisible.
+    // A point on the sphere itself lies at `top`. The tolerance of a hundredth of a radius (chosen) is far above the
+    // rounding and cannot be seen.
     const M isAbove = top > at.height + splat(0.01F * radius);
     // lightGrid() leaves a margin of a tenth of a radius for this edge.
     V edge = clamp(at.pixelWidth, 1.0e-4F * radius, 0.2F * radius);
@@ -58,7 +59,7 @@ V sphereCoverage(float height, float radius, const Receivers& at, V square, floa
     return hn::IfThenElseZero(isAbove, softEdge(inside / edge));
 }
 
-/// Bounds of some receivers on the light's plane, and the least of their heights.
+/// Bounds of some receivers on the light's plane, and the lowest of their heights.
 struct ReceiverBounds {
     V lowU, highU, lowV, highV, bottom;
 
@@ -80,14 +81,15 @@ std::uint32_t coveringSpheres(const LightSpheres& spheres, std::size_t first, co
     const V radius = hn::LoadU(d, &spheres.radius[first]);
     const V offU = hn::Max(hn::Max(bounds.lowU - u, u - bounds.highU), zero);
     const V offV = hn::Max(hn::Max(bounds.lowV - v, v - bounds.highV), zero);
-    // Nothing is covered beyond half the widest edge, which is a radius wide; 0.001 more for the rounding.
+    // A sphere covers nothing farther away than its radius and half the width of the widest edge, which is a radius
+    // wide; 0.001 more for the rounding.
     const V farthest = splat(1.501F) * radius;
     const M isNear = offU * offU + offV * offV < farthest * farthest;
     return maskBits(hn::And(isNear, height + radius >= bounds.bottom));
 }
 
-/// Coverage by the spheres of one cell of the grid, for the receivers in it. The covers are added, not multiplied,
-/// which closes the seam between two spheres that touch.
+/// Coverage by the spheres of one cell of the grid, for the receivers in it. The coverages of spheres are added, not
+/// multiplied, which closes the seam between two spheres that touch.
 V cellCoverage(const LightGrid& grid, std::size_t cell, const Receivers& at, M where, float softness) {
     const D d;
     const LightSpheres& spheres = grid.spheres;
@@ -96,7 +98,7 @@ V cellCoverage(const LightGrid& grid, std::size_t cell, const Receivers& at, M w
     const std::size_t end = grid.begin[cell + 1];
     V coverage = splat(0.0F);
     for (std::size_t first = grid.begin[cell]; first < end; first += hn::Lanes(d)) {
-        // The list runs from the light on: none of the later spheres reaches above the receivers.
+        // Spheres are listed from the light on: none of the later ones reaches above the receivers.
         if (spheres.height[first] + spheres.radius[first] < bottom) break;
         const std::size_t count = std::min(end - first, hn::Lanes(d));
         for (std::uint32_t bits = coveringSpheres(spheres, first, bounds) & ((1U << count) - 1U); bits != 0;
@@ -119,7 +121,7 @@ M isWithin(V column, V row, float low, int columns, int rows) {
                    hn::And(row >= least, row < splat(static_cast<float>(rows))));
 }
 
-/// column + row * columns where the mask is set, 0 elsewhere.
+/// Index column + row * columns of a cell where the mask is set, 0 elsewhere.
 VI cellIndex(V column, V row, int columns, M where) {
     const auto toInt = [&](V v) { return hn::ConvertTo(DI(), hn::IfThenElseZero(where, v)); };
     return toInt(column) + toInt(row) * splatInt(columns);
@@ -135,7 +137,7 @@ V spheresCoverage(const LightGrid& grid, const Receivers& at, float softness) {
     alignas(64) std::array<std::int32_t, kTileSize> cells;
     storeInt(cell, cells.data());
     V coverage = splat(0.0F);
-    // Cell by cell: neighboring points mostly lie in the same one.
+    // Points are handled cell by cell, because neighboring points mostly lie in the same cell.
     for (M left = inGrid; !none(left);) {
         const std::int32_t one = cells[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
         const M where = hn::And(left, floatMask(cell == splatInt(one)));
@@ -146,6 +148,7 @@ V spheresCoverage(const LightGrid& grid, const Receivers& at, float softness) {
     return coverage;
 }
 
+/// Distances along a ray to the light at which it enters and leaves the slab between two opposite faces of a box, m.
 struct Slab {
     V near, far;
 };
@@ -155,10 +158,11 @@ V outlineGap(const Slab& entered, const Slab& left, float inverseA, float invers
     return (left.far - entered.near) * splat(1.0F / std::sqrt(inverseA * inverseA + inverseB * inverseB));
 }
 
-/// Seen from the light a box is a convex hexagon. For faces i (entered) and j (left) the gap between entry and exit,
-/// (b_j - p_j)/l_j - (a_i - p_i)/l_i, falls linearly with the distance to the hexagon's side; its gradient in p is
-/// e_i/l_i - e_j/l_j, of length sqrt(1/l_i^2 + 1/l_j^2). The least gap over that length is the signed distance to the
-/// outline.
+/// Coverage by a box, which seen from the light is a convex hexagon. Let p be the point, l the direction to the light,
+/// and let the ray enter through the face at coordinate a_i on axis i and leave through the face at b_j on axis j. The
+/// gap between entry and exit, (b_j - p_j)/l_j - (a_i - p_i)/l_i, falls linearly with the distance of p to a side of
+/// the hexagon; its gradient in p is e_i/l_i - e_j/l_j, of length sqrt(1/l_i^2 + 1/l_j^2). The least gap over that
+/// length is the signed distance to the outline.
 V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receivers& at) {
     const glm::vec3 toLight = occluders.light.toLight;
     glm::vec3 inverse;
@@ -192,8 +196,9 @@ V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receiver
     return hn::IfThenElseZero(exit > splat(tolerance), isSoft ? softEdge(ratio) : sharpEdge(ratio));
 }
 
-/// Weights of six heights in a row, which stand half a texel apart: a quadratic B-spline three texels wide around a
-/// point that lies `behind` (0 to 1 of these steps) the third height.
+/// Weights of six heights in a row of the depth map, half a texel apart: a quadratic B-spline, three texels wide,
+/// around a point between the third and the fourth height.
+/// @param behind  distance of the point from the third height, in half texels, 0 to 1
 struct HeightWeights {
     std::array<V, 6> of;
 
@@ -212,9 +217,9 @@ struct HeightWeights {
     }
 };
 
-/// The weight of the heights above points.
-/// @param start   index of each point's first height
-/// @param height  of each point, in steps of the map
+/// Sum of the weights of those heights of the depth map that lie above a point.
+/// @param start   index of the first of the heights around each point
+/// @param height  height of each point, in steps of the map
 V weightAbove(const DepthMap& map, VI start, const HeightWeights& across, const HeightWeights& down, VI height) {
     V coverage = splat(0.0F);
     for (const V& weight : down.of) {
@@ -232,13 +237,14 @@ V weightAbove(const DepthMap& map, VI start, const HeightWeights& across, const 
 V metaballCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& at) {
     const D d;
     const LightBasis& light = occluders.light;
-    // Off the surface by as much as the filter reaches sideways, so that a slope does not shade itself.
+    // The point is raised off the surface by as much as the filter reaches sideways, so that a slope does not shade
+    // itself.
     const Vec3 raised = pointOnRay(at.position, splat(1.5F * map.texelSize), at.normal);
     const V inverse = splat(1.0F / map.texelSize);
     const V u = (dot(raised, splat(light.u)) - splat(map.origin.x)) * inverse;
     const V v = (dot(raised, splat(light.v)) - splat(map.origin.y)) * inverse;
     const V height = dot(raised, splat(light.toLight)) + splat(0.5F * map.texelSize - map.bottom);
-    // The map's 0, where there is no surface, is above no point.
+    // The map's height 0, which stands for no surface, is above no point.
     const V steps = hn::Max(height / splat(map.step) + splat(1.0F), splat(0.0F));
     const V column = hn::Floor(u);
     const V row = hn::Floor(v);
@@ -249,7 +255,7 @@ V metaballCoverage(const DepthMap& map, const Occluders& occluders, const Receiv
     const M isBetween = hn::And(isBelowSome, steps >= hn::GatherIndex(d, map.lowest.data(), texel));
     const V coverage = hn::IfThenElseZero(isBelowSome, splat(1.0F));
     if (none(isBetween)) return coverage;
-    // Positions counted in heights, from the first of a row.
+    // Positions in half texels from the first height of a row or column.
     const V fineU = u + u - splat(0.5F);
     const V fineV = v + v - splat(0.5F);
     const V fineColumn = hn::Floor(fineU);
@@ -289,7 +295,7 @@ V groundSkyVisibility(const SkyVisibilityMap& map, glm::vec3 eye, const Vec3& po
 V obstacleSkyVisibility(const SkyVisibilityGrid& grid, glm::vec3 eye, const Vec3& position, const Vec3& normal) {
     const V zero = splat(0.0F);
     const Vec3 at = gridPosition(grid, eye, position);
-    // Only the sides that some normal points to are looked up.
+    // Only the sides of the cubes that some normal points to are looked up.
     const auto visibility = [&](std::size_t side, M isToward) {
         return none(isToward) ? zero : skyVisibilityInGrid(grid, side, at);
     };

@@ -14,28 +14,29 @@
 
 namespace render {
 
-/// Everything that casts shadows or occludes the sky. A null pointer stands for what does neither.
+/// Everything that casts shadows or occludes the sky. A pointer is null where there is nothing of its kind.
 struct Occluders {
     LightBasis light;
-    glm::vec3 eye{0.0F};
+    glm::vec3 eye{0.0F};  ///< world coordinates, m
     const LightGrid* spheres = nullptr;
     const DepthMap* metaballs = nullptr;
     std::span<const BoxObstacle> boxes;
     float softness = 0.0F;                        ///< of the shadows' edges, see Light
-    float meanRadius = 0.0F;                      ///< of the particles, m
+    float meanRadius = 0.0F;                      ///< mean radius of the particles, m
     const SkyVisibilityGrid* sky = nullptr;       ///< null without ambient occlusion
     const SkyVisibilityMap* groundSky = nullptr;  ///< null without ambient occlusion
 
     bool isEmpty() const { return spheres == nullptr && metaballs == nullptr && boxes.empty() && sky == nullptr; }
 };
 
-/// Shares from 0 to 1 of each shading point.
+/// How much light and sky reaches each shading point, from 0 to 1.
 struct LightVisibility {
     alignas(64) std::array<float, kTilePixels> light;  ///< 0 in shadow and on surfaces turned away from the light
     alignas(64) std::array<float, kTilePixels> sky;    ///< 1 on particles, whose sky visibility is in ShadingPoints
 };
 
-/// A point's values depend on the point alone, bit for bit, not on the instruction set.
+/// Computes how much light and sky reaches each shading point. The values of a point depend on that point alone, bit
+/// for bit, not on the instruction set.
 void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& geometry, const ShadingPoints& points,
                             LightVisibility& visibility);
 

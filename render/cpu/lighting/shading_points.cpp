@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// What is known of a vector of points so far.
+/// The results for a vector of shading points, which are set for one kind of thing after another.
 struct PointVector {
     V depth;
     Vec3 normal, albedo, sky;
@@ -29,22 +29,22 @@ struct PointVector {
 /// A vector of rays and what they hit.
 struct HitRays {
     Ray ray;
-    V inverseSquare;  // of the direction's length
+    V inverseSquare;  // 1 / squared length of the ray's direction
     VI hitId;
 
-    /// Indices, counted from the first of a kind, of the lanes that hit it; 0 in the other lanes.
+    /// What the lanes of a mask hit, as an index counted from the first hit id of its kind; 0 in the other lanes.
     VI indexOf(M where, std::int32_t first) const {
         return hn::IfThenElseZero(hn::RebindMask(DI(), where), hitId - splatInt(first));
     }
 
-    /// Direction of the ray after a mirror, of unit length.
+    /// Unit vector in the direction of the ray after a mirror with this normal.
     Vec3 mirrored(const Vec3& normal) const {
         const V scale = hn::Sqrt(inverseSquare);
         return ray.direction * scale + normal * (splat(-2.0F) * (scale * dot(ray.direction, normal)));
     }
 };
 
-/// Some bits of a word as a number from 0 to 1.
+/// Unpacks a number from 0 to 1 from the kBits bits of a word that begin with bit kFirst.
 template <int kFirst, int kBits>
 V unpackUnit(VI word) {
     constexpr std::int32_t kMost = (1 << kBits) - 1;
@@ -99,7 +99,7 @@ void addSpheres(const ShadingGeometry& geometry, const HitRays& hits, M where, P
     points.sky = select(where, sky, points.sky);
 }
 
-/// The component of each lane along its axis (0, 1, 2).
+/// The component of each lane's vector along the lane's own axis (0, 1, 2).
 V componentOf(const Vec3& v, VI axis) {
     const M isX = floatMask(axis == splatInt(0));
     const M isY = floatMask(axis == splatInt(1));
@@ -118,7 +118,7 @@ void addBoxes(const ShadingGeometry& geometry, const HitRays& hits, M where, Poi
     const VI box = hn::ShiftRight<4>(id) * splatInt(9);
     const VI corner = box + axis + hn::IfThenElse(isPlus, splatInt(3), splatInt(0));
     const V bound = hn::GatherIndex(D(), records, corner) - componentOf(splat(geometry.frame.eye), axis);
-    // The ray through the middle of an outline's samples may run along the face.
+    // In a pixel at an outline the ray through the mean of the samples may run parallel to the face.
     const V slope = componentOf(ray.direction, axis);
     const V safe = hn::IfThenElse(hn::Abs(slope) > splat(1.0e-20F), slope, splat(1.0e-20F));
     const V reached = clamp((bound - componentOf(ray.origin, axis)) / safe, 0.0F, 1.0e30F);

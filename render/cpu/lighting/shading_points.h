@@ -22,34 +22,36 @@ namespace render {
 /// Everything that a ray may hit, with its material; positions relative to the eye along the world's axes.
 struct ShadingGeometry {
     CameraFrame frame;
-    std::span<const ViewSphere> spheres;           ///< particles first
-    std::span<const SphereAttributes> attributes;  ///< of each sphere
+    std::span<const ViewSphere> spheres;           ///< particles, then sphere obstacles
+    std::span<const SphereAttributes> attributes;  ///< color and sky visibility of each sphere
     std::int32_t firstObstacle = 0;                ///< index of the first sphere that is no particle
     std::span<const BoxObstacle> boxes;            ///< in world coordinates
-    std::optional<float> ground;                   ///< height, m
+    std::optional<float> ground;                   ///< height of the ground, m
     glm::vec3 groundColor{0.0F};
-    std::span<const PackedHit> metaballs;
+    std::span<const PackedHit> metaballs;  ///< hits of all rays that met metaballs
     glm::vec3 toLight{0.0F, 1.0F, 0.0F};
-    bool hasSky = false;  ///< some term of the shading needs the particles' sky visibility
+    bool hasSky = false;  ///< whether some term of the shading model needs the particles' sky visibility
 };
 
-/// A structure of arrays. In: count, hitId, x and y; out: all others.
+/// Up to a tile's worth of shading points as a structure of arrays. The caller sets count, hitId, x and y;
+/// evaluateShadingPoints() sets the others.
 struct ShadingPoints {
     std::size_t count = 0;
-    alignas(64) std::array<std::int32_t, kTilePixels> hitId;  ///< see primary_hits.h
-    alignas(64) std::array<float, kTilePixels> x;             ///< position of the ray on the picture, pixels
+    alignas(64) std::array<std::int32_t, kTilePixels> hitId;  ///< what each ray hits, see primary_hits.h
+    alignas(64) std::array<float, kTilePixels> x;             ///< positions of the rays on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
     alignas(64) TileVec3 position;  ///< relative to the eye, along the world's axes
     alignas(64) TileVec3 normal;
-    alignas(64) std::array<float, kTilePixels> depth;  ///< view depth, m; 0 of the background
+    alignas(64) std::array<float, kTilePixels> depth;  ///< view depth, m; 0 for the background
     alignas(64) TileVec3 albedo;
-    /// Of particles: sky visibility along the normal, against it and along the mirrored ray; if the geometry has it.
+    /// Sky visibility of particles along the normal, against it and along the mirrored ray; only with
+    /// ShadingGeometry::hasSky.
     alignas(64) TileVec3 sky;
 };
 
-/// Intersects each ray with the one thing that primary_hits.cpp found it to hit: only identity and depth were kept
-/// there, and most hits of a pixel's samples are never shaded. A ray that misses by rounding, at an outline, gets the
-/// outline. The background's normal points away from the light.
+/// Intersects each ray with the one thing that primary_hits.cpp found it to hit. That search keeps only the identity of
+/// a hit and its depth, because most hits are never shaded. A ray at an outline that misses by rounding gets the
+/// nearest point of the outline. The background's normal points away from the light.
 void evaluateShadingPoints(const ShadingGeometry& geometry, ShadingPoints& points);
 
 }  // namespace render

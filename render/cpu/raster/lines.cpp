@@ -13,12 +13,13 @@ namespace render {
 
 namespace {
 
-constexpr double kNearDepth = 1e-3;  // m; chosen: at the eye itself a line has no direction on the picture
+// Least view depth of a line, m. Chosen: at the eye itself a line has no direction on the picture.
+constexpr double kNearDepth = 1e-3;
 
 struct ScreenPoint {
-    double x;
-    double y;
-    double depth;
+    double x;      // position on the picture, pixels
+    double y;      // position on the picture, pixels
+    double depth;  // view depth, m
 };
 
 ScreenPoint project(const CameraFrame& frame, glm::dvec3 view) {
@@ -80,7 +81,8 @@ float closestParameter(const ScreenLine& line, glm::vec2 pixel) {
     return std::clamp(dot(pixel - line.from, along) / std::max(dot(along, along), 1.0e-12F), 0.0F, 1.0F);
 }
 
-/// Compares the distance of the tile's center from the line with half the tile's diagonal.
+/// Whether a line may touch a tile: compares the distance of the tile's center from the line with half the tile's
+/// diagonal.
 bool touches(const ScreenLine& line, int column, int row) {
     const glm::vec2 center = (glm::vec2(column, row) + 0.5F) * static_cast<float>(kTileSize);
     const glm::vec2 closest = line.from + closestParameter(line, center) * (line.to - line.from);
@@ -105,14 +107,15 @@ void addTouchedTiles(const ScreenLine& line, std::uint32_t index, const CameraFr
     }
 }
 
-// What hides a line is nearer than this share of the line's depth. Chosen: nothing but the face that a line lies on
-// comes closer to it.
+// A surface hides a line if its depth is less than this share of the line's depth. Chosen: no surface but the face that
+// a line lies on comes closer to the line.
 constexpr float kNearer = 0.999F;
 
+/// The point of a line that is nearest to a pixel.
 struct LinePoint {
     float coverage = 0.0F;  // share of the pixel that the line covers
-    float depth = 1.0F;     // view depth of the point of the line that is nearest to the pixel, m
-    glm::vec2 at{0.0F};     // where that point is, in pixels
+    float depth = 1.0F;     // view depth of the point, m
+    glm::vec2 at{0.0F};     // position of the point on the picture, pixels
 };
 
 LinePoint nearestOnLine(const ScreenLine& line, bool perspective, glm::vec2 pixel) {

@@ -16,27 +16,29 @@
 
 namespace render {
 
-/// A projected edge.
+/// An edge of the view, projected to the picture.
 struct ScreenLine {
-    glm::vec2 from{0.0F};  ///< position on the picture, pixels
-    glm::vec2 to{0.0F};
-    float fromDepth = 1.0F;  ///< view depth, m
-    float toDepth = 1.0F;
-    float width = 1.0F;  ///< pixels
+    glm::vec2 from{0.0F};    ///< position on the picture, pixels
+    glm::vec2 to{0.0F};      ///< position on the picture, pixels
+    float fromDepth = 1.0F;  ///< view depth at `from`, m
+    float toDepth = 1.0F;    ///< view depth at `to`, m
+    float width = 1.0F;      ///< pixels
     glm::vec3 color{0.0F};
 };
 
 struct LineList {
     std::vector<ScreenLine> lines;
-    CellLists tiles;  ///< lines that may touch each tile
+    CellLists tiles;  ///< indices of the lines that may touch each tile
 };
 
-/// Leaves out the parts of edges that are behind the eye or outside of the picture.
+/// Projects edges to the picture, without the parts that are behind the eye or outside of the picture.
 LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges);
 
-/// What is laid over each pixel of a tile, row by row: the color times its share of the pixel, and in w the share.
+/// For each pixel of a tile, row by row: in w the share of the pixel that lines cover, and in xyz their color times
+/// that share.
 using LineCoverage = std::array<glm::vec4, kTilePixels>;
 
+/// Computes how much of each pixel of a tile lines cover, where nothing nearer hides them.
 /// @param samples  the primary hits of the tile
 /// @param point    where in each pixel the coverage is measured, from the pixel's corner
 LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, std::size_t tile,

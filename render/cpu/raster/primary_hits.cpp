@@ -41,8 +41,8 @@ V depthOfGround(const Ray& ray, float height) {
 
 /// A ray against one pair of a box's faces.
 struct Slab {
-    V near, far;      // view depths
-    V toLow, toHigh;  // distances of the ray's start from the faces
+    V near, far;      // view depths at which the ray enters and leaves the slab between the two faces, m
+    V toLow, toHigh;  // distances of the ray's start from the faces, m
     VI entered;       // face that the ray meets first
     VI nearest;       // face that its start is nearest to
 };
@@ -68,7 +68,7 @@ V minOf(V a, V b, V c) {
     return hn::Min(a, hn::Min(b, c));
 }
 
-/// The integer of the first axis whose value equals the wanted one.
+/// The integer that belongs to the first of three axes whose value equals `wanted`.
 VI ofAxis(V wanted, V x, V y, VI ofX, VI ofY, VI ofZ) {
     const DI di;
     return hn::IfThenElse(hn::RebindMask(di, x == wanted), ofX,
@@ -86,7 +86,7 @@ void addBox(const Ray& ray, const BoxObstacle& box, glm::vec3 eye, std::int32_t 
     const V zero = splat(0.0F);
     const M isHit = hn::And(entry <= exit, exit >= zero);
     const VI entered = ofAxis(entry, x.near, y.near, x.entered, y.entered, z.entered);
-    // From inside, the nearest face is the one that is seen.
+    // A ray that starts inside the box sees the face that is nearest to its start.
     const V gapX = hn::Min(x.toLow, x.toHigh);
     const V gapY = hn::Min(y.toLow, y.toHigh);
     const V nearest = minOf(gapX, gapY, hn::Min(z.toLow, z.toHigh));
@@ -113,7 +113,8 @@ void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& r
     }
 }
 
-/// The rays of a tile's samples, as the spheres' intersections need them.
+/// The rays of a tile's samples as the intersection with spheres needs them: positions x and y on the plane at view
+/// depth 1, and inverseSquare = 1 / (x^2 + y^2 + 1).
 struct SphereRays {
     alignas(64) std::array<std::array<float, kTilePixels>, 4> x, y, inverseSquare;
     alignas(64) std::array<float, kTilePixels> farthest;  ///< the greatest depth of a pixel's samples so far

@@ -17,32 +17,34 @@
 
 namespace render {
 
-// What a ray hits, as one number. From 0 on: the index of a sphere.
+// A hit id tells what a ray hits, as one number. Hit ids from 0 on are indices of spheres.
 inline constexpr std::int32_t kHitBackground = -1;
 inline constexpr std::int32_t kHitGround = -2;
-/// From here on: 16 times a box's index, plus its face (0 +x, 1 -x, 2 +y, ... 5 -z), plus 8 where the eye is inside.
+/// The hit id of a box is kHitBox + 16 * its index + the face that is hit (0 +x, 1 -x, 2 +y, ... 5 -z) + 8 if the eye
+/// is inside.
 inline constexpr std::int32_t kHitBox = 1 << 28;
-/// From here on: an index in MetaballHits::hits.
+/// The hit id of metaballs is kHitMetaballs + an index in MetaballHits::hits.
 inline constexpr std::int32_t kHitMetaballs = 1 << 29;
 
+/// View depth of a ray that hits nothing, m.
 inline constexpr float kFarDepth = 3.0e38F;
 
 /// All geometry but the metaballs.
 struct SolidGeometry {
     CameraFrame frame;
-    std::span<const ViewSphere> spheres;
-    std::span<const Rect> pixels;      ///< that each sphere may touch
-    const CellLists* tiles = nullptr;  ///< of the spheres, front to back
+    std::span<const ViewSphere> spheres;  ///< in view coordinates
+    std::span<const Rect> pixels;         ///< bounds of the pixels that each sphere may touch
+    const CellLists* tiles = nullptr;     ///< spheres of each tile, front to back
     std::span<const BoxObstacle> boxes;
-    std::optional<float> ground;  ///< its height over the eye, m
+    std::optional<float> ground;  ///< height of the ground over the eye, m
 };
 
 /// One ray through each pixel of a tile, row by row, and its nearest hit so far.
 struct TileRays {
-    alignas(64) std::array<float, kTilePixels> x;  ///< positions on the picture, pixels
+    alignas(64) std::array<float, kTilePixels> x;  ///< positions of the rays on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
-    alignas(64) std::array<float, kTilePixels> depth;  ///< view depth, m; kFarDepth: no hit
-    alignas(64) std::array<std::int32_t, kTilePixels> hitId;
+    alignas(64) std::array<float, kTilePixels> depth;         ///< view depth of the hit, m; kFarDepth if there is none
+    alignas(64) std::array<std::int32_t, kTilePixels> hitId;  ///< what the ray hits
 };
 
 /// Which of the ground and the boxes a tile may show.
@@ -53,10 +55,10 @@ struct FlatGeometry {
 
 // Of the functions below, a ray's result depends on its own position alone, bit for bit, not on the instruction set.
 
-/// Starts the rays' hits with those of the ground and the boxes.
+/// Sets the hit of each ray to its nearest hit of the ground and the boxes.
 void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays);
 
-/// Adds the spheres of a tile. @pre every ray goes through the tile
+/// Replaces the rays' hits by nearer ones of the spheres of a tile. @pre every ray goes through the tile
 void findSphereHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples);
 
 }  // namespace render

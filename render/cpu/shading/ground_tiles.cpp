@@ -1,5 +1,5 @@
-// The ground is seen below a straight line of the picture, and the ground in a tile is the hull of what rays through
-// the tile's corners meet.
+// The horizon is a straight line of the picture, and the ground that a tile shows is the convex hull of the points
+// where rays through the tile's corners meet it.
 #include "render/cpu/shading/ground_tiles.h"
 
 #include <algorithm>
@@ -23,12 +23,13 @@ Rectangle shadowBounds(const Occluders& occluders) {
     Rectangle bounds;
     if (const LightGrid* grid = occluders.spheres)
         bounds.add(grid->origin, grid->origin + grid->cellSize * glm::vec2(grid->columns, grid->rows));
-    // A texel more on each side, because the map may be shifted.
+    // The depth map may be shifted by less than a texel: one more is added on each side.
     if (const DepthMap* map = occluders.metaballs)
         bounds.add(map->origin - map->texelSize,
                    map->origin + map->texelSize * glm::vec2(map->columns + 1, map->rows + 1));
     for (const BoxObstacle& box : occluders.boxes) {
-        // Half the width of an edge: of a soft one, or of a pixel, which far away is wider than anything.
+        // More than half the width of the shadow's edge, which is soft or as wide as a pixel. Half the box's diagonal
+        // is enough for a pixel, because a box far away that is smaller than a pixel has no visible shadow.
         const glm::vec3 size = box.maximum - box.minimum;
         const float edge = occluders.softness * occluders.meanRadius + 0.5F * length(size);
         for (int corner = 0; corner < 8; ++corner) {
@@ -50,10 +51,11 @@ Rectangle skyBounds(const Occluders& occluders) {
     return bounds;
 }
 
-/// What a ray through a corner of a tile meets of the ground.
+/// The point of the ground that a ray through a corner of a tile meets.
 struct Corner {
-    float depth = std::numeric_limits<float>::infinity();  // view depth, m; infinite above the horizon
-    glm::vec3 position{0.0F};                              // relative to the eye
+    float depth =
+        std::numeric_limits<float>::infinity();  // view depth, m; infinite if the corner lies above the horizon
+    glm::vec3 position{0.0F};                    // relative to the eye
 
     bool isGround() const { return depth < std::numeric_limits<float>::infinity(); }
 };
@@ -95,7 +97,7 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
     const int columns = (frame.width + kTileSize - 1) / kTileSize;
     const int rows = (frame.height + kTileSize - 1) / kTileSize;
     std::vector<Corner> corners;
-    // Samples reach half a pixel beyond the middle of the last pixel, which is within the tile's corners.
+    // Samples lie at most half a pixel from the middle of their pixel, and therefore between the tile's corners.
     for (int row = 0; row <= rows; ++row)
         for (int column = 0; column <= columns; ++column)
             corners.push_back(cornerAt(frame, height, column * kTileSize, row * kTileSize));

@@ -1,5 +1,5 @@
-// What of the ground each tile of the picture may show. Most of many pictures is background, or ground that nothing
-// occludes: such tiles are colored without shadows and with one ray per pixel. Called by the picture pass.
+// Finds the tiles of the picture that show nothing but background or ground. They make up most of many pictures and are
+// colored without casting rays for shadows and for the four samples of a pixel. Called by the picture pass.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ struct GroundTile {
     float nearest = std::numeric_limits<float>::infinity();  ///< least view depth of the ground in the tile, m
 };
 
-/// Classifies the tiles of the picture, row by row. @param height  of the ground over the eye, m
+/// Classifies the tiles of the picture, row by row, by the ground that they show.
+/// @param height  height of the ground over the eye, m
 std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders);
 
 }  // namespace render

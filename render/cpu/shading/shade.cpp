@@ -36,7 +36,7 @@ HWY_INLINE V groundFade(const Vec3& position, glm::vec3 center, float fadeDistan
     return fade / (splat(1.0F) + fade);
 }
 
-/// sRGB in steps of 1/255, rounded to the nearest; linear: from 0 to 1.
+/// sRGB encoding of linear values from 0 to 1, in steps of 1/255, rounded to the nearest.
 ///
 /// 1.055 c^(1/2.4) - 0.055 is a smooth function of y = c^(1/4), two square roots away: a polynomial of degree 5 in y
 /// through the Chebyshev nodes of [0.0031308^(1/4), 1] is within 0.0025 of a step. tests/render/encode_test.cpp
@@ -66,22 +66,22 @@ HWY_INLINE void storeSrgb(const Vec3& linear, PixelColor* pixels) {
     hn::StoreU(hn::BitCast(du, packed), du, pixels);
 }
 
-/// A vector of points with what their shading depends on.
+/// What the shading of a vector of points depends on.
 struct ShadingInputs {
     Vec3 normal, albedo;
     Vec3 toEye;         // unit length
     V isParticle;       // 1 on particles, 0 elsewhere
-    V lightVisibility;  // share of the light that arrives
-    V skyAlong;         // sky visibility along the normal
-    V skyBehind;        // against the normal
-    V skyMirrored;      // along the mirrored ray
+    V lightVisibility;  // share of the light that reaches the point, 0 to 1
+    V skyAlong;         // sky visibility along the normal, 0 to 1
+    V skyBehind;        // sky visibility against the normal
+    V skyMirrored;      // sky visibility along the mirrored ray
 };
 
 V positive(V value) {
     return hn::Max(value, splat(0.0F));
 }
 
-/// skyLight(d) of shading_model.h. @param up  d.y
+/// skyLight(d) of shading_model.h. @param up  the component d.y
 Vec3 skyToward(const Ambient& ambient, V up) {
     return lerp(ambient.ground, ambient.sky, splat(0.5F) + splat(0.5F) * up);
 }
@@ -107,7 +107,7 @@ Vec3 highlight(const Shading& shading, const ShadingInputs& at) {
     return fresnel(shading.surface, at.albedo, dot(at.toEye, halfway)) * (splat((gloss + 8.0F) / 8.0F) * peak);
 }
 
-/// surroundings(d) of shading_model.h. @param up  d.y
+/// surroundings(d) of shading_model.h. @param up  the component d.y
 Vec3 surroundingsToward(const Surroundings& around, V up) {
     const Vec3 above = lerp(around.horizon, around.top, up * (splat(2.0F) - up));
     const Vec3 below = lerp(around.horizon, around.bottom, hn::Min(splat(1.0F), splat(-4.0F) * up));
@@ -225,7 +225,8 @@ void shade(const Shading& shading, const ShadingGeometry& geometry, const Shadin
     }
 }
 
-/// A matt surface looks the same from everywhere.
+/// Color of ground that nothing occludes. A matt surface looks the same from everywhere, so that the direction to the
+/// eye may be any.
 glm::vec3 openGroundColor(const Shading& shading, glm::vec3 albedo) {
     const V one = splat(1.0F);
     const Vec3 up = splat({0.0F, 1.0F, 0.0F});
@@ -255,7 +256,7 @@ void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading
         }
         return;
     }
-    // The background has one color in each row: a vector holds the colors of several rows.
+    // The background has one color in each row of pixels: a vector holds the colors of several rows.
     for (int first = 0; first < kTileSize; first += lanes) {
         std::array<PixelColor, kTileSize> colors;
         storeSrgb(backgroundAt(geometry, shading, middlesFrom(target.corner.y + first)), colors.data());

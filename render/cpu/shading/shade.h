@@ -1,4 +1,5 @@
-// Colors by the shading model of shading_model.h: of shading points, and of tiles of background. Called by picture_colors.cpp.
+// Colors of shading points and of tiles of background, by the shading model of shading_model.h. Called by
+// picture_colors.cpp.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +14,15 @@
 
 namespace render {
 
-/// What all points of one picture share.
+/// The parameters of the shading model, which all points of one picture share.
 struct Shading {
-    Light light;  ///< toLight of unit length
+    Light light;  ///< with a toLight of unit length
     Ambient ambient;
-    Surface surface;  ///< of particles
+    Surface surface;  ///< surface of the particles
     Surroundings surroundings;
     float exposure = 0.0F;
     Background background;
-    glm::vec3 groundCenter{0.0F};  ///< relative to the eye
+    glm::vec3 groundCenter{0.0F};  ///< relative to the eye, m
     float fadeDistance = 1.0F;     ///< m
     glm::vec3 openGround{0.0F};    ///< color of ground that nothing occludes, before it fades into the background
 };
@@ -33,25 +34,25 @@ struct PointColors {
     alignas(64) TileVec3 rgb;
 };
 
-/// A point's color depends on the point alone, bit for bit, not on the instruction set.
+/// Colors shading points. The color of a point depends on that point alone, bit for bit, not on the instruction set.
 /// @param visibility  null where nothing casts shadows or occludes the sky
 void shade(const Shading& shading, const ShadingGeometry& geometry, const ShadingPoints& points,
            const LightVisibility* visibility, PointColors& colors);
 
-/// sRGB, 8 bits per channel, red in the lowest.
+/// A pixel in sRGB: 8 bits per channel, red in the lowest byte.
 using PixelColor = std::uint32_t;
 
-/// Encodes all kTilePixels colors in their order.
+/// Encodes the colors of a tile's kTilePixels points as sRGB.
 void encodeColors(const PointColors& colors, PixelColor* pixels);
 
 /// Where a tile's pixels are written.
 struct TileTarget {
     glm::ivec2 corner{0};   ///< top left of the tile, pixels of the picture
-    PixelColor* first;      ///< that corner's pixel
-    std::size_t rowLength;  ///< of the picture, in whole tiles, pixels
+    PixelColor* first;      ///< pixel at the top left of the tile
+    std::size_t rowLength;  ///< length of a row of the picture, in pixels, rounded up to whole tiles
 };
 
-/// Colors a tile of background, or of open ground in front of it.
+/// Colors a tile that shows nothing but background or, with isGround, nothing but ground that nothing occludes.
 void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,
                          const TileTarget& target);
 
