@@ -12,9 +12,11 @@
 namespace scenes {
 namespace {
 
-/// The parts of a key such as "body[0].radius"; the table is empty for a key above the first table.
-struct OverrideKey {
-    std::string table;
+/// An override such as "body[0].radius=0.5".
+struct Assignment {
+    SourcePosition position;
+    std::string value;
+    std::string table;  ///< name of the table; empty for a key above the first table
     std::optional<std::size_t> index;
     std::string name;
 };
@@ -40,13 +42,17 @@ std::vector<std::string> partsOf(const std::string& path) {
     return parts;
 }
 
-std::optional<OverrideKey> parseKey(const std::string& path) {
-    const std::vector<std::string> parts = partsOf(path);
-    for (const std::string& part : parts)
-        if (part.empty()) return std::nullopt;
-    if (parts.size() == 1) return OverrideKey{"", std::nullopt, parts[0]};
-    if (parts.size() == 2 && !wholeNumber(parts[1])) return OverrideKey{parts[0], std::nullopt, parts[1]};
-    if (parts.size() == 3 && wholeNumber(parts[1])) return OverrideKey{parts[0], wholeNumber(parts[1]), parts[2]};
+std::optional<Assignment> parseAssignment(const std::string& text, const SourcePosition& position) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) return std::nullopt;
+    const std::string value = text.substr(equals + 1);
+    const std::vector<std::string> parts = partsOf(text.substr(0, equals));
+    if (std::ranges::any_of(parts, [](const std::string& part) { return part.empty(); })) return std::nullopt;
+    if (parts.size() == 1) return Assignment{position, value, "", std::nullopt, parts[0]};
+    if (parts.size() == 2 && !wholeNumber(parts[1]))
+        return Assignment{position, value, parts[0], std::nullopt, parts[1]};
+    if (parts.size() == 3 && wholeNumber(parts[1]))
+        return Assignment{position, value, parts[0], wholeNumber(parts[1]), parts[2]};
     return std::nullopt;
 }
 
@@ -60,49 +66,41 @@ Entry& findOrAdd(Value& table, const std::string& key, const SourcePosition& pos
     return table.entries.back();
 }
 
-/// An override whose key has been parsed.
-struct Assignment {
-    OverrideKey key;
-    std::string value;
-    SourcePosition position;
-};
-
 /// The table of the scene that an override writes to; nullptr, with the problem recorded, if there is no such table.
 Value* tableOf(Value& root, const Assignment& assignment, ProblemList& problems) {
-    const OverrideKey& key = assignment.key;
-    if (key.table.empty()) return &root;
-    const TableInfo* info = findTable(key.table);
+    if (assignment.table.empty()) return &root;
+    const TableInfo* info = findTable(assignment.table);
     const bool isListOnly = info != nullptr && info->allowsList && !info->allowsSingle;
-    const Entry* existing = findEntry(root, key.table);
-    if (existing == nullptr && !isListOnly && key.index.value_or(0) == 0)
-        return &findOrAdd(root, key.table, assignment.position).value;
+    const Entry* existing = findEntry(root, assignment.table);
+    if (existing == nullptr && !isListOnly && assignment.index.value_or(0) == 0)
+        return &findOrAdd(root, assignment.table, assignment.position).value;
     const bool isArray = existing != nullptr && existing->value.kind == ValueKind::array;
     const std::size_t count = isArray ? existing->value.items.size() : existing != nullptr ? 1 : 0;
-    if (key.index.value_or(0) >= count) {
+    if (assignment.index.value_or(0) >= count) {
         problems.add(assignment.position,
-                     count == 0 ? fmt::format("the scene has no [[{}]]", key.table)
-                                : fmt::format("the scene has only {} [[{}]], counted from 0", count, key.table));
+                     count == 0 ? fmt::format("the scene has no [[{}]]", assignment.table)
+                                : fmt::format("the scene has only {} [[{}]], counted from 0", count, assignment.table));
         return nullptr;
     }
-    Value& value = findOrAdd(root, key.table, assignment.position).value;
+    Value& value = findOrAdd(root, assignment.table, assignment.position).value;
     if (!isArray) return &value;
-    if (key.index) return &value.items[*key.index];
-    problems.add(assignment.position, fmt::format("{} is a list, write {}[0].{}", key.table, key.table, key.name));
+    if (assignment.index) return &value.items[*assignment.index];
+    problems.add(assignment.position,
+                 fmt::format("{} is a list, write {}[0].{}", assignment.table, assignment.table, assignment.name));
     return nullptr;
 }
 
 void apply(Value& root, const Assignment& assignment, ProblemList& problems) {
     Value* table = tableOf(root, assignment, problems);
     if (table == nullptr) return;
-    const OverrideKey& key = assignment.key;
     if (table->kind != ValueKind::table) {
         // Where the schema expects a table, the later validation reports what the scene has instead.
-        if (findTable(key.table) == nullptr)
-            problems.add(assignment.position,
-                         fmt::format("{} is not a table, {} has no key {}", key.table, key.table, key.name));
+        if (findTable(assignment.table) == nullptr)
+            problems.add(assignment.position, fmt::format("{} is not a table, {} has no key {}", assignment.table,
+                                                          assignment.table, assignment.name));
         return;
     }
-    Entry& entry = findOrAdd(*table, key.name, assignment.position);
+    Entry& entry = findOrAdd(*table, assignment.name, assignment.position);
     entry.position = assignment.position;
     entry.value = parseOverrideValue(assignment.value, assignment.position.overrideIndex);
 }
@@ -112,11 +110,8 @@ void apply(Value& root, const Assignment& assignment, ProblemList& problems) {
 void applyOverrides(Value& root, const Overrides& overrides, ProblemList& problems) {
     for (std::size_t index = 0; index < overrides.size(); ++index) {
         const SourcePosition position{.overrideIndex = static_cast<int>(index)};
-        const std::string& text = overrides[index].assignment;
-        const std::size_t equals = text.find('=');
-        const auto key = equals == std::string::npos ? std::nullopt : parseKey(text.substr(0, equals));
-        if (key)
-            apply(root, {*key, text.substr(equals + 1), position}, problems);
+        if (const auto assignment = parseAssignment(overrides[index].assignment, position))
+            apply(root, *assignment, problems);
         else
             problems.add(position, "must be KEY=VALUE, with a key like fps, physics.step or body[0].radius");
     }

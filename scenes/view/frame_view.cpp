@@ -14,16 +14,11 @@ namespace {
 
 using engine::Vec3;
 
-/// The quantity that the color of a particle shows: its speed (m/s) or age (s).
-double shownQuantity(const Look& look, const engine::Particles& particles, std::size_t index, double time) {
-    if (look.colorBy == ColorBy::age) return time - particles.birthTime[index];
-    return std::sqrt(engine::squaredLength(particles.velocity[index]));
-}
-
 Vec3 particleColor(const Scene& scene, const engine::Particles& particles, std::size_t index, double time) {
     const Look& look = scene.look;
     if (look.colorBy == ColorBy::material) return scene.materialColors.at(particles.material[index]);
-    const double quantity = shownQuantity(look, particles, index, time);
+    const double quantity = look.colorBy == ColorBy::age ? time - particles.birthTime[index]
+                                                         : std::sqrt(engine::squaredLength(particles.velocity[index]));
     return rampColor(look.ramp, (quantity - look.rampLow) / (look.rampHigh - look.rampLow));
 }
 
