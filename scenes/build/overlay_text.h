@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/picture/overlay.h"
+#include "render/picture/view.h"
 
 namespace scenes {
 
