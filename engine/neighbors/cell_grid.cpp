@@ -1,5 +1,6 @@
-// A counting sort into the cells of a periodic grid. The cells of all positions are found with SIMD, compiled once per
-// instruction set: a list of a powder takes a seventh longer without it (`globular bench --filter list`).
+// Sorts particles into the cells of a periodic grid by a counting sort. The cells of the positions are found by SIMD
+// code, compiled once per instruction set: without it, building the neighbor list of a powder takes a seventh longer
+// (`globular bench --filter list`).
 #include "engine/neighbors/cell_grid.h"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ constexpr hn::RebindToUnsigned<decltype(kTag)> kBits{};
 constexpr hn::Rebind<std::uint32_t, decltype(kTag)> kCells{};
 using V = hn::Vec<decltype(kTag)>;
 
-/// CellAxis in every lane; cell numbers that are used are integers and exact in double.
+/// The constants of a CellAxis, broadcast to every SIMD lane. Cell numbers are integers that a double represents
+/// exactly.
 struct AxisLanes {
     V width, size, first, stored;
 
@@ -34,10 +36,10 @@ struct AxisLanes {
           first(hn::Set(kTag, static_cast<double>(axis.first))),
           stored(hn::Set(kTag, static_cast<double>(axis.stored))) {}
 
-    /// Number of cells from the first one on.
+    /// Difference of a coordinate's cell number from the number of the grid's lowest cell.
     V stepsTo(V coordinate) const { return hn::Sub(hn::Floor(hn::Div(coordinate, width)), first); }
 
-    /// Whether these are within the grid; a NaN is not.
+    /// Whether these differences are within the size of the grid; a NaN is not.
     hn::Mask<decltype(kTag)> areInside(V steps) const {
         return hn::And(hn::Ge(steps, hn::Zero(kTag)), hn::Lt(steps, size));
     }
@@ -82,20 +84,21 @@ HWY_EXPORT(findCellsHere);
 
 namespace {
 
-/// index modulo size, 0 or more.
+/// The index modulo size, 0 or more.
 std::int64_t wrapped(std::int64_t index, std::int64_t size) {
     const std::int64_t rest = index % size;
     return rest < 0 ? rest + size : rest;
 }
 
-/// wrapped() for an index that is at most one size outside. A division would take as long as the rest of the search for
-/// a cell.
+/// The index modulo size, for an index that is outside by at most one size. A division would take as long as everything
+/// else that finds the cell of a position.
 std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
     if (index < 0) return index + size;
     return index < size ? index : index - size;
 }
 
-/// About two cells for each particle keep the grid linear in their number when they are spread thin.
+/// Numbers of cells along the axes. Their product is at most about two cells for each particle, so that the size of the
+/// grid is linear in the number of particles even if they are far apart.
 std::int64_t cellLimit(std::size_t particleCount) {
     return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount));
 }
@@ -109,7 +112,7 @@ std::array<std::int64_t, 3> chooseDimensions(const BoundingBox& extent, std::siz
         dimensions[static_cast<std::size_t>(axis)] =
             static_cast<std::int64_t>(std::min(static_cast<double>(limit), along));
     }
-    // Any size is correct. Halving the longest axis keeps cells that share storage far apart.
+    // Any number of cells gives correct neighbors. Halving the longest axis keeps cells that share storage far apart.
     const auto cells = [&] {
         return static_cast<double>(dimensions[0]) * static_cast<double>(dimensions[1]) *
                static_cast<double>(dimensions[2]);
@@ -123,7 +126,7 @@ std::array<std::int64_t, 3> chooseDimensions(const BoundingBox& extent, std::siz
 
 /// Indices of a cell along x, y and z.
 std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) {
-    // In 32 bits, which hold the number of any cell, a division takes half as long.
+    // The division is in 32 bits, which hold the index of any cell, because it takes half as long as one in 64 bits.
     const auto nx = static_cast<std::uint32_t>(grid.dimensions[0]);
     const auto ny = static_cast<std::uint32_t>(grid.dimensions[1]);
     return {cell % nx, cell / nx % ny, cell / nx / ny};
@@ -132,7 +135,7 @@ std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) 
 }  // namespace
 
 std::int64_t cellNumber(double coordinate, double width) {
-    constexpr double kLargest = 1e15;  // an integer in double
+    constexpr double kLargest = 1e15;  // an integer that double represents exactly
     const double cells = std::max(-kLargest, std::min(kLargest, coordinate / width));
     const auto towardZero = static_cast<std::int64_t>(cells);  // one instruction, where floor is a call
     return static_cast<double>(towardZero) > cells ? towardZero - 1 : towardZero;
@@ -169,7 +172,8 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
         boundingBoxOf(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
     grid.dimensions = chooseDimensions(extent, positions.size(), width);
     const std::array<std::int64_t, 3>& size = grid.dimensions;
-    // One more than there are, and counts two entries further on: the filling below leaves each start in its entry.
+    // There is one entry more than needed, and counts are stored two entries further on, so that after the particles
+    // are filled in below every entry is the start of its cell.
     grid.start.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 2, 0);
     const CellAxes axes{CellAxis(width, size[0], extent.low.x()), CellAxis(width, size[1], extent.low.y()),
                         CellAxis(width, size[2], extent.low.z())};
@@ -202,7 +206,8 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
     const auto [nx, ny, nz] = grid.dimensions;
     const auto [x, y, z] = indicesOf(grid, run.first);
     const std::int64_t lastX = x + run.last - run.first;
-    // With one or two cells along an axis, steps of -1 and +1 lead to the same cell, which must be visited once.
+    // With one or two cells along an axis, the neighbors at -1 and +1 are the same cell, which must be visited only
+    // once.
     const auto firstStep = [](std::int64_t size) { return size >= 3 ? -1 : 0; };
     const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
 
@@ -217,7 +222,7 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
         else
             found.ranges[static_cast<std::size_t>(found.count++)] = range;
     };
-    const bool isInside = x > 0 && lastX + 1 < nx;  // its neighbors along x lie side by side
+    const bool isInside = x > 0 && lastX + 1 < nx;  // the run and its neighbors along x are consecutive
     for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
         for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
             const std::int64_t first = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;

@@ -1,4 +1,5 @@
-// The key of a cell has 21 bits of each of its three numbers: cells that share a key are two million cells apart.
+// Particles in linked cells. The key of a cell consists of 21 bits of each of its three numbers along the axes, so
+// cells that share a key are two million cells apart.
 #include "engine/neighbors/linked_cells.h"
 
 #include <algorithm>

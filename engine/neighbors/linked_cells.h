@@ -1,6 +1,6 @@
-// Finding particles near a point while more of them are added: every cell is a linked list of its particles, found by a
-// hash of its numbers. Used at the few moments at which particles are emitted, when CellGrid, which is sorted once and
-// for all, would have to be built anew for each; neighbor lists come from CellGrid.
+// Finds particles near a point while more particles are added. Every cell is a linked list of its particles, found by a
+// hash of the cell's numbers along the axes. Used when particles are emitted, where a CellGrid would have to be built
+// anew for each new particle. Neighbor lists are built from a CellGrid.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@
 
 namespace engine {
 
-/// Memory is linear in the number of particles, and no box has to bound the world.
+/// Particles in linked cells. Memory is linear in the number of particles, and the world need not be bounded.
 class LinkedCells {
  public:
-    /// Cells without a width: they never find a particle.
+    /// Makes cells that store no particles and never find any.
     LinkedCells() = default;
 
-    /// Cells with particles 0, 1, ... at these positions (m, finite).
-    /// @param width  of the cells, in meters, above 0
+    /// Makes cells with particles 0, 1, ... at these positions (m), which must be finite.
+    /// @param width  width of the cells, in meters, above 0
     LinkedCells(double width, const std::vector<Vec3>& positions);
 
-    /// Adds the next particle.
+    /// Adds a particle at a position (m). Its index is the number of particles added before.
     void add(const Vec3& position);
 
-    /// Calls visit(particle) once for each particle within a cell width of a point (m), and for some further away, in
-    /// an order that depends on the positions alone.
+    /// Calls visit(particle index) once for each particle within a cell width of a point (m), and for some particles
+    /// further away. The order depends only on the positions.
     template <class Visit>
     void forEachNear(const Vec3& point, const Visit& visit) const {
         if (links_.empty()) return;
@@ -48,7 +48,7 @@ class LinkedCells {
     };
 
     struct Link {
-        std::uint64_t key = 0;  ///< of the particle's cell; a chain may hold other cells, too
+        std::uint64_t key = 0;  ///< key of the particle's cell; a chain may mix cells
         std::uint32_t next = kEnd;
     };
 
@@ -60,7 +60,7 @@ class LinkedCells {
     double width_ = 0.0;
     std::vector<std::uint32_t>
         first_;                ///< first particle of each chain; as many chains as particles or more, a power of two
-    std::vector<Link> links_;  ///< one for each particle
+    std::vector<Link> links_;  ///< link of each particle
 };
 
 }  // namespace engine

@@ -1,5 +1,6 @@
-// Compiled once per instruction set. Most candidates are out of reach, unpredictably so: they are compared a vector at
-// a time, and those in reach are packed without a branch.
+// SIMD search for neighbors, compiled once per instruction set. Most candidates are out of reach, and which ones is
+// unpredictable. So a SIMD vector of candidates is compared at a time, and the candidates within reach are packed
+// without a branch.
 #include "engine/neighbors/list_search.h"
 
 #include <algorithm>
@@ -36,7 +37,8 @@ std::uint32_t countOf(const Neighborhood& around) {
 }
 
 #if HWY_TARGET > HWY_AVX3
-/// For each set of eight lanes, given as bits, the lanes in the set, in order; the numbers after them mean nothing.
+/// For each subset of eight lanes, given by the bits of an index, the numbers of its lanes in ascending order. The
+/// numbers after them have no meaning.
 constexpr auto kPackings = [] {
     std::array<std::array<std::uint8_t, 8>, 256> all{};
     for (std::size_t chosen = 0; chosen < all.size(); ++chosen) {
@@ -48,9 +50,9 @@ constexpr auto kPackings = [] {
 }();
 #endif
 
-/// Stores the chosen lanes, one bit for each, side by side and returns their number; what follows them in `to` means
-/// nothing. Instead of Highway's CompressStore, with which lists take four times as long on processors that are slow to
-/// store what they compress (Zen 4), and whose table GCC copies to the stack at every look-up.
+/// Stores the lanes that are chosen by bits side by side and returns their number; `to` is overwritten beyond them.
+/// Replaces Highway's CompressStore: with it building lists takes four times as long on processors with slow
+/// compressing stores (Zen 4), and GCC copies its table to the stack at every look-up.
 std::size_t pack(hn::Vec<decltype(kIndices)> indices, std::uint16_t chosen, std::uint32_t* to) {
 #if HWY_TARGET <= HWY_AVX3
     const std::array<std::uint8_t, 8> bytes = {static_cast<std::uint8_t>(chosen),
@@ -65,29 +67,29 @@ std::size_t pack(hn::Vec<decltype(kIndices)> indices, std::uint16_t chosen, std:
     return static_cast<std::size_t>(std::popcount(chosen));
 }
 
-/// The search for the neighbors of some particles that are close together.
+/// The search for the neighbors of a group of particles that are close together.
 struct Search {
     const Candidates& candidates;
     const Neighborhood& around;
     double perReach;      ///< 1/m
     std::uint32_t count;  ///< number of candidates
     SearchScratch& scratch;
-    Vec3 origin;  ///< position of the first of the particles, m
+    Vec3 origin;  ///< position of the group's first particle, m
 
     Vec3 positionOf(std::uint32_t sortedIndex) const {
         return {candidates.x[sortedIndex], candidates.y[sortedIndex], candidates.z[sortedIndex]};
     }
 
-    /// Whether a particle is close enough to the origin for float.
+    /// Whether a particle is close enough to the origin for float to resolve the distances of its neighbors.
     bool isInFloatRange(std::uint32_t sortedIndex) const {
         return ((positionOf(sortedIndex) - origin).array().abs() < kFloatRange / perReach).all();
     }
 
-    /// Copies the candidates, relative to a new origin.
+    /// Copies the positions of the candidates to float, relative to a new origin (m).
     void loadCandidates(const Vec3& newOrigin) {
         origin = newOrigin;
         const auto atOnce = static_cast<std::uint32_t>(hn::Lanes(kDoubles));
-        const auto counting = hn::Iota(kPositions, 0);  // hoisted, because it goes through memory
+        const auto counting = hn::Iota(kPositions, 0);  // outside of the loop, because it is loaded from memory
         std::uint32_t used = 0;
         for (int r = 0; r < around.count; ++r) {
             const CellRange range = around.ranges[static_cast<std::size_t>(r)];
@@ -100,7 +102,7 @@ struct Search {
             }
             used += range.end - range.begin;
         }
-        // One more vector of candidates, infinitely far away, since whole vectors are read below.
+        // Adds a vector of candidates that are infinitely far away, since whole vectors are read below.
         hn::StoreU(hn::Set(kTag, std::numeric_limits<float>::infinity()), kTag, &scratch.x[used]);
     }
 
@@ -109,7 +111,7 @@ struct Search {
         hn::StoreU(hn::DemoteTo(kFloats, hn::Mul(away, hn::Set(kDoubles, perReach))), kFloats, to);
     }
 
-    /// Position of a sorted index among the candidates.
+    /// Index among the candidates of the particle with a sorted index.
     std::uint32_t candidateAt(std::uint32_t sortedIndex) const {
         std::uint32_t before = 0;
         for (int r = 0; r < around.count; ++r) {
@@ -120,13 +122,13 @@ struct Search {
         throw std::logic_error("a particle is not among its own candidates");
     }
 
-    /// Number of vectors that the candidates fill.
+    /// Number of SIMD vectors that the candidates fill.
     std::uint32_t vectors() const { return (count + lanes() - 1) / lanes(); }
 
     static std::uint32_t lanes() { return static_cast<std::uint32_t>(hn::Lanes(kTag)); }
 
-    /// Records which candidates are near to each of `ownCount` candidates from `first` on. A vector of candidates is
-    /// compared with all of them while it is in registers.
+    /// Records which candidates are near to each of the `ownCount` particles that are the candidates from `first` on.
+    /// Each vector of candidates is compared with all of these particles while it is in registers.
     void findNear(std::uint32_t first, std::uint32_t ownCount) {
         const std::size_t stride = vectors();
         const std::size_t room = ownCount * stride + hn::Lanes(kMasks);  // writeRow() reads beyond the last
@@ -148,13 +150,13 @@ struct Search {
                 *near = static_cast<std::uint16_t>(bitsOf<float>(hn::Lt(distanceSq, limit)));
             }
         }
-        // A particle is no neighbor of itself.
+        // A particle is not a neighbor of itself.
         for (std::uint32_t nth = 0; nth < ownCount; ++nth)
             scratch.near[nth * stride + (first + nth) / lanes()] &=
                 static_cast<std::uint16_t>(~(1U << (first + nth) % lanes()));
     }
 
-    /// Writes the row of the nth of those and returns its length.
+    /// Writes the row of neighbors of the group's nth particle and returns the length of the row.
     std::size_t writeRow(std::uint32_t nth, std::uint32_t* row) const {
         const auto atOnce = static_cast<std::uint32_t>(hn::Lanes(kMasks));
         const std::uint16_t* const near = &scratch.near[std::size_t{nth} * vectors()];
@@ -192,7 +194,8 @@ void findInReachHere(const Candidates& candidates, const Neighborhood& around, C
     }
     Search search{candidates, around, 1.0 / reach, count, scratch, {}};
     for (std::uint32_t begin = own.begin; begin < own.end;) {
-        // Particles that share a cell may be far apart: those out of range get an origin of their own.
+        // Particles that share a cell in storage may be far apart. A particle too far from the origin becomes a new
+        // origin.
         search.loadCandidates(search.positionOf(begin));
         std::uint32_t end = begin + 1;
         while (end < own.end && search.isInFloatRange(end)) ++end;

@@ -1,5 +1,5 @@
-// The inner loop of building a neighbor list: which of the candidates in the cells around some particles are within
-// reach of each. Called by neighbor_list.cpp.
+// The inner loop of building a neighbor list: finds, for each particle of a group, which particles of the cells around
+// the group (the candidates) are within reach. Called by neighbor_list.cpp.
 #pragma once
 
 #include <cstddef>
@@ -10,43 +10,44 @@
 
 namespace engine {
 
-/// How many candidates a search reads beyond the last one.
+/// Number of entries that a search reads beyond the last candidate.
 inline constexpr std::size_t kSearchOverhang = 8;
 
-/// Positions by sorted index, m: cells lie one after the other, so that candidates are read consecutively. They are
-/// followed by kSearchOverhang numbers of any value.
+/// Positions of all particles in the order of the cells, m, so that the candidates of a search are read consecutively.
+/// The arrays end with kSearchOverhang numbers of any value.
 struct Candidates {
     std::vector<double> x, y, z;
 };
 
-/// Scratch of a search: its candidates one after the other, relative to an origin close by, where float resolves their
-/// distances and twice as many fit a SIMD vector.
+/// Work memory of a search. The positions of the candidates are copied to float, relative to an origin close to them,
+/// where float resolves their distances. A SIMD vector holds twice as many floats as doubles.
 struct SearchScratch {
-    std::vector<float> x, y, z;  ///< from the origin, in reaches
+    std::vector<float> x, y, z;  ///< positions of candidates relative to the origin, in reaches
     std::vector<std::uint32_t> sortedIndices;
-    std::vector<std::uint16_t> near;  ///< for each particle and vector of candidates one bit a lane: whether it is near
+    std::vector<std::uint16_t> near;  ///< one bit for each pair of particle and candidate: whether it is near
 };
 
-/// Rows one after the other.
+/// The neighbors that searches have found, one row for each particle, one row after the other.
 struct FoundRows {
-    std::vector<std::uint32_t> sortedIndices;  ///< more than are used
+    std::vector<std::uint32_t> sortedIndices;  ///< neighbors; may have unused entries
     std::size_t used = 0;
 };
 
-/// How far from the origin a particle may be, along each axis, for float to resolve the distances of its neighbors, in
-/// reaches.
+/// Largest distance of a particle from the origin of a search, along each axis and in reaches, at which float resolves
+/// the distances of its neighbors.
 inline constexpr double kFloatRange = 8.0;
 
-/// Particles with a squared distance below this much of the reach squared are listed. Float errs by 4e-6 of it, and no
-/// pair within reach may be missed: a coordinate below 8 is rounded by 2.4e-7, one below 16 by 4.8e-7; that on each
-/// axis of a distance of 1 is 2 sqrt(3) 7.2e-7 = 2.5e-6 of its square, and squares and sums add 3e-7.
+/// Pairs whose squared distance is below this factor times the squared reach are listed. The factor is above 1 so that
+/// no pair within reach is missed, although float is wrong by up to 4e-6 of the squared reach: a coordinate below 8 is
+/// rounded by 2.4e-7, one below 16 by 4.8e-7; that on each axis of a distance of 1 is 2 sqrt(3) 7.2e-7 = 2.5e-6 of its
+/// square, and squares and sums add 3e-7.
 inline constexpr float kFloatMargin = 1.00001F;
 
-/// Appends a row for each particle of a range: the sorted indices of all others within reach (m) of it, in the order of
-/// the neighborhood's ranges. A row has no particle whose squared distance exceeds reach^2 kFloatMargin by more than
-/// float's error.
-/// @param around   the ranges in and around the cells that the particles are in
-/// @param own      sorted indices of the particles, side by side
+/// Appends a row of neighbors for each particle of a range: the sorted indices of all other particles within reach (m),
+/// in the order of the neighborhood's ranges. A row contains no particle whose squared distance exceeds reach^2
+/// kFloatMargin by more than the rounding error of float.
+/// @param around   ranges of particles in the cells of `own` and in the cells around them
+/// @param own      range of sorted indices of the particles that get rows
 /// @param lengths  receives the length of each row
 void findInReach(const Candidates& candidates, const Neighborhood& around, CellRange own, double reach,
                  SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths);

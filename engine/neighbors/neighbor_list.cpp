@@ -1,5 +1,5 @@
-// Building a list: positions are sorted into a cell grid, then each thread finds the rows of a block of particles and
-// interleaves them while they are in its cache.
+// Builds neighbor lists. Positions are sorted into a cell grid; then each thread finds the rows of a block of particles
+// and interleaves them while they are in its cache.
 #include "engine/neighbors/neighbor_list.h"
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 namespace engine {
 namespace {
 
-/// The sorted indices of a block, which are the numbers of its lane slots as well.
+/// The range of sorted indices of a block of particles, which is also the range of the block's lane slots.
 CellRange rangeOf(const NeighborList& list, std::size_t block) {
     return {static_cast<std::uint32_t>(block * kSlotsPerBlock),
             static_cast<std::uint32_t>(std::min((block + 1) * kSlotsPerBlock, list.count()))};
 }
 
-/// The lane slot within a block that each of its rows gets, the longest row first: a counting sort, in which all rows
-/// that are shorter than the longest by kLengths or more count as equally long.
+/// Sorts the rows of a block by length, the longest first, and returns the lane slot in the block that each row gets. A
+/// counting sort, in which all rows that are shorter than the longest by kLengths or more count as equally long.
 std::array<std::uint32_t, kSlotsPerBlock> ranksOf(const std::uint32_t* lengths, std::uint32_t count) {
     constexpr std::uint32_t kLengths = 128;
     const std::uint32_t longest = *std::max_element(lengths, lengths + count);
@@ -35,16 +35,16 @@ std::array<std::uint32_t, kSlotsPerBlock> ranksOf(const std::uint32_t* lengths, 
     return ranks;
 }
 
-/// Rows of a block in the order in which they are found, that of sorted indices. Kept by each thread.
+/// The rows of a block in the order of sorted indices, in which they are found. Work memory of each thread.
 struct FoundBlock {
     SearchScratch scratch;
     FoundRows rows;
     std::array<std::uint32_t, kSlotsPerBlock> lengths;
 };
 
-/// Cells side by side are searched together while they hold no more than kRunParticles particles, over a distance that
-/// the search's float coordinates resolve. Measured with `globular bench --filter list`: a quarter less time for powder
-/// than cell by cell; limits of 6 to 32 particles take the same time.
+/// Adjacent cells are searched together as long as they contain at most kRunParticles particles and are not longer than
+/// the float coordinates of the search can resolve. Measured with `globular bench --filter list`: a quarter less time
+/// for powder than cell by cell; limits of 6 to 32 particles take the same time.
 constexpr std::uint32_t kRunParticles = 12;
 constexpr auto kRunCells = static_cast<std::uint32_t>(kFloatRange);
 
@@ -80,7 +80,8 @@ std::array<const std::uint32_t*, kSlotsPerBlock> assignLaneSlots(NeighborList& l
     return rows;
 }
 
-/// Makes room for some entries, and for little more: rows of a block change little from list to list.
+/// Resizes the entries of a block, with little spare capacity, because the rows of a block change little from list to
+/// list.
 void makeRoom(std::vector<std::int32_t>& entries, std::size_t count) {
     if (entries.capacity() < count) {
         entries = std::vector<std::int32_t>();
@@ -110,7 +111,7 @@ void interleave(const std::uint32_t* const* rows, const std::uint32_t* lengths, 
     }
 }
 
-/// Finds the rows of a block and interleaves them while they are in the thread's cache.
+/// Finds the neighbor rows of a block of particles and interleaves them while they are in the thread's cache.
 void fill(NeighborList& list, std::size_t number) {
     thread_local FoundBlock found;
     const CellRange range = rangeOf(list, number);
@@ -125,7 +126,8 @@ void fill(NeighborList& list, std::size_t number) {
             block.start[cluster] + (cluster < clusters ? *std::max_element(first, first + kClusterSize) : 0);
     }
     makeRoom(block.entries, (block.start[clusters] + 1) * kClusterSize);
-    std::fill(block.entries.end() - kClusterSize, block.entries.end(), 0);  // kernels may read it
+    // Kernels may read one group of entries beyond the last.
+    std::fill(block.entries.end() - kClusterSize, block.entries.end(), 0);
     for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
         const std::size_t slot = cluster * kClusterSize;
         interleave(&rows[slot], lengths + slot, block.start[cluster + 1] - block.start[cluster],
@@ -133,7 +135,7 @@ void fill(NeighborList& list, std::size_t number) {
     }
 }
 
-/// Takes the grid's order over and copies the positions in that order, for the search.
+/// Takes over the order of the cell grid and copies the positions in this order, for the search.
 void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
     list.order.swap(list.scratch.grid.order);
     const std::size_t count = list.order.size();
@@ -149,20 +151,21 @@ void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
     });
 }
 
-/// Whether a list was built for `count` particles and reaches at least as far as a cutoff (m). A forgotten list still
+/// Whether a list was built for `count` particles and reaches at least as far as a cutoff (m). A discarded list still
 /// has its order, but no positions.
 bool isOf(const NeighborList& list, std::size_t count, double cutoff) {
     return count == list.builtAt.size() && count == list.count() && cutoff <= list.reach;
 }
 
-/// How far each particle may have moved since the list was built, in meters.
+/// Distance by which each particle may have moved since the neighbor list was built, relative to the common motion, in
+/// meters.
 double slackOf(const NeighborList& list, double cutoff) {
     return 0.5 * (list.reach - cutoff);
 }
 
-/// Cost of a list and the passes it serves for, in pairs for each particle and step. Building costs as much as a pass
-/// over kPerParticle pairs for each particle, and kPerEntry more for each entry of its row. Measured: rows "list" and
-/// "forces" of `globular bench` at 5 to 90 neighbors, between double and float.
+/// Cost per particle and time step of building a neighbor list and of the passes over it, in the cost of one pair.
+/// Building costs as much as kPerParticle pairs for each particle, plus kPerEntry pairs for each entry of its row.
+/// Measured: rows "list" and "forces" of `globular bench` at 5 to 90 neighbors, between double and float.
 double costPerStep(double skin, double neighbors, double displacement) {
     constexpr double kPerParticle = 50.0;
     constexpr double kPerEntry = 2.0;
@@ -193,7 +196,7 @@ void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff
 }
 
 std::size_t NeighborList::laneSlotOf(std::size_t p) const {
-    // Called for few particles: storing the slots of all would take longer than searching for these.
+    // This is called for few particles. Storing the lane slots of all particles would take longer than these searches.
     const std::uint32_t sortedIndex = sortedIndexOf[p];
     std::size_t laneSlot = NeighborRows::blockOf(sortedIndex) * kSlotsPerBlock;
     while (rows.ownIndices.at(laneSlot) != static_cast<std::int32_t>(sortedIndex)) ++laneSlot;
@@ -206,24 +209,24 @@ bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double
     const double slack = slackOf(list, cutoff);
     const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
     if (areWithin(slack, Vec3::Zero(), positions.size(), displacement)) return true;  // the usual case, checked first
-    // Early out: if the displacements of any particles differ by more than 2 * slack, no common translation brings all
-    // within slack. Test the newest particles first; they move fastest.
+    // If the displacements of two particles differ by more than 2 * slack, no common translation brings both within
+    // slack. The newest particles are tested first, because they are often the fastest.
     const std::size_t some = std::min(positions.size(), kSumChunk);
     const BoundingBox newest =
         boundingBoxOf(some, [&](std::size_t p) { return displacement(positions.size() - some + p); });
-    constexpr double kMargin = 1.0 + 1e-6;  // chosen: far above the rounding of the test below
+    constexpr double kMargin = 1.0 + 1e-6;  // chosen: far above the rounding errors of the test below
     if ((newest.high - newest.low).maxCoeff() > 2.0 * kMargin * slack) return false;
     return areWithin(slack, boundingBoxOf(positions.size(), displacement).middle(), positions.size(), displacement);
 }
 
 double optimalSkin(double neighbors, double displacement) {
-    // Chosen: a finer series saves nothing, wider skins take memory.
+    // Skins that are tried. Chosen: a finer series saves no time, and wider skins take more memory.
     constexpr std::array kSkins = {0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6};
     double best = kSkins.front();
     double least = std::numeric_limits<double>::infinity();
     for (const double skin : kSkins) {
         const double cost = costPerStep(skin, neighbors, displacement);
-        if (!(cost < least)) continue;  // a NaN is passed over
+        if (!(cost < least)) continue;  // a NaN is never chosen
         best = skin;
         least = cost;
     }

@@ -1,6 +1,6 @@
-// The neighbor list: for every particle all others within the cutoff and a skin around it. It serves until some
-// particle has moved by half the skin relative to the motion that all have in common. So most steps need no search, and
-// particles in free fall together need none at all. Kept by PairTraversal.
+// The neighbor list: for every particle, all other particles within the cutoff plus a skin. A list stays valid until a
+// particle has moved by half the skin relative to the motion that all particles have in common. Most time steps
+// therefore need no new list, and particles that fall freely together never do. Kept by PairTraversal.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace engine {
 
-/// Memory of a build.
+/// Work memory for building a neighbor list.
 struct BuildScratch {
-    CellGrid grid;  ///< its order is that of an older list
+    CellGrid grid;  ///< its `order` belongs to an earlier list
     Candidates candidates;
 };
 
-/// Every particle has two positions in the list. Its sorted index is its rank in the order of the grid cells. Its lane
-/// slot says which row is its own; it lies in the same block as the sorted index, and within a block the longest rows
-/// come first, so that the lanes of a cluster finish together.
+/// A neighbor list, in which every particle has two numbers. The sorted index is the particle's rank in the order of
+/// the grid cells. The lane slot is the number of the particle's row. Both lie in the same block; within a block the
+/// longest rows come first, so that the rows of a cluster of SIMD lanes have similar lengths.
 struct NeighborList {
-    std::vector<std::uint32_t> order;          ///< particle index at each sorted index
+    std::vector<std::uint32_t> order;          ///< particle index of each sorted index
     std::vector<std::uint32_t> sortedIndexOf;  ///< sorted index of each particle index
     NeighborRows rows;                         ///< neighbors of the particle in each lane slot
     std::size_t entryCount = 0;                ///< sum of the lengths of all rows
@@ -33,34 +33,37 @@ struct NeighborList {
 
     std::size_t count() const { return order.size(); }
 
-    /// Lane slot of a particle index, found by searching its block.
+    /// Lane slot of the particle with this index, found by searching the particle's block.
     std::size_t laneSlotOf(std::size_t p) const;
 };
 
-/// Builds the list for positions in meters. The rows are the same for any number of threads and any instruction set.
+/// Builds the neighbor list for these positions (m). The result is the same for any number of threads and any
+/// instruction set.
 /// @param cutoff  in meters, at least 0
 /// @param skin    in meters, at least 0
 void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff, double skin);
 
-/// Whether every pair closer than the cutoff (m) at these positions (m) is certain to be in the list.
+/// Whether a neighbor list certainly contains every pair of particles that is closer than the cutoff (m) at these
+/// positions (m).
 bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff);
 
-/// Skin in cutoffs where nothing is known of the motion. Chosen: right for a liquid.
+/// Skin, as a share of the cutoff, for use where the speed of the particles is not known. Chosen: about the best for a
+/// liquid.
 inline constexpr double kDefaultSkin = 0.1;
 
-/// The skin, in cutoffs, at which building lists and passing over them costs least per step. A wide skin serves for
-/// many steps, a narrow one makes short rows.
+/// The skin, in cutoffs, at which building neighbor lists and computing forces from them together cost least per time
+/// step. With a wide skin a list stays valid for many steps, with a narrow skin its rows are short.
 /// @param neighbors     mean number of neighbors within the cutoff
-/// @param displacement  of the fastest particle in a step, in cutoffs
+/// @param displacement  displacement of the fastest particle in a step, in cutoffs
 double optimalSkin(double neighbors, double displacement);
 
-/// Entries for which the rows have room, padding included.
+/// Number of entries for which neighbor rows have room, padding included.
 std::size_t roomOf(const NeighborRows& rows);
 
-/// Bytes that the rows hold.
+/// Bytes of memory that neighbor rows hold.
 std::size_t bytesOf(const NeighborRows& rows);
 
-/// Bytes that the list holds, with the scratch of its build.
+/// Bytes of memory that a neighbor list holds, including the work memory for building it.
 std::size_t bytesOf(const NeighborList& list);
 
 }  // namespace engine

@@ -1,5 +1,5 @@
 // The vector types of the kernels over neighbor rows: as many lanes as the instruction set has, at most kClusterSize.
-// Included once per instruction set by Highway's rules; so is the guard below.
+// Highway includes this file once per instruction set, hence the unusual include guard below.
 #if defined(ENGINE_SIMD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ENGINE_SIMD_LANES_INL_H
 #undef ENGINE_SIMD_LANES_INL_H
@@ -25,7 +25,7 @@ using Tag = hn::CappedTag<T, kClusterSize>;
 template <class T>
 using Lanes = hn::Vec<Tag<T>>;
 
-/// The mask as one bit for each lane.
+/// Converts a SIMD mask to one bit for each lane.
 template <class T>
 std::uint32_t bitsOf(hn::Mask<Tag<T>> mask) {
     std::array<std::uint8_t, 8> bytes = {};
