@@ -23,7 +23,7 @@ void readTop(const Section& top, Scene& scene) {
     scene.description = top.string("description");
     scene.duration = top.number("duration");
     scene.fps = static_cast<int>(top.integer("fps"));
-    scene.seed = static_cast<std::uint64_t>(top.integer("seed"));
+    scene.setup.seed = static_cast<std::uint64_t>(top.integer("seed"));
 }
 
 void readPhysics(const Section& physics, engine::Setup& setup) {
@@ -185,7 +185,6 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
 
     readTop(sections.top, scene);
     readPhysics(sections.physics, scene.setup);
-    scene.setup.seed = scene.seed;
     scene.size = {static_cast<int>(sections.look.numbers("size")[0]),
                   static_cast<int>(sections.look.numbers("size")[1])};
     scene.sourceName = fileName;

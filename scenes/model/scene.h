@@ -2,7 +2,6 @@
 // build/read_scene.h makes it from a file.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +27,6 @@ struct Scene {
     std::string description;
     double duration = 1.0;  ///< s
     int fps = 30;           ///< frames per second
-    std::uint64_t seed = 1;
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB of the particles, one for each of the setup's materials
     CameraPath camera;

@@ -24,7 +24,7 @@ class InputError : public std::runtime_error {
  public:
     explicit InputError(std::vector<Problem> problems);
     /// A single problem that has no line.
-    /// @param file  or the command-line option
+    /// @param file  the file, or the command-line option
     InputError(const std::string& file, const std::string& message);
 
     const std::vector<Problem>& problems() const { return problems_; }

@@ -122,7 +122,7 @@ Json sceneIdentity(const scenes::Scene& scene) {
     return {{"scene", scene.title},
             {"scene_hash", scene.sceneHash},
             {"version", GLOBULAR_VERSION},
-            {"seed", scene.seed},
+            {"seed", scene.setup.seed},
             {"fps", scene.fps}};
 }
 
