@@ -19,20 +19,21 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-// The hit is refined by Newton steps on the cubic between the two samples that bracket it, then by at most kRefinements
-// Newton steps on the field, until one moved by less than kSmallStep of the distance between samples, which is half a
-// radius: what such a step leaves is of the order of its square, 5e-5 radii, but at grazing rays, where it is half of
-// the step. More steps on the cubic gain nothing (measured): like the field's steps, which are exact, each waits for
-// the one before.
+// A hit is refined by kCubicSteps Newton steps on the cubic through the two samples that bracket it, then by at most
+// kRefinements Newton steps on the field itself. The latter end with a step of less than kSmallStep of the distance
+// between samples, which is half a radius. The error that is left is of the order of that step's square, 5e-5 radii; on
+// grazing rays it is half of the step. More steps on the cubic gain nothing (measured): each has to wait for the one
+// before, as each of the exact steps on the field has.
 constexpr int kCubicSteps = 2;
 constexpr int kRefinements = 6;
 constexpr float kSmallStep = 1e-2F;
-constexpr int kPeakBisections = 4;  // toward the maximum of a suspected sliver
+constexpr int kPeakBisections = 4;  // number of bisections for the field's maximum between two samples
 
-/// One vector of rays on its way through a tile.
+/// A vector of rays that advances through the balls of a tile.
 class RayVector {
  public:
-    /// @param active  the lanes that are cast; @param minDepth  as in RayBlock
+    /// @param active    the lanes that are cast
+    /// @param minDepth  view depth at which the search of each ray begins, m
     RayVector(const MetaballScene& scene, TileBalls& balls, NearBallStorage& storage, const ImagePoint& at, M active,
               V minDepth)
         : scene_(scene),
@@ -77,9 +78,9 @@ class RayVector {
                 isHit = hn::Or(isHit, isSliver);
             }
             maxField_ = hn::Max(maxField_, hn::IfThenElseZero(hasBegun, there.field));
-            // Without a branch, which would be mispredicted too often.
+            // This has no branch, because it would be mispredicted too often.
             firstAtHit_ = none(isFound) ? near_.first() : firstAtHit_;
-            // A ray that begins between the samples begins within the surface.
+            // A ray that begins between the two samples, and whose second sample is a hit, begins inside the surface.
             low = select(isHit, select(hasBegun, here, there), low);
             high = select(isHit, reached, high);
             isFound = hn::Or(isFound, isHit);
@@ -91,7 +92,7 @@ class RayVector {
         return hn::IfThenElse(isFound, refine(low, high), splat(-1.0F));
     }
 
-    /// The greatest sample of the field that each ray of cast() met.
+    /// Greatest value of the field at the samples that cast() took on each ray.
     V maxField() const { return maxField_; }
 
     /// Writes normal, color and sky visibility at the depths that cast() found, to the block's rays first, first + 1,
@@ -141,8 +142,9 @@ class RayVector {
     /// The last sample of the grid that does not lie beyond this depth, or the first sample if all do.
     long sampleBefore(float depth) const { return std::max(0L, static_cast<long>((depth - gridStart_) / scene_.step)); }
 
-    /// Rising at the first sample, falling at the second, and the tangents meet above the threshold:
-    /// F0 + F0' x = F1 - F1' (h - x) at the height (F1 F0' - F0 F1' - F0' F1' h) / (F0' - F1').
+    /// Whether the field may exceed the threshold between two samples a and b that lie below it, a distance h apart: it
+    /// rises at a and falls at b, and the tangents meet above the threshold. They meet where F0 + F0' x = F1 - F1' (h -
+    /// x) at the height (F1 F0' - F0 F1' - F0' F1' h) / (F0' - F1').
     M mayPeakBetween(const FieldSample& a, const FieldSample& b, float h) const {
         const V zero = splat(0.0F);
         const V height = b.field * a.slope - a.field * b.slope - a.slope * b.slope * splat(h);
@@ -150,7 +152,7 @@ class RayVector {
         return hn::And(hn::And(a.slope > zero, b.slope < zero), height > limit);
     }
 
-    /// Where the field's derivative changes its sign, by bisection.
+    /// View depth between two samples where the derivative of the field changes its sign, found by bisection.
     V peakBetween(float from, float to) const {
         V low = splat(from);
         V high = splat(to);
@@ -163,8 +165,8 @@ class RayVector {
         return (low + high) * splat(0.5F);
     }
 
-    /// Where the cubic through two samples and their slopes meets the threshold, by Newton's method from where the
-    /// chord does, kept between the samples.
+    /// View depth at which the cubic through two samples and their slopes meets the threshold, by Newton's method. It
+    /// starts where the chord meets the threshold and is kept between the samples.
     V cubicRoot(const FieldSample& low, const FieldSample& high) const {
         const V zero = splat(0.0F);
         const V one = splat(1.0F);
@@ -186,8 +188,8 @@ class RayVector {
         return low.depth + u * width;
     }
 
-    /// Newton's method inside the bracket, ray by ray until a step was small; a step that would leave the bracket is
-    /// replaced by its middle.
+    /// View depth of the hit between two samples that bracket it, by Newton's method on the field. Each ray ends with
+    /// its first small step; a step that would leave the bracket goes to the middle of the bracket instead.
     V refine(const FieldSample& from, const FieldSample& to) const {
         const D d;
         V low = from.depth;
@@ -204,7 +206,7 @@ class RayVector {
             const M isBracketed = hn::And(newton >= low, newton <= high);
             const V middle = (low + high) * splat(0.5F);
             const V next = hn::IfThenElse(isRough, hn::IfThenElse(isBracketed, newton, middle), depth);
-            // Half of the bracket is left after a step to its middle.
+            // After a step to the middle, half of the bracket is left.
             const V left = hn::IfThenElse(isBracketed, hn::Abs(next - depth), high - low);
             isRough = hn::And(isRough, left > splat(kSmallStep * scene_.step));
             depth = next;
@@ -214,11 +216,11 @@ class RayVector {
     }
 
     const MetaballScene& scene_;
-    float gridStart_;   // depth of sample 0 of the tile
-    long firstSample_;  // of these rays
+    float gridStart_;   // view depth of sample 0 of the tile, m
+    long firstSample_;  // index of the first sample that these rays take
     Ray ray_;
     NearBalls near_;
-    std::size_t firstAtHit_ = 0;  // near_.first() when the first lane hit the surface
+    std::size_t firstAtHit_ = 0;  // near_.first() at the time when the first lane hit the surface
     V maxField_;
 };
 

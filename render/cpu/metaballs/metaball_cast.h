@@ -14,16 +14,17 @@ namespace render {
 struct RayBlock {
     // In:
     std::size_t count = 0;
-    alignas(64) std::array<float, kTilePixels> x;  ///< positions on the picture, pixels
+    alignas(64) std::array<float, kTilePixels> x;  ///< positions of the rays on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
-    alignas(64) std::array<float, kTilePixels> minDepth;  ///< the surface is looked for between these view depths, m
-    alignas(64) std::array<float, kTilePixels> maxDepth;
+    alignas(64) std::array<float, kTilePixels> minDepth;  ///< view depth at which the search for the surface begins, m
+    alignas(64) std::array<float, kTilePixels> maxDepth;  ///< view depth at which the search ends, m
     // Out:
     alignas(64) std::array<float, kTilePixels> depth;     ///< view depth of the hit, m; negative: no hit
-    alignas(64) std::array<float, kTilePixels> maxField;  ///< the greatest sample of the field on the ray
-    alignas(64) TileVec3 normal;                          ///< view coordinates, unit length
-    alignas(64) TileVec3 color;
-    alignas(64) TileVec3 sky;  ///< visibility along the normal, against it and along the mirrored ray; if scene.hasSky
+    alignas(64) std::array<float, kTilePixels> maxField;  ///< greatest value of the field at the samples of the ray
+    alignas(64) TileVec3 normal;                          ///< unit normal at the hit, in view coordinates
+    alignas(64) TileVec3 color;                           ///< color of the surface at the hit, linear RGB
+    alignas(64) TileVec3 sky;  ///< sky visibility along the normal, against it and along the mirrored ray; only with
+                               ///< MetaballScene::hasSky
 };
 
 /// Casts the rays of a block, all within one tile. Normals, colors and sky visibilities are written if the scene has

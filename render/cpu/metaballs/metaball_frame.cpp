@@ -1,5 +1,4 @@
-// Tiles of rays, all of them cast, or a quarter and what is interpolated between them, and the packing of what they
-// hit.
+// Casts a ray for each pixel of a tile, or for a quarter of the pixels and interpolates the others, and packs the hits.
 #include "render/cpu/metaballs/metaball_frame.h"
 
 #include <algorithm>
@@ -25,15 +24,15 @@ void packPixels(const MetaballScene& scene, const RayBlock& block, std::span<con
     for (std::size_t k = 0; k < block.count; ++k) hits.depths[first + pixels[k]] = packed[k].depth();
 }
 
-/// Packs the hits of a tile, row by row.
+/// Packs the hits of a block that has one ray for each pixel of a tile, row by row.
 void packTile(const MetaballScene& scene, const RayBlock& block, std::size_t slot, MetaballHits& hits) {
     const std::size_t first = slot * kTilePixels;
     packHits(scene, block, &hits.hits[first]);
     for (std::size_t k = 0; k < kTilePixels; ++k) hits.depths[first + k] = hits.hits[first + k].depth();
 }
 
-/// A tile's coarse hits together with the first column and row of the tiles to the right and below, where these have
-/// slots.
+/// Completes a tile's coarse hits by the first column and row of the tiles to the right and below, where these tiles
+/// have slots.
 const CoarseHits& withBorder(MetaballHits& hits, const CellLists& tiles, std::size_t tile) {
     CoarseHits& own = hits.coarse[static_cast<std::size_t>(hits.slots[tile])];
     const auto columns = static_cast<std::size_t>(tiles.columns);
@@ -52,9 +51,9 @@ const CoarseHits& withBorder(MetaballHits& hits, const CellLists& tiles, std::si
     return own;
 }
 
-/// Where a ray between four cast ones begins to look for the surface: a radius before the nearest of their hits, as the
-/// rays at silhouettes do, so that nothing is missed but what fits between the cast rays. At the eye where they hit
-/// nothing, and where a ball may be so small that it does fit.
+/// View depth at which a ray between four cast rays begins to search for the surface: one radius before the nearest of
+/// their hits, as the rays at silhouettes do, so that only a ball that fits between the cast rays may be missed. The
+/// search begins at the eye where the cast rays hit nothing, and where the smallest ball does fit between them.
 float minDepthBetween(const CameraFrame& frame, const CoarseHits& hits, std::uint8_t pixel, float radius) {
     const std::size_t corner = pixel / kTileSize / 2 * CoarseHits::kSide + pixel % kTileSize / 2;
     float nearest = kNoDepthLimit;
@@ -66,14 +65,14 @@ float minDepthBetween(const CameraFrame& frame, const CoarseHits& hits, std::uin
 }
 
 SmoothnessLimits smoothnessLimits(const MetaballScene& scene) {
-    // Within a pixel the field rises by less than this times the pixel's share of the smallest ball's radius (a lone
-    // ball's by half of it, and a pixel's diagonal away).
+    // Within a pixel the field rises by less than kSteepest times the width of the pixel over the smallest radius. (The
+    // field of a single ball rises by half as much, and the nearest cast ray may be a diagonal of the pixel away.)
     constexpr float kSteepest = 2.0F;
     float farthest = 0.0F;
     for (const Metaball& ball : scene.balls) farthest = std::max(farthest, ball.center.z + ball.reach);
     const float pixel = scene.frame.pixelWidth() * (scene.frame.perspective ? farthest : 1.0F);
-    // A ray's greatest sample lies a quarter of a radius from the field's peak at most, where a lone ball at the
-    // threshold bends by 4 sqrt(threshold) / reach^2 per square radius.
+    // The greatest sample on a ray is at most a quarter of a radius away from the maximum of the field, where the field
+    // of a single ball at the threshold has the second derivative -4 sqrt(threshold) / reach^2 per square radius.
     const float root = std::sqrt(scene.threshold);  // 1 - 1 / reach^2
     const float missed = 0.125F * root * (1.0F - root);
     return {0.02F * scene.smallestRadius, scene.threshold - missed - kSteepest * pixel / scene.smallestRadius};
@@ -114,7 +113,7 @@ void castEveryPixel(const MetaballScene& scene, glm::vec2 offset, MetaballHits& 
     });
 }
 
-/// Takes the slots from tiles where nothing of the surface is seen.
+/// Takes the slots from tiles that show no metaballs.
 void dropEmptyTiles(MetaballHits& hits) {
     hits.forEachSlot([&](std::size_t tile, std::size_t slot) {
         const bool isSeen = std::ranges::any_of(hits.depthsOf(slot), [](float depth) { return depth > 0.0F; });
@@ -134,7 +133,7 @@ void castMetaballs(const MetaballScene& scene, const CastSampling& sampling, Met
     hits.reserve(static_cast<std::size_t>(slotCount));
     sampling.isSparse ? castSparsely(scene, sampling.offset, hits) : castEveryPixel(scene, sampling.offset, hits);
     if (sampling.atSilhouettes) castSilhouettes(scene, hits);
-    // Samplings whose mean is taken are not sparse: all of them keep the same tiles.
+    // Samplings whose mean is the picture are not sparse: all of them have to keep the same tiles.
     if (sampling.isSparse) dropEmptyTiles(hits);
 }
 

@@ -8,14 +8,16 @@
 
 namespace render {
 
-/// Which rays are cast.
+/// Which rays are cast for a picture.
 struct CastSampling {
-    glm::vec2 offset{0.0F};      ///< of each pixel's ray from the pixel's middle, pixels
-    bool atSilhouettes = false;  ///< adds the rays of castSilhouettes()
-    bool isSparse = false;  ///< casts every second pixel of every second row, others where the surface is not smooth
+    glm::vec2 offset{0.0F};      ///< offset of each pixel's ray from the pixel's middle, pixels
+    bool atSilhouettes = false;  ///< whether castSilhouettes() adds rays
+    /// Whether only every second pixel of every second row is cast, and the others where the surface is not smooth.
+    bool isSparse = false;
 };
 
-/// @param scene  with attributes
+/// Casts the metaballs of a picture.
+/// @param scene  with the attributes of its balls
 /// @param hits   overwritten; its memory is reused
 void castMetaballs(const MetaballScene& scene, const CastSampling& sampling, MetaballHits& hits);
 

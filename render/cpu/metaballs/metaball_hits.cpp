@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// A number from 0 to `most`, rounded to an integer.
+/// Clamps numbers to [0, most] and rounds them to integers.
 VI roundToInt(V value, float most) {
     return hn::ConvertTo(DI(), clamp(value, 0.0F, most) + splat(0.5F));
 }
@@ -51,7 +51,7 @@ void packHits(const MetaballScene& scene, const RayBlock& block, PackedHit* pack
     for (std::size_t first = 0; first < block.count; first += hn::Lanes(di)) {
         const V depth = load(&block.depth[first]);
         const auto isHit = hn::RebindMask(di, depth >= splat(0.0F));
-        // A hit at the eye itself still has to differ from no hit.
+        // A hit at the eye itself must not have the depth 0, which stands for no hit.
         const VI depthBits = hn::BitCast(di, hn::Max(depth, splat(1e-30F)));
         const VI normal = packNormal(toWorld(scene.frame, loadVec3(block.normal, first)));
         const VI color = packColor(loadVec3(block.color, first));

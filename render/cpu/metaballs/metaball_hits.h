@@ -17,12 +17,12 @@
 
 namespace render {
 
-/// A point of the surface.
+/// What one ray hits, packed into 16 bytes.
 struct PackedHit {
-    std::uint32_t depthBits;  ///< view depth, the bits of a float; 0: no surface
-    std::uint32_t normal;     ///< octahedral, 16 + 16 bits, in world axes
-    std::uint32_t color;      ///< square roots, 11 + 11 + 10 bits
-    std::uint32_t sky;        ///< visibility along the normal, against it and along the mirrored ray, 10 bits each
+    std::uint32_t depthBits;  ///< view depth of the hit in m, as the bits of a float; 0 without a hit
+    std::uint32_t normal;     ///< unit normal in world axes, in octahedral encoding with 16 + 16 bits
+    std::uint32_t color;      ///< square roots of linear red, green and blue: 11 + 11 + 10 bits, red the lowest
+    std::uint32_t sky;        ///< sky visibility along the normal, against it and along the mirrored ray: 10 bits each
 
     float depth() const { return std::bit_cast<float>(depthBits); }
 };
@@ -37,21 +37,23 @@ struct SilhouetteSample {
     std::uint8_t sample;  ///< index in kFourSamples
 };
 
+/// The extra samples at the silhouettes in one tile, and what they hit.
 struct SilhouetteHits {
     std::vector<SilhouetteSample> samples;
-    std::vector<PackedHit> hits;  ///< of each of these samples
-    std::size_t firstIndex = 0;   ///< of their copies in MetaballHits::hits
+    std::vector<PackedHit> hits;  ///< hit of each sample
+    std::size_t firstIndex = 0;   ///< index in MetaballHits::hits of the first of these hits
 };
 
-/// Tiles that show no metaballs take no memory: the others have slots, numbered from 0.
+/// The hits of one picture. Tiles that show metaballs have slots, which are numbered from 0; other tiles take no
+/// memory.
 struct MetaballHits {
-    std::vector<std::int32_t> slots;          ///< of each tile; -1 where nothing of the surface is seen
-    std::vector<PackedHit> hits;              ///< 256 per slot, row by row, then those of silhouettes
-    std::vector<float> depths;                ///< 256 per slot: the depths of its hits; 0: no surface
-    std::vector<SilhouetteHits> silhouettes;  ///< per slot
-    std::vector<CoarseHits> coarse;           ///< per slot: the hits that the others were interpolated from
+    std::vector<std::int32_t> slots;  ///< slot of each tile; -1 for a tile that shows no metaballs
+    std::vector<PackedHit> hits;      ///< hits of the 256 pixels of each slot, row by row, then hits of extra samples
+    std::vector<float> depths;        ///< view depths of the 256 hits of each slot, m; 0 without a hit
+    std::vector<SilhouetteHits> silhouettes;  ///< extra samples of each slot
+    std::vector<CoarseHits> coarse;  ///< hits of the cast rays of each slot, which others are interpolated from
 
-    /// Never shrinks, so that nothing is allocated again for the next picture.
+    /// Makes room for a number of slots. Memory is not freed, so that the next picture need not allocate it again.
     void reserve(std::size_t slotCount) {
         if (slotCount > silhouettes.size()) silhouettes.resize(slotCount);
         depths.resize(silhouettes.size() * kTilePixels);
@@ -66,7 +68,7 @@ struct MetaballHits {
         return std::span<const float, kTilePixels>(&depths[slot * kTilePixels], kTilePixels);
     }
 
-    /// Loads a slot's hits into the caches; they will be read soon, in any order.
+    /// Loads the hits of a slot into the processor's caches: they will be read soon, in any order.
     void prefetch(std::size_t slot) const {
         constexpr std::size_t kHitsPerCacheLine = 64 / sizeof(PackedHit);
         const PackedHit* first = &hits[slot * kTilePixels];

@@ -1,4 +1,4 @@
-// Balls from particles, and the tiles that they reach.
+// Makes balls of particles and lists them for the tiles that they reach.
 #include "render/cpu/metaballs/metaball_scene.h"
 
 #include <algorithm>
@@ -40,8 +40,8 @@ MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::spa
         smallest = std::min(smallest, scene.balls[k].reach);
         sum += scene.balls[k].reach;
     }
-    // Below a tenth of the mean (chosen) a ball may be missed by rays: one very small ball must not shorten the steps
-    // of them all.
+    // Rays may miss a ball with less than a tenth of the mean reach (chosen), because one very small ball must not
+    // shorten the steps on all rays.
     const double mean = sum / static_cast<double>(std::max<std::size_t>(scene.balls.size(), 1));
     scene.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / view.field.reach;
     scene.step = 0.5F * scene.smallestRadius;

@@ -19,7 +19,7 @@ namespace render {
 /// One ball of the field in view coordinates. Its kernel is (peak - d^2 slope^2)^2 up to the distance d = reach.
 struct Metaball {
     glm::vec3 center{0.0F};
-    float reach = 1.0F;  ///< m
+    float reach = 1.0F;  ///< radius of the kernel, m
     float peak = 1.0F;   ///< square root of the ball's weight
     float slope = 1.0F;  ///< fourth root of the weight over the reach, 1/m
 };
@@ -30,25 +30,26 @@ struct BallAttributes {
     SkyVisibility sky = kUnoccluded;
 };
 
+/// The balls of one view, and what casting rays at them depends on.
 struct MetaballScene {
     CameraFrame frame;
     std::vector<Metaball> balls;
     std::vector<std::size_t> particles;      ///< index of the particle that each ball stands for
-    std::vector<BallAttributes> attributes;  ///< one per ball; while there are none, rays find depths only
-    bool hasSky = false;                     ///< rays interpolate the balls' sky visibilities, too
+    std::vector<BallAttributes> attributes;  ///< one per ball; without them, rays find depths only
+    bool hasSky = false;                     ///< whether rays interpolate the balls' sky visibility
     CellLists tiles;                         ///< the balls whose kernels reach each tile, front to back
     float threshold = 0.5F;                  ///< value of the field at the surface
     float step = 0.05F;                      ///< view depth between two samples of the field on a ray, m
-    float smallestRadius = 1.0F;             ///< of the particles, or a tenth of their mean where that is more, m
+    float smallestRadius = 1.0F;             ///< smallest radius of the particles, at least a tenth of their mean, m
 };
 
-/// The balls of all particles whose radius is above zero, without attributes.
+/// The balls of all particles whose radius is above zero, without attributes. The step between samples is half of the
+/// smallest radius: metaball_test.cpp finds that no hit is missed, compared with the exact roots of the oracle.
 /// @param balls  one per particle, as skinOf() makes them
-/// The step is half of the smallest radius: metaball_test.cpp finds that no hit is missed against the oracle's exact
-/// roots.
 MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::span<const SkinBall> balls);
 
-/// @param particleSky  of each particle; empty where no term of the shading needs it
+/// Sets the color and the sky visibility of each ball.
+/// @param particleSky  sky visibility of each particle; empty if no term of the shading model needs it
 void setAttributes(const View& view, std::span<const SkyVisibility> particleSky, MetaballScene& scene);
 
 }  // namespace render

@@ -1,5 +1,5 @@
-// The field of the metaballs along a vector of rays. Part of metaball_cast.cpp, compiled once per instruction set by
-// Highway's rules; the guard below is theirs.
+// The balls that a vector of rays meets, and the field of metaballs along the rays. Part of metaball_cast.cpp, compiled
+// once per instruction set by Highway's rules; the guard below is theirs.
 //
 // On a ray at view depth t the square root of a ball's kernel is p - d^2 q^2 = w - u^2 (p the ball's peak, q its slope)
 // with u = (t - t0) s, where t0 is the depth closest to the ball's center, s = |direction| q and w = p - (closest
@@ -34,13 +34,13 @@ namespace HWY_NAMESPACE {
 /// asked for: most lie behind the surface, where no ray comes.
 class TileBalls {
  public:
-    /// Starts on another tile; the memory is reused.
+    /// Begins with the balls of another tile; the memory is reused.
     void begin(const MetaballScene& scene, std::size_t tile) {
         const CellLists& tiles = scene.tiles;
         balls_ = scene.balls;
         index_ = std::span(tiles.items).subspan(tiles.begin[tile], tiles.begin[tile + 1] - tiles.begin[tile]);
         copied_ = 0;
-        // Whole vectors are read.
+        // Whole vectors are read, also from the last balls on.
         const std::size_t size = index_.size() + hn::Lanes(D());
         for (std::vector<float>* values : {&x_, &y_, &z_, &reach_, &distance_})
             if (values->size() < size) values->resize(size);
@@ -57,9 +57,11 @@ class TileBalls {
 
     struct BallVector {
         Vec3 center;
-        V reach;
-        V distance;  ///< of the center from the eye or, in parallel projection, from the picture's middle
+        V reach;     ///< radius of the kernel, m
+        V distance;  ///< distance of the center from the eye or, in parallel projection, from the middle of the image
+                     ///< plane
     };
+    /// The vector of balls that begins with ball `first`.
     BallVector load(std::size_t first) {
         const D d;
         copyThrough(first);
@@ -144,16 +146,17 @@ HWY_INLINE FieldSample select(M mask, const FieldSample& yes, const FieldSample&
             hn::IfThenElse(mask, yes.slope, no.slope)};
 }
 
-/// Memory of NearBalls, which is reused from one vector of rays to the next.
+/// The memory of a NearBalls, which is reused from one vector of rays to the next.
 struct NearBallStorage {
-    std::vector<float, tbb::cache_aligned_allocator<float>> terms;  ///< per ball: w, t0 s and s, each one vector
-    std::vector<float> nearDepth, farDepth;                         ///< where the ball's kernel begins and ends
-    std::vector<std::uint32_t> index;                               ///< in MetaballScene::balls
+    std::vector<float, tbb::cache_aligned_allocator<float>>
+        terms;                               ///< w, t0 s and s of each ball, three vectors of rays
+    std::vector<float> nearDepth, farDepth;  ///< view depths at which each ball's kernel begins and ends, m
+    std::vector<std::uint32_t> index;        ///< index of each ball in MetaballScene::balls
 
     void reserve(std::size_t ballCount) {
         if (index.size() > ballCount) return;
         const std::size_t lanes = hn::Lanes(D());
-        // A ball is written before it is known to be met, and whole vectors of depths are read.
+        // A ball is stored before it is known whether rays meet it, and whole vectors of depths are read.
         terms.resize(3 * lanes * (ballCount + 1));
         nearDepth.resize(ballCount + lanes);
         farDepth.resize(ballCount + lanes);
@@ -163,7 +166,7 @@ struct NearBallStorage {
 
 /// The balls that the rays of a vector meet, in the order of the tile's list. They are admitted as the rays advance: of
 /// the `count_` admitted balls those before `entered_` begin before the present depth, and those before `left_` end
-/// there.
+/// before it.
 class NearBalls {
  public:
     NearBalls(const MetaballScene& scene, TileBalls& tileBalls, NearBallStorage& storage, const Ray& ray,
@@ -177,7 +180,7 @@ class NearBalls {
 
     V directionLength() const { return length_; }
 
-    /// Rays have come to a depth: admits the balls that begin before it.
+    /// Advances the rays to a depth and admits the balls that begin before it.
     void enter(float depth) {
         while (culled_ < tileBalls_.size() && tileBalls_.nearDepth(culled_) <= depth) admitVector();
         entered_ = firstNotBelow(storage_.nearDepth, entered_, count_, depth);
@@ -202,7 +205,8 @@ class NearBalls {
 
     FieldSample sampleAt(V depth) const { return sampleAt(depth, left_); }
 
-    /// @param first  balls from this one on are summed
+    /// The field and its derivative at a depth of each ray.
+    /// @param first  index of the first ball that is summed
     FieldSample sampleAt(V depth, std::size_t first) const {
         const V zero = splat(0.0F);
         V field = zero;
@@ -275,10 +279,10 @@ class NearBalls {
     NearBallStorage& storage_;
     RayBundle bundle_;
     Ray ray_;
-    V length_;  // of the direction
-    V inverseSquare_;
-    std::size_t culled_ = 0;  // balls of the tile that have been tested
-    std::size_t count_ = 0;   // balls admitted
+    V length_;                // length of the rays' direction
+    V inverseSquare_;         // 1 / squared length of the rays' direction
+    std::size_t culled_ = 0;  // number of the tile's balls that have been tested
+    std::size_t count_ = 0;   // number of balls admitted
     std::size_t entered_ = 0;
     std::size_t left_ = 0;
 };

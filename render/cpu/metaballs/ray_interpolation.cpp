@@ -20,7 +20,8 @@ constexpr float kLeastCosine = 0.98F;
 // Surfaces seen at a slant of less than this cosine change too fast from one pixel to the next.
 constexpr float kLeastFacing = 0.15F;
 
-/// The hits that begin at this index of the coarse grid: part of a row of the tile, or two rows of it.
+/// Loads a vector of hits from an index of the coarse grid on: a part of a row of the tile or, with long vectors, two
+/// rows.
 V loadHits(const CoarseHits::Values& values, std::size_t at) {
     const D d;
 #if HWY_TARGET != HWY_SCALAR
@@ -36,7 +37,7 @@ Vec3 loadHits(const std::array<CoarseHits::Values, 3>& values, std::size_t at) {
     return {loadHits(values[0], at), loadHits(values[1], at), loadHits(values[2], at)};
 }
 
-/// The hits on one side of the interpolated pixels.
+/// The cast rays on one side of the interpolated pixels, and their hits.
 struct Side {
     V depth;
     Vec3 normal;
@@ -76,9 +77,9 @@ DepthBetween depthBetween(const CameraFrame& frame, const Ray& ray, const Side& 
             hn::And(hn::And(areHits, isEven), hn::And(isStraight, hn::And(isFacing(ray, a), isFacing(ray, b))))};
 }
 
-/// Rays of one kind: cast ones, those beside them, below them, or in the middle of four.
+/// The hits of a vector of rays.
 struct HitVector {
-    V depth;  ///< negative: no hit
+    V depth;  ///< view depth, m; negative without a hit
     Vec3 normal, color, sky;
 };
 
@@ -99,8 +100,8 @@ HitVector meanOf(const CoarseHits& coarse, const std::array<std::size_t, kCount>
     return mean;
 }
 
-/// Writes the values of two pixels beside each other, of as many pairs as there are lanes, to their rows of the tile.
-/// @param first  pixel of the first pair
+/// Writes values of one pair of neighboring pixels per lane to the pixels of a tile.
+/// @param first  index in the tile of the left pixel of the first pair
 void storePairs(V left, V right, std::size_t first, std::array<float, kTilePixels>& values) {
     const D d;
     constexpr std::size_t kPairs = std::min(hn::MaxLanes(D()), kCoarseSide);  // in a row
@@ -141,6 +142,7 @@ class Interpolation {
     }
 
  private:
+    /// Interpolates the rays between two cast rays each.
     /// @param a, b    indices of the hits on both sides of each ray
     /// @param offset  of each ray from its cast ray, pixels
     HitVector betweenTwo(std::size_t k, std::size_t a, std::size_t b, glm::vec2 offset, V& isSmooth) const {
@@ -151,7 +153,8 @@ class Interpolation {
         return mean;
     }
 
-    /// The rays in the middle of four cast ones, the first of which is `first`, by the mean of both diagonals.
+    /// Interpolates the rays in the middle of four cast rays each, by the mean of both diagonals.
+    /// @param first  index of the first of the four hits
     HitVector betweenFour(std::size_t k, std::size_t first, V& isSmooth) const {
         const Ray ray = rayAt(k, glm::vec2(1.0F));
         const std::size_t below = first + CoarseHits::kSide;
@@ -196,7 +199,7 @@ class Interpolation {
         return {loadHits(coarse_.depth, at), loadHits(coarse_.normal, at), rayAt(k, offset)};
     }
 
-    /// Whether cast rays miss the surface by far enough.
+    /// Whether cast rays miss the surface by so much that it cannot lie beside them.
     M misses(std::size_t at) const {
         return hn::And(loadHits(coarse_.depth, at) < splat(0.0F),
                        loadHits(coarse_.maxField, at) < splat(limits_.maxField));

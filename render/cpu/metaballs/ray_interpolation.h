@@ -1,5 +1,5 @@
-// The surface of metaballs between rays that were cast: where it is smooth, a quarter of a picture's rays tell the
-// rest. Called by metaball_frame.cpp.
+// Interpolation of the surface of metaballs between rays that were cast: where the surface is smooth, only a quarter of
+// a picture's rays have to be cast. Called by metaball_frame.cpp.
 #pragma once
 
 #include <array>
@@ -12,45 +12,50 @@
 
 namespace render {
 
-/// Columns and rows of cast rays in a tile: every second pixel of every second row.
+/// Number of columns, and of rows, of cast rays in a tile: every second pixel of every second row.
 inline constexpr std::size_t kCoarseSide = kTileSize / 2;
 
-/// Hits of the cast rays, row by row, and of the first column and row beyond the tile, so that every pixel lies
-/// between.
+/// Hits of a tile's cast rays, row by row, and of the first column and row of cast rays beyond the tile, so that every
+/// pixel of the tile lies between cast rays.
 struct CoarseHits {
     static constexpr std::size_t kSide = kCoarseSide + 1;
     using Values = std::array<float, kSide * kSide>;
 
-    Values depth{};                                  ///< as in RayBlock; negative: no hit
-    Values maxField{};                               ///< as in RayBlock
-    std::array<Values, 3> normal{}, color{}, sky{};  ///< of hits; sky: if the scene has it
+    Values depth{};                           ///< view depth of the hit, m; negative without a hit
+    Values maxField{};                        ///< greatest value of the field at the samples of the ray
+    std::array<Values, 3> normal{}, color{};  ///< unit normal in view coordinates, and linear RGB
+    std::array<Values, 3> sky{};              ///< sky visibility as in RayBlock
 
-    /// @param block  rays through kCoarsePixels
+    /// Copies the hits of the tile's own rays. @param block  rays through kCoarsePixels
     void set(const RayBlock& block, bool hasSky);
-    /// No hit, and no field, in the column and the row beyond the tile.
+    /// Sets the rays in the column and the row beyond the tile to no hit.
     void clearBorder();
+    /// Copies the hit of a ray of a neighboring tile to the column or the row beyond this tile.
     void setBorder(std::size_t column, std::size_t row, const CoarseHits& other, std::size_t otherColumn,
                    std::size_t otherRow);
 };
 
-/// What counts as smooth.
+/// Limits within which the surface counts as smooth.
 struct SmoothnessLimits {
-    float depth =
-        0.0F;  ///< between what two hits' tangent planes say of the middle, and between these and the chord, m
-    float maxField = 0.0F;  ///< of the field on rays that have no surface beside them
+    /// For a pixel between two hits: largest difference of its depths on the two tangent planes, and of the mean of
+    /// these from its depth on the chord, m.
+    float depth = 0.0F;
+    /// Largest value of the field on rays that miss the surface by so much that no surface is beside them.
+    float maxField = 0.0F;
 };
 
-/// The pixels that are cast (column + 16 row), one quarter of the tile after the other: each group of rays is compact,
-/// and so are the rows of a quarter.
+/// The pixels of a tile that are cast (column + 16 row), one quarter of the tile after the other, so that the rays of a
+/// vector are close together.
 extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePixels;
 
-/// Fills a block with all pixels of a tile, row by row, from its cast rays and those of its neighbors. The rays in
-/// between lie on a cubic through depths and slopes of two hits (Hermite), or of two pairs, with the mean of normals,
-/// colors and sky visibilities; or they hit nothing, where the rays around missed the surface by more than the field
-/// may rise within a pixel. A ray's result depends on the hits around it alone, bit for bit, not on the instruction
-/// set.
-/// @param corner   position of the first cast ray on the picture, pixels
-/// @param isRough  set for pixels of which neither holds: their rays have to be cast
+/// Fills a block with the hits of all pixels of a tile, row by row. The hit of a pixel between two cast rays is
+/// interpolated: its depth lies on the cubic through the depths and slopes of the two hits (Hermite), its normal, color
+/// and sky visibility are their means. In the middle of four cast rays the results of the two diagonals are averaged. A
+/// pixel hits nothing if the cast rays around it miss the surface by more than the field can rise within a pixel. The
+/// result depends on the hits of the surrounding rays alone, bit for bit, not on the instruction set.
+/// @param corner   position of the tile's first cast ray on the picture, pixels
+/// @param isRough  set for the pixels that can neither be interpolated nor be known to hit nothing: they have to be
+/// cast
 void interpolateRays(const MetaballScene& scene, const CoarseHits& coarse, SmoothnessLimits limits, glm::vec2 corner,
                      RayBlock& block, std::array<bool, kTilePixels>& isRough);
 

@@ -59,7 +59,7 @@ inline TilePixels pixelsWhere(const std::array<bool, kTilePixels>& flags) {
     return found;
 }
 
-/// RayBlock::maxDepth of a ray without a limit.
+/// View depth at which the search of a ray without a limit ends (RayBlock::maxDepth).
 inline constexpr float kNoDepthLimit = std::numeric_limits<float>::infinity();
 
 /// The middle of a pixel of the tile with this top left corner, in pixels of the picture.

@@ -15,13 +15,13 @@ namespace render {
 
 namespace {
 
-/// View depths between which a pixel's extra rays look for the surface.
+/// View depths between which the extra rays of a pixel search for the surface, m.
 struct DepthRange {
     float low = 0.0F;
     float high = kNoDepthLimit;
 };
 
-/// A bit for each of a pixel's samples that lies in this direction from its middle.
+/// Bit mask of the samples of a pixel that lie in this direction from the pixel's middle.
 constexpr std::uint32_t samplesToward(glm::vec2 direction) {
     std::uint32_t bits = 0;
     for (std::size_t s = 0; s < kFourSamples.size(); ++s)
@@ -29,8 +29,8 @@ constexpr std::uint32_t samplesToward(glm::vec2 direction) {
     return bits;
 }
 
-/// The depths of a tile's pixels and of their neighbors around the tile, row by row; kNoSurface where there is none.
-/// The four corners are not used.
+/// The view depths of a tile's pixels and of their neighbors around the tile, row by row; kNoSurface for pixels that
+/// show no surface. The four corners are not used.
 class TileDepths {
  public:
     TileDepths(const MetaballHits& hits, const CellLists& tiles, std::size_t tile) : hits_(hits), tiles_(tiles) {
@@ -67,8 +67,9 @@ class TileDepths {
         return std::abs(markMiss(depth) - depths_[indexOf(pixel)]) <= jump;
     }
 
-    /// From a radius before the nearest of the depths of a pixel and its neighbors and, where one of them shows
-    /// nothing, to two radii behind the farthest: extra rays are to see what the rays around them see.
+    /// The extra rays of a pixel search from one radius before the nearest depth of the pixel and its neighbors. Where
+    /// one of these shows no surface, they search to two radii behind the farthest, because they are to see no more
+    /// than the rays around them see.
     DepthRange rangeAround(std::uint8_t pixel, float radius) const {
         const float* at = &depths_[indexOf(pixel)];
         DepthRange range{kNoDepthLimit, 0.0F};
@@ -86,15 +87,15 @@ class TileDepths {
     static constexpr std::ptrdiff_t kSide = kTileSize + 2;
 
     struct NeighborSide {
-        std::ptrdiff_t step;       // from a pixel to its neighbor
-        std::uint32_t sampleMask;  // the pixel's samples that lie toward it
+        std::ptrdiff_t step;       // difference in index from a pixel to its neighbor
+        std::uint32_t sampleMask;  // bit mask of the pixel's samples toward the neighbor
     };
     static constexpr std::array<NeighborSide, 4> kSides = {{{1, samplesToward({1.0F, 0.0F})},
                                                             {-1, samplesToward({-1.0F, 0.0F})},
                                                             {kSide, samplesToward({0.0F, 1.0F})},
                                                             {-kSide, samplesToward({0.0F, -1.0F})}}};
 
-    static constexpr float kNoSurface = -1e30F;  // farther than any jump from every depth
+    static constexpr float kNoSurface = -1e30F;  // differs from every depth by more than any jump
 
     static std::size_t indexOf(std::uint8_t pixel) {
         return static_cast<std::size_t>((pixel / kTileSize + 1) * kSide + pixel % kTileSize + 1);

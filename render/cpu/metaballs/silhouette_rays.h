@@ -7,10 +7,10 @@
 
 namespace render {
 
-/// A silhouette runs between two neighboring pixels whose depths differ by more than half the smallest radius, or one
-/// of which shows no surface. Of the four samples of both pixels those toward the other pixel are cast, and those that
-/// do not show the surface at their pixel's middle are added to the silhouettes of `hits`, which hold one ray per pixel
-/// before.
+/// Casts extra samples at silhouettes. A silhouette runs between two neighboring pixels whose depths differ by more
+/// than half the smallest radius, or one of which shows no surface. In both pixels the samples toward the other pixel
+/// are cast. Those that do not show the surface that the middle of their pixel shows are added to the hits.
+/// @param hits  holds the hits of one ray per pixel before
 void castSilhouettes(const MetaballScene& scene, MetaballHits& hits);
 
 }  // namespace render
