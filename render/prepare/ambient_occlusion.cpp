@@ -25,11 +25,11 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// The values at the particles' centers, a vector of particles at a time.
+/// Computes the sky visibility at particles' centers, a vector of particles at a time.
 void skyVisibilityOfBatch(const SkyVisibilityGrid& grid, std::span<const Sphere> particles,
                           std::span<SkyVisibility> found) {
     const D d;
-    using Values = std::array<float, kTileSize>;  // at least one for each lane
+    using Values = std::array<float, kTileSize>;  // room for the widest vector
     for (std::size_t first = 0; first < particles.size(); first += hn::Lanes(d)) {
         const std::size_t count = std::min(hn::Lanes(d), particles.size() - first);
         alignas(64) std::array<Values, 3> center{};
@@ -63,7 +63,8 @@ constexpr int kReach = 6;  // number of cubes that the sum tau of shading_model.
 // Cubes between the particles and the sides of the grid: the reach, one that volumes are spread over, one more for the
 // blur, and two for the interpolation at points that are offset along a direction.
 constexpr int kMargin = kReach + 4;
-// Six values each make 24 MB. Where a single particle flies far, the cubes become wider instead.
+// Largest number of cubes: with six values each, they take 24 MB. Where a single particle flies far, the cubes become
+// wider instead.
 constexpr double kMostCells = 1e6;
 
 /// The side s of the cubes of shading_model.h, before it is doubled.
@@ -89,7 +90,7 @@ TrilinearCell trilinearCell(const SkyVisibilityGrid& grid, glm::vec3 point) {
     return {corner.x, corner.y, corner.z, at - glm::vec3(corner)};
 }
 
-/// Calls visit(cell index, weight) for the eight cubes around a point.
+/// Calls visit(cell index, trilinear weight) for the eight cubes whose centers surround a point.
 template <typename Visit>
 void forCorners(const SkyVisibilityGrid& grid, const TrilinearCell& at, const Visit& visit) {
     const std::size_t first = cellIndex(grid.cells, at.x, at.y, at.z);
@@ -151,7 +152,7 @@ CubeValues spreadVolumes(const SkyVisibilityGrid& grid, std::span<const Sphere> 
 }
 
 /// Applies the weights 1/4, 1/2, 1/4 along one axis. The outermost cubes are empty and stay so.
-/// @param stride  of the axis: the difference in index between neighboring cubes
+/// @param stride  difference in index between neighboring cubes along the axis
 void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const CubeValues& from, CubeValues& to) {
     const std::ptrdiff_t count = grid.cells.x;
     tbb::parallel_for(1, grid.cells.z - 1, [&](int z) {
@@ -166,7 +167,7 @@ void blur(const SkyVisibilityGrid& grid, std::ptrdiff_t stride, const CubeValues
 
 /// O = 1/(1 + tau)^2 of shading_model.h toward one side, for a row of cubes along x whose densities begin at `density`.
 /// A sum that leaves the row goes on at the end of a neighboring row, where all cubes are empty as well.
-/// @param stride  the difference in index to the next cube toward that side
+/// @param stride  difference in index to the next cube toward that side
 void integrateAlong(const float* density, std::ptrdiff_t stride, std::span<float> visibility) {
     constexpr auto weight = [](int j) { return 1.0F - (static_cast<float>(j) - 0.5F) / static_cast<float>(kReach); };
     const auto count = static_cast<std::ptrdiff_t>(visibility.size());

@@ -1,4 +1,4 @@
-// Spheres are collected by one thread, their attributes are packed by all.
+// One thread collects the spheres, all threads pack their attributes.
 #include "render/prepare/drawn_spheres.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace render {
 
 namespace {
 
-/// A value from 0 to 1 as an integer from 0 to `largest`.
+/// Rounds a value, which is clamped to [0, 1], to an integer from 0 to `largest`.
 std::uint32_t quantized(float value, float largest) {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(value, 0.0F, 1.0F) * largest + 0.5F));
 }

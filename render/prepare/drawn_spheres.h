@@ -16,13 +16,15 @@ struct SphereAttributes {
     std::uint32_t color = 0;     ///< square roots of linear red, green and blue: 11 + 11 + 10 bits, red the lowest
     std::uint32_t skyPlus = 0;   ///< sky visibility along +x, +y, +z: 10 bits each
     std::uint32_t skyMinus = 0;  ///< sky visibility along -x, -y, -z: 10 bits each
-    std::uint32_t unused = 0;    ///< makes 16 bytes, which are loaded at once
+    std::uint32_t unused = 0;    ///< pads the struct to 16 bytes, which are loaded at once
 };
 
+/// The spheres of a view that are drawn as spheres.
 struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;     ///< relative to the eye, in world axes; particles first
-    std::vector<std::uint32_t> sources;  ///< index of the particle or, from firstObstacle on, of the obstacle
-    std::int32_t firstObstacle = 0;
+    std::vector<ViewSphere> spheres;  ///< particles, then obstacles; relative to the eye, in world axes
+    std::vector<std::uint32_t>
+        sources;                     ///< index in the view of the particle or, from firstObstacle on, of the obstacle
+    std::int32_t firstObstacle = 0;  ///< index of the first obstacle in `spheres`
 };
 
 /// The particles unless they are metaballs, and the sphere obstacles. Spheres whose radius is not positive are left
@@ -30,7 +32,7 @@ struct DrawnSpheres {
 DrawnSpheres drawnSpheres(const View& view);
 
 /// The attributes of each drawn sphere.
-/// @param skyVisibility  of each particle of the view, or empty
+/// @param skyVisibility  sky visibility of each particle of the view, or empty
 std::vector<SphereAttributes> sphereAttributes(const View& view, const DrawnSpheres& drawn,
                                                std::span<const SkyVisibility> skyVisibility);
 

@@ -11,15 +11,17 @@ namespace render {
 
 namespace {
 
-// Enough for cells of a diameter in a pile of a million spheres. More cells would cost more to clear than they save.
+// Largest number of columns, and of rows, of the grid. Enough for cells as wide as a sphere in a pile of a million
+// spheres. More cells would cost more to clear than they save.
 constexpr int kMostCellsPerSide = 512;
 
-/// Conversion to an integer rounds toward 0; what is below 0 is clamped to it anyway.
+/// Column or row of a coordinate, clamped to the grid. Conversion to an integer rounds toward 0 also where it should
+/// round down, but those values are clamped to 0.
 int cellOf(float at, float origin, float cellSize, int count) {
     return std::clamp(static_cast<int>((at - origin) / cellSize), 0, count - 1);
 }
 
-/// The mean diameter, or more where there would be too many cells.
+/// Side of a cell: the mean diameter of the spheres, or more if there were too many cells.
 float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {
     double sum = 0.0;
     for (const ViewSphere& sphere : spheres) sum += double(sphere.radius);

@@ -14,7 +14,7 @@
 
 namespace render {
 
-/// A right-handed orthonormal basis.
+/// The right-handed orthonormal basis of light space, in world axes.
 struct LightBasis {
     glm::vec3 u{1.0F, 0.0F, 0.0F};
     glm::vec3 v{0.0F, 0.0F, 1.0F};
@@ -31,22 +31,24 @@ struct LightSpheres {
     std::vector<float> u, v, height, radius;
 };
 
+/// Spheres that cast shadows, listed for the cells of a grid on the light's plane.
 struct LightGrid {
-    glm::vec2 origin{0.0F};  ///< u and v of the first cell's corner
-    float cellSize = 1.0F;   ///< m
+    glm::vec2 origin{0.0F};  ///< u and v of the first cell's corner, m
+    float cellSize = 1.0F;   ///< side of a cell, m
     int columns = 1;
     int rows = 1;
     /// Cell c lists the spheres begin[c] ... begin[c + 1] - 1. Cells are row by row.
     std::vector<std::uint32_t> begin{0, 0};
-    /// One list for each cell, those that reach highest toward the light first. At least as many unused entries as a
-    /// vector has lanes follow the last sphere.
+    /// One list for each cell, one after another. The spheres that reach highest toward the light come first. At least
+    /// as many unused entries as a vector has lanes follow the last sphere.
     LightSpheres spheres;
 
     bool empty() const { return spheres.u.empty(); }
 };
 
+/// Lists the spheres that cast shadows.
 /// @param spheres  in world axes, relative to the eye
-/// @param softness  of the light; a sphere is listed in all cells that the soft edge of its shadow reaches
+/// @param softness  softness of the light; a sphere is listed in all cells that the soft edge of its shadow reaches
 LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness);
 
 }  // namespace render

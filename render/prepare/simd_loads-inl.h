@@ -27,7 +27,7 @@ struct Float4 {
 };
 
 #if HWY_TARGET != HWY_SCALAR
-/// 128 bits each from the indices of the lanes 0, 4, 8, ..., one after another.
+/// Loads 128 bits from each of the indices 0, 4, 8, ... of an array of indices, one after another, into one vector.
 template <class Tag, class Number>
 HWY_INLINE hn::Vec<Tag> loadEveryFourth(Tag tag, const Number* numbers, const std::int32_t* indices) {
     constexpr std::size_t kBlocks = hn::MaxLanes(Tag()) * sizeof(Number) / 16;
@@ -40,7 +40,7 @@ HWY_INLINE hn::Vec<Tag> loadEveryFourth(Tag tag, const Number* numbers, const st
     }
 }
 
-/// The numbers in the 128 bits from each index on: as four floats, or as twice as many shorter numbers, in pairs.
+/// For each lane the 128 bits from the lane's index on: four floats, or four pairs of 16-bit numbers.
 template <class Number>
 HWY_INLINE Float4 gatherBlocks(const Number* numbers, VI indices) {
     const DI di;
@@ -60,7 +60,7 @@ HWY_INLINE Float4 gatherBlocks(const Number* numbers, VI indices) {
 }
 #endif
 
-/// The four numbers from each index on.
+/// For each lane the four numbers from the lane's index on.
 HWY_INLINE Float4 gather4(const float* numbers, VI indices) {
 #if HWY_TARGET == HWY_SCALAR
     const float* four = numbers + hn::GetLane(indices);
@@ -70,7 +70,7 @@ HWY_INLINE Float4 gather4(const float* numbers, VI indices) {
 #endif
 }
 
-/// The six numbers from each index on.
+/// For each lane the six numbers from the lane's index on.
 /// @pre two more numbers follow them, which are read as well
 HWY_INLINE std::array<VI, 6> gather6(const std::uint16_t* numbers, VI indices) {
 #if HWY_TARGET == HWY_SCALAR

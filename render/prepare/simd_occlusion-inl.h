@@ -23,15 +23,16 @@ HWY_INLINE V lerp(V a, V b, V t) {
     return a * (splat(1.0F) - t) + b * t;
 }
 
-/// Positions in units of a cube's side, from the center of the first cube.
+/// Positions in the grid in units of a cube's side, measured from the center of the first cube.
 /// @param eye  the point that `position` is relative to
 HWY_INLINE Vec3 gridPosition(const SkyVisibilityGrid& grid, glm::vec3 eye, const Vec3& position) {
     return (position - splat(grid.origin - eye)) * splat(1.0F / grid.side);
 }
 
-/// O of shading_model.h, section 3: the visibility toward one of the six sides, interpolated; 1 outside of the grid.
+/// Sky visibility toward one of the six sides of a cube, interpolated in the grid: O of shading_model.h, section 3. It
+/// is 1 outside of the grid.
 /// @param side  index into SkyVisibility
-/// @param at  a gridPosition()
+/// @param at  position as gridPosition() returns it
 HWY_INLINE V skyVisibilityInGrid(const SkyVisibilityGrid& grid, std::size_t side, const Vec3& at) {
     const D d;
     const DI di;

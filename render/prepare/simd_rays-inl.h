@@ -41,7 +41,7 @@ HWY_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-/// Component by component.
+/// Product component by component.
 HWY_INLINE Vec3 operator*(const Vec3& a, const Vec3& b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
@@ -62,7 +62,7 @@ HWY_INLINE Vec3 splat(glm::vec3 v) {
     return {splat(v.x), splat(v.y), splat(v.z)};
 }
 
-// The pointers of these four are aligned for vectors.
+// Pointers for load, loadInt, store and storeInt have to be aligned for vectors.
 HWY_INLINE V load(const float* values) {
     return hn::Load(D(), values);
 }
@@ -92,7 +92,7 @@ HWY_INLINE Vec3 normalize(const Vec3& v) {
     return v * (splat(1.0F) / hn::Sqrt(dot(v, v)));
 }
 
-/// The vectors of a tile's entries first, first + 1, ..., one per lane.
+/// Loads the vectors of a tile's entries first, first + 1, ..., one per lane.
 HWY_INLINE Vec3 loadVec3(const TileVec3& values, std::size_t first) {
     return {load(&values[0][first]), load(&values[1][first]), load(&values[2][first])};
 }
@@ -115,7 +115,7 @@ HWY_INLINE V clamp(V value, float low, float high) {
     return hn::Min(hn::Max(value, splat(low)), splat(high));
 }
 
-/// A mask of integers as one of floats.
+/// Converts a mask of integers to one of floats.
 HWY_INLINE M floatMask(hn::Mask<DI> mask) {
     return hn::RebindMask(D(), mask);
 }
@@ -132,7 +132,7 @@ HWY_INLINE std::uint32_t maskBits(M mask) {
     return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
 }
 
-/// View coordinates x and y in which the rays through points of the picture cross the plane at view depth 1 (any depth
+/// View coordinates x and y at which the rays through points of the picture cross the plane at view depth 1 (any depth
 /// in parallel projection), m.
 struct ImagePoint {
     V x, y;

@@ -25,24 +25,25 @@
 #define RENDER_SKIN_CELLS
 namespace render {
 
-/// Particles that are added up at a time.
+/// Number of particles whose kernels are added up at a time.
 constexpr std::size_t kBlock = 16;
 
-/// Particles sorted by cells, component by component, so that all that are in reach of a particle lie in nine
+/// Particles sorted by the cells of a grid, component by component, so that all particles in reach of one lie in nine
 /// contiguous runs.
 struct ParticleCells {
     glm::vec3 low{0.0F};
     float side = 1.0F;
     glm::ivec3 count{1};
-    std::vector<std::uint32_t> begin;    ///< sorted index of each cell's first particle, and the number of particles
-    std::vector<float> x, y, z, radius;  ///< by sorted index
-    std::vector<std::uint32_t> index;    ///< in the view, by sorted index
+    std::vector<std::uint32_t> begin;  ///< sorted index of each cell's first particle; at last the number of particles
+    std::vector<float> x, y, z, radius;  ///< of each particle, by sorted index
+    std::vector<std::uint32_t> index;    ///< index of each particle in the view, by sorted index
 
-    /// @pre at is not below `low`; conversion then rounds down (glm::floor may be a call).
+    /// The cell of a point. @pre at is not below `low`; conversion then rounds down (glm::floor may be a call).
     glm::ivec3 cellOf(glm::vec3 at) const { return min(glm::ivec3((at - low) / side), count - 1); }
 };
 
-/// Particles in whole blocks: x, y, z and radius. The last block is filled up with particles out of reach.
+/// The particles near a cell in whole blocks: x, y, z and radius. The last block is filled up with particles out of
+/// reach.
 struct Neighborhood {
     std::size_t size = 0;
     std::array<std::vector<float>, 4> values;  // at least `size` entries each
@@ -64,7 +65,7 @@ namespace HWY_NAMESPACE {
 constexpr std::size_t kVectorsPerBlock = kBlock / hn::MaxLanes(D());
 using BlockSum = std::array<V, kVectorsPerBlock>;
 
-/// Copies all particles that may be in reach of those of one cell, themselves included.
+/// Copies all particles that may be in reach of a cell's particles, and the cell's particles themselves.
 void gather(const ParticleCells& cells, glm::ivec3 cell, Neighborhood& neighborhood) {
     const glm::ivec3 first = max(cell - 1, glm::ivec3(0));
     const glm::ivec3 last = min(cell + 1, cells.count - 1);
@@ -124,7 +125,7 @@ DensitySum densitySum(const Neighborhood& neighborhood, glm::vec4 particle, floa
     return {total(density), {total(offsetX), total(offsetY), total(offsetZ)}};
 }
 
-/// The sums of the particles with the sorted indices first, first + 1, ...
+/// Computes the sums of the particles with the sorted indices first, first + 1, ...
 void densitySums(const ParticleCells& cells, float reach, std::size_t first, std::span<DensitySum> sums) {
     thread_local Neighborhood neighborhood;
     std::size_t end = 0;  // sorted index at which the cell ends whose neighborhood has been gathered
@@ -153,7 +154,7 @@ HWY_EXPORT(densitySums);
 
 namespace {
 
-/// Cells as wide as the longest reach, wider where there would be too many.
+/// Makes cells as wide as the longest reach, or wider if there were too many.
 void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
     constexpr double kMostCells = 4e6;  // chosen: 16 MB
     Bounds<glm::vec3> bounds;
@@ -171,7 +172,7 @@ void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCell
     for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(countAlong(axis));
 }
 
-/// A counting sort. reach: of the field, in radii.
+/// Sorts particles into cells by a counting sort. @param reach  reach of the field, in radii
 ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     ParticleCells cells;
     fitToParticles(particles, reach, cells);
@@ -198,6 +199,7 @@ ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     return cells;
 }
 
+/// The ball of a smooth skin for a particle with this center.
 SkinBall smoothed(const DensitySum& sum, glm::vec3 center) {
     // The exponent -3/4 lies between 0, where the field is a sum, which swells where many balls overlap, and -1, where
     // it is a mean, which sinks in at the border.

@@ -13,11 +13,11 @@ namespace render {
 /// A ball of the field, in world coordinates. Its radius is that of its particle.
 struct SkinBall {
     glm::vec3 center{0.0F};
-    float weight = 1.0F;  ///< of its kernel in the field
+    float weight = 1.0F;  ///< factor of its kernel in the field
 };
 
-/// One ball for each particle. Where no other particle is in reach, the ball stays at its particle, with weight 1. The
-/// result depends on the view alone, bit for bit, not on the number of threads or the instruction set.
+/// Makes one ball for each particle. Where no other particle is in reach, the ball stays at its particle, with
+/// weight 1. The result depends on the view alone, bit for bit, not on the number of threads or the instruction set.
 std::vector<SkinBall> skinOf(const View& view);
 
 }  // namespace render

@@ -18,7 +18,7 @@ namespace render {
 
 namespace {
 
-/// The bits of a float, mapped so that they compare as integers like the floats do.
+/// Maps a float to an integer such that integers compare like the floats do.
 std::uint32_t sortable(float key) {
     const auto bits = std::bit_cast<std::uint32_t>(key);
     return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
@@ -82,7 +82,7 @@ CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows) {
     }
     std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
     lists.items.resize(total);
-    std::vector<std::uint32_t> end = lists.begin;  // of each cell's list so far
+    std::vector<std::uint32_t> end = lists.begin;  // end of each cell's list so far
     for (const auto& [index, cells] : items)
         forCells(lists, cells, [&, index = index](std::size_t cell) { lists.items[end[cell]++] = index; });
     return lists;

@@ -17,7 +17,7 @@ inline constexpr int kTileSize = 16;  ///< pixels; measured to be the fastest of
 
 inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
 
-/// A vector for each pixel of a tile, component by component.
+/// A vector of three components for each pixel of a tile, component by component.
 using TileVec3 = std::array<std::array<float, kTilePixels>, 3>;
 
 /// An axis-aligned rectangle or box, empty at first.
@@ -61,15 +61,15 @@ inline glm::vec2 tileCorner(const CellLists& tiles, std::size_t tile) {
 
 /// An item to be listed in a rectangle of cells.
 struct CellItem {
-    std::uint32_t index = 0;  ///< is written to the lists
-    Rect cells;               ///< must lie within the grid
+    std::uint32_t index = 0;  ///< number that is written to the lists of the cells
+    Rect cells;               ///< cells that list the item; must lie within the grid
 };
 
-/// Lists the items of every cell in the order of `items`.
+/// Makes the lists of items of all cells of a grid; each has the order of `items`.
 /// @throws SystemError beyond 2^31 entries
 CellLists binIntoCells(std::span<const CellItem> items, int columns, int rows);
 
-/// The indices of the keys in the order of rising keys; equal keys keep their order.
+/// The indices of the keys, ordered by rising key; equal keys keep their order.
 std::vector<std::uint32_t> indicesByKey(std::span<const float> keys);
 
 /// A sphere relative to a camera: in its view coordinates, or in world axes relative to its eye.
@@ -85,7 +85,7 @@ std::vector<Rect> pixelBounds(const CameraFrame& frame, std::span<const ViewSphe
 
 /// The spheres of each tile from front to back, that is by the rising depth of their nearest point.
 /// @param spheres  in view coordinates
-/// @param pixels  their pixelBounds()
+/// @param pixels  pixelBounds() of the spheres
 CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spheres, std::span<const Rect> pixels);
 
 }  // namespace render
