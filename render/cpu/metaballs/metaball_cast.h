@@ -23,8 +23,8 @@ struct RayBlock {
     alignas(64) std::array<float, kTilePixels> maxField;  ///< greatest value of the field at the samples of the ray
     alignas(64) TileVec3 normal;                          ///< unit normal at the hit, in view coordinates
     alignas(64) TileVec3 color;                           ///< color of the surface at the hit, linear RGB
-    alignas(64) TileVec3 sky;  ///< sky visibility along the normal, against it and along the mirrored ray; only with
-                               ///< MetaballScene::hasSky
+    /// Sky visibility along the normal, against it and along the mirrored ray; only with MetaballScene::hasSky.
+    alignas(64) TileVec3 sky;
 };
 
 /// Casts the rays of a block, all within one tile. Normals, colors and sky visibilities are written if the scene has

@@ -58,8 +58,7 @@ class TileBalls {
     struct BallVector {
         Vec3 center;
         V reach;     ///< radius of the kernel, m
-        V distance;  ///< distance of the center from the eye or, in parallel projection, from the middle of the image
-                     ///< plane
+        V distance;  ///< distance of the center from the origin of view coordinates, m
     };
     /// The vector of balls that begins with ball `first`.
     BallVector load(std::size_t first) {
@@ -148,8 +147,7 @@ HWY_INLINE FieldSample select(M mask, const FieldSample& yes, const FieldSample&
 
 /// The memory of a NearBalls, which is reused from one vector of rays to the next.
 struct NearBallStorage {
-    std::vector<float, tbb::cache_aligned_allocator<float>>
-        terms;                               ///< w, t0 s and s of each ball, three vectors of rays
+    std::vector<float, tbb::cache_aligned_allocator<float>> terms;  ///< w, t0 s and s of each ball, for all lanes
     std::vector<float> nearDepth, farDepth;  ///< view depths at which each ball's kernel begins and ends, m
     std::vector<std::uint32_t> index;        ///< index of each ball in MetaballScene::balls
 
