@@ -60,7 +60,6 @@ void TileSamples::findHits() {
     const SolidGeometry& geometry = contents_.geometry;
     const bool hasMetaballs = contents_.hasMetaballs(tile_);
     const bool hasBoxes = contents_.boxes[tile_] != 0;
-    if (hasMetaballs) contents_.metaballs->prefetch(slot());
     if (isFilledByMetaballs()) {
         samples_ = samples_.first(1);
         samples_[0].depth.fill(kFarDepth);

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include <hwy/cache_control.h>
 #include <tbb/parallel_for.h>
 
 #include "render/cpu/metaballs/metaball_cast.h"
@@ -66,13 +65,6 @@ struct MetaballHits {
 
     std::span<const float, kTilePixels> depthsOf(std::size_t slot) const {
         return std::span<const float, kTilePixels>(&depths[slot * kTilePixels], kTilePixels);
-    }
-
-    /// Loads the hits of a slot into the processor's caches: they will be read soon, in any order.
-    void prefetch(std::size_t slot) const {
-        constexpr std::size_t kHitsPerCacheLine = 64 / sizeof(PackedHit);
-        const PackedHit* first = &hits[slot * kTilePixels];
-        for (std::size_t k = 0; k < kTilePixels; k += kHitsPerCacheLine) hwy::Prefetch(first + k);
     }
 
     /// Calls visit(tile, slot) for each tile that has a slot, in parallel.
