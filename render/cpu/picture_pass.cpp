@@ -92,7 +92,7 @@ void PicturePass::findBoxTiles(const View& view) {
 }
 
 void PicturePass::findGroundTiles(const View& view) {
-    groundTiles_.assign(sphereTiles_.begin.size() - 1, {});
+    groundTiles_.assign(sphereTiles_.begin.size() - 1, TileKind::background);
     if (view.ground) groundTiles_ = groundTiles(frame_, view.ground->height - frame_.eye.y, occludersOf(view));
 }
 

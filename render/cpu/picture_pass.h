@@ -79,7 +79,7 @@ class PicturePass {
     // Lines, boxes and ground
     LineList lineList_;
     std::vector<std::uint8_t> boxTiles_;  // per tile: 1 where a box may be seen
-    std::vector<GroundTile> groundTiles_;
+    std::vector<TileKind> groundTiles_;
     // Light and sky
     LightBasis light_;
     LightGrid lightGrid_;

@@ -46,7 +46,7 @@ bool TileContents::hasLines(std::size_t tile) const {
 
 TileKind TileContents::kindOf(std::size_t tile) const {
     const bool hasObjects = hasSpheres(tile) || boxes[tile] != 0 || hasMetaballs(tile) || hasLines(tile);
-    return hasObjects ? TileKind::mixed : ground[tile].kind;
+    return hasObjects ? TileKind::mixed : ground[tile];
 }
 
 TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, std::size_t tile)
@@ -58,17 +58,9 @@ TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, st
 
 void TileSamples::findHits() {
     const SolidGeometry& geometry = contents_.geometry;
-    const bool hasMetaballs = contents_.hasMetaballs(tile_);
-    const bool hasBoxes = contents_.boxes[tile_] != 0;
-    if (isFilledByMetaballs()) {
-        samples_ = samples_.first(1);
-        samples_[0].depth.fill(kFarDepth);
-        addMetaballs();
-        return;
-    }
-    const FlatGeometry flats{contents_.ground[tile_].kind != TileKind::background, hasBoxes};
+    const FlatGeometry flats{contents_.ground[tile_] != TileKind::background, contents_.boxes[tile_] != 0};
     for (TileRays& rays : samples_) findFlatHits(geometry, flats, rays);
-    if (hasMetaballs) addMetaballs();
+    if (contents_.hasMetaballs(tile_)) addMetaballs();
     if (contents_.hasSpheres(tile_)) findSphereHits(geometry, tile_, samples_);
 }
 
@@ -82,19 +74,6 @@ void TileSamples::findEdges(TileEdges& edges) const {
     std::array<bool, kTilePixels> isEdge;
     for (std::size_t k = 0; k < kTilePixels; ++k) isEdge[k] = differences[k] != 0;
     for (const std::uint8_t pixel : pixelsWhere(isEdge)) addEdge(pixel, edges);
-}
-
-/// Whether the tile shows nothing but metaballs, without a silhouette, so that one sample per pixel is as good as four.
-bool TileSamples::isFilledByMetaballs() const {
-    if (!contents_.hasMetaballs(tile_) || !contents_.metaballs->silhouettes[slot()].samples.empty()) return false;
-    if (contents_.hasSpheres(tile_) || contents_.boxes[tile_] != 0) return false;
-    float nearest = kFarDepth;
-    float farthest = 0.0F;
-    for (const float depth : contents_.metaballs->depthsOf(slot())) {
-        nearest = std::min(nearest, depth);
-        farthest = std::max(farthest, depth);
-    }
-    return nearest > 0.0F && farthest < contents_.ground[tile_].nearest;
 }
 
 /// All samples of a pixel hit what the ray through the pixel's middle hits, apart from those samples at silhouettes for

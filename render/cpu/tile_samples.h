@@ -23,7 +23,7 @@ struct TileContents {
     const MetaballHits* metaballs;  ///< null without metaballs
     const LineList& lines;
     std::span<const std::uint8_t> boxes;  ///< per tile: 1 where a box may be seen
-    std::span<const GroundTile> ground;   ///< per tile: the ground that it may show
+    std::span<const TileKind> ground;     ///< per tile: its kind as long as nothing stands before the ground
 
     bool hasSpheres(std::size_t tile) const;
     bool hasLines(std::size_t tile) const;
@@ -70,7 +70,6 @@ class TileSamples {
  private:
     std::size_t slot() const { return static_cast<std::size_t>(contents_.metaballs->slots[tile_]); }
     void findHits();
-    bool isFilledByMetaballs() const;
     void addMetaballs();
     void addEdge(std::uint8_t pixel, TileEdges& edges) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace render {
 
@@ -51,14 +52,9 @@ Rectangle skyBounds(const Occluders& occluders) {
     return bounds;
 }
 
-/// The point of the ground that a ray through a corner of a tile meets.
-struct Corner {
-    float depth =
-        std::numeric_limits<float>::infinity();  // view depth, m; infinite if the corner lies above the horizon
-    glm::vec3 position{0.0F};                    // relative to the eye
-
-    bool isGround() const { return depth < std::numeric_limits<float>::infinity(); }
-};
+/// The point of the ground, relative to the eye, that the ray through a corner of a tile meets; nothing if the corner
+/// lies above the horizon.
+using Corner = std::optional<glm::vec3>;
 
 Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
     const float across = (2.0F * static_cast<float>(x) / static_cast<float>(frame.width) - 1.0F) * frame.halfWidth;
@@ -67,8 +63,8 @@ Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
     const glm::vec3 origin = frame.perspective ? glm::vec3(0.0F) : off;
     const glm::vec3 direction = frame.perspective ? frame.forward + off : frame.forward;
     const float depth = (height - origin.y) / direction.y;
-    if (!(depth > 0.0F && depth < 1e30F)) return {};
-    return {depth, origin + depth * direction};
+    if (!(depth > 0.0F && depth < 1e30F)) return std::nullopt;
+    return origin + depth * direction;
 }
 
 /// The kind of a tile with these corners where nothing stands before the ground.
@@ -76,14 +72,14 @@ Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
 /// @param sky      bounds of the map of the ground's sky visibility
 TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, const Rectangle& shadows,
                 const Rectangle& sky) {
-    const auto groundCorners = std::ranges::count_if(corners, &Corner::isGround);
+    const auto groundCorners = std::ranges::count_if(corners, [](const Corner& corner) { return corner.has_value(); });
     if (groundCorners == 0) return TileKind::background;
     if (groundCorners < 4) return TileKind::mixed;
     Rectangle onLightPlane;
     Rectangle onGround;
     for (const Corner& corner : corners) {
-        onLightPlane.add(glm::vec2(light.toLightSpace(corner.position)));
-        onGround.add({corner.position.x, corner.position.z});
+        onLightPlane.add(glm::vec2(light.toLightSpace(*corner)));
+        onGround.add({corner->x, corner->z});
     }
     const bool isOccluded = overlap(onLightPlane, shadows) || overlap(onGround, sky);
     return isOccluded ? TileKind::occludedGround : TileKind::openGround;
@@ -91,7 +87,7 @@ TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, c
 
 }  // namespace
 
-std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders) {
+std::vector<TileKind> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders) {
     const Rectangle shadows = shadowBounds(occluders);
     const Rectangle sky = skyBounds(occluders);
     const int columns = (frame.width + kTileSize - 1) / kTileSize;
@@ -101,19 +97,13 @@ std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, cons
     for (int row = 0; row <= rows; ++row)
         for (int column = 0; column <= columns; ++column)
             corners.push_back(cornerAt(frame, height, column * kTileSize, row * kTileSize));
-    std::vector<GroundTile> tiles;
+    std::vector<TileKind> tiles;
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
-            const std::array<Corner, 4> around = {corners[first], corners[first + 1], corners[below],
-                                                  corners[below + 1]};
-            const TileKind kind = kindOf(around, occluders.light, shadows, sky);
-            // The inverse of the depth, or the depth itself, is linear on the picture: the depth is least at a corner.
-            // In parallel projection ground that reaches the horizon comes up to where the rays begin.
-            const bool startsAtEye = kind == TileKind::mixed && !frame.perspective;
-            const float nearest = std::ranges::min(around, {}, &Corner::depth).depth;
-            tiles.push_back({kind, startsAtEye ? 0.0F : nearest});
+            tiles.push_back(kindOf({corners[first], corners[first + 1], corners[below], corners[below + 1]},
+                                   occluders.light, shadows, sky));
         }
     }
     return tiles;

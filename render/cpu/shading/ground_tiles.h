@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -21,13 +20,8 @@ enum class TileKind : std::uint8_t {
     mixed            ///< anything else
 };
 
-struct GroundTile {
-    TileKind kind = TileKind::background;  ///< kind of the tile as long as nothing stands before the ground
-    float nearest = std::numeric_limits<float>::infinity();  ///< least view depth of the ground in the tile, m
-};
-
-/// Classifies the tiles of the picture, row by row, by the ground that they show.
+/// Classifies the tiles of the picture, row by row, by what they show as long as nothing stands before the ground.
 /// @param height  height of the ground over the eye, m
-std::vector<GroundTile> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders);
+std::vector<TileKind> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders);
 
 }  // namespace render
