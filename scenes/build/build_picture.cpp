@@ -86,7 +86,8 @@ void readColors(Section& section, const BuildContext& context, Look& look) {
     look.rampHigh = section.numbers("color_range")[1];
 }
 
-void readLights(const Section& section, render::View& view) {
+/// Reads the keys of [look] that all frames share: lights, background, ground and the surface of the particles.
+void readView(const Section& section, render::View& view) {
     const auto number = [&](std::string_view name) { return toFloat(section.number(name)); };
     const auto color = [&](std::string_view name) { return toFloat(section.vector(name)); };
     view.light.color = color("light_color");
@@ -99,10 +100,6 @@ void readLights(const Section& section, render::View& view) {
     if (section.boolean("ground"))
         view.ground = render::Ground{
             .height = number("ground_height"), .color = color("ground_color"), .fadeDistance = number("ground_fade")};
-}
-
-void readSurface(const Section& section, render::View& view) {
-    const auto number = [&](std::string_view name) { return toFloat(section.number(name)); };
     view.style = section.string("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;
     view.field.reach = number("metaball_reach");
     view.field.skin = section.string("skin") == "smooth" ? render::Skin::smooth : render::Skin::plain;
@@ -178,8 +175,7 @@ Look buildLook(Section& section, BuildContext& context) {
     chooseRamp(section, context);
     if (!section.isValid()) return look;
     readColors(section, context, look);
-    readLights(section, look.common);
-    readSurface(section, look.common);
+    readView(section, look.common);
     look.common.light.toLight = toFloat(*toLight);
     return look;
 }
