@@ -63,16 +63,17 @@ CoverageMask emptyMask(const Box& box) {
     return mask;
 }
 
+void addCoverage(CoverageMask& mask, int x, int y, int coverage) {
+    if (x < mask.left || y < mask.top || x >= mask.left + mask.width || y >= mask.top + mask.height) return;
+    std::uint8_t& at = mask.coverage[indexOf(mask, x, y)];
+    at = static_cast<std::uint8_t>(std::min(255, at + coverage));
+}
+
 void coverBox(CoverageMask& mask, const Box& box) {
-    const int x0 = std::max(mask.left, static_cast<int>(std::floor(box.left)));
-    const int x1 = std::min(mask.left + mask.width, static_cast<int>(std::ceil(box.right)));
-    const int y0 = std::max(mask.top, static_cast<int>(std::floor(box.top)));
-    const int y1 = std::min(mask.top + mask.height, static_cast<int>(std::ceil(box.bottom)));
-    for (int y = y0; y < y1; ++y) {
-        for (int x = x0; x < x1; ++x) {
+    for (int y = static_cast<int>(std::floor(box.top)); y < box.bottom; ++y) {
+        for (int x = static_cast<int>(std::floor(box.left)); x < box.right; ++x) {
             const double share = overlap(box.left, box.right, x) * overlap(box.top, box.bottom, y);
-            std::uint8_t& at = mask.coverage[indexOf(mask, x, y)];
-            at = static_cast<std::uint8_t>(std::min(255L, at + std::lround(255.0 * share)));
+            addCoverage(mask, x, y, static_cast<int>(std::lround(255.0 * share)));
         }
     }
 }

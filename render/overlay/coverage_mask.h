@@ -31,6 +31,9 @@ struct Box {
 /// The smallest mask of whole pixels that contains a box, with nothing covered.
 CoverageMask emptyMask(const Box& box);
 
+/// Adds to the coverage of a pixel of the picture, up to 255. Pixels outside of the mask are left out.
+void addCoverage(CoverageMask& mask, int x, int y, int coverage);
+
 /// Covers a rectangle in the mask. Pixels at the sides of the rectangle are covered by the share of their area that is
 /// inside.
 void coverBox(CoverageMask& mask, const Box& box);

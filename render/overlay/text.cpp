@@ -3,7 +3,6 @@
 // compiler seconds.
 #include "render/overlay/text.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -106,16 +105,10 @@ void coverGlyph(CoverageMask& mask, int glyph, const TextPosition& position) {
     if (width <= 0 || height <= 0) return;  // the glyph has no pixels: a space, for example
     std::vector<std::uint8_t> bitmap(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     stbtt_MakeGlyphBitmapSubpixel(&font(), bitmap.data(), width, height, width, scale, scale, shift, 0.0F, glyph);
-    for (int row = 0; row < height; ++row) {
-        for (int k = 0; k < width; ++k) {
-            const int x = column + x0 + k - mask.left;
-            const int y = position.baseline + y0 + row - mask.top;
-            if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) continue;
-            std::uint8_t& at = mask.coverage[static_cast<std::size_t>(y * mask.width + x)];
-            const int sum = at + bitmap[static_cast<std::size_t>(row * width + k)];
-            at = static_cast<std::uint8_t>(std::min(sum, 255));
-        }
-    }
+    for (int row = 0; row < height; ++row)
+        for (int k = 0; k < width; ++k)
+            addCoverage(mask, column + x0 + k, position.baseline + y0 + row,
+                        bitmap[static_cast<std::size_t>(row * width + k)]);
 }
 
 }  // namespace
