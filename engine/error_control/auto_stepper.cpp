@@ -79,9 +79,9 @@ void fit(AutoChoice& choice, const Trial& trial, double step, double interval) {
 void choose(AutoChoice& choice, const Trial& trial, double wantedError, double interval) {
     const double wanted = wantedStep(trial, wantedError);
     fit(choice, trial, wanted, interval);
-    choice.reason = trial.restricted && wanted >= trial.step ? *trial.reason
-                    : wanted >= interval                     ? StepLimit::frame
-                                                             : StepLimit::error;
+    choice.reason = trial.restriction && wanted >= trial.step ? *trial.restriction
+                    : wanted >= interval                      ? StepLimit::frame
+                                                              : StepLimit::error;
 }
 
 /// Cost of the cheapest candidate measured so far, in force evaluations per second of motion.

@@ -63,8 +63,8 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
     trial.asked = interval / stepCount(interval, trialRun.step);
     trial.step = meanStep();
     trial.cost = forceEvaluationsOf(there) / interval;
-    trial.restricted = there.steps.rejected > 0 || there.restriction.seconds < trialRun.step;
-    if (trial.restricted) trial.reason = there.restriction.reason;
+    if (there.steps.rejected > 0 || there.restriction.seconds < trialRun.step)
+        trial.restriction = there.restriction.reason;
     const Particles coarse = std::move(there.particles);
     there = simulation;
     // The second run takes half the mean step of the first run, whose steps the audit and emissions may have shortened.
@@ -83,7 +83,7 @@ double wantedStep(const Trial& trial, double wanted) {
     const double change = trial.error > 0.0 ? stepRatio(trial.stepper, wanted / trial.error) : kMostChange;
     // If the audit has limited the steps, a larger wanted error does not allow longer ones; if only emissions have, it
     // does.
-    if (trial.restricted || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
+    if (trial.restriction || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
     return trial.asked * std::min(change, kMostChange);
 }
 
@@ -92,7 +92,7 @@ double stepRatioTo(const Trial& trial, double step) {
 }
 
 double costAt(const Trial& trial, double step) {
-    if (trial.restricted) return trial.cost / stepRatioTo(trial, step);
+    if (trial.restriction) return trial.cost / stepRatioTo(trial, step);
     const double endedEarly = std::max(0.0, 1.0 / trial.step - 1.0 / trial.asked);  // 1/s
     return trial.cost * trial.step * (1.0 / step + endedEarly);
 }

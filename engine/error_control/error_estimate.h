@@ -20,20 +20,20 @@ struct TrialRun {
     StepperKind stepper = StepperKind::velocityVerlet;
     double step = 0.0;                                                 ///< longest step of the first run, s
     double horizon = kErrorHorizon;                                    ///< error horizon for velocities, s
-    double mostEvaluations = std::numeric_limits<double>::infinity();  ///< limit of force evaluations for the first run
+    double mostEvaluations = std::numeric_limits<double>::infinity();  ///< most force evaluations of the first run
 };
 
 /// Results of the two runs of an error estimate.
 struct Trial {
     StepperKind stepper = StepperKind::velocityVerlet;
-    bool finished = true;             ///< whether the first run got to the end; else only `spent` is set
-    double asked = 0.0;               ///< longest step that the first run was allowed to take, s
-    double step = 0.0;                ///< mean step of the first run, s
-    double error = 0.0;               ///< error at the mean step, radii per second of motion
-    double cost = 0.0;                ///< cost at the mean step, force evaluations per second
-    double spent = 0.0;               ///< force evaluations of both runs together
-    bool restricted = false;          ///< whether the audit rejected or restricted steps
-    std::optional<StepLimit> reason;  ///< reason of the last rejection by the audit
+    bool finished = true;  ///< whether the first run got to the end; else only `spent` is set
+    double asked = 0.0;    ///< longest step that the first run was allowed to take, s
+    double step = 0.0;     ///< mean step of the first run, s
+    double error = 0.0;    ///< error at the mean step, radii per second of motion
+    double cost = 0.0;     ///< cost at the mean step, force evaluations per second
+    double spent = 0.0;    ///< force evaluations of both runs together
+    /// Reason of the last rejection, if the audit has rejected or restricted steps of the first run.
+    std::optional<StepLimit> restriction;
 };
 
 /// Measures error and cost of a stepper from the present state to a given time. The interval is run with steps h and

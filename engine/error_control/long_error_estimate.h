@@ -14,7 +14,7 @@ inline constexpr double kLongEstimateSeconds = 0.2;
 struct LongEstimate {
     double step = 0.0;   ///< step at which the error is the wanted error, as far as the trials show, s
     double spent = 0.0;  ///< force evaluations of all trials
-    Trial trial;         ///< the last trial run
+    Trial trial;         ///< results of the last trial run
 };
 
 /// Finds the step at which a stepper's error over kLongEstimateSeconds, rounded up to whole intervals and at most

@@ -71,7 +71,7 @@ TEST_CASE("The estimated error is that against a reference", "[auto-stepper]") {
                                << trial.error << ", real " << real);
             CHECK(stateHash(simulation.particles) == before);
             CHECK(trial.step == Approx(interval / 32).epsilon(1e-12));  // rounding of the division
-            CHECK_FALSE(trial.restricted);
+            CHECK_FALSE(trial.restriction);
             CHECK(trial.error <
                   1.5 * real);  // chosen factor: the next order of Richardson's estimate contributes about a tenth here
             CHECK(trial.error > real / 1.5);  // same
@@ -86,7 +86,7 @@ TEST_CASE("The cost of longer steps includes those that emissions end early", "[
     CHECK(costAt(trial, 0.01) == Approx(500.0));
     CHECK(costAt(trial, 0.02) == Approx(2.0 * 200));
     CHECK(costAt(trial, 0.005) == Approx(2.0 * 350));
-    trial.restricted = true;  // the audit halves steps, so a shorter step was measured
+    trial.restriction = StepLimit::audit;  // the audit halves steps, so a shorter step was measured
     CHECK(costAt(trial, 0.004) == Approx(500.0));
     CHECK(costAt(trial, 0.002) == Approx(1000.0));
 }
