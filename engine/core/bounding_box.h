@@ -14,8 +14,8 @@
 namespace engine {
 
 struct BoundingBox {
-    Vec3 low;   ///< smallest coordinates
-    Vec3 high;  ///< largest coordinates
+    Vec3 low;   ///< smallest coordinates of the box
+    Vec3 high;  ///< largest coordinates of the box
 
     /// A box without bounds, which contains every vector.
     static BoundingBox unbounded() {

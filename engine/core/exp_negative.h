@@ -7,7 +7,7 @@ namespace engine {
 /// exp(-x) for x not negative, the same bits on every machine, within a few units in the last place of the exact value.
 /// Halves x until a short series is exact to rounding, then squares the result back.
 inline double expNegative(double x) {
-    if (x > 745.0) return 0.0;  // the result is below the smallest double
+    if (x > 745.0) return 0.0;  // exp(-x) is below the smallest double
     int halvings = 0;
     // Squaring doubles the relative error; with x <= 1/8 a drag over one step (x about 0.01) needs none.
     for (; x > 0.125; x *= 0.5) ++halvings;

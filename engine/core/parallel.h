@@ -23,7 +23,7 @@ inline std::size_t threadCount() {
 /// stealing. Isolated, so that a waiting thread does not begin another task, such as drawing a whole frame.
 template <class Ranges>
 void splitUp(std::size_t count, std::size_t grain, const Ranges& body) {
-    constexpr std::size_t kFew = 256;  // chosen: pair forces of up to 16,384 particles, loops over up to 262,144
+    constexpr std::size_t kFew = 256;  // most grains that count as few; chosen: 262,144 particles in most loops
     const tbb::blocked_range<std::size_t> all(0, count, grain);
     const auto each = [&](const auto& range) { body(range.begin(), range.end()); };
     tbb::this_task_arena::isolate([&] {

@@ -18,7 +18,7 @@ struct SolverScratch {
 /// as large as the larger one of two limits. The absolute limit counts as at most kMostLeftOut times the norm of the
 /// right-hand side.
 struct Tolerance {
-    double relative = 0.0;  ///< largest residual, as a share of the right-hand side
+    double relative = 0.0;  ///< largest norm of the residual, as a share of the right-hand side's
     double absolute = 0.0;  ///< largest norm of the residual, kg^1/2 m/s
 };
 

@@ -28,7 +28,7 @@ inline ForceLaw lawOf(const Setup& setup) {
 /// with these terms only.
 struct ForceTerms {
     PairTerms pair{.attraction = false, .damping = false, .friction = false};
-    bool uniform = true;  ///< whether all particles have one law and one radius, hence all pairs the same constants
+    bool uniform = true;  ///< whether all pairs of particles have the same constants: one material law, one radius
     double cutoff = 0.0;  ///< distance at and beyond which no two particles interact, m
 };
 

@@ -16,7 +16,7 @@ namespace engine {
 /// Factors of the damping and of the stiffness in the matrix of an implicit step: h/2 and h^2/4 for a time step h.
 struct MatrixWeights {
     double damping = 0.0;    ///< s
-    double stiffness = 0.0;  ///< s^2; with 0 the matrix contains no stiffness
+    double stiffness = 0.0;  ///< factor of the stiffness, s^2; 0 for a matrix without
 };
 
 /// The matrix of an implicit step as rows of neighbors. The 3x3 block of a pair with separation P is -(along P P^T +
@@ -28,7 +28,7 @@ struct PairMatrix {
 
     std::vector<double> mass;            ///< mass of each particle, kg
     std::vector<Matrix3> own;            ///< terms of obstacles in the particles' diagonal blocks, kg; may be empty
-    std::vector<PackedParticle> packed;  ///< particles; their velocities hold a factor of products
+    std::vector<PackedParticle> packed;  ///< positions; the velocities hold the vector x of a product A x
     NeighborRows rows;                   ///< neighbors with an entry in the matrix, for each particle
     Entries along;                       ///< coefficients of P P^T, kg/m^2
     Entries across;                      ///< coefficients of the unit matrix, kg; empty without friction

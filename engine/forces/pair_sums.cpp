@@ -32,7 +32,7 @@ struct Pair {
 /// Friction of a pair of particles: the friction force is -damping times the slip velocity.
 struct Slip {
     Vec3 velocity = Vec3::Zero();  ///< slip velocity V_t, m/s
-    double damping = 0.0;          ///< coefficient c_t, kg/s
+    double damping = 0.0;          ///< friction coefficient c_t, kg/s
 };
 
 /// Friction of a pair. Forced inline, so that terms shared with the conservative force are computed once.

@@ -20,7 +20,7 @@ namespace engine {
 
 /// State that is kept from one pass over the pairs to the next, since the neighbor list stays valid for many passes.
 struct PairTraversal {
-    std::vector<Material> pairMaterials;  ///< mixedPairs() of the law
+    std::vector<Material> pairMaterials;  ///< mixtures of every two materials, see mixedPairs()
     std::size_t materialCount = 0;
     ForceTerms terms;
     PairConstants<double> uniform = {};  ///< constants of every pair where terms.uniform
@@ -29,7 +29,7 @@ struct PairTraversal {
     Precision precision = Precision::doubles;               ///< precision of the pair forces where terms.uniform
     Scratch<std::vector<PackedParticle>> packed;            ///< particles in double; valid while isPacked
     Scratch<std::vector<PackedParticleFloat>> packedFloat;  ///< particles in float; empty for a pass in double
-    double unit = 1.0;                                      ///< length of a unit of the packed coordinates, m
+    double unit = 1.0;                                      ///< length unit of the packed coordinates, m
     bool isPacked = false;  ///< whether `packed` holds the particles of the last prepare()
 
     PairTraversal() = default;
@@ -64,7 +64,7 @@ struct PairTraversal {
     void forEachNeighbor(std::size_t laneSlot, const Visit& visit) const {
         const PackedParticle& p = packed[sortedIndexAt(laneSlot)];
         const double cutoffSq = terms.cutoff * terms.cutoff;
-        constexpr std::uint32_t kAtOnce = 128;  // entries filtered together; chosen: longer than most rows
+        constexpr std::uint32_t kAtOnce = 128;  // neighbors filtered at a time; chosen: more than in most rows
         std::array<std::uint32_t, kAtOnce> within;
         const RowBlock& block = list.rows.blocks[NeighborRows::blockOf(laneSlot)];
         const std::size_t first = list.rows.at(laneSlot, 0);

@@ -38,10 +38,10 @@ struct Law {
     static constexpr Tag<T> kTag{};
     static constexpr bool kHasUnit = std::is_same_v<T, float>;
 
-    PairConstants<V> constants;  ///< constants of the pair; bd is times the unit of P
+    PairConstants<V> constants;  ///< constants of every pair; bd is multiplied by the unit of P
     V unitSq, perUnit;
     V reach, inverseReach, inverseReachCubed, a, b, halfSlope;  ///< constants of the pair energy
-    V damping, dampingWeight, stiffnessWeight;                  ///< constants of the matrix
+    V damping, dampingWeight, stiffnessWeight;                  ///< constants of matrix entries
 
     static V set(T value) { return hn::Set(kTag, value); }
     static V set64(double value) { return set(static_cast<T>(value)); }
@@ -102,7 +102,7 @@ struct Law {
         const V cubes = hn::Mul(hn::Sub(hn::Mul(inverseSq, inverse), inverseReachCubed), set(T(1) / T(3)));
         const V middle = hn::Sub(cubes, hn::Mul(a, hn::Sub(inverse, inverseReach)));
         const V outside = hn::Mul(constants.b1, hn::Add(middle, hn::Mul(b, hn::Sub(reach, guarded))));
-        const V inside = hn::Mul(halfSlope, hn::Sub(guardedSq, distanceSq));  // 0 beyond the core
+        const V inside = hn::Mul(halfSlope, hn::Sub(guardedSq, distanceSq));  // 0 beyond the core distance
         return hn::IfThenElseZero(hn::Lt(distanceSq, constants.reachSq), hn::Add(outside, inside));
     }
 
@@ -125,7 +125,7 @@ struct Law {
 template <class V>
 struct Slip {
     Vector3<V> velocity;  ///< slip velocity V_t, m/s
-    V damping;            ///< coefficient c_t, kg/s
+    V damping;            ///< friction coefficient c_t, kg/s
 };
 
 /// @param separationSq  P.P in units
@@ -234,7 +234,7 @@ HWY_FLATTEN void sumLanes(const PairTraversal& pairs, const PairSums& wanted, st
                 energy,
                 hn::IfThenElseZero(row.isPair, hn::Mul(law.set(T(0.5)), law.energy(distanceSq, inverseSq, inverse))));
         if constexpr (variant.hasMatrix) {
-            const auto isPair = hn::AndNot(isCoincident, row.isPair);  // a coincident pair has no direction
+            const auto isPair = hn::AndNot(isCoincident, row.isPair);  // a coincident pair has no entry in the matrix
             V along = law.along(distanceSq, inverseSq, inverse);
             V across = hn::Zero(kTag);
             if constexpr (kTerms.friction) {

@@ -26,15 +26,15 @@ namespace HWY_NAMESPACE {
 template <class Position, class Velocity>
 struct Loaded {
     Vector3<Position> position;
-    Vector3<Velocity> velocity;  ///< zero where no term of the force needs it
+    Vector3<Velocity> velocity;  ///< velocity; zero where no term of the force needs it
 };
 
 /// One pair of particles in each SIMD lane: a particle of the cluster and one of its neighbors.
 template <class T>
 struct Row {
-    Vector3<Lanes<T>> separation;  ///< P, in the unit of the packed coordinates
+    Vector3<Lanes<T>> separation;  ///< separation P, in the unit of the packed coordinates
     Vector3<Lanes<T>> velocity;    ///< V, m/s
-    hn::Mask<Tag<T>> isPair;       ///< false where the entry only pads the row
+    hn::Mask<Tag<T>> isPair;       ///< false where the neighbor is only padding of a short row
 };
 
 /// Length of the longest row of neighbors among the particles in one SIMD vector, which begins at a lane slot.

@@ -15,12 +15,12 @@ struct Material {
     std::string name;
     double radius = 0.15;         ///< r, m
     double mass = 1.0;            ///< M, kg
-    double repulsion = 0.01;      ///< b1, N m^4
-    double damping = 1.0;         ///< b_d, kg/s
-    double repulsionReach = 1.0;  ///< c_r, in rest lengths; particles attract above 1
-    double dampingReach = 2.0;    ///< c_d, in rest lengths
-    double friction = 0.0;        ///< mu, friction over normal force; the paper has none
-    double coreFraction = 0.25;   ///< core distance in rest lengths; the force is linear below
+    double repulsion = 0.01;      ///< strength b1 of the repulsion, N m^4
+    double damping = 1.0;         ///< damping coefficient b_d, kg/s
+    double repulsionReach = 1.0;  ///< reach c_r of the force, in rest lengths; particles attract above 1
+    double dampingReach = 2.0;    ///< reach c_d of the damping, in rest lengths
+    double friction = 0.0;        ///< friction coefficient mu; the paper has no friction
+    double coreFraction = 0.25;   ///< core distance in rest lengths, below which the force is linear
 };
 
 /// All presets: the rows of Table 1 in its order (liquid, solid, powder, fountain), then the substances that the paper

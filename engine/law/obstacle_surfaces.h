@@ -14,11 +14,11 @@ namespace engine {
 
 /// One face of an obstacle relative to one particle.
 struct Surface {
-    double height = 0.0;                                             ///< signed distance of the particle's center, m
+    double height = 0.0;                                             ///< distance of the particle's center, signed, m
     Vec3 normal = Vec3::UnitY();                                     ///< unit vector that points away from the solid
     double repulsorRadius = 0.5;                                     ///< m
-    double halfThickness = std::numeric_limits<double>::infinity();  ///< half the solid's depth under the face, m
-    double curvature = 0.0;                                          ///< 1/radius of a solid sphere, otherwise 0; 1/m
+    double halfThickness = std::numeric_limits<double>::infinity();  ///< half the depth of the solid, m
+    double curvature = 0.0;                                          ///< 1/radius of a sphere, otherwise 0; 1/m
 };
 
 // The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
@@ -112,7 +112,7 @@ void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius
 struct Contact {
     PairConstants<double> constants = {};
     double distance = 0.0;    ///< distance to the repulsor, at least the core distance, m
-    double beyondCore = 0.0;  ///< how much closer than the core distance it is, m
+    double beyondCore = 0.0;  ///< how far the repulsor is inside the core distance, m
 };
 
 inline Contact contactWith(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {

@@ -14,7 +14,7 @@ namespace engine {
 /// A half-space: everything on the side that the normal points away from is solid.
 struct Plane {
     Vec3 point = Vec3::Zero();    ///< m
-    Vec3 normal = Vec3::UnitY();  ///< unit length, away from the solid side
+    Vec3 normal = Vec3::UnitY();  ///< unit normal that points away from the solid side
 };
 
 /// The inside of an axis-aligned box: six planes that face inwards.
@@ -41,9 +41,9 @@ using Obstacle = std::variant<Plane, Container, Box, Sphere>;
 /// The constants of the force between particles and repulsors (section 3.2 of the paper), the same for all obstacles.
 struct RepulsorLaw {
     double radius = 0.5;         ///< m
-    double repulsion = 10.0;     ///< b1, N m^4
+    double repulsion = 10.0;     ///< strength b1 of the repulsion, N m^4
     double dampingFactor = 5.0;  ///< b_d over the c_d of the particle's material, kg/s
-    double coreFraction = 0.25;  ///< core distance over rest length
+    double coreFraction = 0.25;  ///< core distance, in rest lengths
 };
 
 struct Obstacles {

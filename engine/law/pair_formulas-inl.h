@@ -19,12 +19,12 @@
 /// The constants of the force law for one pair, computed once from the pair's material and rest length.
 template <class Number>
 struct PairConstants {
-    Number b1;                ///< b1, N m^4
-    Number bd;                ///< b_d, kg/s
-    Number inverseRestSq;     ///< 1/D0^2, 1/m^2
-    Number inverseReachSq;    ///< 1/R^2, 1/m^2
+    Number b1;                ///< strength b1 of the repulsion, N m^4
+    Number bd;                ///< damping coefficient b_d, kg/s
+    Number inverseRestSq;     ///< 1/D0^2 with the rest length D0, 1/m^2
+    Number inverseReachSq;    ///< 1/R^2 with the reach R of the conservative force, 1/m^2
     Number reachSq;           ///< R^2, m^2
-    Number inverseDampingSq;  ///< 1/S^2, 1/m^2
+    Number inverseDampingSq;  ///< 1/S^2 with the reach S of the damping, 1/m^2
     Number coreSq;            ///< square of the core distance, m^2
     Number friction;          ///< mu
     Number cutoffSq;          ///< square of the distance at and beyond which nothing acts, m^2

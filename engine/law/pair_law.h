@@ -19,10 +19,10 @@ namespace engine {
 
 /// The terms of the force law that a kernel over pairs is compiled with.
 struct PairTerms {
-    bool attraction = true;   ///< attraction, where c_r is above 1
-    bool damping = true;      ///< damping, where b_d is above 0
-    bool friction = false;    ///< friction, where mu is above 0
-    bool equalReach = false;  ///< R = S in every damped pair, which allows a shorter formula
+    bool attraction = true;   ///< whether particles attract: c_r is above 1
+    bool damping = true;      ///< whether there is damping: b_d is above 0
+    bool friction = false;    ///< whether there is friction: mu is above 0
+    bool equalReach = false;  ///< whether R = S in every damped pair: allows a shorter formula
 };
 
 /// Calls visit.operator()<terms>() with the cheapest compiled combination of terms that contains all needed terms, and

@@ -53,7 +53,7 @@ struct AxisLanes {
 void findCellsHere(const CellAxes& axes, const Vec3* positions, std::size_t count, std::uint32_t* cells) {
     const AxisLanes alongX(axes[0]), alongY(axes[1]), alongZ(axes[2]);
     const std::size_t lanes = hn::Lanes(kTag);
-    const V integer = hn::Set(kTag, 0x1p52);  // the last 32 bits of a sum with it are those of an integer
+    const V integer = hn::Set(kTag, 0x1p52);  // adding it puts an integer into the last 32 bits
     std::size_t p = 0;
     for (; p + lanes <= count; p += lanes) {
         V x, y, z;
@@ -137,7 +137,7 @@ std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) 
 std::int64_t cellNumber(double coordinate, double width) {
     constexpr double kLargest = 1e15;  // an integer that double represents exactly
     const double cells = std::max(-kLargest, std::min(kLargest, coordinate / width));
-    const auto towardZero = static_cast<std::int64_t>(cells);  // one instruction, where floor is a call
+    const auto towardZero = static_cast<std::int64_t>(cells);  // one instruction, where std::floor is a call
     return static_cast<double>(towardZero) > cells ? towardZero - 1 : towardZero;
 }
 
@@ -148,7 +148,7 @@ std::int64_t CellAxis::cellOf(double coordinate) const {
     const std::int64_t number = cellNumber(coordinate, width);
     const std::int64_t steps = number - first;
     if (steps < 0 || steps >= size) return wrapped(number, size);
-    return wrappedStep(stored + steps, size);  // the usual case, without a division
+    return wrappedStep(stored + steps, size);  // the usual case needs no division
 }
 
 std::uint32_t cellAt(const CellAxes& axes, const Vec3& position) {

@@ -55,10 +55,10 @@ struct Neighborhood {
 };
 
 struct CellGrid {
-    std::array<std::int64_t, 3> dimensions{1, 1, 1};  ///< cells along x, y, z
+    std::array<std::int64_t, 3> dimensions{1, 1, 1};  ///< numbers of cells along x, y, z
     std::vector<std::uint32_t> start;                 ///< index in `order` of each cell's first particle, and the end
     std::vector<std::uint32_t> order;                 ///< particle indices sorted by cell, ascending within a cell
-    std::vector<std::uint32_t> cellOf;                ///< cell of each particle
+    std::vector<std::uint32_t> cellOf;                ///< storage index of the cell of each particle
 
     std::size_t cellCount() const { return start.size() - 1; }
 };

@@ -58,9 +58,8 @@ class LinkedCells {
     void link(std::size_t p);
 
     double width_ = 0.0;
-    std::vector<std::uint32_t>
-        first_;                ///< first particle of each chain; as many chains as particles or more, a power of two
-    std::vector<Link> links_;  ///< link of each particle
+    std::vector<std::uint32_t> first_;  ///< first particle of each hash chain; their number is a power of two
+    std::vector<Link> links_;           ///< link of each particle
 };
 
 }  // namespace engine

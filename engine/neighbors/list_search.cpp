@@ -131,7 +131,7 @@ struct Search {
     /// Each vector of candidates is compared with all of these particles while it is in registers.
     void findNear(std::uint32_t first, std::uint32_t ownCount) {
         const std::size_t stride = vectors();
-        const std::size_t room = ownCount * stride + hn::Lanes(kMasks);  // writeRow() reads beyond the last
+        const std::size_t room = ownCount * stride + hn::Lanes(kMasks);  // writeRow() reads beyond the last mask
         if (scratch.near.size() < room) scratch.near.resize(2 * room);
         const float* const xs = scratch.x.data();
         const float* const ys = scratch.y.data();

@@ -29,7 +29,7 @@ struct SearchScratch {
 
 /// The neighbors that searches have found, one row for each particle, one row after the other.
 struct FoundRows {
-    std::vector<std::uint32_t> sortedIndices;  ///< neighbors; may have unused entries
+    std::vector<std::uint32_t> sortedIndices;  ///< neighbors' sorted indices; entries may be left over
     std::size_t used = 0;
 };
 

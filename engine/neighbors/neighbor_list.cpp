@@ -208,7 +208,8 @@ bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double
     if (positions.empty()) return true;
     const double slack = slackOf(list, cutoff);
     const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
-    if (areWithin(slack, Vec3::Zero(), positions.size(), displacement)) return true;  // the usual case, checked first
+    // The usual case is that no particle has moved far.
+    if (areWithin(slack, Vec3::Zero(), positions.size(), displacement)) return true;
     // If the displacements of two particles differ by more than 2 * slack, no common translation brings both within
     // slack. The newest particles are tested first, because they are often the fastest.
     const std::size_t some = std::min(positions.size(), kSumChunk);

@@ -25,8 +25,8 @@ Energy energy(ForceEvaluator& evaluator, const Particles& particles);
 Energy energy(Simulation& simulation);
 
 Vec3 linearMomentum(const Particles& particles);   ///< kg m/s
-Vec3 angularMomentum(const Particles& particles);  ///< kg m^2/s, about the origin
-double largestSpeed(const Particles& particles);   ///< m/s; 0 without particles
+Vec3 angularMomentum(const Particles& particles);  ///< angular momentum about the origin, kg m^2/s
+double largestSpeed(const Particles& particles);   ///< largest speed of a particle, m/s; 0 without particles
 
 /// 64-bit FNV-1a over id, position and velocity of every particle in order, as 16 hexadecimal digits.
 std::string stateHash(const Particles& particles);

@@ -19,9 +19,9 @@ enum class StepperKind {
     symplecticEuler,   ///< symplectic Euler, equations 7 and 8 of the paper, as printed
     velocityVerlet,    ///< velocity Verlet: second order; damping from the predicted velocity
     leapfrog,          ///< Groot-Warren modified velocity Verlet with lambda = 1/2: first order, stable at longer steps
-    implicitDamping,   ///< second order; damping alone by the implicit midpoint rule
-    linearlyImplicit,  ///< second order; damping and stiffness by the linearized implicit midpoint rule
-    automatic          ///< chooses the cheapest of the steppers above, except the first, at the wanted error
+    implicitDamping,   ///< implicit midpoint rule for damping: second order
+    linearlyImplicit,  ///< linearized implicit midpoint rule for damping and stiffness: second order
+    automatic          ///< the automatic choice of the cheapest stepper, except symplectic Euler, at a wanted error
 };
 
 /// Number of steppers that can take a step: all enumerators but the last, the automatic stepper, which chooses among
@@ -56,7 +56,7 @@ struct Setup {
     double error = 1e-2;  ///< position error that the automatic stepper aims at, radii per second of motion
     double solverTolerance = 1e-4;  ///< relative residual at which the implicit steppers' solver stops
     ForceMethod forces = ForceMethod::grid;
-    Precision precision = Precision::doubles;  ///< precision where all particles have one material and one radius
+    Precision precision = Precision::doubles;  ///< of pair forces between particles of one material and one radius
     std::uint64_t seed = 1;
 };
 

@@ -15,7 +15,7 @@ namespace engine {
 
 /// The reason why a time step was not longer.
 enum class StepLimit {
-    fixed,         ///< the scene's fixed step
+    fixed,         ///< the fixed step that the scene asks for
     error,         ///< the wanted error
     displacement,  ///< a longer step moved a particle further than its radius
     audit,         ///< a longer step gained energy and was rejected
@@ -33,9 +33,9 @@ struct StepStatistics {
     std::uint64_t count = 0;
     double shortest = 0.0;                               ///< s
     double longest = 0.0;                                ///< s
-    std::uint64_t forceEvaluations = 0;                  ///< passes over all pairs
-    std::uint64_t products = 0;                          ///< products of the implicit steppers' matrix with a vector
-    std::uint64_t rejected = 0;                          ///< steps that were taken back and retried at half the length
+    std::uint64_t forceEvaluations = 0;                  ///< number of passes over all pairs of particles
+    std::uint64_t products = 0;                          ///< number of products of the implicit steppers' matrix
+    std::uint64_t rejected = 0;                          ///< number of steps taken back and retried at half the length
     std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< number of steps that each StepLimit has limited
     std::array<std::uint64_t, kStepperKinds> takenBy{};  ///< number of steps that each StepperKind has taken
 
@@ -64,7 +64,7 @@ struct AutoChoice {
 struct AutoState {
     std::array<AutoChoice, kStepperKinds> choices;  ///< candidates, by StepperKind
     std::uint64_t intervalCount = 0;                ///< number of intervals run so far
-    std::uint64_t nextEstimate = 0;                 ///< index of the interval in which the error is estimated next
+    std::uint64_t nextEstimate = 0;                 ///< index of the interval of the next error estimate
     std::uint64_t estimateCount = 0;                ///< number of error estimates so far
     double errorSum = 0.0;                          ///< sum of the error estimates, radii per second
     double largestError = 0.0;                      ///< largest error estimate, radii per second
@@ -78,7 +78,7 @@ struct StepCache;
 /// that code that reads the state does not depend on neighbor lists.
 class StepCachePointer {
  public:
-    StepCachePointer();  ///< an empty cache
+    StepCachePointer();  ///< makes an empty step cache
     StepCachePointer(const StepCachePointer& other);
     StepCachePointer(StepCachePointer&& other) noexcept;
     StepCachePointer& operator=(const StepCachePointer& other);
@@ -99,7 +99,7 @@ struct Simulation {
     Particles particles;
     std::vector<EmitterState> emitters;
     std::uint64_t removedCount = 0;                     ///< particles removed outside a bounded world
-    std::uint64_t largestCountBeforeRemoval = 0;        ///< largest number of particles at any removal
+    std::uint64_t largestCountBeforeRemoval = 0;        ///< largest particle count when particles were removed
     double time = 0.0;                                  ///< s
     StepperKind stepper = StepperKind::velocityVerlet;  ///< stepper in use; never automatic
     StepRestriction restriction;

@@ -28,7 +28,7 @@ bool move(const KickDrift& step, std::size_t first, Particles& particles) {
     const auto write = [](const Vector3<V>& vectors, Vec3& at) {
         hn::StoreInterleaved3(vectors.x, vectors.y, vectors.z, kTag, at.data());
     };
-    const auto areBelow = [](const Vector3<V>& vectors, double limit) {  // a NaN is not
+    const auto areBelow = [](const Vector3<V>& vectors, double limit) {  // false for a NaN
         const V largest = hn::Set(kTag, limit);
         return hn::And(hn::And(hn::Lt(hn::Abs(vectors.x), largest), hn::Lt(hn::Abs(vectors.y), largest)),
                        hn::Lt(hn::Abs(vectors.z), largest));

@@ -13,8 +13,8 @@ struct KickDrift {
     double h = 0.0;                   ///< s
     double decay = 1.0;               ///< factor by which drag multiplies velocities in the step
     Vec3 gravity = Vec3::Zero();      ///< m/s^2
-    const std::vector<Vec3>& forces;  ///< N, by particle index
-    bool hasWeight = false;           ///< whether the forces include gravity already
+    const std::vector<Vec3>& forces;  ///< force on each particle, by particle index, N
+    bool hasWeight = false;           ///< whether the forces include the weights already
 };
 
 /// Updates the velocities and then the positions of particles begin to end - 1: v becomes decay (v + h/m F), where F is

@@ -112,11 +112,11 @@ void restore(Simulation& simulation, const SavedState& saved) {
     particles.velocity = saved.velocity;
     StepCache& cache = *simulation.cache;
     cache.clearance.clear();
-    cache.cachedNeighbors.clear();  // a resumed run does not have them either
+    cache.cachedNeighbors.clear();  // cleared, because a resumed run has none either
     cache.forcesCurrent = saved.forcesCurrent;
     if (saved.forcesCurrent) {
         cache.forces = saved.forces;
-        cache.evaluator.renewList(particles);  // prepareDrift() expects a current list with current forces
+        cache.evaluator.renewList(particles);  // prepareDrift() expects a neighbor list as current as the forces
     }
     cache.energy = saved.energy;
     cache.kinetic = saved.kinetic;

@@ -74,7 +74,7 @@ double dotOf(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 /// all its neighbors would have to move against it. Power iteration on M^-1 (h^2 K + 2 h C) finds the mode that really
 /// limits the step; the Rayleigh quotients of that mode are its squared frequency and its decay rate.
 double refined(const PairTraversal& pairs, const Particles& particles, StepperKind stepper, double h) {
-    constexpr int kIterations = 40;  // chosen: the quotients are then accurate to a few percent
+    constexpr int kIterations = 40;  // iterations; chosen: quotients are then accurate to a few percent
     PairSystem system = systemOf(pairs, particles);
     const std::size_t count = particles.count();
     std::vector<Vec3> x(count), kx(count), cx(count), mx(count);

@@ -20,11 +20,11 @@ struct ImplicitScratch {
     PairMatrix matrix;
     SolverScratch solver;
     std::vector<Vec3> rightHandSide;  ///< right-hand side of the linear system, in the matrix's order, N s
-    std::vector<Vec3> change;         ///< half the change of velocity, in the matrix's order, m/s
+    std::vector<Vec3> change;         ///< half the change of velocities in a step, in the matrix's order, m/s
 };
 
 struct StepCache {
-    ForceEvaluator evaluator;  ///< force evaluator with the neighbor list
+    ForceEvaluator evaluator;  ///< force evaluator, which has the neighbor list
 
     std::vector<Vec3> forces;  ///< forces of pairs and gravity, N; valid for the next step if forcesCurrent
     bool forcesCurrent = false;

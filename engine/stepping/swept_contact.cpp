@@ -69,7 +69,7 @@ double barrierDepth(const Surface& surface, const RepulsorLaw& law, const Ballis
 
 /// Bounds on distance and forces of a particle's contacts with obstacles.
 struct ContactBounds {
-    double gap = std::numeric_limits<double>::infinity();    ///< distance to the nearest surface, m
+    double gap = std::numeric_limits<double>::infinity();  ///< distance to the nearest surface, negative in contact, m
     double scale = std::numeric_limits<double>::infinity();  ///< shortest length over which contact forces change, m
     double stiffness = 0.0;                                  ///< largest stiffness of a contact, N/m
     double damping = 0.0;                                    ///< largest damping of a contact, kg/s
