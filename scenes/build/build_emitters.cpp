@@ -1,7 +1,6 @@
 // Makes the emitters of the simulation, with their points of emission and times of emission, from the [[emitter]]
 // tables of a scene.
 #include <algorithm>
-#include <cmath>
 
 #include "scenes/build/builders.h"
 

@@ -7,7 +7,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "scenes/schema/schema.h"
 #include "scenes/text/toml_statements.h"

@@ -1,7 +1,6 @@
 // Collects the problems of a scene while it is read, so that all of them are reported at once.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
