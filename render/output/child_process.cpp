@@ -84,20 +84,15 @@ int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chrono::duration<double> progressTimeout,
                            std::string outputPath)
     : progressTimeout_(progressTimeout), outputPath_(std::move(outputPath)) {
+    log_ = unnamedFile();
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        throw SystemError(fmt::format("cannot create a socket pair for {}: {}", arguments.front(), messageOf(errno)));
+        const std::string reason = messageOf(errno);
+        ::close(log_);
+        throw SystemError(fmt::format("cannot create a socket pair for {}: {}", arguments.front(), reason));
     }
     input_ = ends[0];
-    int error = 0;
-    try {
-        log_ = unnamedFile();
-        error = spawn(arguments, ends[1], log_, pid_);
-    } catch (...) {
-        ::close(ends[0]);
-        ::close(ends[1]);
-        throw;
-    }
+    const int error = spawn(arguments, ends[1], log_, pid_);
     ::close(ends[1]);
     if (error == 0) return;
     ::close(input_);
