@@ -77,31 +77,21 @@ float cubeSide(std::span<const Sphere> particles) {
     return static_cast<float>(side);
 }
 
-/// The first of the eight cubes whose centers surround a point, and the point's position between the centers, 0 to 1.
-struct TrilinearCell {
-    int x = 0, y = 0, z = 0;
-    glm::vec3 part{0.0F};
-};
-
-/// @pre the point lies within the grid, so that conversion to integers rounds down
-TrilinearCell trilinearCell(const SkyVisibilityGrid& grid, glm::vec3 point) {
-    const glm::vec3 at = (point - grid.origin) / grid.side;
-    const glm::ivec3 corner(at);
-    return {corner.x, corner.y, corner.z, at - glm::vec3(corner)};
-}
-
-/// Calls visit(cell index, trilinear weight) for the eight cubes whose centers surround a point.
+/// Calls visit(cell index, trilinear weight) for the eight cubes whose centers surround a point within the grid.
 template <typename Visit>
-void forCorners(const SkyVisibilityGrid& grid, const TrilinearCell& at, const Visit& visit) {
-    const std::size_t first = cellIndex(grid.cells, at.x, at.y, at.z);
+void forSurroundingCells(const SkyVisibilityGrid& grid, glm::vec3 point, const Visit& visit) {
+    const glm::vec3 at = (point - grid.origin) / grid.side;
+    const glm::ivec3 corner(at);  // rounds down, because no coordinate is negative
+    const glm::vec3 part = at - glm::vec3(corner);
+    const std::size_t first = cellIndex(grid.cells, corner.x, corner.y, corner.z);
     const auto row = static_cast<std::size_t>(grid.cells.x);
     const std::size_t slice = row * static_cast<std::size_t>(grid.cells.y);
-    const float x1 = at.part.x;
+    const float x1 = part.x;
     const float x0 = 1.0F - x1;
     for (std::size_t z = 0; z < 2; ++z) {
-        const float wz = z == 0 ? 1.0F - at.part.z : at.part.z;
+        const float wz = z == 0 ? 1.0F - part.z : part.z;
         for (std::size_t y = 0; y < 2; ++y) {
-            const float w = wz * (y == 0 ? 1.0F - at.part.y : at.part.y);
+            const float w = wz * (y == 0 ? 1.0F - part.y : part.y);
             const std::size_t cell = first + z * slice + y * row;
             visit(cell, w * x0);
             visit(cell + 1, w * x1);
@@ -145,8 +135,8 @@ CubeValues spreadVolumes(const SkyVisibilityGrid& grid, std::span<const Sphere> 
     for (const Sphere& particle : particles) {
         const float radius = particle.radius / grid.side;
         const float volume = 4.1887902F * radius * radius * radius;  // 4/3 pi r^3
-        forCorners(grid, trilinearCell(grid, particle.center),
-                   [&](std::size_t cell, float weight) { *density.at(cell) += volume * weight; });
+        forSurroundingCells(grid, particle.center,
+                            [&](std::size_t cell, float weight) { *density.at(cell) += volume * weight; });
     }
     return density;
 }
