@@ -53,15 +53,10 @@ TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, st
     : contents_(contents), tile_(tile), samples_(rays_.data(), offsets.size()) {
     const glm::vec2 corner = tileCorner(*contents.geometry.tiles, tile);
     for (std::size_t s = 0; s < offsets.size(); ++s) placeRays(corner + 0.5F + offsets[s], samples_[s]);
-    findHits();
-}
-
-void TileSamples::findHits() {
-    const SolidGeometry& geometry = contents_.geometry;
-    const FlatGeometry flats{contents_.ground[tile_] != TileKind::background, contents_.boxes[tile_] != 0};
-    for (TileRays& rays : samples_) findFlatHits(geometry, flats, rays);
-    if (contents_.hasMetaballs(tile_)) addMetaballs();
-    if (contents_.hasSpheres(tile_)) findSphereHits(geometry, tile_, samples_);
+    const FlatGeometry flats{contents.ground[tile] != TileKind::background, contents.boxes[tile] != 0};
+    for (TileRays& rays : samples_) findFlatHits(contents.geometry, flats, rays);
+    if (contents.hasMetaballs(tile)) addMetaballs();
+    if (contents.hasSpheres(tile)) findSphereHits(contents.geometry, tile, samples_);
 }
 
 void TileSamples::findEdges(TileEdges& edges) const {

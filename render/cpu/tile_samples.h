@@ -69,7 +69,6 @@ class TileSamples {
 
  private:
     std::size_t slot() const { return static_cast<std::size_t>(contents_.metaballs->slots[tile_]); }
-    void findHits();
     void addMetaballs();
     void addEdge(std::uint8_t pixel, TileEdges& edges) const;
 

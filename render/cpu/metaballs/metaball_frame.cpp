@@ -97,8 +97,8 @@ void castSparsely(const MetaballScene& scene, glm::vec2 offset, MetaballHits& hi
         packTile(scene, block, slot, hits);
         const TilePixels rough = pixelsWhere(isRough);
         placeRays(block, corner, rough, offset);
-        for (std::size_t k = 0; k < rough.size(); ++k)
-            block.minDepth[k] = minDepthBetween(scene.frame, coarse, rough[k], scene.smallestRadius);
+        for (std::size_t k = 0; k < rough.count; ++k)
+            block.minDepth[k] = minDepthBetween(scene.frame, coarse, rough.pixels[k], scene.smallestRadius);
         castBlock(scene, tile, block);
         packPixels(scene, block, rough, slot, hits);
     });

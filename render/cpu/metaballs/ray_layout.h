@@ -40,8 +40,6 @@ struct TilePixels {
     std::size_t count = 0;
 
     TilePixels() {}  // leaves the pixels uninitialized
-    std::size_t size() const { return count; }
-    std::uint8_t operator[](std::size_t k) const { return pixels[k]; }
     const std::uint8_t* begin() const { return pixels.data(); }
     const std::uint8_t* end() const { return pixels.data() + count; }
 };
