@@ -26,10 +26,6 @@ int depthMapTexels(Quality quality) {
     return quality == Quality::final ? 2048 : 1024;
 }
 
-int wholeTiles(int pixels) {
-    return (pixels + kTileSize - 1) / kTileSize * kTileSize;
-}
-
 bool finite(glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -74,7 +70,7 @@ struct Renderer::Parts {
     Parts(Context& context_, PictureSize size_, Quality quality_)
         : context(context_),
           size(checkedSize(size_)),
-          padded{wholeTiles(size_.width), wholeTiles(size_.height)},
+          padded{kTileSize * tilesAlong(size_.width), kTileSize * tilesAlong(size_.height)},
           quality(quality_),
           target(context_.gl(), padded.width, padded.height),
           pixels(static_cast<std::size_t>(padded.width) * static_cast<std::size_t>(padded.height)) {}

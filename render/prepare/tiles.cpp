@@ -108,7 +108,7 @@ CellLists binToTiles(const CameraFrame& frame, std::span<const ViewSphere> spher
         if (at.x1 < at.x0) continue;
         items.push_back({index, {at.x0 / kTileSize, at.y0 / kTileSize, at.x1 / kTileSize, at.y1 / kTileSize}});
     }
-    return binIntoCells(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
+    return binIntoCells(items, tilesAlong(frame.width), tilesAlong(frame.height));
 }
 
 }  // namespace render

@@ -17,6 +17,11 @@ inline constexpr int kTileSize = 16;  ///< pixels; measured to be the fastest of
 
 inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
 
+/// Number of tiles that cover so many pixels of a row or column of the picture.
+constexpr int tilesAlong(int pixels) {
+    return (pixels + kTileSize - 1) / kTileSize;
+}
+
 /// A vector of three components for each pixel of a tile, component by component.
 using TileVec3 = std::array<std::array<float, kTilePixels>, 3>;
 

@@ -153,8 +153,7 @@ LineList projectEdges(const CameraFrame& frame, std::span<const Edge> edges) {
         addTouchedTiles(*line, static_cast<std::uint32_t>(list.lines.size()), frame, items);
         list.lines.push_back(*line);
     }
-    list.tiles =
-        binIntoCells(items, (frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize);
+    list.tiles = binIntoCells(items, tilesAlong(frame.width), tilesAlong(frame.height));
     return list;
 }
 

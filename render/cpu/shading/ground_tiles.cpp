@@ -90,8 +90,8 @@ TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, c
 std::vector<TileKind> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders) {
     const Rectangle shadows = shadowBounds(occluders);
     const Rectangle sky = skyBounds(occluders);
-    const int columns = (frame.width + kTileSize - 1) / kTileSize;
-    const int rows = (frame.height + kTileSize - 1) / kTileSize;
+    const int columns = tilesAlong(frame.width);
+    const int rows = tilesAlong(frame.height);
     std::vector<Corner> corners;
     // Samples lie at most half a pixel from the middle of their pixel, and therefore between the tile's corners.
     for (int row = 0; row <= rows; ++row)
