@@ -122,15 +122,11 @@ Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
     return hit;
 }
 
-/// Replaces the nearest hit so far by another hit if that is nearer.
-void keepNearer(Hit& best, const Hit& candidate) {
-    if (candidate.distance < best.distance) best = candidate;
-}
-
+/// Replaces the nearest hit so far by another hit, of a surface of this kind and color, if that is nearer.
 void keepNearer(Hit& best, Hit candidate, Hit::Kind kind, const glm::vec3& color) {
     candidate.kind = kind;
     candidate.albedo = dvec3(color);
-    keepNearer(best, candidate);
+    if (candidate.distance < best.distance) best = candidate;
 }
 
 /// The nearest point along a ray on a surface that casts shadows: on any surface but the ground.
@@ -139,7 +135,7 @@ Hit traceCasters(const Scene& scene, const Ray& ray) {
     Hit best;
     const Indices near = scene.ballsAlong(ray);
     if (view.style == render::Style::metaballs) {
-        keepNearer(best, hitField(scene, near, ray));
+        best = hitField(scene, near, ray);
     } else {
         for (const std::uint32_t k : near) {
             const render::Sphere& sphere = view.particles[k];
