@@ -45,9 +45,7 @@ void checkIntervalEnd(Simulation& simulation) {
 /// The latest time at which the next step must end, s: the requested time, or an emission before it. A step across an
 /// emission would leave the new particle without forces until the start of the next step.
 double nextStop(const Simulation& simulation, double time) {
-    double stop = std::numeric_limits<double>::infinity();
-    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e)
-        stop = std::min(stop, nextEmission(simulation.setup.emitters[e], simulation.emitters[e]));
+    const double stop = nextEmission(simulation);
     return stop < time - kSameMoment ? stop : time;
 }
 

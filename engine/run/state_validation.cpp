@@ -6,6 +6,7 @@
 
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/checked_steps.h"
+#include "engine/stepping/population.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_cache.h"
 
@@ -48,12 +49,9 @@ bool areOfSetup(const Simulation& simulation) {
 }
 
 bool areOnSchedule(const Simulation& simulation) {
-    for (std::size_t e = 0; e < simulation.emitters.size(); ++e) {
-        const Emitter& emitter = simulation.setup.emitters[e];
-        const EmitterState& state = simulation.emitters[e];
-        if (!isReachable(emitter, state) || nextEmission(emitter, state) <= simulation.time) return false;
-    }
-    return true;
+    for (std::size_t e = 0; e < simulation.emitters.size(); ++e)
+        if (!isReachable(simulation.setup.emitters[e], simulation.emitters[e])) return false;
+    return nextEmission(simulation) > simulation.time;
 }
 
 bool areStepsPossible(const Simulation& simulation) {

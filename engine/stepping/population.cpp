@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/parallel.h"
 #include "engine/core/random.h"
@@ -62,33 +63,20 @@ bool hasRoom(const Particles& particles, const LinkedCells& cells, const NewPart
     return hasRoom;
 }
 
-/// The particle of an emission that happens at a time (s), at its site.
-NewParticle particleOf(const Setup& setup, const Emission& emission, double time) {
+/// The particle of an emission at a time (s), which was due `late` seconds before. Since then it has flown freely under
+/// gravity.
+NewParticle particleOf(const Setup& setup, const Emission& emission, double time, double late) {
     const Emitter& emitter = setup.emitters[emission.emitter];
     const Material& material = setup.materials[emitter.material];
     NewParticle particle;
     particle.position = siteOf(setup, emission) + emitter.jitter * material.radius * jitterOf(setup, emission);
-    particle.velocity = emitter.velocity;
+    particle.position += late * emitter.velocity + 0.5 * late * late * setup.gravity;
+    particle.velocity = emitter.velocity + late * setup.gravity;
     particle.radius = material.radius;
     particle.mass = material.mass;
-    particle.birthTime = time;
+    particle.birthTime = time - late;
     particle.material = emitter.material;
     return particle;
-}
-
-/// Moves a particle along the free flight under gravity (m/s^2) that it has had since it was due, `duration` seconds
-/// ago.
-void flyFreely(NewParticle& particle, const Vec3& gravity, double duration) {
-    particle.position += duration * particle.velocity + 0.5 * duration * duration * gravity;
-    particle.velocity += duration * gravity;
-    particle.birthTime -= duration;
-}
-
-bool isEmissionDue(const Simulation& simulation) {
-    for (std::size_t e = 0; e < simulation.emitters.size(); ++e)
-        if (nextEmission(simulation.setup.emitters[e], simulation.emitters[e]) <= simulation.time + kSameMoment)
-            return true;
-    return false;
 }
 
 /// The largest radius of the present particles and of the particles that emitters may add, m.
@@ -119,8 +107,8 @@ void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
         Schedule& schedule = state.schedules[s];
         while (schedule.due <= simulation.time + kSameMoment && schedule.due < emitter.until - kSameMoment &&
                state.births < emitter.limit) {
-            NewParticle particle = particleOf(setup, {index, s, schedule.births}, simulation.time);
-            flyFreely(particle, setup.gravity, std::max(0.0, simulation.time - schedule.due));
+            const double late = std::max(0.0, simulation.time - schedule.due);
+            const NewParticle particle = particleOf(setup, {index, s, schedule.births}, simulation.time, late);
             if (!hasRoom(simulation.particles, cells, particle, emitter.clearance)) {
                 if (!schedule.delayed) ++state.refusals;
                 schedule.delayed = true;
@@ -142,8 +130,15 @@ void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
 
 }  // namespace
 
+double nextEmission(const Simulation& simulation) {
+    double next = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < simulation.emitters.size(); ++e)
+        next = std::min(next, nextEmission(simulation.setup.emitters[e], simulation.emitters[e]));
+    return next;
+}
+
 void emitDue(Simulation& simulation) {
-    if (!isEmissionDue(simulation)) return;
+    if (nextEmission(simulation) > simulation.time + kSameMoment) return;
     const std::size_t first = simulation.particles.count();
     const double width = cellWidthFor(simulation);
     LinkedCells cells;

@@ -6,6 +6,9 @@
 
 namespace engine {
 
+/// Time at which the next emission of any emitter is due or tried again, s; infinity if there will be none.
+double nextEmission(const Simulation& simulation);
+
 /// Appends the particles that emitters have due at or before the simulation's time, where there is room for them. A
 /// particle that was due earlier starts where free flight under gravity would have taken it by now.
 /// @throws InstabilityError when the position or velocity of a new particle is outside what the engine can represent
