@@ -91,12 +91,6 @@ double cheapestCost(const Simulation& simulation) {
     return least;
 }
 
-/// Marks the step and the cost of a candidate as unknown.
-void forget(AutoChoice& choice) {
-    choice.step = 0.0;
-    choice.cost = std::numeric_limits<double>::infinity();
-}
-
 /// Sets the tolerance of the implicit steppers' solver. To be called before a run with the candidate.
 void setSolverTolerance(Simulation& simulation, const AutoChoice& choice) {
     simulation.cache->toleratedAcceleration = acceptableResidual(simulation) / std::max(1.0, choice.growth);
@@ -113,7 +107,10 @@ Trial measureCandidate(Simulation& simulation, double time, StepperKind stepper,
     const auto runTrial = [&] {
         const Trial trial = measure(simulation, {time, stepper, choice.step, kErrorHorizon, mostEvaluations}, finer);
         simulation.automatic.estimateCost += trial.spent;
-        if (!trial.finished) forget(choice);
+        if (!trial.finished) {  // step and cost are unknown
+            choice.step = 0.0;
+            choice.cost = std::numeric_limits<double>::infinity();
+        }
         return trial;
     };
     setSolverTolerance(simulation, choice);

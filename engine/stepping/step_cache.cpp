@@ -15,11 +15,8 @@ StepCachePointer::StepCachePointer() : cache_(std::make_unique<StepCache>()) {}
 StepCachePointer::StepCachePointer(const StepCachePointer& other) : cache_(std::make_unique<StepCache>(*other)) {}
 StepCachePointer::StepCachePointer(StepCachePointer&& other) noexcept = default;
 StepCachePointer& StepCachePointer::operator=(const StepCachePointer& other) {
-    if (this == &other) return *this;
-    if (cache_)
-        *cache_ = *other;  // reuses the memory of the present cache
-    else
-        cache_ = std::make_unique<StepCache>(*other);
+    if (!cache_) cache_ = std::make_unique<StepCache>();
+    *cache_ = *other;  // reuses the memory of the present cache
     return *this;
 }
 StepCachePointer& StepCachePointer::operator=(StepCachePointer&& other) noexcept = default;
