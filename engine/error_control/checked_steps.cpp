@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/error_control/step_cost.h"
 #include "engine/stepping/population.h"
