@@ -44,7 +44,9 @@ std::string timeText(const Scene& scene, double time) {
     return fmt::format("t = {:.{}f} s", time, scene.fps > 100 ? 3 : 2);
 }
 
-render::View frameView(const Scene& scene, const engine::Particles& particles, double time) {
+render::View frameView(const Scene& scene, const engine::Simulation& simulation) {
+    const engine::Particles& particles = simulation.particles;
+    const double time = simulation.time;
     render::View view = scene.look.common;
     view.camera = cameraOf(cameraAt(scene.camera, time));
     // The ground fades with the distance from the point below the camera's target.
@@ -55,10 +57,6 @@ render::View frameView(const Scene& scene, const engine::Particles& particles, d
         view.particles.push_back({toFloat(particles.position[index]), toFloat(particles.radius[index]),
                                   toFloat(particleColor(scene, particles, index, time))});
     return view;
-}
-
-render::View frameView(const Scene& scene, const engine::Simulation& simulation) {
-    return frameView(scene, simulation.particles, simulation.time);
 }
 
 }  // namespace scenes

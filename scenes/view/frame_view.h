@@ -19,11 +19,7 @@ void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int fram
 /// A time as a text such as "t = 1.25 s", with as many decimals as distinguish the frames of the scene, at least two.
 std::string timeText(const Scene& scene, double time);
 
-/// The view of the scene with the given particles: particles, obstacles, camera, lights and overlay.
-/// @param time  s; determines the camera, and the colors where they show the particles' age
-render::View frameView(const Scene& scene, const engine::Particles& particles, double time);
-
-/// The view of the scene at the current time of the simulation.
+/// The view of the scene at the current time of the simulation: particles, obstacles, camera, lights and overlay.
 render::View frameView(const Scene& scene, const engine::Simulation& simulation);
 
 }  // namespace scenes

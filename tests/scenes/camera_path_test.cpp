@@ -139,7 +139,7 @@ TEST_CASE("a camera inherits from the one before what it leaves out") {
 
 TEST_CASE("the view at a time has the camera of that time") {
     const scenes::Scene scene = sceneOf(kBall + kPath + "[look]\nground = true\n");
-    const render::View view = scenes::frameView(scene, scene.setup.initial, 1.5);
+    const render::View view = scenes_test::viewAt(scene, 1.5);
     CHECK(view.camera.eye.x == 2.6875F);
     CHECK(view.camera.target.y == 0.5F);
     CHECK(view.ground->center == glm::vec3(0.0F));

@@ -175,7 +175,7 @@ TEST_CASE("a scene refers to a map by name, and particles have its colors") {
                               "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 10]\ncolor_map = \"ember\"\n";
     const scenes::Scene scene = sceneOf(point);
     CHECK(scene.look.ramp == colorMap("ember"));
-    const glm::vec3 color = scenes::frameView(scene, scene.setup.initial, 0.0).particles.at(0).color;
+    const glm::vec3 color = scenes_test::viewAt(scene, 0.0).particles.at(0).color;
     const Vec3 middle = colorMap("ember", 3)[1];  // for a speed of 5 m/s, in the middle of the range
     for (int channel = 0; channel < 3; ++channel)
         CHECK(color[channel] == Approx(middle[channel]).margin(1e-4));  // between two of 256 colors

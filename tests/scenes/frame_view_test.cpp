@@ -16,8 +16,7 @@ using scenes_test::sceneOf;
 namespace {
 
 render::View viewOf(const std::string& text, double time = 0.0) {
-    const scenes::Scene scene = sceneOf(text);
-    return scenes::frameView(scene, scene.setup.initial, time);
+    return scenes_test::viewAt(sceneOf(text), time);
 }
 
 const std::string kPoint = kTop + "[[body]]\nshape = \"points\"\npositions = [[0.1, 0.2, 0.3]]\nvelocity = [3, 0, 4]\n";
@@ -35,9 +34,9 @@ TEST_CASE("particles keep position, radius and order, in single precision") {
 
 TEST_CASE("numbers beyond single precision stay finite") {
     const scenes::Scene scene = sceneOf(kPoint);
-    engine::Particles particles = scene.setup.initial;
-    particles.position.at(0) = Vec3(1e300, -1e300, 0.0);
-    const render::View view = scenes::frameView(scene, particles, 0.0);
+    engine::Simulation simulation = engine::start(scene.setup);
+    simulation.particles.position.at(0) = Vec3(1e300, -1e300, 0.0);
+    const render::View view = scenes::frameView(scene, simulation);
     CHECK(view.particles.at(0).center.x == std::numeric_limits<float>::max());
     CHECK(view.particles.at(0).center.y == -std::numeric_limits<float>::max());
 }
@@ -69,11 +68,11 @@ TEST_CASE("colors by speed and by age interpolate the ramp in linear light") {
 TEST_CASE("the age of a particle counts from its emission") {
     const scenes::Scene scene =
         sceneOf(kPoint + "[look]\ncolor_by = \"age\"\ncolors = [\"#000000\", \"#ffffff\"]\ncolor_range = [0, 4]\n");
-    engine::Particles particles = scene.setup.initial;
-    particles.birthTime.at(0) = 1.0;
-    CHECK(scenes::frameView(scene, particles, 2.0).particles.at(0).color == glm::vec3(0.25F));
     engine::Simulation simulation = engine::start(scene.setup);
-    simulation.particles.birthTime.at(0) = -3.0;
+    simulation.time = 2.0;
+    simulation.particles.birthTime.at(0) = 1.0;
+    CHECK(scenes::frameView(scene, simulation).particles.at(0).color == glm::vec3(0.25F));
+    simulation.particles.birthTime.at(0) = -1.0;
     CHECK(scenes::frameView(scene, simulation).particles.at(0).color == glm::vec3(0.75F));
 }
 

@@ -15,8 +15,7 @@ namespace {
 const std::string kSpeed = "[look]\ncolor_by = \"speed\"\ncolor_range = [0, 8]\n";
 
 render::Overlay overlayAt(const std::string& text, double time, const scenes::Overrides& overrides = {}) {
-    const scenes::Scene scene = sceneOf(text, overrides);
-    return scenes::frameView(scene, scene.setup.initial, time).overlay;
+    return scenes_test::viewAt(sceneOf(text, overrides), time).overlay;
 }
 
 Lines tickTexts(double low, double high) {

@@ -9,6 +9,7 @@
 
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
+#include "scenes/view/frame_view.h"
 
 namespace scenes_test {
 
@@ -34,6 +35,14 @@ inline Lines problemsOf(const std::string& text, const scenes::Overrides& overri
 
 inline scenes::Scene sceneOf(const std::string& text, const scenes::Overrides& overrides = {}) {
     return scenes::readScene(text, "pile.toml", overrides);
+}
+
+/// The view of a scene whose particles are still as at the start.
+/// @param time  s
+inline render::View viewAt(const scenes::Scene& scene, double time) {
+    engine::Simulation simulation = engine::start(scene.setup);
+    simulation.time = time;
+    return scenes::frameView(scene, simulation);
 }
 
 /// A temporary folder that is removed with the object.
