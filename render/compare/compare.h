@@ -19,8 +19,6 @@ struct CompareLimits {
     double ssim = 1.0;   ///< smallest structural similarity that passes
 };
 
-inline constexpr const char* kProfileNames = "strict, vendor, loose";
-
 /// The limits of a profile. strict: the same pixels. vendor: roundings of another OpenGL driver, up to 3/255, with
 /// larger differences on at most 0.5 % of the pixels and none above 16/255. loose: the same picture at a glance, for
 /// example with other antialiasing.
