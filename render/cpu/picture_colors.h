@@ -26,10 +26,9 @@ struct PictureJob {
 
 /// A picture that is the mean of several samplings, which are colored one after another.
 struct PictureMean {
-    std::size_t index = 0;  ///< number of samplings before this one
-    std::size_t count = 1;  ///< number of samplings
-    std::vector<PointColors>&
-        sums;  ///< per tile: sums of the colors of all samplings so far; not used if there is only one
+    std::size_t index = 0;           ///< number of samplings before this one
+    std::size_t count = 1;           ///< number of samplings
+    std::vector<PointColors>& sums;  ///< per tile: sums of the colors so far; not used if count is 1
 };
 
 /// Remembers which tiles of the last picture show nothing but background, or nothing but ground that nothing occludes.

@@ -39,7 +39,7 @@ class PicturePass {
     /// @param depthMapTexels  number of texels along the longer side of the depth map
     void prepare(const CameraFrame& frame, const View& view, int depthMapTexels, DrawTimes& times);
 
-    /// Casts the metaballs' depth map again if this sampling needs its texels elsewhere than the last one.
+    /// Casts the depth map of the metaballs again if this sampling shifts its texels in another way than the last one.
     void castShadow(const View& view, const Sampling& sampling);
 
     /// Casts the metaballs for the camera. Does nothing for spheres.
@@ -65,22 +65,22 @@ class PicturePass {
     CameraFrame frame_;
     Shading shading_;
     float meanRadius_ = 0.0F;  // mean radius of the particles, m
-    // Spheres
+    // Spheres:
     DrawnSpheres drawn_;
     std::vector<SphereAttributes> sphereAttributes_;
     std::vector<ViewSphere> viewSpheres_;
     std::vector<Rect> spherePixels_;
     CellLists sphereTiles_;
-    // Metaballs
+    // Metaballs:
     bool hasMetaballs_ = false;
     std::vector<SkinBall> skin_;
     MetaballScene metaballScene_;
     MetaballHits metaballHits_;
-    // Lines, boxes and ground
+    // Lines, boxes and the ground:
     LineList lineList_;
     std::vector<std::uint8_t> boxTiles_;  // per tile: 1 where a box may be seen
     std::vector<TileKind> groundTiles_;
-    // Light and sky
+    // Light and sky:
     LightBasis light_;
     LightGrid lightGrid_;
     int depthMapTexels_ = 1024;

@@ -23,7 +23,7 @@ struct TileContents {
     const MetaballHits* metaballs;  ///< null without metaballs
     const LineList& lines;
     std::span<const std::uint8_t> boxes;  ///< per tile: 1 where a box may be seen
-    std::span<const TileKind> ground;     ///< per tile: its kind as long as nothing stands before the ground
+    std::span<const TileKind> ground;     ///< per tile: what it shows as long as nothing stands before the ground
 
     bool hasSpheres(std::size_t tile) const;
     bool hasLines(std::size_t tile) const;

@@ -70,7 +70,7 @@ constexpr double kMostCells = 1e6;
 /// The side s of the cubes of shading_model.h, before it is doubled.
 float cubeSide(std::span<const Sphere> particles) {
     const double wanted = 2.0 * meanRadius(particles);
-    constexpr double kStep = 1.189207115002721;  // 2^(1/4)
+    constexpr double kStep = 1.189207115002721;  // 2^(1/4), see shading_model.h
     double side = 1.0;
     while (side < wanted) side *= kStep;
     while (side / kStep >= wanted && side > 1e-6) side /= kStep;

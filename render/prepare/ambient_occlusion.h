@@ -20,7 +20,7 @@ inline constexpr SkyVisibility kUnoccluded = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F
 
 /// Sky visibility at the centers of a grid's cubes, x fastest. Empty for a view without particles.
 struct SkyVisibilityGrid {
-    glm::vec3 origin{0.0F};                    ///< center of the first cube, world coordinates
+    glm::vec3 origin{0.0F};                    ///< center of the first cube, world coordinates, m
     float side = 1.0F;                         ///< side of a cube, m
     glm::ivec3 cells{0};                       ///< number of cubes along each axis
     std::array<std::vector<float>, 6> values;  ///< one list for each direction, as in SkyVisibility

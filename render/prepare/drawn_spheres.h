@@ -21,10 +21,9 @@ struct SphereAttributes {
 
 /// The spheres of a view that are drawn as spheres.
 struct DrawnSpheres {
-    std::vector<ViewSphere> spheres;  ///< particles, then obstacles; relative to the eye, in world axes
-    std::vector<std::uint32_t>
-        sources;                     ///< index in the view of the particle or, from firstObstacle on, of the obstacle
-    std::int32_t firstObstacle = 0;  ///< index of the first obstacle in `spheres`
+    std::vector<ViewSphere> spheres;     ///< particles, then obstacles; relative to the eye, in world axes
+    std::vector<std::uint32_t> sources;  ///< index in the view of each sphere's particle or obstacle
+    std::int32_t firstObstacle = 0;      ///< index of the first obstacle in `spheres`
 };
 
 /// The particles unless they are metaballs, and the sphere obstacles. Spheres whose radius is not positive are left

@@ -49,7 +49,7 @@ LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres
     // How far the shadow of a sphere reaches, in radii: a sharp edge extends by at most a tenth, a soft one by half its
     // width, see light_visibility.cpp; and one hundredth for the rounding.
     const float margin = std::max(1.11F, 1.01F + 0.5F * softness);
-    std::vector<glm::vec3> centers(spheres.size());  // in light space
+    std::vector<glm::vec3> centers(spheres.size());  // centers of the spheres in light space
     std::vector<float> keys(spheres.size());
     Bounds<glm::vec2> bounds;
     for (std::size_t k = 0; k < spheres.size(); ++k) {

@@ -23,7 +23,8 @@ struct LightBasis {
     glm::vec3 toLightSpace(glm::vec3 point) const { return {dot(point, u), dot(point, v), dot(point, toLight)}; }
 };
 
-/// @param toLight  toward the light, of any length but 0
+/// The basis of light space.
+/// @param toLight  vector toward the light, of any length but 0
 LightBasis lightBasis(glm::vec3 toLight);
 
 /// Spheres in light space, component by component as vector loads need them.

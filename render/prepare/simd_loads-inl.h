@@ -48,7 +48,7 @@ HWY_INLINE Float4 gatherBlocks(const Number* numbers, VI indices) {
     alignas(64) std::array<std::int32_t, kTileSize> at;
     hn::Store(indices, di, at.data());
     const hn::Repartition<Number, D> tag;
-    const hn::Repartition<double, D> twos;  // pairs of floats
+    const hn::Repartition<double, D> twos;  // for moving two floats at a time
     const auto from = [&](std::size_t lane) { return hn::BitCast(d, loadEveryFourth(tag, numbers, at.data() + lane)); };
     const auto lower = [&](V p, V q) { return hn::BitCast(twos, hn::InterleaveLower(d, p, q)); };
     const auto upper = [&](V p, V q) { return hn::BitCast(twos, hn::InterleaveUpper(d, p, q)); };

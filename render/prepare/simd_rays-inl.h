@@ -125,7 +125,7 @@ HWY_INLINE V minOfLanes(V values, M lanes) {
     return hn::MinOfLanes(D(), hn::IfThenElse(lanes, values, splat(std::numeric_limits<float>::max())));
 }
 
-/// One bit for each lane, the first lane the lowest.
+/// A mask as one bit for each lane, the first lane in the lowest bit.
 HWY_INLINE std::uint32_t maskBits(M mask) {
     std::array<std::uint8_t, 8> bytes{};
     hn::StoreMaskBits(D(), mask, bytes.data());
@@ -149,14 +149,14 @@ struct Ray {
     Vec3 origin, direction;
 };
 
-/// Rays in world axes, relative to the eye.
+/// The rays through points of the picture in world axes, relative to the eye.
 HWY_INLINE Ray worldRay(const CameraFrame& frame, const ImagePoint& at) {
     const Vec3 off = splat(frame.right) * at.x + splat(frame.up) * at.y;
     if (!frame.perspective) return {off, splat(frame.forward)};
     return {splat(glm::vec3(0.0F)), splat(frame.forward) + off};
 }
 
-/// Rays in view coordinates.
+/// The rays through points of the picture in view coordinates.
 HWY_INLINE Ray viewRay(const CameraFrame& frame, const ImagePoint& at) {
     const V zero = splat(0.0F);
     const V one = splat(1.0F);
@@ -164,7 +164,7 @@ HWY_INLINE Ray viewRay(const CameraFrame& frame, const ImagePoint& at) {
     return {{at.x, at.y, zero}, {zero, zero, one}};
 }
 
-/// A vector in view coordinates as one along the world's axes.
+/// Converts a vector from view coordinates to world axes.
 HWY_INLINE Vec3 toWorld(const CameraFrame& frame, const Vec3& v) {
     return splat(frame.right) * v.x + splat(frame.up) * v.y + splat(frame.forward) * v.z;
 }

@@ -35,7 +35,7 @@ struct ParticleCells {
     float side = 1.0F;
     glm::ivec3 count{1};
     std::vector<std::uint32_t> begin;  ///< sorted index of each cell's first particle; at last the number of particles
-    std::vector<float> x, y, z, radius;  ///< of each particle, by sorted index
+    std::vector<float> x, y, z, radius;  ///< position and radius of each particle, by sorted index
     std::vector<std::uint32_t> index;    ///< index of each particle in the view, by sorted index
 
     /// The cell of a point. @pre at is not below `low`; conversion then rounds down (glm::floor may be a call).
@@ -46,13 +46,13 @@ struct ParticleCells {
 /// reach.
 struct Neighborhood {
     std::size_t size = 0;
-    std::array<std::vector<float>, 4> values;  // at least `size` entries each
+    std::array<std::vector<float>, 4> values;  // x, y, z and radius of the particles
 };
 
 /// Sums over a particle's neighbors, itself included, of the kernel k of view.h's smooth skin.
 struct DensitySum {
-    float density = 0.0F;            ///< sum of k
-    glm::vec3 weightedOffset{0.0F};  ///< sum of k times the vector to the neighbor, m
+    float density = 0.0F;            ///< sum of the kernel
+    glm::vec3 weightedOffset{0.0F};  ///< sum of the kernel times the vector to the neighbor, m
 };
 
 }  // namespace render
@@ -156,7 +156,7 @@ namespace {
 
 /// Makes cells as wide as the longest reach, or wider if there were too many.
 void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
-    constexpr double kMostCells = 4e6;  // chosen: 16 MB
+    constexpr double kMostCells = 4e6;  // largest number of cells; chosen: they take 16 MB
     Bounds<glm::vec3> bounds;
     float largestRadius = 1e-6F;
     for (const Sphere& particle : particles) {

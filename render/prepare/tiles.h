@@ -13,7 +13,8 @@
 
 namespace render {
 
-inline constexpr int kTileSize = 16;  ///< pixels; measured to be the fastest of 8, 16 and 32
+inline constexpr int kTileSize =
+    16;  ///< width and height of a tile in pixels; measured to be the fastest of 8, 16 and 32
 
 inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
 

@@ -22,7 +22,7 @@ CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) 
     CameraFrame frame;
     frame.perspective = false;
     frame.right = basis.u;
-    frame.up = -basis.v;  // rows of the map run along +v
+    frame.up = -basis.v;  // the rows of the map run along +v, from top to bottom
     frame.forward = -basis.toLight;
     frame.width = map.columns;
     frame.height = map.rows;
@@ -51,7 +51,7 @@ DepthMap emptyMap(const Bounds<glm::vec3>& bounds, glm::vec3 eye, float texelSiz
     DepthMap map;
     const glm::vec3 extent = bounds.high - bounds.low;
     map.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(maxTexels - 7), texelSize);
-    // Three texels of margin for the filter.
+    // The map has a margin of three texels, because the filter reads neighbors of a texel.
     map.columns = static_cast<int>(extent.x / map.texelSize) + 8;
     map.rows = static_cast<int>(extent.y / map.texelSize) + 8;
     const glm::vec2 low = glm::vec2(bounds.low) + glm::vec2(eye);
@@ -116,7 +116,7 @@ class HeightCast {
         for (const std::uint8_t pixel : kZCurve) {
             const auto column = static_cast<std::size_t>(corner.x + pixel % kTileSize);
             const auto row = static_cast<std::size_t>(corner.y + pixel / kTileSize);
-            // The last column and row are margin.
+            // The last column and the last row of the map are margin.
             if (column + 1 >= columns_ || row + 1 >= rows_) continue;
             const float* own = &first_[row * columns_ + column];
             const float* below = own + columns_;
@@ -215,14 +215,14 @@ class HeightCast {
     float top_;
     DepthMap& map_;
     std::size_t columns_, rows_;
-    std::vector<float> first_;  // the first height of each texel, m
+    std::vector<float> first_;  // first of the four heights of each texel, m
 };
 
 }  // namespace
 
 DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const SkinBall> balls,
                       const DepthMapSampling& sampling) {
-    Bounds<glm::vec3> bounds;  // of the balls' kernels in light space
+    Bounds<glm::vec3> bounds;  // bounds of the balls' kernels in light space, m
     float smallest = std::numeric_limits<float>::max();
     for (std::size_t k = 0; k < balls.size(); ++k) {
         const float radius = view.particles[k].radius;

@@ -50,7 +50,7 @@ V sphereCoverage(float height, float radius, const Receivers& at, V square, floa
     // A point on the sphere itself lies at `top`. The tolerance of a hundredth of a radius (chosen) is far above the
     // rounding and cannot be seen.
     const M isAbove = top > at.height + splat(0.01F * radius);
-    // lightGrid() leaves a margin of a tenth of a radius for this edge.
+    // The edge reaches at most a tenth of a radius beyond the sphere, for which lightGrid() leaves a margin.
     V edge = clamp(at.pixelWidth, 1.0e-4F * radius, 0.2F * radius);
     const V inside = splat(radius) - hn::Sqrt(square);
     if (softness <= 0.0F) return hn::IfThenElseZero(isAbove, sharpEdge(inside / edge));
@@ -114,7 +114,7 @@ V cellCoverage(const LightGrid& grid, std::size_t cell, const Receivers& at, M w
     return coverage;
 }
 
-/// Lanes whose column and row lie in [low, columns) and [low, rows).
+/// Mask of the points whose column lies in [low, columns) and whose row lies in [low, rows).
 M isWithin(V column, V row, float low, int columns, int rows) {
     const V least = splat(low);
     return hn::And(hn::And(column >= least, column < splat(static_cast<float>(columns))),
@@ -205,7 +205,7 @@ struct HeightWeights {
     explicit HeightWeights(V behind) {
         const V half = splat(0.5F);
         const V off = half * behind;
-        // The spline at the distance of 1.5 - rest texels, and at distances below half a texel.
+        // Value of the spline at a distance of 1.5 - rest texels from its center, and at a distance below half a texel.
         const auto outer = [&](V rest) { return splat(0.25F) * (rest * rest); };
         const auto inner = [&](V distance) { return splat(0.375F) - half * (distance * distance); };
         of[0] = outer(half - off);
@@ -261,7 +261,7 @@ V metaballCoverage(const DepthMap& map, const Occluders& occluders, const Receiv
     const V fineColumn = hn::Floor(fineU);
     const V fineRow = hn::Floor(fineV);
     const VI start = cellIndex(fineColumn - splat(2.0F), fineRow - splat(2.0F), 2 * map.columns, inMap);
-    // Between the map's bounds steps fit into an integer.
+    // A height between the map's lowest and highest one, in steps, fits into an integer.
     const VI wholeSteps = hn::ConvertTo(DI(), hn::Floor(hn::IfThenElseZero(isBetween, steps)));
     const V found =
         weightAbove(map, start, HeightWeights(fineU - fineColumn), HeightWeights(fineV - fineRow), wholeSteps);

@@ -21,18 +21,20 @@ struct Occluders {
     const LightGrid* spheres = nullptr;
     const DepthMap* metaballs = nullptr;
     std::span<const BoxObstacle> boxes;
-    float softness = 0.0F;                        ///< of the shadows' edges, see Light
+    float softness = 0.0F;                        ///< softness of the shadows' edges, as in Light
     float meanRadius = 0.0F;                      ///< mean radius of the particles, m
-    const SkyVisibilityGrid* sky = nullptr;       ///< null without ambient occlusion
-    const SkyVisibilityMap* groundSky = nullptr;  ///< null without ambient occlusion
+    const SkyVisibilityGrid* sky = nullptr;       ///< sky visibility, null without ambient occlusion
+    const SkyVisibilityMap* groundSky = nullptr;  ///< sky visibility of the ground, null without ambient occlusion
 
     bool isEmpty() const { return spheres == nullptr && metaballs == nullptr && boxes.empty() && sky == nullptr; }
 };
 
 /// How much light and sky reaches each shading point, from 0 to 1.
 struct LightVisibility {
-    alignas(64) std::array<float, kTilePixels> light;  ///< 0 in shadow and on surfaces turned away from the light
-    alignas(64) std::array<float, kTilePixels> sky;    ///< 1 on particles, whose sky visibility is in ShadingPoints
+    alignas(64)
+        std::array<float, kTilePixels> light;  ///< share of the light: 0 in shadow and on surfaces turned away from it
+    alignas(
+        64) std::array<float, kTilePixels> sky;  ///< share of the sky; 1 on particles, for which ShadingPoints has it
 };
 
 /// Computes how much light and sky reaches each shading point. The values of a point depend on that point alone, bit

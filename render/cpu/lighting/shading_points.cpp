@@ -52,8 +52,7 @@ V unpackUnit(VI word) {
     return hn::ConvertTo(D(), bits) * splat(1.0F / static_cast<float>(kMost));
 }
 
-/// Colors as metaball_hits.h and drawn_spheres.h pack them: square roots in 11, 11 and 10 bits, finer than an 8-bit
-/// sRGB step.
+/// Unpacks colors that are stored as square roots in 11, 11 and 10 bits, in steps finer than those of 8-bit sRGB.
 Vec3 unpackColor(VI word) {
     const Vec3 root{unpackUnit<0, 11>(word), unpackUnit<11, 11>(word), unpackUnit<22, 10>(word)};
     return root * root;
@@ -63,7 +62,7 @@ Vec3 unpackSky(VI word) {
     return {unpackUnit<0, 10>(word), unpackUnit<10, 10>(word), unpackUnit<20, 10>(word)};
 }
 
-/// One record of four 32-bit words for each lane, as integers.
+/// A record of four 32-bit integers for each lane.
 struct Words {
     VI x, y, z, w;
 };
@@ -82,7 +81,7 @@ void addSpheres(const ShadingGeometry& geometry, const HitRays& hits, M where, P
     const Float4 sphere = gather4(reinterpret_cast<const float*>(geometry.spheres.data()), hn::ShiftLeft<2>(index));
     const Vec3 toCenter = Vec3{sphere.x, sphere.y, sphere.z} - ray.origin;
     const V radius = sphere.w;
-    // The same intersection as in primary_hits.cpp, but along the world's axes, and with a normal.
+    // This is the intersection with a sphere of primary_hits.cpp, but along the world's axes, and with a normal.
     const V closest = dot(toCenter, ray.direction) * hits.inverseSquare;
     const Vec3 off = ray.direction * closest - toCenter;
     const V zero = splat(0.0F);
@@ -114,7 +113,7 @@ void addBoxes(const ShadingGeometry& geometry, const HitRays& hits, M where, Poi
     const VI side = hn::And(id, splatInt(7));
     const VI axis = hn::ShiftRight<1>(side);
     const auto isPlus = hn::And(side, splatInt(1)) == splatInt(0);
-    // Nine floats per box: minimum, maximum, color.
+    // A box is stored as nine floats: minimum, maximum, color.
     const VI box = hn::ShiftRight<4>(id) * splatInt(9);
     const VI corner = box + axis + hn::IfThenElse(isPlus, splatInt(3), splatInt(0));
     const V bound = hn::GatherIndex(D(), records, corner) - componentOf(splat(geometry.frame.eye), axis);
@@ -130,7 +129,7 @@ void addBoxes(const ShadingGeometry& geometry, const HitRays& hits, M where, Poi
                {channel(0), channel(1), channel(2)});
 }
 
-/// Normals as packNormal() of metaball_hits.cpp packs them.
+/// Unpacks normals that packNormal() of metaball_hits.cpp has packed.
 Vec3 unpackNormal(VI bits) {
     const auto unpack = [](VI half) {
         return hn::ConvertTo(D(), hn::And(half, splatInt(0xffff))) * splat(1.0F / 32767.5F) - splat(1.0F);
@@ -178,7 +177,7 @@ void evaluateVector(const ShadingGeometry& geometry, std::size_t first, ShadingP
 
 void evaluateShadingPoints(const ShadingGeometry& geometry, ShadingPoints& points) {
     const std::size_t lanes = hn::Lanes(D());
-    // Whole vectors: the lanes beyond `count` are evaluated, too, and not used.
+    // Whole vectors of points are evaluated; the results beyond `count` are not used.
     for (std::size_t k = points.count; k % lanes != 0; ++k) points.hitId[k] = kHitBackground;
     for (std::size_t first = 0; first < points.count; first += lanes) evaluateVector(geometry, first, points);
 }

@@ -25,7 +25,7 @@ struct ShadingGeometry {
     std::span<const ViewSphere> spheres;           ///< particles, then sphere obstacles
     std::span<const SphereAttributes> attributes;  ///< color and sky visibility of each sphere
     std::int32_t firstObstacle = 0;                ///< index of the first sphere that is no particle
-    std::span<const BoxObstacle> boxes;            ///< in world coordinates
+    std::span<const BoxObstacle> boxes;            ///< boxes, in world coordinates
     std::optional<float> ground;                   ///< height of the ground, m
     glm::vec3 groundColor{0.0F};
     std::span<const PackedHit> metaballs;  ///< hits of all rays that met metaballs
@@ -40,7 +40,7 @@ struct ShadingPoints {
     alignas(64) std::array<std::int32_t, kTilePixels> hitId;  ///< what each ray hits, see primary_hits.h
     alignas(64) std::array<float, kTilePixels> x;             ///< positions of the rays on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
-    alignas(64) TileVec3 position;  ///< relative to the eye, along the world's axes
+    alignas(64) TileVec3 position;  ///< position of the point relative to the eye, along the world's axes, m
     alignas(64) TileVec3 normal;
     alignas(64) std::array<float, kTilePixels> depth;  ///< view depth, m; 0 for the background
     alignas(64) TileVec3 albedo;

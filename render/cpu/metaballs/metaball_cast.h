@@ -12,13 +12,13 @@ namespace render {
 
 /// Up to a tile's worth of rays and what they hit, as a structure of arrays.
 struct RayBlock {
-    // In:
+    // Set by the caller:
     std::size_t count = 0;
     alignas(64) std::array<float, kTilePixels> x;  ///< positions of the rays on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
     alignas(64) std::array<float, kTilePixels> minDepth;  ///< view depth at which the search for the surface begins, m
     alignas(64) std::array<float, kTilePixels> maxDepth;  ///< view depth at which the search ends, m
-    // Out:
+    // Set by castBlock():
     alignas(64) std::array<float, kTilePixels> depth;     ///< view depth of the hit, m; negative: no hit
     alignas(64) std::array<float, kTilePixels> maxField;  ///< greatest value of the field at the samples of the ray
     alignas(64) TileVec3 normal;                          ///< unit normal at the hit, in view coordinates

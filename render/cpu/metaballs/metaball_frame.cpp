@@ -73,7 +73,7 @@ SmoothnessLimits smoothnessLimits(const MetaballScene& scene) {
     const float pixel = scene.frame.pixelWidth() * (scene.frame.perspective ? farthest : 1.0F);
     // The greatest sample on a ray is at most a quarter of a radius away from the maximum of the field, where the field
     // of a single ball at the threshold has the second derivative -4 sqrt(threshold) / reach^2 per square radius.
-    const float root = std::sqrt(scene.threshold);  // 1 - 1 / reach^2
+    const float root = std::sqrt(scene.threshold);  // equals 1 - 1 / reach^2, hence 1 - root = 1 / reach^2
     const float missed = 0.125F * root * (1.0F - root);
     return {0.02F * scene.smallestRadius, scene.threshold - missed - kSteepest * pixel / scene.smallestRadius};
 }

@@ -27,13 +27,13 @@ struct PackedHit {
 };
 
 /// Packs the rays of a block that was cast in this scene, with the same bits on every instruction set.
-/// @param packed  room for kTilePixels; entries beyond the block's count have no meaning
+/// @param packed  room for kTilePixels hits; entries beyond the block's count have no meaning
 void packHits(const MetaballScene& scene, const RayBlock& block, PackedHit* packed);
 
 /// A sample of a pixel that hits something else than the ray through the pixel's middle.
 struct SilhouetteSample {
-    std::uint8_t pixel;   ///< column + 16 row of the tile
-    std::uint8_t sample;  ///< index in kFourSamples
+    std::uint8_t pixel;   ///< the pixel as column + 16 row of the tile
+    std::uint8_t sample;  ///< index of the sample in kFourSamples
 };
 
 /// The extra samples at the silhouettes in one tile, and what they hit.

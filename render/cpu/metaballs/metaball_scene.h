@@ -35,10 +35,10 @@ struct MetaballScene {
     CameraFrame frame;
     std::vector<Metaball> balls;
     std::vector<std::size_t> particles;      ///< index of the particle that each ball stands for
-    std::vector<BallAttributes> attributes;  ///< one per ball; without them, rays find depths only
+    std::vector<BallAttributes> attributes;  ///< attributes of each ball; without them, rays find depths only
     bool hasSky = false;                     ///< whether rays interpolate the balls' sky visibility
     CellLists tiles;                         ///< the balls whose kernels reach each tile, front to back
-    float threshold = 0.5F;                  ///< value of the field at the surface
+    float threshold = 0.5F;                  ///< value of the field at the surface of the metaballs
     float step = 0.05F;                      ///< view depth between two samples of the field on a ray, m
     float smallestRadius = 1.0F;             ///< smallest radius of the particles, at least a tenth of their mean, m
 };

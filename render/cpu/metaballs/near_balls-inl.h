@@ -96,9 +96,11 @@ class TileBalls {
 /// away from it.
 class RayBundle {
  public:
-    /// @param rays  the lanes that are cast
+    /// @param at    points of the image plane that the rays go through
+    /// @param rays  mask of the rays that are cast
     RayBundle(const CameraFrame& frame, const ImagePoint& at, M rays, float minDepth) : minDepth_(minDepth) {
-        // Centers are known to some 1e-7 of their distance, and the kernels see the rounding of their squares.
+        // Chosen: the centers of balls are rounded by some 1e-7 of their distance, and kernels are computed from
+        // rounded squares of distances.
         constexpr float kRounding = 1e-5F;
         const glm::vec2 low(hn::GetLane(minOfLanes(at.x, rays)), hn::GetLane(minOfLanes(at.y, rays)));
         const glm::vec2 high(-hn::GetLane(minOfLanes(hn::Neg(at.x), rays)),
@@ -131,7 +133,7 @@ class RayBundle {
     glm::vec3 direction_{0.0F, 0.0F, 1.0F};
     float originSpread_ = 0.0F;
     float directionSpread_ = 0.0F;
-    float inverseSquare_ = 1.0F;  // of the direction's length
+    float inverseSquare_ = 1.0F;  // 1 / squared length of the direction
     float minDepth_;
 };
 
@@ -223,8 +225,8 @@ class NearBalls {
 
  private:
     struct Term {
-        V root;  // w - u^2
-        V turn;  // u s
+        V root;  // w - u^2 of the formulas at the top of this file
+        V turn;  // u s of these formulas
     };
 
     Term termOf(std::size_t ball, V depth) const {
@@ -257,7 +259,7 @@ class NearBalls {
         storage_.nearDepth[count_] = ball.center.z - ball.reach;
         storage_.farDepth[count_] = ball.center.z + ball.reach;
         storage_.index[count_] = index;
-        // Without a branch: most are met, and the others are overwritten.
+        // Without a branch: most balls are met, and the others are overwritten by the next one.
         count_ += none(w > splat(0.0F)) ? 0U : 1U;
     }
 

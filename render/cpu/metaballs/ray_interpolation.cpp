@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-// Between normals that differ by more than 11 degrees there is an edge or a fold.
+// Between hits whose normals differ by more than 11 degrees there may be an edge or a fold.
 constexpr float kLeastCosine = 0.98F;
 // Surfaces seen at a slant of less than this cosine change too fast from one pixel to the next.
 constexpr float kLeastFacing = 0.15F;
@@ -104,7 +104,7 @@ HitVector meanOf(const CoarseHits& coarse, const std::array<std::size_t, kCount>
 /// @param first  index in the tile of the left pixel of the first pair
 void storePairs(V left, V right, std::size_t first, std::array<float, kTilePixels>& values) {
     const D d;
-    constexpr std::size_t kPairs = std::min(hn::MaxLanes(D()), kCoarseSide);  // in a row
+    constexpr std::size_t kPairs = std::min(hn::MaxLanes(D()), kCoarseSide);  // number of pairs in a row of the tile
     alignas(64) std::array<float, 2 * kTileSize> both;
     hn::StoreInterleaved2(left, right, d, both.data());
     for (std::size_t pair = 0; pair < hn::Lanes(d); pair += kPairs)
@@ -117,7 +117,7 @@ void storePairs(const Vec3& left, const Vec3& right, std::size_t first, TileVec3
     storePairs(left.z, right.z, first, values[2]);
 }
 
-/// The interpolation of one tile.
+/// Interpolates the rays of one tile.
 class Interpolation {
  public:
     Interpolation(const MetaballScene& scene, const CoarseHits& coarse, SmoothnessLimits limits, glm::vec2 corner)

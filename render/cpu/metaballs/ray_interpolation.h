@@ -24,7 +24,7 @@ struct CoarseHits {
     Values depth{};                           ///< view depth of the hit, m; negative without a hit
     Values maxField{};                        ///< greatest value of the field at the samples of the ray
     std::array<Values, 3> normal{}, color{};  ///< unit normal in view coordinates, and linear RGB
-    std::array<Values, 3> sky{};              ///< sky visibility as in RayBlock
+    std::array<Values, 3> sky{};              ///< sky visibility along the normal, against it and mirrored
 
     /// Copies the hits of the tile's own rays. @param block  rays through kCoarsePixels
     void set(const RayBlock& block, bool hasSky);
@@ -40,7 +40,7 @@ struct SmoothnessLimits {
     /// For a pixel between two hits: largest difference of its depths on the two tangent planes, and of the mean of
     /// these from its depth on the chord, m.
     float depth = 0.0F;
-    /// Largest value of the field on rays that miss the surface by so much that no surface is beside them.
+    /// A ray that misses the surface has no surface within a pixel of it if the field on it stays below this value.
     float maxField = 0.0F;
 };
 

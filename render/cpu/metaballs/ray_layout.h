@@ -39,7 +39,7 @@ struct TilePixels {
     std::array<std::uint8_t, kTilePixels> pixels;
     std::size_t count = 0;
 
-    TilePixels() {}  // leaves the pixels uninitialized
+    TilePixels() {}  // leaves the list of pixels uninitialized
     const std::uint8_t* begin() const { return pixels.data(); }
     const std::uint8_t* end() const { return pixels.data() + count; }
 };

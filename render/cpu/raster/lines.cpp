@@ -92,7 +92,7 @@ bool touches(const ScreenLine& line, int column, int row) {
 void addTouchedTiles(const ScreenLine& line, std::uint32_t index, const CameraFrame& frame,
                      std::vector<CellItem>& items) {
     const float reach = reachOf(line);
-    // Conversion rounds toward zero; what is below zero is clamped to it.
+    // Conversion rounds toward zero, and negative values are clamped to zero.
     const auto tileOf = [](float at, int count) {
         return std::clamp(static_cast<int>(at / static_cast<float>(kTileSize)), 0, (count - 1) / kTileSize);
     };
@@ -134,7 +134,7 @@ bool isFlat(std::int32_t hitId) {
     return hitId < 0 || (hitId >= kHitBox && hitId < kHitMetaballs);
 }
 
-/// Share of a pixel's samples that no sphere or metaball hides at this depth.
+/// Share of a pixel's samples at which neither a sphere nor metaballs hide a line at this depth.
 float shareInFront(std::span<const TileRays> samples, std::size_t pixel, float depth) {
     int shown = 0;
     for (const TileRays& rays : samples)

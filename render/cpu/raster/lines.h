@@ -18,11 +18,11 @@ namespace render {
 
 /// An edge of the view, projected to the picture.
 struct ScreenLine {
-    glm::vec2 from{0.0F};    ///< position on the picture, pixels
+    glm::vec2 from{0.0F};    ///< position of one end on the picture, pixels
     glm::vec2 to{0.0F};      ///< position on the picture, pixels
     float fromDepth = 1.0F;  ///< view depth at `from`, m
     float toDepth = 1.0F;    ///< view depth at `to`, m
-    float width = 1.0F;      ///< pixels
+    float width = 1.0F;      ///< width of the line, pixels
     glm::vec3 color{0.0F};
 };
 
@@ -40,7 +40,7 @@ using LineCoverage = std::array<glm::vec4, kTilePixels>;
 
 /// Computes how much of each pixel of a tile lines cover, where nothing nearer hides them.
 /// @param samples  the primary hits of the tile
-/// @param point    where in each pixel the coverage is measured, from the pixel's corner
+/// @param point    position in each pixel at which the coverage is measured, from the pixel's corner, pixels
 LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, std::size_t tile,
                           std::span<const TileRays> samples, glm::vec2 point);
 

@@ -43,8 +43,8 @@ V depthOfGround(const Ray& ray, float height) {
 struct Slab {
     V near, far;      // view depths at which the ray enters and leaves the slab between the two faces, m
     V toLow, toHigh;  // distances of the ray's start from the faces, m
-    VI entered;       // face that the ray meets first
-    VI nearest;       // face that its start is nearest to
+    VI entered;       // face that the ray meets first, as in a hit id
+    VI nearest;       // face that the ray's start is nearest to, as in a hit id
 };
 
 Slab slabOf(V origin, V direction, float low, float high, int axis) {
@@ -196,7 +196,7 @@ void addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<TileR
         const std::uint32_t index = tiles.items[k];
         const ViewSphere& sphere = geometry.spheres[index];
         const float front = sphere.center.z - sphere.radius;
-        // Front to back: all later spheres of the list are behind what has been hit.
+        // The spheres are listed front to back: all later ones are behind what has been hit.
         if (front > rays.farthestOfTile()) break;
         const Rect touched = withinTile(geometry.pixels[index], corner.x, corner.y);
         for (int row = touched.y0; row <= touched.y1; ++row) {

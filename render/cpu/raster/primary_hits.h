@@ -32,7 +32,7 @@ inline constexpr float kFarDepth = 3.0e38F;
 /// All geometry but the metaballs.
 struct SolidGeometry {
     CameraFrame frame;
-    std::span<const ViewSphere> spheres;  ///< in view coordinates
+    std::span<const ViewSphere> spheres;  ///< spheres in view coordinates
     std::span<const Rect> pixels;         ///< bounds of the pixels that each sphere may touch
     const CellLists* tiles = nullptr;     ///< spheres of each tile, front to back
     std::span<const BoxObstacle> boxes;
@@ -44,7 +44,7 @@ struct TileRays {
     alignas(64) std::array<float, kTilePixels> x;  ///< positions of the rays on the picture, pixels
     alignas(64) std::array<float, kTilePixels> y;
     alignas(64) std::array<float, kTilePixels> depth;         ///< view depth of the hit, m; kFarDepth if there is none
-    alignas(64) std::array<std::int32_t, kTilePixels> hitId;  ///< what the ray hits
+    alignas(64) std::array<std::int32_t, kTilePixels> hitId;  ///< hit id of what the ray hits
 };
 
 /// Which of the ground and the boxes a tile may show.
@@ -53,7 +53,7 @@ struct FlatGeometry {
     bool hasBoxes = true;
 };
 
-// Of the functions below, a ray's result depends on its own position alone, bit for bit, not on the instruction set.
+// The functions below give a ray a hit that depends on its own position alone, bit for bit, not on the instruction set.
 
 /// Sets the hit of each ray to its nearest hit of the ground and the boxes.
 void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays);

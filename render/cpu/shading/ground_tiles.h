@@ -1,5 +1,6 @@
-// Finds the tiles of the picture that show nothing but background or ground. They make up most of many pictures and are
-// colored without casting rays for shadows and for the four samples of a pixel. Called by the picture pass.
+// Finds the tiles of the picture that show nothing but background or ground, which are most tiles of many pictures.
+// They are colored without a search for what their rays hit, and without shadows where none can fall. Called by the
+// picture pass.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ enum class TileKind : std::uint8_t {
     background,      ///< nothing but the background
     openGround,      ///< nothing but ground, out of reach of all shadows and with the whole sky visible
     occludedGround,  ///< nothing but ground that may be shadowed or see only a part of the sky
-    mixed            ///< anything else
+    mixed            ///< anything else, or several of these
 };
 
 /// Classifies the tiles of the picture, row by row, by what they show as long as nothing stands before the ground.

@@ -69,7 +69,7 @@ HWY_INLINE void storeSrgb(const Vec3& linear, PixelColor* pixels) {
 /// What the shading of a vector of points depends on.
 struct ShadingInputs {
     Vec3 normal, albedo;
-    Vec3 toEye;         // unit length
+    Vec3 toEye;         // direction to the eye, unit length
     V isParticle;       // 1 on particles, 0 elsewhere
     V lightVisibility;  // share of the light that reaches the point, 0 to 1
     V skyAlong;         // sky visibility along the normal, 0 to 1
@@ -161,11 +161,11 @@ Vec3 shoulder(const Vec3& color) {
     return select(peak > splat(0.7F), bent, color);
 }
 
-/// All terms of shading_model.h's color, before it is clamped.
+/// The sum of all terms of `color` in shading_model.h, before it is clamped.
 Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
     const Surface& surface = shading.surface;
     Vec3 color = bodyColor(shading, at);
-    // Obstacles and ground are matt.
+    // Obstacles and the ground are matt: they have none of the following terms.
     if (!none(at.isParticle > splat(0.0F))) {
         if (surface.specular > 0.0F || surface.metal > 0.0F) {
             const M isFacing = dot(at.normal, splat(shading.light.toLight)) > splat(0.0F);

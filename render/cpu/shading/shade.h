@@ -22,8 +22,8 @@ struct Shading {
     Surroundings surroundings;
     float exposure = 0.0F;
     Background background;
-    glm::vec3 groundCenter{0.0F};  ///< relative to the eye, m
-    float fadeDistance = 1.0F;     ///< m
+    glm::vec3 groundCenter{0.0F};  ///< center of the ground relative to the eye, m
+    float fadeDistance = 1.0F;     ///< distance from its center at which the ground is half faded, m
     glm::vec3 openGround{0.0F};    ///< color of ground that nothing occludes, before it fades into the background
 };
 
