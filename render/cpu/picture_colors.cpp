@@ -223,7 +223,7 @@ bool BackgroundCache::keeps(std::size_t tile, TileKind kind) {
 
 void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache& cache, std::span<PixelColor> pixels) {
     const CellLists& tiles = *job.contents.geometry.tiles;
-    const std::size_t tileCount = tiles.begin.size() - 1;
+    const std::size_t tileCount = tiles.cellCount();
     if (mean.count > 1) mean.sums.resize(tileCount);
     cache.begin(job.geometry, job.shading, tileCount);
     tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
@@ -241,7 +241,7 @@ std::vector<VisiblePoint> visiblePoints(const PictureJob& job) {
     const CellLists& tiles = *job.contents.geometry.tiles;
     const CameraFrame& frame = job.geometry.frame;
     std::vector<VisiblePoint> found(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-    tbb::parallel_for(std::size_t{0}, tiles.begin.size() - 1, [&](std::size_t tile) {
+    tbb::parallel_for(std::size_t{0}, tiles.cellCount(), [&](std::size_t tile) {
         ShadingPoints points;
         pixelPoints(job, tile, TileSamples(job.contents, job.offsets, tile).hitIds(), points);
         const glm::ivec2 corner(tileCorner(tiles, tile));

@@ -81,7 +81,7 @@ void PicturePass::castShadow(const View& view, const Sampling& sampling) {
 }
 
 void PicturePass::findBoxTiles(const View& view) {
-    boxTiles_.assign(sphereTiles_.begin.size() - 1, 0);
+    boxTiles_.assign(sphereTiles_.cellCount(), 0);
     for (const BoxObstacle& box : view.boxObstacles) {
         const auto pixels = pixelsTouchedByBox(frame_, box.minimum, box.maximum);
         if (!pixels) continue;
@@ -92,7 +92,7 @@ void PicturePass::findBoxTiles(const View& view) {
 }
 
 void PicturePass::findGroundTiles(const View& view) {
-    groundTiles_.assign(sphereTiles_.begin.size() - 1, TileKind::background);
+    groundTiles_.assign(sphereTiles_.cellCount(), TileKind::background);
     if (view.ground) groundTiles_ = groundTiles(frame_, view.ground->height - frame_.eye.y, occludersOf(view));
 }
 

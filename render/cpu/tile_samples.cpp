@@ -21,10 +21,6 @@ void placeRays(glm::vec2 first, TileRays& rays) {
     }
 }
 
-bool hasItems(const CellLists& lists, std::size_t tile) {
-    return lists.begin[tile + 1] > lists.begin[tile];
-}
-
 /// Replaces the hit of ray k by another one if that is nearer. It has no branches, so that compilers vectorize loops
 /// that call it.
 /// @param depth  view depth of the other hit, m; 0 if there is none
@@ -35,14 +31,6 @@ void keepNearer(TileRays& rays, std::size_t k, float depth, std::int32_t hitId) 
 }
 
 }  // namespace
-
-bool TileContents::hasSpheres(std::size_t tile) const {
-    return hasItems(*geometry.tiles, tile);
-}
-
-bool TileContents::hasLines(std::size_t tile) const {
-    return hasItems(lines.tiles, tile);
-}
 
 TileKind TileContents::kindOf(std::size_t tile) const {
     const bool hasObjects = hasSpheres(tile) || boxes[tile] != 0 || hasMetaballs(tile) || hasLines(tile);

@@ -25,8 +25,8 @@ struct TileContents {
     std::span<const std::uint8_t> boxes;  ///< per tile: 1 where a box may be seen
     std::span<const TileKind> ground;     ///< per tile: what it shows as long as nothing stands before the ground
 
-    bool hasSpheres(std::size_t tile) const;
-    bool hasLines(std::size_t tile) const;
+    bool hasSpheres(std::size_t tile) const { return !geometry.tiles->itemsOf(tile).empty(); }
+    bool hasLines(std::size_t tile) const { return !lines.tiles.itemsOf(tile).empty(); }
     bool hasMetaballs(std::size_t tile) const { return metaballs != nullptr && metaballs->slots[tile] >= 0; }
     TileKind kindOf(std::size_t tile) const;
 };

@@ -57,6 +57,10 @@ struct CellLists {
     std::size_t cellIndex(int column, int row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
     }
+    std::size_t cellCount() const { return begin.size() - 1; }
+    std::span<const std::uint32_t> itemsOf(std::size_t cell) const {
+        return std::span(items).subspan(begin[cell], begin[cell + 1] - begin[cell]);
+    }
 };
 
 /// The top left corner of a tile, in pixels of the picture.

@@ -89,9 +89,8 @@ class HeightCast {
     /// Calls visit(tile) for the tiles that balls reach, in parallel.
     template <typename Visit>
     void forEachTile(const Visit& visit) const {
-        const std::vector<std::uint32_t>& begin = scene_.tiles.begin;
-        tbb::parallel_for(std::size_t{0}, begin.size() - 1, [&](std::size_t tile) {
-            if (begin[tile + 1] > begin[tile]) visit(tile);
+        tbb::parallel_for(std::size_t{0}, scene_.tiles.cellCount(), [&](std::size_t tile) {
+            if (!scene_.tiles.itemsOf(tile).empty()) visit(tile);
         });
     }
 

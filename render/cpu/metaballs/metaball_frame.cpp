@@ -125,11 +125,10 @@ void dropEmptyTiles(MetaballHits& hits) {
 
 void castMetaballs(const MetaballScene& scene, const CastSampling& sampling, MetaballHits& hits) {
     const CellLists& tiles = scene.tiles;
-    const std::size_t tileCount = tiles.begin.size() - 1;
-    hits.slots.assign(tileCount, -1);
+    hits.slots.assign(tiles.cellCount(), -1);
     std::int32_t slotCount = 0;
-    for (std::size_t tile = 0; tile < tileCount; ++tile)
-        if (tiles.begin[tile + 1] > tiles.begin[tile]) hits.slots[tile] = slotCount++;
+    for (std::size_t tile = 0; tile < tiles.cellCount(); ++tile)
+        if (!tiles.itemsOf(tile).empty()) hits.slots[tile] = slotCount++;
     hits.reserve(static_cast<std::size_t>(slotCount));
     sampling.isSparse ? castSparsely(scene, sampling.offset, hits) : castEveryPixel(scene, sampling.offset, hits);
     if (sampling.atSilhouettes) castSilhouettes(scene, hits);

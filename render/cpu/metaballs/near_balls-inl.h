@@ -36,9 +36,8 @@ class TileBalls {
  public:
     /// Begins with the balls of another tile; the memory is reused.
     void begin(const MetaballScene& scene, std::size_t tile) {
-        const CellLists& tiles = scene.tiles;
         balls_ = scene.balls;
-        index_ = std::span(tiles.items).subspan(tiles.begin[tile], tiles.begin[tile + 1] - tiles.begin[tile]);
+        index_ = scene.tiles.itemsOf(tile);
         copied_ = 0;
         // Whole vectors are read, also from the last balls on.
         const std::size_t size = index_.size() + hn::Lanes(D());

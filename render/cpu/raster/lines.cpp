@@ -161,8 +161,8 @@ LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, 
                           std::span<const TileRays> samples, glm::vec2 point) {
     const glm::vec2 corner = tileCorner(lines.tiles, tile) + point;
     LineCoverage over{};
-    for (std::size_t k = lines.tiles.begin[tile]; k < lines.tiles.begin[tile + 1]; ++k) {
-        const ScreenLine& line = lines.lines[lines.tiles.items[k]];
+    for (const std::uint32_t index : lines.tiles.itemsOf(tile)) {
+        const ScreenLine& line = lines.lines[index];
         std::array<LinePoint, kTilePixels> points;
         TileRays rays;
         for (std::size_t pixel = 0; pixel < kTilePixels; ++pixel) {

@@ -190,10 +190,8 @@ void addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<TileR
     const D d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
     SphereRays rays(geometry.frame, samples);
-    const CellLists& tiles = *geometry.tiles;
-    const glm::ivec2 corner(tileCorner(tiles, tile));
-    for (std::size_t k = tiles.begin[tile]; k < tiles.begin[tile + 1]; ++k) {
-        const std::uint32_t index = tiles.items[k];
+    const glm::ivec2 corner(tileCorner(*geometry.tiles, tile));
+    for (const std::uint32_t index : geometry.tiles->itemsOf(tile)) {
         const ViewSphere& sphere = geometry.spheres[index];
         const float front = sphere.center.z - sphere.radius;
         // The spheres are listed front to back: all later ones are behind what has been hit.
