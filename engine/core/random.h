@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "engine/core/vec3.h"
+
 namespace engine {
 
 /// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): a bijection that scatters neighboring keys.
@@ -23,6 +25,12 @@ inline std::uint64_t randomBits(std::uint64_t seed, std::uint64_t stream, std::u
 /// A random number in [-1, 1) made from the upper 53 of 64 random bits, without rounding.
 inline double symmetricUnit(std::uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1.0p-52 - 1.0;
+}
+
+/// A random vector for a seed and a counter; each component is in [-1, 1).
+inline Vec3 randomVector(std::uint64_t seed, std::uint64_t stream) {
+    return {symmetricUnit(randomBits(seed, stream, 0)), symmetricUnit(randomBits(seed, stream, 1)),
+            symmetricUnit(randomBits(seed, stream, 2))};
 }
 
 }  // namespace engine

@@ -14,10 +14,8 @@ Pair pairOf(const ForceLaw& law, const Particles& particles, std::size_t p, std:
     const double restLength = particles.radius[p] + particles.radius[i];
     const Material material = mixed(law.materials[particles.material[p]], law.materials[particles.material[i]]);
     Pair pair{particles.position[p] - particles.position[i], pairConstants<double>(material, restLength)};
-    if (squaredLength(pair.separation) == 0.0) {
-        const auto [x, y, z] = coincidentSeparation(particles.id[p], particles.id[i], restLength);
-        pair.separation = Vec3(x, y, z);
-    }
+    if (squaredLength(pair.separation) == 0.0)
+        pair.separation = coincidentSeparation(particles.id[p], particles.id[i], restLength);
     return pair;
 }
 

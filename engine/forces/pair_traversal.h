@@ -93,8 +93,7 @@ struct PairTraversal {
         Vec3 separation = separationOf(p, i);
         double distanceSq = squaredLength(separation);
         if (distanceSq == 0.0) {
-            const auto [x, y, z] = coincidentSeparation(p.id, i.id, p.radius + i.radius);
-            separation = Vec3(x, y, z);
+            separation = coincidentSeparation(p.id, i.id, p.radius + i.radius);
             distanceSq = squaredLength(separation);
         }
         visit(separation, distanceSq);

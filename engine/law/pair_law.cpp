@@ -5,21 +5,14 @@
 
 namespace engine {
 
-std::array<double, 3> coincidentSeparation(std::uint32_t idP, std::uint32_t idI, double restLength) {
-    const std::uint64_t low = std::min(idP, idI);
-    const std::uint64_t high = std::max(idP, idI);
-    std::array<double, 3> direction{};
-    double lengthSq = 0.0;
-    for (std::uint64_t component = 0; component < 3; ++component) {
-        direction[component] = symmetricUnit(randomBits(low, high, component));
-        lengthSq += direction[component] * direction[component];
-    }
+Vec3 coincidentSeparation(std::uint32_t idP, std::uint32_t idI, double restLength) {
     // The direction is that of a random point in a cube. Directions of the cube's diagonals are a little more likely
     // than those of its axes, which does not matter here.
+    const Vec3 direction = randomVector(std::min(idP, idI), std::max(idP, idI));
+    const double lengthSq = squaredLength(direction);
+    if (lengthSq == 0.0) return Vec3::Zero();
     const double sign = idP < idI ? 1.0 : -1.0;
-    const double scale = lengthSq > 0.0 ? sign * kCoincidentShare * restLength / std::sqrt(lengthSq) : 0.0;
-    for (double& component : direction) component *= scale;
-    return direction;
+    return sign * kCoincidentShare * restLength / std::sqrt(lengthSq) * direction;
 }
 
 }  // namespace engine

@@ -8,11 +8,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 
+#include "engine/core/vec3.h"
 #include "engine/law/material.h"
 
 namespace engine {
@@ -133,7 +133,7 @@ Number pairStiffness(Number distance, const PairConstants<Number>& c) {
 /// Replacement for the separation P (m) of two particles that coincide exactly, where P has no direction: a random
 /// vector of length kCoincidentShare * restLength, determined by the particles' ids. Swapping the ids only changes its
 /// sign.
-std::array<double, 3> coincidentSeparation(std::uint32_t idP, std::uint32_t idI, double restLength);
+Vec3 coincidentSeparation(std::uint32_t idP, std::uint32_t idI, double restLength);
 
 /// Length of the replacement for the separation of coincident particles, in rest lengths. Chosen: long enough for the
 /// force to separate the pair within a few steps, short compared with any core distance.

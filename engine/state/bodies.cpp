@@ -13,12 +13,9 @@ namespace {
 /// Relative tolerance with which lattice points exactly on the surface of a body count as inside.
 constexpr double kFaceSlack = 1e-9;
 
-Vec3 jitterOf(const Packing& packing, std::uint64_t place) {
-    Vec3 offset = Vec3::Zero();
-    if (packing.jitter == 0.0) return offset;
-    for (int axis = 0; axis < 3; ++axis)
-        offset[axis] = symmetricUnit(randomBits(packing.seed, place, static_cast<std::uint64_t>(axis)));
-    return packing.jitter * packing.spacing * offset;
+Vec3 jitterOf(const Packing& packing, std::uint64_t index) {
+    if (packing.jitter == 0.0) return Vec3::Zero();
+    return packing.jitter * packing.spacing * randomVector(packing.seed, index);
 }
 
 /// Calls visit(position) for the points of a face-centered cubic lattice in a box of the given center and half extent

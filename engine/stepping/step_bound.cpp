@@ -78,9 +78,7 @@ double refined(const PairTraversal& pairs, const Particles& particles, StepperKi
     PairSystem system = systemOf(pairs, particles);
     const std::size_t count = particles.count();
     std::vector<Vec3> x(count), kx(count), cx(count), mx(count);
-    for (std::size_t p = 0; p < count; ++p)
-        for (std::uint64_t axis = 0; axis < 3; ++axis)
-            x[p][static_cast<int>(axis)] = symmetricUnit(randomBits(1, pairs.packed[p].id, axis));
+    for (std::size_t p = 0; p < count; ++p) x[p] = randomVector(1, pairs.packed[p].id);
     for (int iteration = 0; iteration < kIterations; ++iteration) {
         multiply(system.stiffness, x, kx);
         multiply(system.damping, x, cx);

@@ -23,10 +23,7 @@ engine::Setup fccCube(const std::string& material, std::size_t count, const FccC
         engine::boxPositions(Vec3::Zero(), Vec3::Constant(side + spacing), {.spacing = spacing, .jitter = 0.05});
     positions.resize(std::min(count, positions.size()));
     for (std::size_t p = 0; p < positions.size(); ++p) {
-        Vec3 velocity = Vec3::Zero();
-        for (std::uint64_t axis = 0; axis < 3; ++axis)
-            velocity[static_cast<int>(axis)] =
-                shape.speed * engine::symmetricUnit(engine::randomBits(setup.seed, p, axis));
+        const Vec3 velocity = shape.speed * engine::randomVector(setup.seed, p);
         append(
             setup.initial,
             {.position = positions[p], .velocity = velocity, .radius = setup.materials[0].radius, .mass = shape.mass});

@@ -80,10 +80,7 @@ PositionError positionError(const engine::Particles& particles, const engine::Pa
 engine::Particles displaced(engine::Particles particles, double radii) {
     constexpr std::uint64_t kSeed = 1;
     for (std::size_t p = 0; p < particles.count(); ++p)
-        for (int axis = 0; axis < 3; ++axis)
-            particles.position[p][axis] +=
-                radii * particles.radius[p] *
-                engine::symmetricUnit(engine::randomBits(kSeed, p, static_cast<std::uint64_t>(axis)));
+        particles.position[p] += radii * particles.radius[p] * engine::randomVector(kSeed, p);
     return particles;
 }
 

@@ -12,11 +12,7 @@
 
 namespace clouds {
 
-inline engine::Vec3 randomVector(std::uint64_t seed, std::uint64_t index) {
-    return {engine::symmetricUnit(engine::randomBits(seed, index, 0)),
-            engine::symmetricUnit(engine::randomBits(seed, index, 1)),
-            engine::symmetricUnit(engine::randomBits(seed, index, 2))};
-}
+using engine::randomVector;
 
 /// Particles distributed evenly in a cube of the given half edge (m), with random velocities of up to 1 m/s along each
 /// axis.

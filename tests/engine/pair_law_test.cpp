@@ -141,14 +141,9 @@ TEST_CASE("Below the core distance the force is linear and the energy finite", "
 }
 
 TEST_CASE("Coincident particles separate along a direction drawn from their ids", "[pair_law]") {
-    const auto there = coincidentSeparation(3, 8, 0.3);
-    const auto back = coincidentSeparation(8, 3, 0.3);
-    double lengthSq = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        CHECK(there[axis] == -back[axis]);
-        lengthSq += there[axis] * there[axis];
-    }
-    CHECK(std::sqrt(lengthSq) == Approx(kCoincidentShare * 0.3).epsilon(8 * kEps));  // a normalization's roundings
+    const Vec3 there = coincidentSeparation(3, 8, 0.3);
+    CHECK(there == -coincidentSeparation(8, 3, 0.3));
+    CHECK(there.norm() == Approx(kCoincidentShare * 0.3).epsilon(8 * kEps));  // a normalization's roundings
     CHECK(coincidentSeparation(3, 9, 0.3) != there);
 }
 
