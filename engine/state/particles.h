@@ -23,8 +23,8 @@ struct Particles {
     std::size_t count() const { return position.size(); }
 };
 
-/// Calls visit(array) for each array of the particles, in the order of their declaration. The arrays are const where
-/// the particles are.
+/// Calls visit(array) for each array of the particles, in the order of their declaration. For const particles, visit
+/// gets const arrays.
 template <class ParticleArrays, class Visit>
 void forEachArray(ParticleArrays& particles, Visit&& visit) {
     visit(particles.position);

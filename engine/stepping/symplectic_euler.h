@@ -11,9 +11,9 @@ namespace engine {
 /// state_checks.h).
 bool symplecticEulerStep(Simulation& simulation, double h);
 
-/// Brings the simulation to the given time (s) by equal steps of the paper's stepper that are no longer than the
+/// Advances the simulation to the given time (s) by equal steps of the paper's stepper that are no longer than the
 /// setup's step. No step is audited or taken back.
-/// @throws InstabilityError when a particle is no longer finite or has left what the engine can represent.
+/// @throws InstabilityError if a position or velocity becomes infinite, NaN or too large for the engine
 void advanceInEqualSteps(Simulation& simulation, double time);
 
 }  // namespace engine
