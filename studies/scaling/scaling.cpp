@@ -16,7 +16,6 @@
 #include "studies/common/timing.h"
 
 namespace studies {
-
 namespace {
 
 using engine::ForceMethod;
