@@ -15,6 +15,13 @@ inline constexpr double kWorldLimit = 1e8;
 /// Bound on every component of a velocity, m/s: the square of a speed stays finite in double, with a wide margin.
 inline constexpr double kFastest = 1e150;
 
+/// Radii (m) and masses (kg) of particles that scenes may have. Chosen: from a few atoms to a tenth of the world; the
+/// powers of them that forces and pictures are computed with stay far within the ranges of double and float.
+inline constexpr double kLeastRadius = 1e-9;
+inline constexpr double kLargestRadius = 1e7;
+inline constexpr double kLeastMass = 1e-30;
+inline constexpr double kLargestMass = 1e30;
+
 /// Whether every component is below the limit in magnitude; written so that a NaN fails.
 inline bool areBelow(const Vec3& vector, double limit) {
     return std::abs(vector.x()) < limit && std::abs(vector.y()) < limit && std::abs(vector.z()) < limit;

@@ -13,6 +13,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/state/particles.h"
 
@@ -25,13 +26,15 @@ struct ParticleFile {
     bool hasRadius = false;
     bool hasMass = false;
     bool hasMaterial = false;
+    std::vector<std::string> skipped;  ///< what else the file has: names of properties and elements
 };
 
 /// The bytes of a PLY file with position, velocity, radius, mass, material and id of all particles.
 std::string encodeParticles(const engine::Particles& particles);
 
-/// Reads particles from the bytes of a PLY file. Properties may come in any order, as float or double; all but x, y and
-/// z may be left out, vx, vy and vz only together. The memory taken is proportional to the number of bytes.
+/// Reads particles from the bytes of a PLY file, of this program or of another: as text or binary of either byte order,
+/// with properties of any number type in any order. All but x, y and z may be left out, vx, vy and vz only together.
+/// "pscale" and "psize" are other names of the radius. The memory taken is proportional to the number of bytes.
 /// @throws InputError that names the file, the particle and what is wrong
 ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName);
 
