@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <thread>
 
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
+#include "tools/system/processors.h"
 #include "tools/system/text.h"
 
 namespace tools {
@@ -50,8 +50,7 @@ void printResult(const RunOptions& options, const Json& json, const std::string&
 }
 
 int threadCount(const RunOptions& options) {
-    if (options.threads > 0) return options.threads;
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return options.threads > 0 ? options.threads : usableProcessors();
 }
 
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {

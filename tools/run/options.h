@@ -17,7 +17,7 @@ namespace tools {
 struct RunOptions {
     bool quiet = false;
     bool json = false;
-    int threads = 0;  ///< number of threads; 0: as many as the machine has
+    int threads = 0;  ///< number of threads; 0: one for each processor that the process may use
 
     Verbosity verbosity() const { return json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal; }
 };
