@@ -69,9 +69,13 @@ std::string onceThat(const std::string& condition) {
 }
 
 /// Starts a run in the background and sends it a signal after the shell commands `when`. Returns its exit code.
-int interrupted(const std::string& arguments, const std::string& signal, const std::string& when, const fs::path& log) {
-    const std::string command = "sh -c '" GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() + " & child=$!; " +
-                                when + "; kill -" + signal + " $child 2>/dev/null; wait $child'";
+/// @param start  "--default-signal": the run starts as from a terminal, although a shell without one makes background
+/// processes ignore SIGINT; "--ignore-signal": it starts ignoring the signal, as under nohup
+int interrupted(const std::string& arguments, const std::string& signal, const std::string& when, const fs::path& log,
+                const std::string& start = "--default-signal") {
+    const std::string env = signal == "KILL" ? "" : "env " + start + "=" + signal + " ";
+    const std::string command = "sh -c '" + env + GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() +
+                                " & child=$!; " + when + "; kill -" + signal + " $child 2>/dev/null; wait $child'";
     return program::shell(command).code;
 }
 
@@ -82,7 +86,7 @@ TEST_CASE("A signal ends a run after the current frame, with a video that plays 
     REQUIRE(run(fountain(folder / "whole")).code == 0);
     const std::string arguments = "render fountain --size 96x54 --quiet --checkpoint 100 -o " +
                                   (folder / "a").string() + " --video " + (folder / "a.mp4").string();
-    const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143});
+    const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143}, std::pair{"HUP", 129});
     CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00030.png").string()),
                       folder / "log") == code);
     CHECK(textOf(folder / "log").find("--resume") != std::string::npos);
@@ -101,6 +105,15 @@ TEST_CASE("A signal ends a run after the current frame, with a video that plays 
     CHECK(runOf(folder / "a")["resumed_from"] == (frames > 20 ? nlohmann::json() : nlohmann::json(frames - 1)));
     CHECK(textOf(folder / "a.mp4") == textOf(folder / "whole.mp4"));
     CHECK(textOf(folder / "a/frame-00019.png") == textOf(folder / "whole/frame-00019.png"));
+}
+
+TEST_CASE("A signal that a run was started to ignore stays ignored", "[resume]") {
+    const Folder folder;
+    const std::string arguments = "render fountain --size 96x54 --quiet --frames 0-30 -o " + (folder / "a").string();
+    const std::string signal = GENERATE("INT", "HUP");
+    CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00005.png").string()),
+                      folder / "log", "--ignore-signal") == 0);
+    CHECK(runOf(folder / "a")["frames"] == 31);
 }
 
 TEST_CASE("A resumed run completes a killed one to the same bytes", "[resume]") {

@@ -13,15 +13,27 @@
 namespace tools {
 namespace {
 
-constexpr std::array kSignals = {SIGINT, SIGTERM};
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<int> receivedSignal = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait for a lock");
 
+/// Sets the action of a signal, unless the signal is ignored: nohup and shells start a program so that it ignores what
+/// is meant for a terminal. Returns the action that was set before.
+struct sigaction replaceAction(int signal, void (*handler)(int)) {
+    struct sigaction previous = {};
+    ::sigaction(signal, nullptr, &previous);
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    if (previous.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+    return previous;
+}
+
 /// The signal handler. It restores the default actions, so that the next signal ends the program.
 void recordSignal(int signal) {
     receivedSignal = signal;
-    for (const int each : kSignals) ::signal(each, SIG_DFL);
+    for (const int each : kSignals) replaceAction(each, SIG_DFL);
 }
 
 }  // namespace
@@ -46,10 +58,7 @@ void flushStandardOutput() {
 
 InterruptWatch::InterruptWatch() {
     receivedSignal = 0;
-    struct sigaction action = {};
-    action.sa_handler = recordSignal;
-    action.sa_flags = SA_RESTART;
-    for (std::size_t s = 0; s < kSignals.size(); ++s) ::sigaction(kSignals[s], &action, &previousActions_[s]);
+    for (std::size_t s = 0; s < kSignals.size(); ++s) previousActions_[s] = replaceAction(kSignals[s], recordSignal);
 }
 
 InterruptWatch::~InterruptWatch() {

@@ -42,8 +42,9 @@ void printToStderr(const std::string& text);
 /// @throws ExitStatus with kReaderGoneCode and no message if the reader of the pipe is gone
 void flushStandardOutput();
 
-/// While an object of this class exists, the first SIGINT or SIGTERM is recorded instead of ending the program, so that
-/// a run can finish its frame and save what it needs to resume. A second signal ends the program at once.
+/// While an object of this class exists, the first SIGINT, SIGTERM or SIGHUP is recorded instead of ending the program,
+/// so that a run can finish its frame and save what it needs to resume. A second signal ends the program at once. What
+/// the program was started to ignore stays ignored.
 class InterruptWatch {
  public:
     InterruptWatch();
@@ -55,7 +56,7 @@ class InterruptWatch {
     int signal() const;
 
  private:
-    std::array<struct sigaction, 2> previousActions_ = {};
+    std::array<struct sigaction, 3> previousActions_ = {};
 };
 
 }  // namespace tools
