@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 namespace tools {
 
 std::string compactText(const Json& json) {
@@ -15,6 +16,7 @@ std::string indentedText(const Json& json) {
 
 void printJson(const Json& json) {
     fmt::print("{}\n", compactText(json));
+    std::fflush(stdout);  // another program may be reading along
 }
 
 }  // namespace tools
