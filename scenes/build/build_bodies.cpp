@@ -123,6 +123,9 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
         const std::vector<std::uint8_t> bytes = readFile(path, kMaxParticleFileBytes);
         context.contentHash = engine::fnv1a(asText(bytes), context.contentHash);
         const ParticleFile file = decodeParticles(asText(bytes), path);
+        if (!file.skipped.empty())
+            context.warnings.add(section.position("file"),
+                                 fmt::format("{}: not read: {}", path, fmt::join(file.skipped, ", ")));
         for (std::size_t index = 0; index < file.particles.count(); ++index) {
             if (file.hasMaterial && !section.has("material") &&
                 file.particles.material[index] >= body.materials.list.size())

@@ -137,8 +137,10 @@ std::string hashOf(const std::vector<EffectiveValue>& values, std::uint64_t cont
     return engine::hexadecimal(hash);
 }
 
-BuildContext contextOf(const Sections& sections, const std::string& fileName, ProblemList& problems) {
+BuildContext contextOf(const Sections& sections, const std::string& fileName, ProblemList& problems,
+                       ProblemList& warnings) {
     BuildContext context{.problems = problems,
+                         .warnings = warnings,
                          .folder = std::filesystem::path(fileName).parent_path().string(),
                          .contentHash = engine::fnv1a({})};
     // Without a valid duration the scene is rejected in the end; the default serves to find the problems in the other
@@ -174,7 +176,8 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
     Document document = parseDocument(text, problems);
     applyOverrides(document.root, overrides, problems);
     Sections sections = readSections(document, problems);
-    BuildContext context = contextOf(sections, fileName, problems);
+    ProblemList warnings(fileName, overrides);
+    BuildContext context = contextOf(sections, fileName, problems, warnings);
     context.hasOmissions = document.hasOmissions;
     context.limits = limits;
     Scene scene;
@@ -188,6 +191,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
     scene.sourceName = fileName;
     scene.values = effectiveValues(sections);
     scene.sceneHash = hashOf(scene.values, context.contentHash);
+    for (const Problem& warning : warnings.sorted()) scene.warnings.push_back(formatProblem(warning));
     return scene;
 }
 

@@ -30,12 +30,11 @@ void ProblemList::add(const SourcePosition& position, const InputError& error) {
     for (const Problem& problem : error.problems()) add(position, formatProblem(problem));
 }
 
-void ProblemList::throwIfAny() const {
-    if (items_.empty()) return;
-    std::vector<Item> sorted = items_;
-    std::ranges::stable_sort(sorted, {}, &Item::position);
+std::vector<Problem> ProblemList::sorted() const {
+    std::vector<Item> items = items_;
+    std::ranges::stable_sort(items, {}, &Item::position);
     std::vector<Problem> problems;
-    for (const Item& item : sorted) {
+    for (const Item& item : items) {
         if (item.position.overrideIndex < 0)
             problems.push_back({file_, item.position.line, item.position.column, item.message});
         else
@@ -43,7 +42,11 @@ void ProblemList::throwIfAny() const {
                 {overrides_.at(static_cast<std::size_t>(item.position.overrideIndex)).option, 0, 0, item.message});
     }
     if (isTruncated_) problems.push_back({file_, 0, 0, "there are more problems than are shown here"});
-    throw InputError(std::move(problems));
+    return problems;
+}
+
+void ProblemList::throwIfAny() const {
+    if (!items_.empty()) throw InputError(sorted());
 }
 
 }  // namespace scenes

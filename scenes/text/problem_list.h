@@ -1,4 +1,4 @@
-// Collects the problems of a scene while it is read, so that all of them are reported at once.
+// Collects the problems of a scene while it is read, so that all of them are reported at once; likewise its warnings.
 #pragma once
 
 #include <string>
@@ -24,7 +24,10 @@ class ProblemList {
 
     bool empty() const { return items_.empty(); }
 
-    /// Throws an InputError with all problems: those of the file by position, then those of the overrides in order.
+    /// All problems: those of the file by position, then those of the overrides in order.
+    std::vector<Problem> sorted() const;
+
+    /// Throws an InputError with all problems.
     void throwIfAny() const;
 
  private:

@@ -164,6 +164,20 @@ TEST_CASE("problems of a particle file are reported at the key that names it") {
     CHECK(problem() == scenePath + ": there is nothing to simulate: the bodies have no particles");
 }
 
+TEST_CASE("what is not read of a particle file is a warning at the key that names it") {
+    const ScratchFolder folder;
+    const std::string scenePath =
+        folder.write("s.toml", kTop + "[[body]]\nshape = \"file\"\nfile = \"points.ply\"\n");
+    const std::string header = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n";
+    folder.write("points.ply", header + "property float z\nend_header\n1 2 3\n");
+    CHECK(scenes::loadScene(scenePath, {}).warnings.empty());
+    folder.write("points.ply", header + "property float z\nproperty uchar red\nelement face 0\nend_header\n1 2 3 4\n");
+    const scenes::Scene scene = scenes::loadScene(scenePath, {});
+    CHECK(scene.setup.initial.position == std::vector<Vec3>{Vec3(1, 2, 3)});
+    CHECK(scene.warnings == std::vector<std::string>{scenePath + ":5:8: " + (folder.path / "points.ply").string() +
+                                                     ": not read: red, element face"});
+}
+
 TEST_CASE("emitters have an interval for each schedule") {
     CHECK(emitterOf("position = [1, 2, 3]\ninterval = 0.25\n").interval == 0.25);
     CHECK(emitterOf("position = [1, 2, 3]\nrate = 4\n").interval == 0.25);

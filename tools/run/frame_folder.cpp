@@ -40,10 +40,6 @@ void removeFile(const fs::path& path) {
     if (error) throw render::SystemError(fmt::format("cannot remove {}: {}", path.string(), error.message()));
 }
 
-void warn(const std::string& message) {
-    printToStderr(fmt::format("warning: {}\n", message));
-}
-
 bool isFrame(const fs::path& file) {
     return kPictureNames.frameOf(file) || kStateNames.frameOf(file);
 }
@@ -130,9 +126,9 @@ void FrameFolder::keepIntactFrames() {
     for (const auto& [frame, record] : manifest_.frames) {
         const fs::path path = pathOf(frame);
         if (!fs::exists(path))
-            warn(fmt::format("{} is missing: it does not count as done", path.string()));
+            printWarning(fmt::format("{} is missing: it does not count as done", path.string()));
         else if (checksumOf(readFile(path)) != record.checksum)
-            warn(fmt::format("{} is damaged: it does not count as done", path.string()));
+            printWarning(fmt::format("{} is damaged: it does not count as done", path.string()));
         else
             kept_[frame] = record;
     }
@@ -153,7 +149,7 @@ std::optional<RestartPoint> FrameFolder::restartPoint(const engine::Setup& setup
             if (checksumOf(bytes) != record.checksum) throw engine::CheckpointError("it is damaged or truncated");
             return RestartPoint{frame, engine::decodeCheckpoint(setup, bytes), record.report};
         } catch (const std::exception& error) {
-            warn(fmt::format("cannot resume from {}: {}", path.string(), error.what()));
+            printWarning(fmt::format("cannot resume from {}: {}", path.string(), error.what()));
         }
     }
     return std::nullopt;

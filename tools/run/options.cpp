@@ -10,6 +10,7 @@
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
+#include "tools/system/process.h"
 #include "tools/system/processors.h"
 #include "tools/system/text.h"
 
@@ -56,7 +57,10 @@ int threadCount(const RunOptions& options) {
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     scenes::Overrides overrides(options.changes.begin(), options.changes.end());
     overrides.insert(overrides.end(), more.begin(), more.end());
-    return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limitsOf(options.limits));
+    scenes::Scene scene =
+        scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limitsOf(options.limits));
+    for (const std::string& warning : scene.warnings) printWarning(warning);
+    return scene;
 }
 
 std::string runName(const SceneOptions& options) {

@@ -70,7 +70,7 @@ void printResult(const RunOptions& options, const Json& json, const std::string&
 /// The number of threads to use, at least 1.
 int threadCount(const RunOptions& options);
 
-/// Loads the scene with its changes.
+/// Loads the scene with its changes, and prints its warnings.
 /// @param more  further changes, which other flags ask for; applied last
 /// @throws scenes::InputError
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = {});

@@ -49,6 +49,10 @@ void printToStderr(const std::string& text) {
     std::fflush(stderr);
 }
 
+void printWarning(const std::string& message) {
+    printToStderr("warning: " + message + "\n");
+}
+
 void flushStandardOutput() {
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;

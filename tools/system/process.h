@@ -37,6 +37,9 @@ void prepareStandardStreams();
 /// Writes to standard error and ignores failures, because a lost message must not end a run.
 void printToStderr(const std::string& text);
 
+/// Writes "warning: ..." to standard error.
+void printWarning(const std::string& message);
+
 /// Flushes standard output.
 /// @throws render::SystemError if anything printed so far could not be written
 /// @throws ExitStatus with kReaderGoneCode and no message if the reader of the pipe is gone
