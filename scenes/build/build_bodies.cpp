@@ -172,7 +172,9 @@ engine::Particles buildBodies(std::vector<Section>& sections, const Materials& m
     engine::Particles particles;
     for (std::size_t index = 0; index < sections.size(); ++index) {
         const auto material = materialOf(sections[index], materials, context);
+        const std::size_t countBefore = particles.count();
         buildBody({sections[index], index, material.value_or(0), materials}, context, particles);
+        checkWithinWorld(sections[index], "shape", std::span(particles.position).subspan(countBefore), context);
     }
     return particles;
 }

@@ -104,6 +104,7 @@ std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const
         if (isDisc(section))
             section.derive("spacing", TypedValue::ofNumber(2.0 * materials.list[material.value_or(0)].radius));
         std::vector<Vec3> sites = sitesOf(section, context);
+        checkWithinWorld(section, section.has("positions") ? "positions" : "position", sites, context);
         if (!section.isValid()) continue;
         completeSchedule(section, section.string("pick") == "random" ? 1.0 : static_cast<double>(sites.size()));
         checkEmissionCount(section, context);

@@ -3,10 +3,21 @@
 
 #include <cmath>
 
+#include "engine/stepping/state_checks.h"
 #include "scenes/build/builders.h"
 #include "scenes/text/edit_distance.h"
 
 namespace scenes {
+
+void checkWithinWorld(Section& section, std::string_view name, std::span<const engine::Vec3> positions,
+                      BuildContext& context) {
+    for (const engine::Vec3& position : positions) {
+        if (engine::areBelow(position, engine::kWorldLimit)) continue;
+        return report(section, name, context,
+                      "a particle would be at ({:.7g}, {:.7g}, {:.7g}), must be less than {:g} m from the origin",
+                      position.x(), position.y(), position.z(), engine::kWorldLimit);
+    }
+}
 
 void reportMissing(Section& section, std::string_view name, BuildContext& context) {
     section.markInvalid();

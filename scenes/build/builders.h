@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,10 @@ void report(Section& section, std::string_view name, BuildContext& context,
     section.markInvalid();
     context.problems.add(section.position(name), fmt::format(message, values...));
 }
+
+/// Records a problem with a key of a section if one of these positions of particles is outside of the world.
+void checkWithinWorld(Section& section, std::string_view name, std::span<const engine::Vec3> positions,
+                      BuildContext& context);
 
 /// Records that a key is missing from a section, and marks the section as invalid.
 void reportMissing(Section& section, std::string_view name, BuildContext& context);

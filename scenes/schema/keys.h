@@ -15,6 +15,9 @@ inline constexpr Range kOpenUnitInterval{.low = 0.0, .high = 1.0, .isLowExcluded
 /// tighter bound.
 inline constexpr Range kWithinWorld{.low = -engine::kWorldLimit, .high = engine::kWorldLimit};
 
+inline constexpr Range kRadii{.low = engine::kLeastRadius, .high = engine::kLargestRadius};  ///< of particles, m
+inline constexpr Range kMasses{.low = engine::kLeastMass, .high = engine::kLargestMass};      ///< of particles, kg
+
 /// A key of a scene file, to which range, default and so on are added by its member functions.
 inline Key key(std::string_view name, Type type, std::string_view unit, std::string_view help) {
     return {.name = name, .type = type, .unit = unit, .help = help};
@@ -30,7 +33,7 @@ inline Key velocity(std::string_view name, std::string_view help) {
 }
 
 inline Key length(std::string_view name, std::string_view help) {
-    return key(name, Type::number, "m", help).within(kPositive);
+    return key(name, Type::number, "m", help).within({.low = 0.0, .high = engine::kWorldLimit, .isLowExcluded = true});
 }
 
 /// A key whose value is a number from 0 to 1.

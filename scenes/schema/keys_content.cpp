@@ -45,10 +45,11 @@ std::vector<Key> bodyKeys() {
             .required()
             .onlyFor({"file"}),
         length("particle_radius", "radius of this body's particles")
-            .derivedAs("of the material; for a file, the radii in it"),
+            .derivedAs("of the material; for a file, the radii in it")
+            .within(kRadii),
         key("particle_mass", Type::number, "kg", "mass of this body's particles")
             .derivedAs("of the material; for a file, the masses in it")
-            .within(kPositive),
+            .within(kMasses),
     };
 }
 

@@ -69,8 +69,8 @@ std::vector<Key> materialKeys() {
             "row of Table 1 of the paper, or a named substance, that the other keys take their defaults from")
             .defaultsTo("\"liquid\"")
             .oneOf(presets),
-        length("radius", "radius of a particle").derivedAs(preset),
-        key("mass", Type::number, "kg", "mass of a particle").derivedAs(preset).within(kPositive),
+        length("radius", "radius of a particle").derivedAs(preset).within(kRadii),
+        key("mass", Type::number, "kg", "mass of a particle").derivedAs(preset).within(kMasses),
         key("b1", Type::number, "N m^4", "strength of repulsion and attraction").derivedAs(preset).within(kNotNegative),
         key("bd", Type::number, "kg/s", "strength of damping: viscosity").derivedAs(preset).within(kNotNegative),
         key("cr", Type::number, "",

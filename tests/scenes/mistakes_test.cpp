@@ -67,7 +67,7 @@ TEST_CASE("the message for a wrong type names the value and the expected type") 
 
 TEST_CASE("numbers out of range are rejected, with bounds and unit") {
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = -0.2\n") ==
-          Lines{"pile.toml:5:10: radius is -0.2, must be > 0 (meters)"});
+          Lines{"pile.toml:5:10: radius is -0.2, must be > 0 and <= 100000000 (meters)"});
     CHECK(problemsOf("fps = 241\n" + kBall) == Lines{"pile.toml:1:7: fps is 241, must be 1 to 240 (per second)"});
     CHECK(problemsOf("fps = 0\n" + kBall) == Lines{"pile.toml:1:7: fps is 0, must be 1 to 240 (per second)"});
     CHECK(problemsOf(kBall + "[material]\ncr = 0.9\n") == Lines{"pile.toml:7:6: cr is 0.9, must be >= 1"});
@@ -100,6 +100,27 @@ TEST_CASE("no particle may start outside the world") {
           Lines{"pile.toml:3:1: a body's particle at [1, 10, 1] is outside the world"});
     CHECK(problemsOf(kTop + "[world]\nmaximum = [9, 9, 9]\n[[emitter]]\nposition = [1, 1, 9.5]\ninterval = 1\n") ==
           Lines{"pile.toml:3:1: an emitter's point of emission at [1, 1, 9.5] is outside the world"});
+}
+
+TEST_CASE("no particle may start further out than can be simulated") {
+    const auto at = [](const std::string& center) {
+        return problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = 0.2\ncenter = [" + center + ", 0, 0]\n");
+    };
+    CHECK(at("99999998") == Lines{});
+    const Lines problems = at("100000000");
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].find("pile.toml:4:9: a particle would be at (1e+08, 0, 0), must be less than 1e+08 m") == 0);
+    CHECK(problemsOf(kTop + "[[emitter]]\nposition = [0, -1e8, 0]\ninterval = 1\n") ==
+          Lines{"pile.toml:4:12: a particle would be at (0, -1e+08, 0), must be less than 1e+08 m from the origin"});
+}
+
+TEST_CASE("radii and masses of particles have bounds") {
+    CHECK(problemsOf(kBall + "[material]\nradius = 1e39\n") ==
+          Lines{"pile.toml:7:10: radius is 1e+39, must be 1e-09 to 10000000 (meters)"});
+    CHECK(problemsOf(kBall + "[material]\nradius = 1e-30\n") ==
+          Lines{"pile.toml:7:10: radius is 1e-30, must be 1e-09 to 10000000 (meters)"});
+    CHECK(problemsOf(kBall + "particle_mass = 0\n") ==
+          Lines{"pile.toml:6:17: particle_mass is 0, must be 1e-30 to 1e+30 (kilograms)"});
 }
 
 TEST_CASE("numbers that are not finite are rejected") {
@@ -215,8 +236,8 @@ TEST_CASE("a scene without particles is rejected") {
 const std::string kParticleLimit = " are allowed; --limit particles=N allows more";
 
 TEST_CASE("bodies and emitters that are too large are rejected before memory is allocated") {
-    CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = 1e9\n") ==
-          Lines{"pile.toml:4:9: the body would have about 4.2e+29 particles, at most 2000000 are allowed; --limit "
+    CHECK(problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = 1e8\n") ==
+          Lines{"pile.toml:4:9: the body would have about 4.2e+26 particles, at most 2000000 are allowed; --limit "
                 "particles=N allows more"});
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"grid\"\ncounts = [1000, 1000, 1000]\n") ==
           Lines{"pile.toml:4:9: the body would have about 1e+09 particles, at most 2000000 are allowed; --limit "

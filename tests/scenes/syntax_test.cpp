@@ -62,7 +62,7 @@ TEST_CASE("a header with a syntax error keeps its keys") {
 TEST_CASE("values that are never closed are reported where they start") {
     CHECK(problemsOf(kBall + "center = [0, 0\nvelocity = [0, 0, 0]\nspacing = 0\n") ==
           Lines{"pile.toml:6:1: the value of \"center\" is never closed",
-                "pile.toml:8:11: spacing is 0, must be > 0 (meters)"});
+                "pile.toml:8:11: spacing is 0, must be > 0 and <= 100000000 (meters)"});
     CHECK(problemsOf("title = \"t\nduration = -2\n") ==
           Lines{"pile.toml: there is nothing to simulate: give a [[body]] or an [[emitter]]",
                 "pile.toml:1:1: the value of \"title\" is never closed",
@@ -86,7 +86,7 @@ TEST_CASE("text without any valid statement is rejected") {
 
 TEST_CASE("carriage returns and a byte order mark are accepted") {
     CHECK(problemsOf("title = \"t\"\r\nduration = 2\r\n[[body]]\r\nshape = \"ball\"\r\nradius = -1\r\n") ==
-          Lines{"pile.toml:5:10: radius is -1, must be > 0 (meters)"});
+          Lines{"pile.toml:5:10: radius is -1, must be > 0 and <= 100000000 (meters)"});
     CHECK(problemsOf("\xEF\xBB\xBF" + kBall) == Lines{});
 }
 

@@ -44,7 +44,8 @@ TEST_CASE("A scene with ten mistakes prints ten messages and exits with 2", "[to
     CHECK(program::lineCount(outcome.err) == 10);
     CHECK(outcome.err.find("wrong.toml:1:1: ") != std::string::npos);
     CHECK(outcome.err.find("did you mean \"title\"") != std::string::npos);
-    CHECK(outcome.err.find("wrong.toml:12:10: radius is -0.2, must be > 0 (meters)") != std::string::npos);
+    CHECK(outcome.err.find("wrong.toml:12:10: radius is -0.2, must be 1e-09 to 10000000 (meters)") !=
+          std::string::npos);
 }
 
 TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant", "[tools]") {
@@ -167,8 +168,9 @@ TEST_CASE("The message of an unstable run names the keys that have an effect", "
               .err.find("lower physics.step, or raise material.mass") != std::string::npos);
 
     const program::Folder folder;
-    std::ofstream(folder / "far.toml") << "title = \"far\"\nduration = 1\n[[body]]\nshape = \"grid\"\n"
-                                          "center = [99999999, 0, 0]\ncounts = [20, 1, 1]\nspacing = 1\n";
+    std::ofstream(folder / "far.toml") << "title = \"far\"\nduration = 1\n[material]\nradius = 1\n[[emitter]]\n"
+                                          "position = [99999999.9, 0, 0]\nvelocity = [0, 9, 0]\ninterval = 0.02\n"
+                                          "jitter = 0.9\nclearance = 0\n";
     const auto outside = run("check --quiet " + (folder / "far.toml").string());
     INFO(outside.err);
     CHECK(outside.code == 3);
