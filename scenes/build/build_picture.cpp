@@ -166,6 +166,13 @@ CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
         if (!section.isValid()) return {CameraKey{}};
         path.push_back({section.has("time") ? section.number("time") : 0.0, placementFrom(section)});
     }
+    for (const CameraJump& jump : jumpsOf(path))
+        context.warnings.add(sections[jump.laterKey].position(),
+                             fmt::format("on the way to this key, at {:.3g} s, the camera {}", jump.time,
+                                         jump.cause == CameraJump::Cause::throughTarget
+                                             ? "passes through its target and looks back; add a key beside the target"
+                                             : "looks along up and the picture turns over; add a key beside that, or "
+                                               "another up"));
     return path;
 }
 

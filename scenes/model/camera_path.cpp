@@ -52,6 +52,11 @@ Numbers slopesAt(const CameraPath& path, std::size_t key) {
     return slopes;
 }
 
+/// Whether a direction turns by 60 degrees or more between two moments of a path that are close together.
+bool turnsAtOnce(const Vec3& before, const Vec3& now) {
+    return before.dot(now) <= 0.5 * before.norm() * now.norm();
+}
+
 }  // namespace
 
 CameraPlacement cameraAt(const CameraPath& path, double time) {
@@ -72,6 +77,31 @@ CameraPlacement cameraAt(const CameraPath& path, double time) {
         now[k] = from[k] + (to[k] - from[k]) * (u * u * (3.0 - 2.0 * u)) +
                  length * u * (1.0 - u) * ((1.0 - u) * slopesFrom[k] - u * slopesTo[k]);
     return placementOf(now, next->placement.projection);
+}
+
+std::vector<CameraJump> jumpsOf(const CameraPath& path) {
+    // Chosen: more moments than a film of a few seconds has frames between two keys.
+    constexpr int kMoments = 256;
+    std::vector<CameraJump> jumps;
+    for (std::size_t key = 1; key < path.size(); ++key) {
+        CameraPlacement before = path[key - 1].placement;
+        for (int moment = 1; moment <= kMoments; ++moment) {
+            const double share = static_cast<double>(moment) / kMoments;
+            const double time = path[key - 1].time + share * (path[key].time - path[key - 1].time);
+            const CameraPlacement now = cameraAt(path, time);
+            const Vec3 ahead = now.target - now.eye;
+            const Vec3 aheadBefore = before.target - before.eye;
+            const bool isThroughTarget = turnsAtOnce(aheadBefore, ahead);
+            const bool isAlongUp = turnsAtOnce(aheadBefore.cross(before.up), ahead.cross(now.up));
+            if (isThroughTarget || isAlongUp) {
+                jumps.push_back({key, time,
+                                 isThroughTarget ? CameraJump::Cause::throughTarget : CameraJump::Cause::alongUp});
+                break;
+            }
+            before = now;
+        }
+    }
+    return jumps;
 }
 
 }  // namespace scenes

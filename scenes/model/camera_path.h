@@ -1,6 +1,7 @@
 // Where the camera is at a given time: fixed, or interpolated between the keys of a path.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "scenes/model/look.h"
@@ -22,5 +23,17 @@ using CameraPath = std::vector<CameraKey>;
 /// two keys, and the derivatives vanish at the first and the last key.
 /// Fritsch and Butland 1984, A Method for Constructing Local Monotone Piecewise Cubic Interpolants.
 CameraPlacement cameraAt(const CameraPath& path, double time);
+
+/// A moment between two keys of a path at which the picture jumps, although both keys are sound.
+struct CameraJump {
+    enum class Cause { throughTarget, alongUp };
+    std::size_t laterKey = 0;  ///< of the two keys
+    double time = 0.0;         ///< s
+    Cause cause = Cause::throughTarget;
+};
+
+/// The jumps of a path, at most one for each pair of keys: the eye passes through the target, so that the camera looks
+/// back at once; or the camera looks along its up direction, so that the picture turns over.
+std::vector<CameraJump> jumpsOf(const CameraPath& path);
 
 }  // namespace scenes

@@ -173,3 +173,20 @@ TEST_CASE("every camera of a path is checked") {
     CHECK(problemsOf(kBall + kPath + "[[camera]]\ntime = 3\nhalf_height = 2\n") ==
           Lines{"pile.toml:19:1: half_height does not apply to projection \"perspective\", only to orthographic"});
 }
+
+TEST_CASE("a path on which the picture jumps between two sound keys is warned of") {
+    const auto warnings = [](const std::string& eye, const std::string& other) {
+        const std::string target = "]\ntarget = [0, 1, 0]\n";
+        return sceneOf(kBall + "[[camera]]\ntime = 0\neye = [" + eye + target + "[[camera]]\ntime = 2\neye = [" + other +
+                       target)
+            .warnings;
+    };
+    const Lines over = warnings("2, 8, 0", "-2, 8, 0");
+    REQUIRE(over.size() == 1);
+    CHECK(over[0].find("pile.toml:10:1: on the way to this key, at 1 s, the camera looks along up") == 0);
+    const Lines through = warnings("0, 1, 6", "0.001, 1, -6");
+    REQUIRE(through.size() == 1);
+    CHECK(through[0].find("the camera passes through its target") != std::string::npos);
+    CHECK(warnings("0, 1, 6", "6, 1, 0").empty());
+    CHECK(warnings("2, 8, 0.5", "-2, 8, 0.5").empty());  // past the pole, but not through it
+}
