@@ -117,6 +117,17 @@ double textWidth(std::string_view text, double em) {
     return layOut(text, em, [](int, double) {});
 }
 
+std::string charactersWithoutGlyph(std::string_view text) {
+    std::string missing;
+    while (!text.empty()) {
+        const std::string_view before = text;
+        if (stbtt_FindGlyphIndex(&font(), takeCharacter(text)) != 0) continue;
+        const std::string_view character = before.substr(0, before.size() - text.size());
+        if (missing.find(character) == std::string::npos) missing += character;
+    }
+    return missing;
+}
+
 Box textBox(std::string_view text, const TextPosition& position) {
     // The box has room for accents, descenders and overhanging strokes of every Latin or Greek letter and digit in
     // DejaVu Sans.

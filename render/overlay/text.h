@@ -2,6 +2,7 @@
 // font's em square, in pixels; a capital letter is about 0.73 em high. Called by draw_overlay.cpp and panel_strip.cpp.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "render/overlay/coverage_mask.h"
@@ -21,6 +22,9 @@ double textWidth(std::string_view text, double em);
 /// A box that contains every pixel of a line of text. In scripts other than Latin and Greek, tall marks may reach
 /// beyond the box.
 Box textBox(std::string_view text, const TextPosition& position);
+
+/// The characters of a text (UTF-8) that the font does not have and that are drawn as boxes.
+std::string charactersWithoutGlyph(std::string_view text);
 
 /// Covers a line of text in the mask. Parts of the text outside of the mask are left out.
 void coverText(CoverageMask& mask, std::string_view text, const TextPosition& position);

@@ -338,3 +338,9 @@ TEST_CASE("Text that is not UTF-8 shows replacement characters, and nothing is r
     // All digits have the same width, so that a running time stamp does not jitter.
     for (const char* digit : {"1", "4", "9"}) CHECK(render::textWidth(digit, 20.0) == render::textWidth("0", 20.0));
 }
+
+TEST_CASE("characters that the font lacks are named") {
+    CHECK(render::charactersWithoutGlyph("speed m/s, Größe, скорость, ταχύτητα").empty());
+    CHECK(render::charactersWithoutGlyph("速度 of 速").compare("速度") == 0);
+    CHECK(render::charactersWithoutGlyph("\xff").empty());  // drawn as a replacement character
+}

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "render/overlay/text.h"
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
@@ -60,6 +61,9 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     scenes::Scene scene =
         scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limitsOf(options.limits));
     for (const std::string& warning : scene.warnings) printWarning(warning);
+    if (const auto& colorBar = scene.look.common.overlay.colorBar)
+        if (const std::string missing = render::charactersWithoutGlyph(colorBar->title); !missing.empty())
+            printWarning(fmt::format("the font has no {}, which overlay.color_label asks for", missing));
     return scene;
 }
 
