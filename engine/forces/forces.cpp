@@ -60,6 +60,11 @@ void ForceEvaluator::forgetList() {
     pairs_.list.sortedIndexOf.clear();
 }
 
+void ForceEvaluator::restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double cutoff,
+                                 double skin) {
+    build(pairs_.list, builtAt, std::span(particles.radius).first(builtAt.size()), cutoff, skin);
+}
+
 bool ForceEvaluator::hasNoNeighborWithin(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
                                          std::uint32_t& cachedNeighbor) const {
     const NeighborList& list = pairs_.list;

@@ -65,9 +65,10 @@ class ForceEvaluator {
     void forgetList();
 
     /// Rebuilds the neighbor list of a resumed run.
-    /// @param builtAt  positions that the list was built for, m
-    /// @param reach    distance within which it lists neighbors (cutoff and skin together), m
-    void restoreList(const std::vector<Vec3>& builtAt, double reach) { build(pairs_.list, builtAt, reach, 0.0); }
+    /// @param builtAt  positions that the list was built for, m, of the first particles
+    /// @param cutoff   cutoff that it was built for, m
+    /// @param skin     its skin, m
+    void restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double cutoff, double skin);
 
     /// Whether none of the listed neighbors of particle p is within a cutoff (m) of it, at the given positions (m). If
     /// the neighbor list covers these positions, then no other particle is either. False for a particle that was

@@ -2,6 +2,7 @@
 #include "engine/forces/pair_traversal.h"
 
 #include <algorithm>
+#include <span>
 
 #include "engine/core/bounding_box.h"
 
@@ -21,8 +22,9 @@ double largestRelativeSpeed(const std::vector<Vec3>& velocities) {
 
 /// Estimates the mean number of neighbors within the cutoff (m) from the number of listed neighbors, which lie within
 /// the larger reach of the list.
-double neighborsWithin(double cutoff, const NeighborList& list) {
-    const double share = cutoff / list.reach;
+/// @param reach  of the list for the pairs with this cutoff, m
+double neighborsWithin(double cutoff, double reach, const NeighborList& list) {
+    const double share = cutoff / reach;
     return share * share * share * static_cast<double>(list.entryCount) / static_cast<double>(list.count());
 }
 
@@ -35,10 +37,15 @@ void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, c
                               double step) {
     terms = termsFor(law, particles);
     if (covers(list, particles.position, terms.cutoff)) return;
+    const std::span<const double> radii = terms.uniform ? std::span<const double>{} : particles.radius;
+    // Where sizes differ much, the skin is chosen for the size of which there are most.
+    const double relativeRadius = typicalRelativeRadius(radii);
+    const double cutoff = relativeRadius * terms.cutoff;
     double skin = kDefaultSkin;
     if (step > 0.0 && list.count() > 0 && particles.count() > 0)
-        skin = optimalSkin(neighborsWithin(terms.cutoff, list), step * largestRelativeSpeed(velocities) / terms.cutoff);
-    build(list, particles.position, terms.cutoff, skin * terms.cutoff);
+        skin = optimalSkin(neighborsWithin(cutoff, relativeRadius * list.cutoff + list.skin, list),
+                           step * largestRelativeSpeed(velocities) / cutoff);
+    build(list, particles.position, radii, terms.cutoff, skin * cutoff);
     isPacked = false;  // the new list has the particles in another order
 }
 
@@ -53,7 +60,7 @@ void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, con
     packedFloat.clear();
     unit = 1.0;
     if (!terms.uniform || precision == Precision::doubles) return packParticles(particles, velocities);
-    unit = list.reach / kUnits;
+    unit = list.reach() / kUnits;
     packFloats(list, particles, velocities, unit, packedFloat);
 }
 

@@ -168,6 +168,7 @@ void build(CellGrid& grid, const std::vector<Vec3>& positions, double cellWidth)
     if (positions.empty()) return;
 
     const double width = cellWidth * kRoundingMargin;
+    grid.width = width;
     const BoundingBox extent =
         boundingBoxOf(positions.size(), [&](std::size_t p) -> const Vec3& { return positions[p]; });
     grid.dimensions = chooseDimensions(extent, positions.size(), width);
@@ -237,6 +238,36 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
         }
     }
     return found;
+}
+
+void appendRanges(const CellGrid& grid, const BoundingBox& box, std::vector<CellRange>& ranges) {
+    if (grid.order.empty()) return;
+    std::array<std::int64_t, 3> first{};
+    std::array<std::int64_t, 3> count{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<Eigen::Index>(axis);
+        const std::int64_t low = cellNumber(box.low[at], grid.width);
+        const std::int64_t high = cellNumber(box.high[at], grid.width);
+        count[axis] = std::min(high - low + 1, grid.dimensions[axis]);
+        first[axis] = wrapped(low, grid.dimensions[axis]);
+    }
+    const auto [nx, ny, nz] = grid.dimensions;
+    const std::size_t before = ranges.size();
+    const auto add = [&](std::int64_t from, std::int64_t end) {
+        const CellRange range{grid.start[static_cast<std::size_t>(from)], grid.start[static_cast<std::size_t>(end)]};
+        if (range.begin == range.end) return;
+        if (ranges.size() > before && ranges.back().end == range.begin)
+            ranges.back().end = range.end;
+        else
+            ranges.push_back(range);
+    };
+    for (std::int64_t z = 0; z < count[2]; ++z)
+        for (std::int64_t y = 0; y < count[1]; ++y) {
+            const std::int64_t line = (wrappedStep(first[2] + z, nz) * ny + wrappedStep(first[1] + y, ny)) * nx;
+            // The cells of a line that lie beyond its end are stored at its beginning.
+            add(line + first[0], line + std::min(first[0] + count[0], nx));
+            if (first[0] + count[0] > nx) add(line, line + first[0] + count[0] - nx);
+        }
 }
 
 }  // namespace engine

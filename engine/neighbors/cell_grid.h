@@ -8,8 +8,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "engine/core/bounding_box.h"
 #include "engine/core/vec3.h"
 
 namespace engine {
@@ -52,9 +54,12 @@ struct CellRange {
 struct Neighborhood {
     std::array<CellRange, 27> ranges;
     int count = 0;
+
+    std::span<CellRange> used() { return std::span(ranges).first(static_cast<std::size_t>(count)); }
 };
 
 struct CellGrid {
+    double width = 1.0;                               ///< of a cell, m
     std::array<std::int64_t, 3> dimensions{1, 1, 1};  ///< numbers of cells along x, y, z
     std::vector<std::uint32_t> start;                 ///< index in `order` of each cell's first particle, and the end
     std::vector<std::uint32_t> order;                 ///< particle indices sorted by cell, ascending within a cell
@@ -83,5 +88,9 @@ CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostPart
 /// The ranges of particles in the cells of a run and in the cells around them, in a fixed order. Ranges that are
 /// consecutive in storage are joined.
 Neighborhood neighborhood(const CellGrid& grid, const CellRun& run);
+
+/// Appends the ranges of the cells that a box (m) intersects, each cell once, in a fixed order. Adjacent ranges are merged
+/// where they are consecutive in storage.
+void appendRanges(const CellGrid& grid, const BoundingBox& box, std::vector<CellRange>& ranges);
 
 }  // namespace engine

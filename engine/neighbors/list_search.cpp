@@ -29,10 +29,9 @@ static_assert(hn::MaxLanes(kTag) <= 2 * kSearchOverhang &&
 constexpr hn::RebindToUnsigned<decltype(kTag)> kIndices{};
 constexpr hn::CappedTag<std::uint16_t, 64> kMasks{};
 
-std::uint32_t countOf(const Neighborhood& around) {
+std::uint32_t countOf(std::span<const CellRange> around) {
     std::uint32_t sum = 0;
-    for (int r = 0; r < around.count; ++r)
-        sum += around.ranges[static_cast<std::size_t>(r)].end - around.ranges[static_cast<std::size_t>(r)].begin;
+    for (const CellRange& range : around) sum += range.end - range.begin;
     return sum;
 }
 
@@ -70,9 +69,10 @@ std::size_t pack(hn::Vec<decltype(kIndices)> indices, std::uint16_t chosen, std:
 /// The search for the neighbors of a group of particles that are close together.
 struct Search {
     const Candidates& candidates;
-    const Neighborhood& around;
-    double perReach;      ///< 1/m
-    std::uint32_t count;  ///< number of candidates
+    std::span<const CellRange> around;
+    double perReach;        ///< 1/m
+    std::uint32_t count;    ///< number of candidates
+    std::uint32_t skipped;  ///< number of candidates, the first ones, that are no neighbors
     SearchScratch& scratch;
     Vec3 origin;  ///< position of the group's first particle, m
 
@@ -91,8 +91,7 @@ struct Search {
         const auto atOnce = static_cast<std::uint32_t>(hn::Lanes(kDoubles));
         const auto counting = hn::Iota(kPositions, 0);  // outside of the loop, because it is loaded from memory
         std::uint32_t used = 0;
-        for (int r = 0; r < around.count; ++r) {
-            const CellRange range = around.ranges[static_cast<std::size_t>(r)];
+        for (const CellRange& range : around) {
             for (std::uint32_t other = range.begin; other < range.end; other += atOnce) {
                 const std::uint32_t at = used + other - range.begin;
                 storeRelative(candidates.x, other, origin.x(), &scratch.x[at]);
@@ -114,8 +113,7 @@ struct Search {
     /// Index among the candidates of the particle with a sorted index.
     std::uint32_t candidateAt(std::uint32_t sortedIndex) const {
         std::uint32_t before = 0;
-        for (int r = 0; r < around.count; ++r) {
-            const CellRange range = around.ranges[static_cast<std::size_t>(r)];
+        for (const CellRange& range : around) {
             if (range.begin <= sortedIndex && sortedIndex < range.end) return before + sortedIndex - range.begin;
             before += range.end - range.begin;
         }
@@ -151,9 +149,13 @@ struct Search {
             }
         }
         // A particle is not a neighbor of itself.
-        for (std::uint32_t nth = 0; nth < ownCount; ++nth)
-            scratch.near[nth * stride + (first + nth) / lanes()] &=
-                static_cast<std::uint16_t>(~(1U << (first + nth) % lanes()));
+        const auto exclude = [&](std::uint32_t nth, std::uint32_t candidate) {
+            scratch.near[nth * stride + candidate / lanes()] &= static_cast<std::uint16_t>(~(1U << candidate % lanes()));
+        };
+        for (std::uint32_t nth = 0; nth < ownCount; ++nth) {
+            if (skipped == 0) exclude(nth, first + nth);
+            for (std::uint32_t candidate = 0; candidate < skipped; ++candidate) exclude(nth, candidate);
+        }
     }
 
     /// Writes the row of neighbors of the group's nth particle and returns the length of the row.
@@ -184,15 +186,16 @@ struct Search {
     }
 };
 
-void findInReachHere(const Candidates& candidates, const Neighborhood& around, CellRange own, double reach,
-                     SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths) {
+void findInReachHere(const Candidates& candidates, std::span<const CellRange> around, CellRange own,
+                     std::uint32_t skipped, double reach, SearchScratch& scratch, FoundRows& rows,
+                     std::uint32_t* lengths) {
     const std::uint32_t count = countOf(around);
     const std::size_t room = count + 4 * kSearchOverhang;
     if (scratch.sortedIndices.size() < room) {
         for (std::vector<float>* of : {&scratch.x, &scratch.y, &scratch.z}) of->resize(2 * room);
         scratch.sortedIndices.resize(2 * room);
     }
-    Search search{candidates, around, 1.0 / reach, count, scratch, {}};
+    Search search{candidates, around, 1.0 / reach, count, skipped, scratch, {}};
     for (std::uint32_t begin = own.begin; begin < own.end;) {
         // Particles that share a cell in storage may be far apart. A particle too far from the origin becomes a new
         // origin.
@@ -221,9 +224,9 @@ namespace engine {
 
 HWY_EXPORT(findInReachHere);
 
-void findInReach(const Candidates& candidates, const Neighborhood& around, CellRange own, double reach,
-                 SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths) {
-    HWY_DYNAMIC_DISPATCH(findInReachHere)(candidates, around, own, reach, scratch, rows, lengths);
+void findInReach(const Candidates& candidates, std::span<const CellRange> around, CellRange own, std::uint32_t skipped,
+                 double reach, SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths) {
+    HWY_DYNAMIC_DISPATCH(findInReachHere)(candidates, around, own, skipped, reach, scratch, rows, lengths);
 }
 
 }  // namespace engine

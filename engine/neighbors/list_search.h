@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/neighbors/cell_grid.h"
@@ -44,12 +45,13 @@ inline constexpr double kFloatRange = 8.0;
 inline constexpr float kFloatMargin = 1.00001F;
 
 /// Appends a row of neighbors for each particle of a range: the sorted indices of all other particles within reach (m),
-/// in the order of the neighborhood's ranges. A row contains no particle whose squared distance exceeds reach^2
-/// kFloatMargin by more than the rounding error of float.
-/// @param around   ranges of particles in the cells of `own` and in the cells around them
+/// in the order of the ranges. A row contains no particle whose squared distance exceeds reach^2 kFloatMargin by more
+/// than the rounding error of float.
+/// @param around   ranges of particles in which neighbors are searched, and those of `own`
 /// @param own      range of sorted indices of the particles that get rows
+/// @param skipped  0; or, if `around` begins with `own` and none of these are to be neighbors of each other, their number
 /// @param lengths  receives the length of each row
-void findInReach(const Candidates& candidates, const Neighborhood& around, CellRange own, double reach,
-                 SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths);
+void findInReach(const Candidates& candidates, std::span<const CellRange> around, CellRange own, std::uint32_t skipped,
+                 double reach, SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths);
 
 }  // namespace engine

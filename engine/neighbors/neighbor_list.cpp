@@ -40,6 +40,9 @@ struct FoundBlock {
     SearchScratch scratch;
     FoundRows rows;
     std::array<std::uint32_t, kSlotsPerBlock> lengths;
+    FoundRows parts;                         ///< parts of rows, class by class
+    std::vector<std::uint32_t> partLengths;  ///< of each particle in the first class, then of each in the next
+    std::vector<CellRange> ranges;
 };
 
 /// Adjacent cells are searched together as long as they contain at most kRunParticles particles and are not longer than
@@ -48,18 +51,115 @@ struct FoundBlock {
 constexpr std::uint32_t kRunParticles = 12;
 constexpr auto kRunCells = static_cast<std::uint32_t>(kFloatRange);
 
+/// Largest distance (m) at which particles of two classes are listed as neighbors.
+double reachOf(const NeighborList& list, const SizeClass& one, const SizeClass& other) {
+    return 0.5 * (one.relativeRadius + other.relativeRadius) * list.cutoff + list.skin;
+}
+
+/// The box of all places within a distance (m) of some particles, given by their range of sorted indices.
+BoundingBox boxAround(const Candidates& candidates, const CellRange& own, double distance) {
+    const auto positionOf = [&](std::uint32_t sortedIndex) {
+        return Vec3(candidates.x[sortedIndex], candidates.y[sortedIndex], candidates.z[sortedIndex]);
+    };
+    BoundingBox box{positionOf(own.begin), positionOf(own.begin)};
+    for (std::uint32_t index = own.begin + 1; index < own.end; ++index)
+        box.include({positionOf(index), positionOf(index)});
+    const Vec3 margin = Vec3::Constant(distance * kRoundingMargin);
+    return {box.low - margin, box.high + margin};
+}
+
+/// Finds the neighbors of some particles of one class, which are in the cells of a run, in the whole of that class.
+void searchOwnClass(const NeighborList& list, const SizeClass& ownClass, const CellRun& run, const CellRange& own,
+                    SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths) {
+    Neighborhood around = neighborhood(ownClass.grid, run);
+    for (CellRange& range : around.used())
+        range = {range.begin + ownClass.sorted.begin, range.end + ownClass.sorted.begin};
+    findInReach(list.scratch.candidates, around.used(), own, 0, reachOf(list, ownClass, ownClass), scratch, rows, lengths);
+}
+
+/// Finds the neighbors of these particles in another class.
+void searchOtherClass(const NeighborList& list, const SizeClass& ownClass, const SizeClass& other, const CellRange& own,
+                      FoundBlock& found, std::uint32_t* lengths) {
+    const double reach = reachOf(list, ownClass, other);
+    const Candidates& candidates = list.scratch.candidates;
+    found.ranges.assign(1, own);
+    appendRanges(other.grid, boxAround(candidates, own, reach), found.ranges);
+    const std::uint32_t ownCount = own.end - own.begin;
+    if (found.ranges.size() == 1) {
+        std::fill_n(lengths, ownCount, 0);
+        return;
+    }
+    for (CellRange& range : std::span(found.ranges).subspan(1))
+        range = {range.begin + other.sorted.begin, range.end + other.sorted.begin};
+    findInReach(candidates, found.ranges, own, ownCount, reach, found.scratch, found.parts, lengths);
+}
+
+/// Appends the rows of `count` particles, which have been found in parts.
+void joinParts(FoundBlock& found, std::size_t count, std::uint32_t* lengths) {
+    const std::size_t classes = found.partLengths.size() / count;
+    std::vector<const std::uint32_t*> next(classes);  // where the part of the next row begins, for each class
+    const std::uint32_t* part = found.parts.sortedIndices.data();
+    for (std::size_t c = 0; c < classes; ++c) {
+        next[c] = part;
+        part = std::accumulate(&found.partLengths[c * count], &found.partLengths[c * count] + count, part);
+    }
+    FoundRows& rows = found.rows;
+    if (rows.sortedIndices.size() < rows.used + found.parts.used)
+        rows.sortedIndices.resize(rows.used + rows.used / 2 + found.parts.used);
+    for (std::size_t k = 0; k < count; ++k) {
+        lengths[k] = 0;
+        for (std::size_t c = 0; c < classes; ++c) {
+            const std::uint32_t length = found.partLengths[c * count + k];
+            std::copy_n(next[c], length, &rows.sortedIndices[rows.used]);
+            next[c] += length;
+            rows.used += length;
+            lengths[k] += length;
+        }
+    }
+}
+
+/// Finds the neighbors of some particles of one class, which are in the cells of a run, class by class.
+void searchAllClasses(const NeighborList& list, const SizeClass& ownClass, const CellRun& run, const CellRange& own,
+                      FoundBlock& found, std::uint32_t* lengths) {
+    const std::size_t count = own.end - own.begin;
+    found.parts.used = 0;
+    found.partLengths.resize(count * list.scratch.classes.size());
+    std::uint32_t* partLengths = found.partLengths.data();
+    for (const SizeClass& other : list.scratch.classes) {
+        if (&other == &ownClass)
+            searchOwnClass(list, ownClass, run, own, found.scratch, found.parts, partLengths);
+        else
+            searchOtherClass(list, ownClass, other, own, found, partLengths);
+        partLengths += count;
+    }
+    joinParts(found, count, lengths);
+}
+
+/// Finds the neighbors of the particles in a range of sorted indices, which are in one class.
+void search(const NeighborList& list, const SizeClass& ownClass, const CellRange& range, FoundBlock& found,
+            std::uint32_t* lengths) {
+    const CellGrid& grid = ownClass.grid;
+    const std::uint32_t base = ownClass.sorted.begin;
+    std::uint32_t cell = cellOfSortedIndex(grid, range.begin - base);
+    for (std::uint32_t first = range.begin; first < range.end;) {
+        while (grid.start[cell + 1] + base <= first) ++cell;
+        const CellRun run = runFrom(grid, cell, kRunParticles, kRunCells);
+        const CellRange own{first, std::min(grid.start[run.last + 1] + base, range.end)};
+        std::uint32_t* const ownLengths = lengths + (first - range.begin);
+        if (list.scratch.classes.size() == 1)
+            searchOwnClass(list, ownClass, run, own, found.scratch, found.rows, ownLengths);
+        else
+            searchAllClasses(list, ownClass, run, own, found, ownLengths);
+        first = own.end;
+    }
+}
+
 /// Finds the neighbors of the particles in a range of sorted indices.
 void search(const NeighborList& list, const CellRange& range, FoundBlock& found) {
     found.rows.used = 0;
-    const CellGrid& grid = list.scratch.grid;
-    std::uint32_t cell = cellOfSortedIndex(grid, range.begin);
-    for (std::uint32_t first = range.begin; first < range.end;) {
-        while (grid.start[cell + 1] <= first) ++cell;
-        const CellRun run = runFrom(grid, cell, kRunParticles, kRunCells);
-        const CellRange own{first, std::min(grid.start[run.last + 1], range.end)};
-        findInReach(list.scratch.candidates, neighborhood(grid, run), own, list.reach, found.scratch, found.rows,
-                    &found.lengths[first - range.begin]);
-        first = own.end;
+    for (const SizeClass& sizeClass : list.scratch.classes) {
+        const CellRange part{std::max(range.begin, sizeClass.sorted.begin), std::min(range.end, sizeClass.sorted.end)};
+        if (part.begin < part.end) search(list, sizeClass, part, found, &found.lengths[part.begin - range.begin]);
     }
 }
 
@@ -135,9 +235,16 @@ void fill(NeighborList& list, std::size_t number) {
     }
 }
 
-/// Takes over the order of the cell grid and copies the positions in this order, for the search.
+/// Puts the particles into the order of the cell grids and copies the positions in this order, for the search.
 void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
-    list.order.swap(list.scratch.grid.order);
+    std::vector<SizeClass>& classes = list.scratch.classes;
+    if (classes.size() == 1) {
+        list.order.swap(classes[0].grid.order);
+    } else {
+        list.order.clear();
+        for (const SizeClass& sizeClass : classes)
+            for (const std::uint32_t member : sizeClass.grid.order) list.order.push_back(sizeClass.members[member]);
+    }
     const std::size_t count = list.order.size();
     list.sortedIndexOf.resize(count);
     Candidates& candidates = list.scratch.candidates;
@@ -154,13 +261,13 @@ void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
 /// Whether a list was built for `count` particles and reaches at least as far as a cutoff (m). A discarded list still
 /// has its order, but no positions.
 bool isOf(const NeighborList& list, std::size_t count, double cutoff) {
-    return count == list.builtAt.size() && count == list.count() && cutoff <= list.reach;
+    return count == list.builtAt.size() && count == list.count() && cutoff <= list.reach();
 }
 
 /// Distance by which each particle may have moved since the neighbor list was built, relative to the common motion, in
 /// meters.
 double slackOf(const NeighborList& list, double cutoff) {
-    return 0.5 * (list.reach - cutoff);
+    return 0.5 * (list.reach() - cutoff);
 }
 
 /// Cost per particle and time step of building a neighbor list and of the passes over it, in the cost of one pair.
@@ -181,10 +288,14 @@ std::size_t bytesHeld(const Vectors&... vectors) {
 
 }  // namespace
 
-void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff, double skin) {
-    list.reach = cutoff + skin;
+void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<const double> radii, double cutoff,
+           double skin) {
+    list.cutoff = cutoff;
+    list.skin = skin;
     copy(positions, list.builtAt);
-    build(list.scratch.grid, positions, list.reach);
+    divideBySize(radii, positions.size(), list.scratch.classes);
+    for (SizeClass& sizeClass : list.scratch.classes)
+        buildGrid(sizeClass, positions, reachOf(list, sizeClass, sizeClass));
     sortByCell(list, positions);
     const std::size_t clusters = (list.count() + kClusterSize - 1) / kClusterSize;
     const std::size_t blocks = (clusters + kClustersPerBlock - 1) / kClustersPerBlock;
@@ -247,10 +358,12 @@ std::size_t bytesOf(const NeighborRows& rows) {
 }
 
 std::size_t bytesOf(const NeighborList& list) {
-    const BuildScratch& scratch = list.scratch;
-    return bytesOf(list.rows) + bytesHeld(list.order, list.sortedIndexOf, list.builtAt, scratch.grid.start,
-                                          scratch.grid.order, scratch.grid.cellOf, scratch.candidates.x,
-                                          scratch.candidates.y, scratch.candidates.z);
+    const Candidates& candidates = list.scratch.candidates;
+    std::size_t bytes = bytesOf(list.rows) + bytesHeld(list.order, list.sortedIndexOf, list.builtAt, candidates.x,
+                                                       candidates.y, candidates.z);
+    for (const SizeClass& sizeClass : list.scratch.classes)
+        bytes += bytesHeld(sizeClass.members, sizeClass.grid.start, sizeClass.grid.order, sizeClass.grid.cellOf);
+    return bytes;
 }
 
 }  // namespace engine

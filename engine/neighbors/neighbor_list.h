@@ -4,23 +4,25 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/core/scratch.h"
 #include "engine/neighbors/cell_grid.h"
 #include "engine/neighbors/list_search.h"
 #include "engine/neighbors/neighbor_rows.h"
+#include "engine/neighbors/size_classes.h"
 
 namespace engine {
 
 /// Work memory for building a neighbor list.
 struct BuildScratch {
-    CellGrid grid;  ///< its `order` belongs to an earlier list
+    std::vector<SizeClass> classes;  ///< largest particles first; a single class' order belongs to an earlier list
     Candidates candidates;
 };
 
 /// A neighbor list, in which every particle has two numbers. The sorted index is the particle's rank in the order of
-/// the grid cells. The lane slot is the number of the particle's row. Both lie in the same block; within a block the
+/// the grid cells, those of large particles first. The lane slot is the number of the particle's row. Both lie in the same block; within a block the
 /// longest rows come first, so that the rows of a cluster of SIMD lanes have similar lengths.
 struct NeighborList {
     std::vector<std::uint32_t> order;          ///< particle index of each sorted index
@@ -28,10 +30,14 @@ struct NeighborList {
     NeighborRows rows;                         ///< neighbors of the particle in each lane slot
     std::size_t entryCount = 0;                ///< sum of the lengths of all rows
     std::vector<Vec3> builtAt;                 ///< positions by particle index when the list was built, m
-    double reach = 0.0;                        ///< cutoff and skin together, m
+    double cutoff = 0.0;                       ///< of the largest particles, m
+    double skin = 0.0;                         ///< m
     Scratch<BuildScratch> scratch;
 
     std::size_t count() const { return order.size(); }
+
+    /// Largest distance at which a pair may be listed, m.
+    double reach() const { return cutoff + skin; }
 
     /// Lane slot of the particle with this index, found by searching the particle's block.
     std::size_t laneSlotOf(std::size_t p) const;
@@ -39,9 +45,12 @@ struct NeighborList {
 
 /// Builds the neighbor list for these positions (m). The result is the same for any number of threads and any
 /// instruction set.
-/// @param cutoff  in meters, at least 0
+/// @param radii   of the particles, m; pairs act up to a distance of `cutoff` times the sum of their radii over twice the
+///                largest radius. Empty for equal ones: all pairs act up to `cutoff`.
+/// @param cutoff  of the largest particles, m, at least 0
 /// @param skin    in meters, at least 0
-void build(NeighborList& list, const std::vector<Vec3>& positions, double cutoff, double skin);
+void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<const double> radii, double cutoff,
+           double skin);
 
 /// Whether a neighbor list certainly contains every pair of particles that is closer than the cutoff (m) at these
 /// positions (m).

@@ -17,8 +17,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-/// Version of the checkpoint format: "GLBLCKP5" in ASCII, with another digit for every change of what is stored.
-constexpr std::uint64_t kFormat = 0x35504B434C424C47;
+/// Version of the checkpoint format: "GLBLCKP6" in ASCII, with another digit for every change of what is stored.
+constexpr std::uint64_t kFormat = 0x36504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -180,7 +180,7 @@ std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation) {
     writer(kFormat, shapeOf(simulation));
     exchange(writer, simulation);
     const NeighborList& list = simulation.cache->evaluator.list();
-    writer(list.builtAt, list.reach);
+    writer(list.builtAt, list.cutoff, list.skin);
     return writer.finish();
 }
 
@@ -196,12 +196,14 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     exchange(reader, simulation);
     if (const char* const flaw = stateError(simulation)) throw CheckpointError(flaw);
     std::vector<Vec3> builtAt;
-    double reach = 0.0;
-    reader(builtAt, reach);
+    double cutoff = 0.0;
+    double skin = 0.0;
+    reader(builtAt, cutoff, skin);
     reader.finish();
-    require(isInWorld(builtAt) && (builtAt.empty() || (std::isfinite(reach) && reach > kLeastReach)),
+    const bool isReachValid = cutoff >= 0.0 && skin >= 0.0 && std::isfinite(cutoff + skin) && cutoff + skin > kLeastReach;
+    require(isInWorld(builtAt) && builtAt.size() <= simulation.particles.count() && (builtAt.empty() || isReachValid),
             "it has a corrupt neighbor list");
-    simulation.cache->evaluator.restoreList(builtAt, reach);
+    simulation.cache->evaluator.restoreList(simulation.particles, builtAt, cutoff, skin);
     return simulation;
 }
 

@@ -109,7 +109,7 @@ BenchRow listRow(const Subject& subject, const BenchSettings& settings) {
     const engine::Particles& particles = subject.setup.initial;
     const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
     engine::NeighborList list;
-    const Work work = [&] { engine::build(list, particles.position, cutoff, engine::kDefaultSkin * cutoff); };
+    const Work work = [&] { engine::build(list, particles.position, {}, cutoff, engine::kDefaultSkin * cutoff); };
     work();  // allocates the memory of the list
     BenchRow row = subject.row;
     row.name = "list";

@@ -253,7 +253,7 @@ TEST_CASE("Whether a particle has a neighbor depends on positions, not on the li
         evaluator.evaluatePairs(particles, particles.velocity, forces);
         particles.position[2].y() += 10.0;  // needs a new list
         evaluator.evaluatePairs(particles, particles.velocity, forces, step);
-        reaches.insert(evaluator.list().reach);
+        reaches.insert(evaluator.list().reach());
         std::vector<Vec3> positions = particles.position;
         // The answer does not depend on the cached neighbor.
         const auto hasNoNeighborWithin = [&](std::size_t p, std::uint32_t& cachedNeighbor) {

@@ -61,7 +61,7 @@ bool isWithin(const std::set<std::uint32_t>& block, const std::set<std::uint32_t
 /// Checks that the rows have every pair within reach, and no others but those that float cannot distinguish from them.
 void checkRows(const std::vector<Vec3>& positions) {
     NeighborList list;
-    build(list, positions, kCutoff, kSkin);
+    build(list, positions, {}, kCutoff, kSkin);
     REQUIRE(list.count() == positions.size());
     std::size_t entries = 0;
     CHECK(std::set<std::uint32_t>(list.order.begin(), list.order.end()).size() == positions.size());
@@ -93,7 +93,7 @@ std::vector<Vec3> hardPositions() {
 bool coversAfterMove(double distance, std::size_t p) {
     std::vector<Vec3> positions = clouds::strewn(50, 0.8).position;
     NeighborList list;
-    build(list, positions, kCutoff, kSkin);
+    build(list, positions, {}, kCutoff, kSkin);
     const Vec3 direction = clouds::randomVector(11, p).normalized();
     positions[p] += 0.5 * distance * direction;
     positions[(p + 1) % positions.size()] -= 0.5 * distance * direction;
@@ -128,7 +128,7 @@ TEST_CASE("No pair within the reach is lost to the rounding of float", "[neighbo
     for (const std::string& name : instructionSets()) {
         const OnInstructionSet only(name);
         NeighborList list;
-        build(list, positions, kCutoff, kSkin);
+        build(list, positions, {}, kCutoff, kSkin);
         for (std::uint32_t p = 0; p < positions.size(); ++p) {
             INFO("particle " << p << " with " << name);
             CHECK(rowOf(list, list.laneSlotOf(p)).count(p ^ 1U) == 1);
@@ -143,7 +143,7 @@ TEST_CASE("Positions that are NaN or huge leave the rows of the others as they a
         std::vector<Vec3> positions = {lost};  // the first particle of its cell
         positions.insert(positions.end(), sound.begin(), sound.end());
         NeighborList list;
-        build(list, positions, kCutoff, kSkin);
+        build(list, positions, {}, kCutoff, kSkin);
         for (std::size_t p = 1; p < positions.size(); ++p)
             CHECK(isWithin(neighborsOf(positions, p, kCutoff + kSkin), rowOf(list, list.laneSlotOf(p))));
         CHECK(rowOf(list, list.laneSlotOf(0)).empty());
@@ -162,7 +162,7 @@ TEST_CASE("A list covers neither a wider cutoff nor another number of particles"
     std::vector<Vec3> positions = clouds::strewn(10, 0.8).position;
     NeighborList list;
     CHECK_FALSE(covers(list, positions, kCutoff));  // never built
-    build(list, positions, kCutoff, kSkin);
+    build(list, positions, {}, kCutoff, kSkin);
     CHECK(covers(list, positions, kCutoff + kSkin));
     CHECK_FALSE(covers(list, positions, (kCutoff + kSkin) * (1 + 1e-12)));  // far above the rounding of the sum
     positions.pop_back();
@@ -172,7 +172,7 @@ TEST_CASE("A list covers neither a wider cutoff nor another number of particles"
 TEST_CASE("A list covers particles in free fall until one moves relative to the others", "[neighbor-list]") {
     const std::vector<Vec3> before = clouds::strewn(3000, 2.5).position;
     NeighborList list;
-    build(list, before, kCutoff, kSkin);
+    build(list, before, {}, kCutoff, kSkin);
     std::vector<Vec3> fallen = before;
     for (Vec3& position : fallen) position.y() -= 1.0;
     CHECK(covers(list, fallen, kCutoff));
@@ -188,7 +188,7 @@ TEST_CASE("A list covers particles in free fall until one moves relative to the 
 TEST_CASE("A list that covers holds every pair that has come within the cutoff", "[neighbor-list]") {
     std::vector<Vec3> positions = clouds::strewn(300, 1.2).position;
     NeighborList list;
-    build(list, positions, kCutoff, kSkin);
+    build(list, positions, {}, kCutoff, kSkin);
     for (std::size_t p = 0; p < positions.size(); ++p)
         positions[p] += 0.499 * kSkin * clouds::randomVector(12, p).normalized();
     REQUIRE(covers(list, positions, kCutoff));
@@ -204,7 +204,7 @@ TEST_CASE("A list that covers holds every pair that has come within the cutoff",
 
 TEST_CASE("Within a block, lane slots are sorted by the length of their rows", "[neighbor-list]") {
     NeighborList list;
-    build(list, clouds::strewn(3001, 2.5).position, kCutoff, kSkin);
+    build(list, clouds::strewn(3001, 2.5).position, {}, kCutoff, kSkin);
     for (std::size_t laneSlot = 1; laneSlot < list.count(); ++laneSlot)
         if (laneSlot % kSlotsPerBlock != 0) CHECK(list.rows.length[laneSlot] <= list.rows.length[laneSlot - 1]);
     for (std::uint32_t p = 0; p < list.count(); ++p) CHECK(particleIn(list, list.laneSlotOf(p)) == p);
@@ -213,7 +213,7 @@ TEST_CASE("Within a block, lane slots are sorted by the length of their rows", "
 TEST_CASE("Rows are padded to the longest of their cluster with their own particle", "[neighbor-list]") {
     for (const std::size_t count : {1U, 37U, 3001U}) {
         NeighborList list;
-        build(list, clouds::strewn(count, 2.5).position, kCutoff, kSkin);
+        build(list, clouds::strewn(count, 2.5).position, {}, kCutoff, kSkin);
         for (std::size_t laneSlot = 0; laneSlot < list.rows.ownIndices.size(); ++laneSlot) {
             const std::size_t first = laneSlot / kClusterSize * kClusterSize;
             const std::uint32_t longest =
@@ -231,8 +231,8 @@ TEST_CASE("A list built again is that of the new positions", "[neighbor-list]") 
     for (const std::size_t count : {3001U, 50U, 2000U}) {  // fewer, with longer rows, and more again
         const std::vector<Vec3> positions = clouds::strewn(count, 1.5).position;
         NeighborList expected;
-        build(expected, positions, kCutoff, kSkin);
-        build(list, positions, kCutoff, kSkin);
+        build(expected, positions, {}, kCutoff, kSkin);
+        build(list, positions, {}, kCutoff, kSkin);
         checkSame(list, expected);
     }
 }
@@ -240,10 +240,10 @@ TEST_CASE("A list built again is that of the new positions", "[neighbor-list]") 
 TEST_CASE("The same rows for any number of threads", "[neighbor-list]") {
     const std::vector<Vec3> positions = clouds::strewn(3000, 2.5).position;
     NeighborList expected;
-    build(expected, positions, kCutoff, kSkin);
+    build(expected, positions, {}, kCutoff, kSkin);
     for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
         NeighborList list;
-        clouds::onThreads(threads, [&] { build(list, positions, kCutoff, kSkin); });
+        clouds::onThreads(threads, [&] { build(list, positions, {}, kCutoff, kSkin); });
         checkSame(list, expected);
     }
 }
@@ -254,11 +254,11 @@ TEST_CASE("The same rows on every instruction set", "[neighbor-list]") {
           clouds::strewn(1200, 0.5).position, clouds::strewn(2000, 4.0).position, clouds::strewn(100, 40.0).position,
           hardPositions()}) {
         NeighborList expected;
-        build(expected, positions, kCutoff, kSkin);
+        build(expected, positions, {}, kCutoff, kSkin);
         for (const std::string& name : instructionSets()) {
             const OnInstructionSet only(name);
             NeighborList list;
-            build(list, positions, kCutoff, kSkin);
+            build(list, positions, {}, kCutoff, kSkin);
             INFO(positions.size() << " with " << name);
             checkSame(list, expected);
         }
@@ -269,10 +269,10 @@ TEST_CASE("Rows are as complete in worlds of any size", "[neighbor-list]") {
     for (const double unit : {1e-30, 1e30}) {  // the squares of neither fit in float
         std::vector<Vec3> positions = clouds::strewn(200, 1.0).position;
         NeighborList expected;
-        build(expected, positions, kCutoff, kSkin);
+        build(expected, positions, {}, kCutoff, kSkin);
         for (Vec3& position : positions) position *= unit;
         NeighborList list;
-        build(list, positions, kCutoff * unit, kSkin * unit);
+        build(list, positions, {}, kCutoff * unit, kSkin * unit);
         for (std::size_t laneSlot = 0; laneSlot < list.count(); ++laneSlot)
             CHECK(rowOf(list, laneSlot) == rowOf(expected, expected.laneSlotOf(particleIn(list, laneSlot))));
     }

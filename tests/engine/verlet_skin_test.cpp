@@ -29,7 +29,7 @@ Simulation parting(double speed, double step, ForceMethod method) {
 
 double skinOf(const Simulation& simulation) {
     const double cutoff = termsFor(simulation.cache->evaluator.law(), simulation.particles).cutoff;
-    return simulation.cache->evaluator.list().reach / cutoff - 1.0;
+    return simulation.cache->evaluator.list().reach() / cutoff - 1.0;
 }
 
 }  // namespace

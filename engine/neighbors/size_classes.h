@@ -1,0 +1,37 @@
+// Particles by size. The cells of a grid are as wide as the cutoff of its largest particles. Where radii differ much,
+// such cells hold thousands of small particles, so particles of similar size get a grid of their own. Called by
+// neighbor_list.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/vec3.h"
+#include "engine/neighbors/cell_grid.h"
+
+namespace engine {
+
+/// Particles whose radii differ by a factor below 2, and their cell grid.
+struct SizeClass {
+    double relativeRadius = 1.0;         ///< largest radius in the class, divided by the largest of all particles
+    CellRange sorted;                    ///< sorted indices of its particles in the neighbor list
+    std::vector<std::uint32_t> members;  ///< particle indices, ascending; empty if the class has all particles
+    CellGrid grid;                       ///< its order counts the members, or all particles
+};
+
+/// Divides particles into classes, those with the largest particles first. Particles that are all of similar size, and
+/// an empty list of radii, make one class.
+/// @param radii    of the particles, m, above 0; or empty for equal ones
+/// @param count    number of particles
+/// @param classes  receives the classes, without the grids' contents; memory of earlier calls is used again
+void divideBySize(std::span<const double> radii, std::size_t count, std::vector<SizeClass>& classes);
+
+/// The largest radius in the class that has the most particles, divided by the largest radius of all; 1 for no radii.
+double typicalRelativeRadius(std::span<const double> radii);
+
+/// Sorts the particles of a class into its grid. Positions (m) are by particle index.
+void buildGrid(SizeClass& sizeClass, const std::vector<Vec3>& positions, double cellWidth);
+
+}  // namespace engine
