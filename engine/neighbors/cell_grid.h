@@ -89,8 +89,8 @@ CellRun runFrom(const CellGrid& grid, std::uint32_t cell, std::uint32_t mostPart
 /// consecutive in storage are joined.
 Neighborhood neighborhood(const CellGrid& grid, const CellRun& run);
 
-/// Appends the ranges of the cells that a box (m) intersects, each cell once, in a fixed order. Adjacent ranges are merged
-/// where they are consecutive in storage.
+/// Appends the ranges of the cells that a box (m) intersects, each cell once, in a fixed order. Adjacent ranges are
+/// merged where they are consecutive in storage.
 void appendRanges(const CellGrid& grid, const BoundingBox& box, std::vector<CellRange>& ranges);
 
 }  // namespace engine

@@ -150,7 +150,8 @@ struct Search {
         }
         // A particle is not a neighbor of itself.
         const auto exclude = [&](std::uint32_t nth, std::uint32_t candidate) {
-            scratch.near[nth * stride + candidate / lanes()] &= static_cast<std::uint16_t>(~(1U << candidate % lanes()));
+            scratch.near[nth * stride + candidate / lanes()] &=
+                static_cast<std::uint16_t>(~(1U << candidate % lanes()));
         };
         for (std::uint32_t nth = 0; nth < ownCount; ++nth) {
             if (skipped == 0) exclude(nth, first + nth);

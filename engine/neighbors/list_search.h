@@ -49,7 +49,8 @@ inline constexpr float kFloatMargin = 1.00001F;
 /// than the rounding error of float.
 /// @param around   ranges of particles in which neighbors are searched, and those of `own`
 /// @param own      range of sorted indices of the particles that get rows
-/// @param skipped  0; or, if `around` begins with `own` and none of these are to be neighbors of each other, their number
+/// @param skipped  0; or, if `around` begins with `own` and none of these are to be neighbors of each other, their
+/// number
 /// @param lengths  receives the length of each row
 void findInReach(const Candidates& candidates, std::span<const CellRange> around, CellRange own, std::uint32_t skipped,
                  double reach, SearchScratch& scratch, FoundRows& rows, std::uint32_t* lengths);

@@ -74,7 +74,8 @@ void searchOwnClass(const NeighborList& list, const SizeClass& ownClass, const C
     Neighborhood around = neighborhood(ownClass.grid, run);
     for (CellRange& range : around.used())
         range = {range.begin + ownClass.sorted.begin, range.end + ownClass.sorted.begin};
-    findInReach(list.scratch.candidates, around.used(), own, 0, reachOf(list, ownClass, ownClass), scratch, rows, lengths);
+    findInReach(list.scratch.candidates, around.used(), own, 0, reachOf(list, ownClass, ownClass), scratch, rows,
+                lengths);
 }
 
 /// Finds the neighbors of these particles in another class.

@@ -22,8 +22,9 @@ struct BuildScratch {
 };
 
 /// A neighbor list, in which every particle has two numbers. The sorted index is the particle's rank in the order of
-/// the grid cells, those of large particles first. The lane slot is the number of the particle's row. Both lie in the same block; within a block the
-/// longest rows come first, so that the rows of a cluster of SIMD lanes have similar lengths.
+/// the grid cells, those of large particles first. The lane slot is the number of the particle's row. Both lie in the
+/// same block; within a block the longest rows come first, so that the rows of a cluster of SIMD lanes have similar
+/// lengths.
 struct NeighborList {
     std::vector<std::uint32_t> order;          ///< particle index of each sorted index
     std::vector<std::uint32_t> sortedIndexOf;  ///< sorted index of each particle index
@@ -45,7 +46,8 @@ struct NeighborList {
 
 /// Builds the neighbor list for these positions (m). The result is the same for any number of threads and any
 /// instruction set.
-/// @param radii   of the particles, m; pairs act up to a distance of `cutoff` times the sum of their radii over twice the
+/// @param radii   of the particles, m; pairs act up to a distance of `cutoff` times the sum of their radii over twice
+/// the
 ///                largest radius. Empty for equal ones: all pairs act up to `cutoff`.
 /// @param cutoff  of the largest particles, m, at least 0
 /// @param skin    in meters, at least 0

@@ -200,7 +200,8 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     double skin = 0.0;
     reader(builtAt, cutoff, skin);
     reader.finish();
-    const bool isReachValid = cutoff >= 0.0 && skin >= 0.0 && std::isfinite(cutoff + skin) && cutoff + skin > kLeastReach;
+    const bool isReachValid =
+        cutoff >= 0.0 && skin >= 0.0 && std::isfinite(cutoff + skin) && cutoff + skin > kLeastReach;
     require(isInWorld(builtAt) && builtAt.size() <= simulation.particles.count() && (builtAt.empty() || isReachValid),
             "it has a corrupt neighbor list");
     simulation.cache->evaluator.restoreList(simulation.particles, builtAt, cutoff, skin);

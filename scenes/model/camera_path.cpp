@@ -94,8 +94,8 @@ std::vector<CameraJump> jumpsOf(const CameraPath& path) {
             const bool isThroughTarget = turnsAtOnce(aheadBefore, ahead);
             const bool isAlongUp = turnsAtOnce(aheadBefore.cross(before.up), ahead.cross(now.up));
             if (isThroughTarget || isAlongUp) {
-                jumps.push_back({key, time,
-                                 isThroughTarget ? CameraJump::Cause::throughTarget : CameraJump::Cause::alongUp});
+                jumps.push_back(
+                    {key, time, isThroughTarget ? CameraJump::Cause::throughTarget : CameraJump::Cause::alongUp});
                 break;
             }
             before = now;

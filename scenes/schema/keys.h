@@ -16,7 +16,7 @@ inline constexpr Range kOpenUnitInterval{.low = 0.0, .high = 1.0, .isLowExcluded
 inline constexpr Range kWithinWorld{.low = -engine::kWorldLimit, .high = engine::kWorldLimit};
 
 inline constexpr Range kRadii{.low = engine::kLeastRadius, .high = engine::kLargestRadius};  ///< of particles, m
-inline constexpr Range kMasses{.low = engine::kLeastMass, .high = engine::kLargestMass};      ///< of particles, kg
+inline constexpr Range kMasses{.low = engine::kLeastMass, .high = engine::kLargestMass};     ///< of particles, kg
 
 /// A key of a scene file, to which range, default and so on are added by its member functions.
 inline Key key(std::string_view name, Type type, std::string_view unit, std::string_view help) {

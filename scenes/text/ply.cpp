@@ -43,10 +43,10 @@ constexpr NumberType numberType(std::string_view name, std::string_view otherNam
 }
 
 constexpr std::array kTypes = {
-    numberType<std::int8_t>("char", "int8"),   numberType<std::uint8_t>("uchar", "uint8"),
+    numberType<std::int8_t>("char", "int8"),    numberType<std::uint8_t>("uchar", "uint8"),
     numberType<std::int16_t>("short", "int16"), numberType<std::uint16_t>("ushort", "uint16"),
-    numberType<std::int32_t>("int", "int32"),  numberType<std::uint32_t>("uint", "uint32"),
-    numberType<float>("float", "float32"),     numberType<double>("double", "float64")};
+    numberType<std::int32_t>("int", "int32"),   numberType<std::uint32_t>("uint", "uint32"),
+    numberType<float>("float", "float32"),      numberType<double>("double", "float64")};
 
 struct Property {
     std::string name;
@@ -121,8 +121,7 @@ const NumberType* typeOf(const Reader& reader, const std::string& name) {
 
 Property propertyOf(const Reader& reader, const std::vector<std::string>& words) {
     if (words.size() == 3) return {words[2], typeOf(reader, words[1]), nullptr};
-    if (words.size() == 5 && words[1] == "list")
-        return {words[4], typeOf(reader, words[3]), typeOf(reader, words[2])};
+    if (words.size() == 5 && words[1] == "list") return {words[4], typeOf(reader, words[3]), typeOf(reader, words[2])};
     failInHeader(reader, "a property must be a type and a name, or a list");
 }
 

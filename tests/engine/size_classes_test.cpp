@@ -115,9 +115,8 @@ TEST_CASE("a list of many sizes is the same for any number of threads and after 
     for (const std::size_t threads : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {
         NeighborList list;
         build(list, clouds::strewn(500, 1.0).position, {}, 0.5, kSkin);
-        clouds::onThreads(threads, [&] {
-            build(list, particles.position, particles.radius, expected.cutoff, expected.skin);
-        });
+        clouds::onThreads(threads,
+                          [&] { build(list, particles.position, particles.radius, expected.cutoff, expected.skin); });
         CHECK(list.order == expected.order);
         REQUIRE(list.rows.blocks.size() == expected.rows.blocks.size());
         for (std::size_t block = 0; block < list.rows.blocks.size(); ++block)

@@ -166,8 +166,7 @@ TEST_CASE("problems of a particle file are reported at the key that names it") {
 
 TEST_CASE("what is not read of a particle file is a warning at the key that names it") {
     const ScratchFolder folder;
-    const std::string scenePath =
-        folder.write("s.toml", kTop + "[[body]]\nshape = \"file\"\nfile = \"points.ply\"\n");
+    const std::string scenePath = folder.write("s.toml", kTop + "[[body]]\nshape = \"file\"\nfile = \"points.ply\"\n");
     const std::string header = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n";
     folder.write("points.ply", header + "property float z\nend_header\n1 2 3\n");
     CHECK(scenes::loadScene(scenePath, {}).warnings.empty());

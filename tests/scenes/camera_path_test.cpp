@@ -177,8 +177,8 @@ TEST_CASE("every camera of a path is checked") {
 TEST_CASE("a path on which the picture jumps between two sound keys is warned of") {
     const auto warnings = [](const std::string& eye, const std::string& other) {
         const std::string target = "]\ntarget = [0, 1, 0]\n";
-        return sceneOf(kBall + "[[camera]]\ntime = 0\neye = [" + eye + target + "[[camera]]\ntime = 2\neye = [" + other +
-                       target)
+        return sceneOf(kBall + "[[camera]]\ntime = 0\neye = [" + eye + target + "[[camera]]\ntime = 2\neye = [" +
+                       other + target)
             .warnings;
     };
     const Lines over = warnings("2, 8, 0", "-2, 8, 0");

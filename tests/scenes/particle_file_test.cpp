@@ -126,9 +126,8 @@ TEST_CASE("particles are read from text and from either byte order") {
         little += '\x02';
         big += '\x02';
     }
-    for (const scenes::ParticleFile& read :
-         {file("ascii", "0.5 -1e-3 -300 2\n  2.25\t7\r\n258 2"), file("binary_little_endian", little),
-          file("binary_big_endian", big)}) {
+    for (const scenes::ParticleFile& read : {file("ascii", "0.5 -1e-3 -300 2\n  2.25\t7\r\n258 2"),
+                                             file("binary_little_endian", little), file("binary_big_endian", big)}) {
         REQUIRE(read.particles.count() == 2);
         CHECK(read.particles.position[0] == Vec3(0.5, -1e-3, -300.0));
         CHECK(read.particles.position[1] == Vec3(2.25, 7.0, 258.0));
@@ -139,8 +138,8 @@ TEST_CASE("particles are read from text and from either byte order") {
 
 TEST_CASE("every number type is read, under both of its names") {
     const auto read = [](const std::string& type, const std::string& number) {
-        const std::string bytes = header("property " + type + " x\nproperty uchar y\nproperty uchar z\n") + number +
-                                  std::string(2, '\0');
+        const std::string bytes =
+            header("property " + type + " x\nproperty uchar y\nproperty uchar z\n") + number + std::string(2, '\0');
         return scenes::decodeParticles(bytes, "a.ply").particles.position.at(0).x();
     };
     for (const char* type : {"char", "int8"}) CHECK(read(type, bytesOf(std::int8_t{-128})) == -128.0);
@@ -257,6 +256,5 @@ TEST_CASE("numbers that are invalid for a particle are rejected") {
     CHECK(with(std::numeric_limits<double>::quiet_NaN(), "radius", 0.1) == "a.ply: particle 0: x is nan" + world);
     CHECK(with(2e8, "radius", 0.1) == "a.ply: particle 0: x is 200000000" + world);
     CHECK(problemOf(header(kDoubles + "property double vx\nproperty double vy\nproperty double vz\n", 2) +
-                    std::string(48 + 24 + 16, '\0') + bytesOf(-1e9)) ==
-          "a.ply: particle 1: vz is -1000000000" + world);
+                    std::string(48 + 24 + 16, '\0') + bytesOf(-1e9)) == "a.ply: particle 1: vz is -1000000000" + world);
 }

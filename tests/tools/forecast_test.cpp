@@ -1,6 +1,6 @@
 // The forecast of `check`: births by the emitters' schedules, and the first frames.
-#include "scenes/build/read_scene.h"
 #include "tools/run/forecast.h"
+#include "scenes/build/read_scene.h"
 
 #include <fstream>
 

@@ -111,8 +111,8 @@ TEST_CASE("A signal that a run was started to ignore stays ignored", "[resume]")
     const Folder folder;
     const std::string arguments = "render fountain --size 96x54 --quiet --frames 0-30 -o " + (folder / "a").string();
     const std::string signal = GENERATE("INT", "HUP");
-    CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00005.png").string()),
-                      folder / "log", "--ignore-signal") == 0);
+    CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00005.png").string()), folder / "log",
+                      "--ignore-signal") == 0);
     CHECK(runOf(folder / "a")["frames"] == 31);
 }
 

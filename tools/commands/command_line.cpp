@@ -68,7 +68,9 @@ std::string unknownWordMessage(const CLI::App& command, const std::string& word)
 void addTo(CLI::App& command, RunOptions& options) {
     command.add_flag("--quiet", options.quiet, "no progress and no summary");
     command.add_flag("--json", options.json, "progress and result as JSON, one object a line, on stdout");
-    command.add_option("--threads", options.threads, "how many threads to use (default: one for each processor that it may use)")
+    command
+        .add_option("--threads", options.threads,
+                    "how many threads to use (default: one for each processor that it may use)")
         ->check(CLI::Range(1, 1024));
 }
 
