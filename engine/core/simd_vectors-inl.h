@@ -1,6 +1,6 @@
 // Arithmetic on SIMD vectors: three-component vectors with a vector for each coordinate, and the functions that the
-// formulas of engine/law need. Highway includes this file once per instruction set, hence the unusual include guard
-// below.
+// formulas of engine/force_law need. Highway includes this file once per instruction set, hence the unusual include
+// guard below.
 #if defined(ENGINE_SIMD_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ENGINE_SIMD_VECTORS_INL_H
 #undef ENGINE_SIMD_VECTORS_INL_H
@@ -45,8 +45,8 @@ HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-// The functions that law/pair_formulas-inl.h needs, for SIMD vectors. law/pair_law.h has the same functions for plain
-// numbers.
+// The functions that force_law/pair_force-inl.h needs, for SIMD vectors. force_law/pair_law.h has the same functions
+// for plain numbers.
 template <class V>
 HWY_INLINE V larger(V a, V b) {
     return hn::Max(a, b);

@@ -15,7 +15,7 @@
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 
 namespace engine {
 namespace {

@@ -7,8 +7,8 @@
 #include "engine/error_control/checked_steps.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/steppers.h"
 #include "engine/stepping/symplectic_euler.h"
+#include "engine/stepping/take_step.h"
 
 namespace engine {
 namespace {

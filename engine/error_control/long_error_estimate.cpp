@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 
 namespace engine {
 namespace {

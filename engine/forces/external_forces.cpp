@@ -6,7 +6,7 @@
 #include <array>
 #include <variant>
 
-#include "engine/law/obstacle_surfaces.h"
+#include "engine/force_law/obstacle_surfaces.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/forces/external_forces.cpp"
@@ -20,11 +20,11 @@ namespace engine {
 namespace HWY_NAMESPACE {
 
 // The formulas of the force law, compiled for this instruction set.
-#include "engine/law/pair_formulas-inl.h"
+#include "engine/force_law/pair_force-inl.h"
 
 /// Force of all obstacles on as many particles as D has lanes. The operations and their order are those of the scalar
-/// code in law/obstacle_surfaces.h. Its test mayReach(), which saves work and changes no result, is applied to boxes
-/// only.
+/// code in force_law/obstacle_surfaces.h. Its test mayReach(), which saves work and changes no result, is applied to
+/// boxes only.
 template <class D>
 class SimdContacts {
     using V = hn::Vec<D>;
@@ -33,10 +33,10 @@ class SimdContacts {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
  public:
-    SimdContacts(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+    SimdContacts(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                  std::size_t first)
-        : materials_(law.materials),
-          law_(law.obstacles.law),
+        : materials_(field.materials),
+          law_(field.obstacles.law),
           particles_(particles),
           velocities_(velocities),
           first_(first),
@@ -46,7 +46,7 @@ class SimdContacts {
           force_{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)} {
         std::array<double, kMost> reach, friction;
         for (std::size_t lane = 0; lane < lanes(); ++lane) {
-            const Material& material = law.materials[particles.material[first + lane]];
+            const Material& material = field.materials[particles.material[first + lane]];
             reach[lane] = material.dampingReach;
             friction[lane] = material.friction;
         }
@@ -115,8 +115,8 @@ class SimdContacts {
     static V set(double number) { return hn::Set(kTag, number); }
     static Vector3<V> all(const Vec3& vector) { return {set(vector.x()), set(vector.y()), set(vector.z())}; }
 
-    /// Adds the force of a face of an obstacle on the particles that touch it, as addForce() in law/obstacle_surfaces.h
-    /// does for one particle.
+    /// Adds the force of a face of an obstacle on the particles that touch it, as addForce() in
+    /// force_law/obstacle_surfaces.h does for one particle.
     /// @param height  signed distances of the particles' centers from the face, m
     void touch(V height, const Vector3<V>& normal, double repulsorRadius) {
         const auto isTouched = hn::Lt(height, radius_);
@@ -155,30 +155,31 @@ class SimdContacts {
 };
 
 template <class D>
-void addTo(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities, std::size_t first,
+void addTo(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities, std::size_t first,
            Vec3& firstForce) {
     constexpr D kTag{};
-    SimdContacts<D> contacts(law, particles, velocities, first);
-    for (const Obstacle& obstacle : law.obstacles.shapes)
+    SimdContacts<D> contacts(field, particles, velocities, first);
+    for (const Obstacle& obstacle : field.obstacles.shapes)
         std::visit([&](const auto& shape) { contacts.meet(shape); }, obstacle);
     const auto mass = hn::LoadU(kTag, &particles.mass[first]);
     auto sum = contacts.read(firstForce);
     const auto add = [&](auto& force, double gravity, auto contact) {
         force = hn::Add(hn::Add(force, hn::Mul(mass, hn::Set(kTag, gravity))), contact);
     };
-    add(sum.x, law.gravity.x(), contacts.force().x);
-    add(sum.y, law.gravity.y(), contacts.force().y);
-    add(sum.z, law.gravity.z(), contacts.force().z);
+    add(sum.x, field.gravity.x(), contacts.force().x);
+    add(sum.y, field.gravity.y(), contacts.force().y);
+    add(sum.z, field.gravity.z(), contacts.force().z);
     hn::StoreInterleaved3(sum.x, sum.y, sum.z, kTag, firstForce.data());
 }
 
-void addExternalForcesHere(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+void addExternalForcesHere(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                            std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
     using Many = hn::ScalableTag<double>;
     using One = hn::CappedTag<double, 1>;
     std::size_t p = begin;
-    for (; p + hn::Lanes(Many()) <= end; p += hn::Lanes(Many())) addTo<Many>(law, particles, velocities, p, forces[p]);
-    for (; p < end; ++p) addTo<One>(law, particles, velocities, p, forces[p]);
+    for (; p + hn::Lanes(Many()) <= end; p += hn::Lanes(Many()))
+        addTo<Many>(field, particles, velocities, p, forces[p]);
+    for (; p < end; ++p) addTo<One>(field, particles, velocities, p, forces[p]);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -191,10 +192,10 @@ namespace engine {
 
 HWY_EXPORT(addExternalForcesHere);
 
-void addExternalForces(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+void addExternalForces(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                        std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
     if (begin == end) return;
-    HWY_DYNAMIC_DISPATCH(addExternalForcesHere)(law, particles, velocities, begin, end, forces);
+    HWY_DYNAMIC_DISPATCH(addExternalForcesHere)(field, particles, velocities, begin, end, forces);
 }
 
 }  // namespace engine

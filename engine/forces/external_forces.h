@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/forces/force_law.h"
+#include "engine/forces/force_field.h"
 
 namespace engine {
 
@@ -13,7 +13,7 @@ namespace engine {
 /// weight and the force of sumContacts() added one after the other, on any instruction set and for any split into
 /// ranges.
 /// @param velocities  velocities that damping and friction are computed from, in m/s
-void addExternalForces(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+void addExternalForces(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                        std::size_t begin, std::size_t end, std::vector<Vec3>& forces);
 
 }  // namespace engine

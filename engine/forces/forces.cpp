@@ -8,14 +8,14 @@
 
 namespace engine {
 
-ForceEvaluator::ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision)
-    : law_(std::move(law)), method_(method), pairs_(law_, precision) {}
+ForceEvaluator::ForceEvaluator(ForceField field, ForceMethod method, Precision precision)
+    : field_(std::move(field)), method_(method), pairs_(field_, precision) {}
 
 void ForceEvaluator::evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities,
                                    std::vector<Vec3>& forces, double step) {
-    if (method_ == ForceMethod::reference) return pairForcesReference(law_, particles, velocities, forces);
+    if (method_ == ForceMethod::reference) return pairForcesReference(field_, particles, velocities, forces);
     forces.resize(particles.count());
-    pairs_.prepare(law_, particles, velocities, step);
+    pairs_.prepare(field_, particles, velocities, step);
     sumPairs(pairs_, {.forces = forces});
 }
 
@@ -23,11 +23,11 @@ double ForceEvaluator::evaluateFree(const Particles& particles, const std::vecto
                                     std::vector<Vec3>& forces, double step) {
     double energy = 0.0;
     if (method_ == ForceMethod::reference) {
-        pairForcesReference(law_, particles, velocities, forces);
-        energy = pairEnergyReference(law_, particles);
+        pairForcesReference(field_, particles, velocities, forces);
+        energy = pairEnergyReference(field_, particles);
     } else {
         forces.resize(particles.count());
-        pairs_.prepare(law_, particles, velocities, step);
+        pairs_.prepare(field_, particles, velocities, step);
         sumPairs(pairs_, {.forces = forces, .energy = &energy});
     }
     addGravity(particles, forces);
@@ -38,12 +38,12 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
                                 PairMatrix& matrix, double step) {
     double energy = 0.0;
     forces.resize(particles.count());
-    pairs_.prepare(law_, particles, particles.velocity, step);
+    pairs_.prepare(field_, particles, particles.velocity, step);
     pairs_.packParticles(particles, particles.velocity);
     sumPairs(pairs_, {.forces = forces, .energy = &energy, .matrix = &matrix, .weights = weights});
     // Only the forces have a reference. The matrix always comes from the neighbor list, since over every pair of
     // particles its products would be the same sums.
-    if (method_ == ForceMethod::reference) pairForcesReference(law_, particles, particles.velocity, forces);
+    if (method_ == ForceMethod::reference) pairForcesReference(field_, particles, particles.velocity, forces);
     matrix.mass.resize(particles.count());
     inParallel(particles.count(), kParticleGrain,
                [&](std::size_t sortedIndex) { matrix.mass[sortedIndex] = particles.mass[order()[sortedIndex]]; });
@@ -52,7 +52,7 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
 }
 
 void ForceEvaluator::renewList(const Particles& particles) {
-    if (needsList()) pairs_.renewList(law_, particles, particles.velocity);
+    if (needsList()) pairs_.renewList(field_, particles, particles.velocity);
 }
 
 void ForceEvaluator::forgetList() {
@@ -86,12 +86,12 @@ bool ForceEvaluator::hasNoNeighborWithin(const std::vector<Vec3>& positions, dou
 
 void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
     inParallel(particles.count(), kParticleGrain,
-               [&](std::size_t p) { forces[p] += particles.mass[p] * law_.gravity; });
+               [&](std::size_t p) { forces[p] += particles.mass[p] * field_.gravity; });
 }
 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {
     if (particles.count() < 2) return 0.0;
-    pairs_.prepare(law_, particles, particles.velocity);
+    pairs_.prepare(field_, particles, particles.velocity);
     pairs_.packParticles(particles, particles.velocity);
     return pairEnergySum(pairs_);
 }

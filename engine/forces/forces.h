@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "engine/forces/force_law.h"
+#include "engine/forces/force_field.h"
 #include "engine/forces/pair_matrix.h"
 #include "engine/forces/pair_traversal.h"
 #include "engine/state/setup.h"
@@ -15,14 +15,14 @@ namespace engine {
 /// The pair forces of equation 1, in newtons, from every pair of particles in double precision. All faster code is
 /// tested against this function, which is kept simple and never optimized.
 /// @param velocities  velocities that damping and friction are computed from, in m/s
-void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+void pairForcesReference(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                          std::vector<Vec3>& forces);
 
 /// Energy of the conservative part of the force between particles p and i, in joules.
-double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i);
+double pairEnergyReference(const ForceField& field, const Particles& particles, std::size_t p, std::size_t i);
 
 /// Sum of the energies of all pairs of particles, in joules.
-double pairEnergyReference(const ForceLaw& law, const Particles& particles);
+double pairEnergyReference(const ForceField& field, const Particles& particles);
 
 /// Evaluates forces, and keeps the neighbor list and all memory from one evaluation to the next. Results have the same
 /// bits for any number of threads. In all functions `velocities` (m/s) are those that damping and friction are computed
@@ -31,7 +31,7 @@ double pairEnergyReference(const ForceLaw& law, const Particles& particles);
 class ForceEvaluator {
  public:
     ForceEvaluator() = default;
-    ForceEvaluator(ForceLaw law, ForceMethod method, Precision precision = Precision::doubles);
+    ForceEvaluator(ForceField field, ForceMethod method, Precision precision = Precision::doubles);
 
     /// The pair forces of equation 1 alone, N. The paper's stepper adds weight and obstacle forces to them
     /// (external_forces.h).
@@ -81,12 +81,12 @@ class ForceEvaluator {
     /// Sum of the energies of the pairs in the neighbor list (conservative part of the force), in joules.
     double pairEnergyGrid(const Particles& particles);
 
-    const ForceLaw& law() const { return law_; }
+    const ForceField& forceField() const { return field_; }
 
  private:
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
 
-    ForceLaw law_;
+    ForceField field_;
     ForceMethod method_ = ForceMethod::grid;
     PairTraversal pairs_;
 };

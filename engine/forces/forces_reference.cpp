@@ -10,9 +10,9 @@ struct Pair {
     PairConstants<double> constants;
 };
 
-Pair pairOf(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i) {
+Pair pairOf(const ForceField& field, const Particles& particles, std::size_t p, std::size_t i) {
     const double restLength = particles.radius[p] + particles.radius[i];
-    const Material material = mixed(law.materials[particles.material[p]], law.materials[particles.material[i]]);
+    const Material material = mixed(field.materials[particles.material[p]], field.materials[particles.material[i]]);
     Pair pair{particles.position[p] - particles.position[i], pairConstants<double>(material, restLength)};
     if (squaredLength(pair.separation) == 0.0)
         pair.separation = coincidentSeparation(particles.id[p], particles.id[i], restLength);
@@ -30,13 +30,13 @@ Vec3 frictionOf(const Pair& pair, const Vec3& velocity) {
 
 }  // namespace
 
-void pairForcesReference(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+void pairForcesReference(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                          std::vector<Vec3>& forces) {
     forces.assign(particles.count(), Vec3::Zero());
     for (std::size_t p = 0; p < particles.count(); ++p) {
         for (std::size_t i = 0; i < particles.count(); ++i) {
             if (i == p) continue;
-            const Pair pair = pairOf(law, particles, p, i);
+            const Pair pair = pairOf(field, particles, p, i);
             const double distanceSq = squaredLength(pair.separation);
             const double approach = dot(velocities[p] - velocities[i], pair.separation);
             forces[p] += pairCoefficient<PairTerms{}>(distanceSq, approach, pair.constants) * pair.separation;
@@ -45,8 +45,8 @@ void pairForcesReference(const ForceLaw& law, const Particles& particles, const 
     }
 }
 
-double pairEnergyReference(const ForceLaw& law, const Particles& particles, std::size_t p, std::size_t i) {
-    const Pair pair = pairOf(law, particles, p, i);
+double pairEnergyReference(const ForceField& field, const Particles& particles, std::size_t p, std::size_t i) {
+    const Pair pair = pairOf(field, particles, p, i);
     const double energy = pairEnergy(std::sqrt(squaredLength(pair.separation)), pair.constants);
     // The energy of a coincident pair is as far above U(0) as the energy at its stand-in separation is below it;
     // energyOf() in pair_sums.cpp gives the reason.
@@ -54,10 +54,10 @@ double pairEnergyReference(const ForceLaw& law, const Particles& particles, std:
     return isCoincident ? 2.0 * pairEnergy(0.0, pair.constants) - energy : energy;
 }
 
-double pairEnergyReference(const ForceLaw& law, const Particles& particles) {
+double pairEnergyReference(const ForceField& field, const Particles& particles) {
     double energy = 0.0;
     for (std::size_t p = 0; p < particles.count(); ++p)
-        for (std::size_t i = p + 1; i < particles.count(); ++i) energy += pairEnergyReference(law, particles, p, i);
+        for (std::size_t i = p + 1; i < particles.count(); ++i) energy += pairEnergyReference(field, particles, p, i);
     return energy;
 }
 

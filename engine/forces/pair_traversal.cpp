@@ -30,12 +30,12 @@ double neighborsWithin(double cutoff, double reach, const NeighborList& list) {
 
 }  // namespace
 
-PairTraversal::PairTraversal(const ForceLaw& law, Precision wanted)
-    : pairMaterials(mixedPairs(law.materials)), materialCount(law.materials.size()), precision(wanted) {}
+PairTraversal::PairTraversal(const ForceField& field, Precision wanted)
+    : pairMaterials(mixedPairs(field.materials)), materialCount(field.materials.size()), precision(wanted) {}
 
-void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+void PairTraversal::renewList(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                               double step) {
-    terms = termsFor(law, particles);
+    terms = termsFor(field, particles);
     if (covers(list, particles.position, terms.cutoff)) return;
     const std::span<const double> radii = terms.uniform ? std::span<const double>{} : particles.radius;
     // Where sizes differ much, the skin is chosen for the size of which there are most.
@@ -49,9 +49,9 @@ void PairTraversal::renewList(const ForceLaw& law, const Particles& particles, c
     isPacked = false;  // the new list has the particles in another order
 }
 
-void PairTraversal::prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+void PairTraversal::prepare(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                             double step) {
-    renewList(law, particles, velocities, step);
+    renewList(field, particles, velocities, step);
     if (terms.uniform && particles.count() > 0) {
         uniformRadius = particles.radius.front();
         uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);

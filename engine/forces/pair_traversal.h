@@ -9,9 +9,9 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/scratch.h"
-#include "engine/forces/force_law.h"
+#include "engine/force_law/pair_law.h"
+#include "engine/forces/force_field.h"
 #include "engine/forces/packed_particles.h"
-#include "engine/law/pair_law.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/neighbor_rows.h"
 #include "engine/state/setup.h"
@@ -33,16 +33,16 @@ struct PairTraversal {
     bool isPacked = false;  ///< whether `packed` holds the particles of the last prepare()
 
     PairTraversal() = default;
-    PairTraversal(const ForceLaw& law, Precision precision);
+    PairTraversal(const ForceField& field, Precision precision);
 
     /// Brings the neighbor list up to date and packs the particles for a pass.
     /// @param velocities  velocities that damping and friction are computed from, in m/s
     /// @param step        time until the next pass, from which the skin of a new list is chosen, in s; 0 if unknown
-    void prepare(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+    void prepare(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                  double step = 0.0);
 
     /// Builds a new neighbor list where the present one does not cover the particles' positions. Part of prepare().
-    void renewList(const ForceLaw& law, const Particles& particles, const std::vector<Vec3>& velocities,
+    void renewList(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
     /// Packs the particles in double if prepare(), called before with the same arguments, has packed them in float

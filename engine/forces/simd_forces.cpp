@@ -1,5 +1,5 @@
 // SIMD kernels that sum over the neighbors of a cluster of particles, compiled once per instruction set. The force law
-// comes from law/pair_formulas-inl.h. Energies and matrix entries are computed here from quantities that the force
+// comes from force_law/pair_force-inl.h. Energies and matrix entries are computed here from quantities that the force
 // needs anyway. A neighbor beyond the cutoff is not skipped but adds zeros.
 #include "engine/forces/simd_forces.h"
 
@@ -20,7 +20,7 @@ namespace engine {
 namespace HWY_NAMESPACE {
 
 // The formulas of the force law, compiled for this instruction set.
-#include "engine/law/pair_formulas-inl.h"
+#include "engine/force_law/pair_force-inl.h"
 
 /// The number 1/x^2 rounded to T in such a way that for every distance D at or beyond the rounded x the rounded 1/D^2
 /// does not exceed it.
@@ -94,8 +94,8 @@ struct Law {
         return newtons;
     }
 
-    /// Pair energy as in pairEnergy() of law/pair_law.h, with the distance D computed as guardedSq * inverse instead of
-    /// by a square root.
+    /// Pair energy as in pairEnergy() of force_law/pair_law.h, with the distance D computed as guardedSq * inverse
+    /// instead of by a square root.
     V energy(V distanceSq, V inverseSq, V inverse) const {
         const V guardedSq = larger(distanceSq, constants.coreSq);
         const V guarded = hn::Mul(guardedSq, inverse);

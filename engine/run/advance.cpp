@@ -13,7 +13,7 @@ Simulation start(const Setup& setup) {
     Simulation simulation;
     simulation.setup = setup;
     simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
-    simulation.cache->evaluator = ForceEvaluator(lawOf(setup), setup.forces, setup.precision);
+    simulation.cache->evaluator = ForceEvaluator(forceFieldOf(setup), setup.forces, setup.precision);
     simulation.particles = setup.initial;
     for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
     emitDue(simulation);

@@ -10,15 +10,15 @@
 
 namespace engine {
 Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
-    const ForceLaw& law = evaluator.law();
+    const ForceField& field = evaluator.forceField();
     Energy sum;
     sum.pairs = evaluator.pairEnergyGrid(particles);
     for (std::size_t p = 0; p < particles.count(); ++p) {
         const Vec3& x = particles.position[p];
         const Vec3& v = particles.velocity[p];
         sum.kinetic += 0.5 * particles.mass[p] * squaredLength(v);
-        sum.gravity -= particles.mass[p] * dot(law.gravity, x);
-        sum.contacts += sumContacts(law.obstacles, {x, v, particles.radius[p]}).energy;
+        sum.gravity -= particles.mass[p] * dot(field.gravity, x);
+        sum.contacts += sumContacts(field.obstacles, {x, v, particles.radius[p]}).energy;
     }
     return sum;
 }

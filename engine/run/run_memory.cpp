@@ -25,7 +25,7 @@ std::size_t bytesBefore(const Simulation& simulation) {
 
 /// Bytes of the implicit steppers' matrix and of the vectors of its solver.
 std::size_t bytesOfMatrix(const Simulation& simulation) {
-    const bool hasFriction = termsFor(simulation.cache->evaluator.law(), simulation.particles).pair.friction;
+    const bool hasFriction = termsFor(simulation.cache->evaluator.forceField(), simulation.particles).pair.friction;
     const bool hasObstacles = !simulation.setup.obstacles.shapes.empty();
     const NeighborRows& rows = simulation.cache->evaluator.list().rows;
     const std::size_t entries = (hasFriction ? 2 : 1) * sizeof(double) * roomOf(rows);

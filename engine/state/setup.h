@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/core/bounding_box.h"
-#include "engine/law/material.h"
-#include "engine/law/obstacles.h"
+#include "engine/force_law/material.h"
+#include "engine/force_law/obstacles.h"
 #include "engine/state/emitters.h"
 #include "engine/state/particles.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/core/parallel.h"
-#include "engine/law/obstacle_surfaces.h"
+#include "engine/force_law/obstacle_surfaces.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/swept_contact.h"
 
@@ -48,7 +48,7 @@ void prepareDrift(Simulation& simulation) {
     copy(particles.position, cache.startPositions);
     // The cutoff is computed from the present particles. The cutoff of the last force evaluation would not do, since a
     // resumed run has not made that evaluation.
-    cache.startCutoff = termsFor(cache.evaluator.law(), particles).cutoff;
+    cache.startCutoff = termsFor(cache.evaluator.forceField(), particles).cutoff;
     // A Verlet stepper has evaluated the forces at the start of the step, and with them has brought the neighbor list
     // up to date if the force method uses one.
     cache.startIsListed = (isVerlet(simulation.stepper) && cache.evaluator.needsList()) ||

@@ -29,7 +29,7 @@ double contactEnergyOf(const Simulation& simulation, std::size_t p) {
 double energyWithEarlier(const Simulation& simulation, std::size_t p, const LinkedCells& cells) {
     double energy = 0.0;
     cells.forEachNear(simulation.particles.position[p], [&](std::size_t i) {
-        if (i < p) energy += pairEnergyReference(simulation.cache->evaluator.law(), simulation.particles, p, i);
+        if (i < p) energy += pairEnergyReference(simulation.cache->evaluator.forceField(), simulation.particles, p, i);
     });
     return energy;
 }

@@ -96,10 +96,10 @@ double refined(const PairTraversal& pairs, const Particles& particles, StepperKi
 
 }  // namespace
 
-std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles, StepperKind stepper) {
+std::optional<StepBound> stepBound(const ForceField& field, const Particles& particles, StepperKind stepper) {
     if (particles.count() < 2) return std::nullopt;
-    PairTraversal pairs(law, Precision::doubles);
-    pairs.prepare(law, particles, particles.velocity);
+    PairTraversal pairs(field, Precision::doubles);
+    pairs.prepare(field, particles, particles.velocity);
     std::vector<StepBound> bounds(particles.count());
     pairs.forEachParticle([&](std::size_t laneSlot) {
         const std::size_t p = pairs.list.order[pairs.sortedIndexAt(laneSlot)];

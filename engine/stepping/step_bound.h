@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "engine/forces/force_law.h"
+#include "engine/forces/force_field.h"
 #include "engine/state/simulation.h"
 
 namespace engine {
@@ -29,6 +29,6 @@ struct StepBound {
 ///     implicit damping:   h^2 w^2 = 4
 /// These sums give a safe bound. Power iteration from this bound then finds the mode that really limits the step. The
 /// bound is exact for two particles. It knows nothing of contacts that are about to form.
-std::optional<StepBound> stepBound(const ForceLaw& law, const Particles& particles, StepperKind stepper);
+std::optional<StepBound> stepBound(const ForceField& field, const Particles& particles, StepperKind stepper);
 
 }  // namespace engine

@@ -8,7 +8,7 @@
 
 #include <Eigen/LU>
 
-#include "engine/law/obstacle_surfaces.h"
+#include "engine/force_law/obstacle_surfaces.h"
 
 namespace engine {
 namespace {

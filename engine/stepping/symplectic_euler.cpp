@@ -8,7 +8,7 @@
 #include "engine/stepping/population.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 
 namespace engine {
 
@@ -19,19 +19,21 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
     ++simulation.steps.forceEvaluations;
     const double decay = expNegative(simulation.setup.drag * h);
     simulation.cache->clearance.clear();
-    const bool hasObstacles = !evaluator.law().obstacles.shapes.empty();
+    const bool hasObstacles = !evaluator.forceField().obstacles.shapes.empty();
     const KickDrift step{.h = h,
                          .decay = decay,
-                         .gravity = evaluator.law().gravity,
+                         .gravity = evaluator.forceField().gravity,
                          .forces = simulation.cache->forces,
                          .hasWeight = hasObstacles};
-    return holdsInRanges(
-        particles.count(), contactGrain(evaluator.law().obstacles), [&](std::size_t begin, std::size_t end) {
-            // The forces are added in the order pairs, weight, obstacles; another order would change the last bits.
-            if (hasObstacles)
-                addExternalForces(evaluator.law(), particles, particles.velocity, begin, end, simulation.cache->forces);
-            return kickAndDrift(step, begin, end, particles);
-        });
+    return holdsInRanges(particles.count(), contactGrain(evaluator.forceField().obstacles),
+                         [&](std::size_t begin, std::size_t end) {
+                             // The forces are added in the order pairs, weight, obstacles; another order would change
+                             // the last bits.
+                             if (hasObstacles)
+                                 addExternalForces(evaluator.forceField(), particles, particles.velocity, begin, end,
+                                                   simulation.cache->forces);
+                             return kickAndDrift(step, begin, end, particles);
+                         });
 }
 
 void advanceInEqualSteps(Simulation& simulation, double time) {

@@ -1,5 +1,5 @@
 // Makes the description of a stability study from the [study] table of a scene.
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "scenes/build/builders.h"
 
 namespace scenes {

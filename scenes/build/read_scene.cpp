@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "engine/core/hash.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "scenes/build/builders.h"
 #include "scenes/schema/document.h"
 #include "scenes/schema/read_sections.h"

@@ -1,5 +1,5 @@
 // Keys above the first table, and those of [physics], [world], [material], [still] and [study].
-#include "engine/law/material.h"
+#include "engine/force_law/material.h"
 #include "scenes/model/study.h"
 #include "scenes/schema/keys.h"
 

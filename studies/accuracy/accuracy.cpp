@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/error_control/step_cost.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 
 namespace studies {
 namespace {

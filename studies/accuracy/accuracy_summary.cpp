@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "studies/common/power_law.h"
 #include "studies/common/state_difference.h"
 

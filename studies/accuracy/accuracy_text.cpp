@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "studies/accuracy/accuracy.h"
 #include "studies/common/report.h"
 

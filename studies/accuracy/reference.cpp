@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "studies/common/state_difference.h"
 
 namespace studies {

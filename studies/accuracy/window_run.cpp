@@ -5,7 +5,7 @@
 
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/step_cost.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "scenes/view/frame_view.h"
 
 namespace studies {

@@ -14,7 +14,7 @@
 #include "engine/core/parallel.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/run/diagnostics.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "render/renderer.h"
 #include "scenes/view/frame_view.h"
 #include "studies/common/fcc_cube.h"
@@ -68,8 +68,8 @@ struct Subject {
 Subject subjectOf(const Packing& packing, std::size_t count) {
     Subject subject{fccCube(packing.material, count, {.spacing = packing.spacing}), {}};
     const engine::Particles& particles = subject.setup.initial;
-    engine::PairTraversal pairs(lawOf(subject.setup), Precision::doubles);
-    pairs.prepare(lawOf(subject.setup), particles, particles.velocity);
+    engine::PairTraversal pairs(forceFieldOf(subject.setup), Precision::doubles);
+    pairs.prepare(forceFieldOf(subject.setup), particles, particles.velocity);
     subject.row.material = packing.name;
     subject.row.particles = particles.count();
     subject.row.neighbors = meanNeighbors(subject.setup, particles);
@@ -91,7 +91,7 @@ std::vector<std::string> rowNames(std::size_t count) {
 }
 
 BenchRow forcesRow(const Subject& subject, Precision precision, const BenchSettings& settings) {
-    engine::ForceEvaluator evaluator(lawOf(subject.setup), engine::ForceMethod::grid, precision);
+    engine::ForceEvaluator evaluator(forceFieldOf(subject.setup), engine::ForceMethod::grid, precision);
     const engine::Particles& particles = subject.setup.initial;
     std::vector<Vec3> forces;
     const Work work = [&] { evaluator.evaluatePairs(particles, particles.velocity, forces); };
@@ -107,7 +107,7 @@ BenchRow forcesRow(const Subject& subject, Precision precision, const BenchSetti
 
 BenchRow listRow(const Subject& subject, const BenchSettings& settings) {
     const engine::Particles& particles = subject.setup.initial;
-    const double cutoff = engine::termsFor(lawOf(subject.setup), particles).cutoff;
+    const double cutoff = engine::termsFor(forceFieldOf(subject.setup), particles).cutoff;
     engine::NeighborList list;
     const Work work = [&] { engine::build(list, particles.position, {}, cutoff, engine::kDefaultSkin * cutoff); };
     work();  // allocates the memory of the list

@@ -32,9 +32,9 @@ engine::Setup fccCube(const std::string& material, std::size_t count, const FccC
 }
 
 double meanNeighbors(const engine::Setup& setup, const engine::Particles& particles) {
-    const engine::ForceLaw law = lawOf(setup);
-    engine::PairTraversal pairs(law, engine::Precision::doubles);
-    pairs.prepare(law, particles, particles.velocity);
+    const engine::ForceField field = forceFieldOf(setup);
+    engine::PairTraversal pairs(field, engine::Precision::doubles);
+    pairs.prepare(field, particles, particles.velocity);
     std::vector<std::uint32_t> neighbors(particles.count());
     // Several threads count at the same time, so every particle has a counter of its own.
     pairs.forEachParticle([&](std::size_t index) {

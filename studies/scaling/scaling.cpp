@@ -48,7 +48,7 @@ Simulation frozen(const Simulation& from, ForceMethod method, Precision precisio
     Simulation simulation = from;
     simulation.setup.emitters.clear();
     simulation.emitters.clear();
-    simulation.cache->evaluator = engine::ForceEvaluator(lawOf(from.setup), method, precision);
+    simulation.cache->evaluator = engine::ForceEvaluator(forceFieldOf(from.setup), method, precision);
     simulation.cache->forcesCurrent = false;
     return simulation;
 }

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "engine/law/pair_law.h"
+#include "engine/force_law/pair_law.h"
 #include "engine/run/diagnostics.h"
 #include "engine/state/bodies.h"
 #include "studies/stability/observables.h"

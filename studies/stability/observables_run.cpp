@@ -107,7 +107,7 @@ double momentumDrift(const ObservableInput& input) {
 /// them and by a kinetic energy: the larger one of the two frames plus slowKinetic(), as in the engine's audit of
 /// steps. The scene must be closed, without births.
 double energyRise(const ObservableInput& input) {
-    engine::ForceEvaluator evaluator(lawOf(input.scene.setup), input.scene.setup.forces);
+    engine::ForceEvaluator evaluator(forceFieldOf(input.scene.setup), input.scene.setup.forces);
     double worst = 0.0;
     engine::Energy earlier = engine::energy(evaluator, input.run.frames.front());
     for (std::size_t k = 1; k < input.run.frames.size(); ++k) {

@@ -7,7 +7,7 @@
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "scenes/text/input_error.h"
 #include "studies/common/state_difference.h"
 #include "studies/common/timing.h"
@@ -27,7 +27,7 @@ StepperKind explicitStepper(const scenes::Scene& scene) {
 
 /// The engine's step bound for the state at the end of the run, s; infinite if there is none.
 double boundOf(const ObservableInput& input, StepperKind stepper) {
-    const auto bound = engine::stepBound(lawOf(input.scene.setup), input.run.end.particles, stepper);
+    const auto bound = engine::stepBound(forceFieldOf(input.scene.setup), input.run.end.particles, stepper);
     return bound ? bound->seconds : std::numeric_limits<double>::infinity();
 }
 

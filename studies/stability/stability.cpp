@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "scenes/view/frame_view.h"

@@ -46,14 +46,14 @@ void onThreads(std::size_t threads, const Work& work) {
     arena.execute(work);
 }
 
-inline engine::ForceLaw lawOf(const engine::Material& material) {
-    engine::ForceLaw law;
-    law.materials = {material};
-    return law;
+inline engine::ForceField forceFieldOf(const engine::Material& material) {
+    engine::ForceField field;
+    field.materials = {material};
+    return field;
 }
 
-inline engine::ForceLaw lawOf(const char* preset) {
-    return lawOf(*engine::materialPreset(preset));
+inline engine::ForceField forceFieldOf(const char* preset) {
+    return forceFieldOf(*engine::materialPreset(preset));
 }
 
 }  // namespace clouds

@@ -11,9 +11,9 @@
 using namespace engine;
 
 TEST_CASE("Energy and momenta of two particles by hand", "[diagnostics]") {
-    ForceLaw law = clouds::lawOf("solid");
-    law.gravity = Vec3(0, -10, 0);
-    ForceEvaluator evaluator(law, ForceMethod::grid);
+    ForceField field = clouds::forceFieldOf("solid");
+    field.gravity = Vec3(0, -10, 0);
+    ForceEvaluator evaluator(field, ForceMethod::grid);
     Particles particles;
     append(particles, {.position = Vec3(0.3, 2, 0), .velocity = Vec3(0, 3, 0), .mass = 2.0});
     append(particles, {.position = Vec3(0, 2, 0), .velocity = Vec3(0, 0, 1), .mass = 1.0});

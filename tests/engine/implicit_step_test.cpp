@@ -154,7 +154,7 @@ TEST_CASE("Steps a thousand times beyond the explicit bound of damping are stabl
     for (const StepperKind stepper : kImplicit) {
         Setup setup = runs::freeSetup(material, stepper, 0.01);
         runs::addPacking(setup, {3, 3, 3});
-        const auto bound = stepBound(clouds::lawOf(material), setup.initial, StepperKind::velocityVerlet);
+        const auto bound = stepBound(clouds::forceFieldOf(material), setup.initial, StepperKind::velocityVerlet);
         REQUIRE(bound);
         REQUIRE(bound->byDamping);
         const double h = 1000.0 * bound->seconds;

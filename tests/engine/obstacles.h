@@ -1,7 +1,7 @@
 // Sets of obstacles with a single one.
 #pragma once
 
-#include "engine/law/obstacles.h"
+#include "engine/force_law/obstacles.h"
 
 inline engine::Obstacles only(const engine::Obstacle& obstacle) {
     engine::Obstacles obstacles;

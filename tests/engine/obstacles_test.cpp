@@ -1,12 +1,12 @@
 // The obstacles of section 3.2 against contacts worked by hand.
-#include "engine/law/obstacles.h"
+#include "engine/force_law/obstacles.h"
 
 #include <cmath>
 #include <vector>
 #include "tests/catch.h"
 
-#include "engine/law/obstacle_surfaces.h"
-#include "engine/law/pair_law.h"
+#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/force_law/pair_law.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/rounding.h"
 

@@ -1,5 +1,5 @@
 // The pair law against closed forms, the printed equation and central differences.
-#include "engine/law/pair_law.h"
+#include "engine/force_law/pair_law.h"
 
 #include <cmath>
 #include "tests/catch.h"

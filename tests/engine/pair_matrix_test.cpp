@@ -17,7 +17,7 @@ constexpr MatrixWeights kStrong{.damping = 0.3, .stiffness = 1e-3};
 
 /// Particles with their matrix, and the same matrix written out in the order of particle indices.
 struct Case {
-    ForceLaw law;
+    ForceField field;
     Particles particles;
     MatrixWeights weights;
     mutable PairMatrix matrix = {};  ///< a product stores its factor in matrix.packed
@@ -25,9 +25,9 @@ struct Case {
     Eigen::MatrixXd dense = {};
     Eigen::MatrixXd scale = {};  ///< the same sums over absolute values
 
-    Case(ForceLaw someLaw, Particles some, MatrixWeights someWeights)
-        : law(std::move(someLaw)), particles(std::move(some)), weights(someWeights) {
-        ForceEvaluator evaluator(law, ForceMethod::grid);
+    Case(ForceField someField, Particles some, MatrixWeights someWeights)
+        : field(std::move(someField)), particles(std::move(some)), weights(someWeights) {
+        ForceEvaluator evaluator(field, ForceMethod::grid);
         std::vector<Vec3> forces;
         evaluator.assemble(particles, weights, forces, matrix);
         order = evaluator.order();
@@ -62,7 +62,7 @@ struct Case {
     Matrix3 blockOf(std::size_t p, std::size_t i) const {
         const Vec3 separation = particles.position[p] - particles.position[i];
         const double distanceSq = squaredLength(separation);
-        const Material material = mixed(law.materials[particles.material[p]], law.materials[particles.material[i]]);
+        const Material material = mixed(field.materials[particles.material[p]], field.materials[particles.material[i]]);
         const auto constants = pairConstants<double>(material, particles.radius[p] + particles.radius[i]);
         const double stiffness = std::max(0.0, pairStiffness(std::sqrt(distanceSq), constants));
         const Matrix3 projection = separation * separation.transpose() / distanceSq;
@@ -100,19 +100,19 @@ double inInverseMass(const Case& c, const std::vector<Vec3>& a) {
 }
 
 Case liquidAndSolid() {
-    ForceLaw law;
-    law.materials = {*materialPreset("liquid"), *materialPreset("solid")};
+    ForceField field;
+    field.materials = {*materialPreset("liquid"), *materialPreset("solid")};
     Particles particles = clouds::strewnUnequal(40, 0.5);
     for (std::size_t p = 0; p < particles.count(); ++p) particles.material[p] = static_cast<std::uint32_t>(p % 2);
-    return {law, particles, kStrong};
+    return {field, particles, kStrong};
 }
 
 std::vector<Case> smallClouds() {
     std::vector<Case> cases = {liquidAndSolid()};
     for (const char* preset : {"liquid", "solid", "powder"}) {
         const MatrixWeights usual{.damping = 0.01, .stiffness = 0.0};
-        cases.emplace_back(clouds::lawOf(preset), clouds::strewn(40, 0.5), kStrong);
-        cases.emplace_back(clouds::lawOf(preset), clouds::strewnUnequal(40, 0.5), usual);
+        cases.emplace_back(clouds::forceFieldOf(preset), clouds::strewn(40, 0.5), kStrong);
+        cases.emplace_back(clouds::forceFieldOf(preset), clouds::strewnUnequal(40, 0.5), usual);
     }
     return cases;
 }
@@ -120,9 +120,9 @@ std::vector<Case> smallClouds() {
 /// With cases that have friction, which does not conserve angular momentum.
 std::vector<Case> smallCloudsAndSand() {
     std::vector<Case> cases = smallClouds();
-    cases.emplace_back(clouds::lawOf("sand"), clouds::strewn(40, 0.4), kStrong);
-    cases.emplace_back(clouds::lawOf("sand"), clouds::strewnUnequal(40, 0.4), kStrong);
-    cases.emplace_back(clouds::lawOf("mud"), clouds::strewn(40, 0.5), kStrong);
+    cases.emplace_back(clouds::forceFieldOf("sand"), clouds::strewn(40, 0.4), kStrong);
+    cases.emplace_back(clouds::forceFieldOf("sand"), clouds::strewnUnequal(40, 0.4), kStrong);
+    cases.emplace_back(clouds::forceFieldOf("mud"), clouds::strewn(40, 0.5), kStrong);
     return cases;
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("Coincident particles leave the matrix symmetric and add nothing to it
                                             {"solid", Precision::singles},
                                             {"sand", Precision::doubles},
                                             {"sand", Precision::singles}}) {
-        ForceEvaluator evaluator(clouds::lawOf(preset), ForceMethod::grid, precision);
+        ForceEvaluator evaluator(clouds::forceFieldOf(preset), ForceMethod::grid, precision);
         PairMatrix matrix;
         std::vector<Vec3> forces, product;
         evaluator.assemble(particles, kStrong, forces, matrix);
@@ -290,10 +290,10 @@ TEST_CASE("A solution ends at the tolerance that is met first", "[pair-matrix]")
 TEST_CASE("Systems of no particles, of one and with a right-hand side of zero", "[pair-matrix]") {
     SolverScratch scratch;
     std::vector<Vec3> x;
-    const Case none(clouds::lawOf("solid"), {}, kStrong);
+    const Case none(clouds::forceFieldOf("solid"), {}, kStrong);
     solve(none.matrix, {}, {1e-6, 0.0}, x, scratch);
     CHECK(x.empty());
-    const Case one(clouds::lawOf("solid"), clouds::strewnUnequal(1, 1.0), kStrong);
+    const Case one(clouds::forceFieldOf("solid"), clouds::strewnUnequal(1, 1.0), kStrong);
     CHECK(solve(one.matrix, {Vec3(1, -2, 3)}, {1e-6, 0.0}, x, scratch) == 1);
     CHECK((x[0] - Vec3(1, -2, 3) / one.particles.mass[0]).norm() <=
           4 * kEps * x[0].norm());  // two divisions, a product
@@ -303,10 +303,10 @@ TEST_CASE("Systems of no particles, of one and with a right-hand side of zero", 
 }
 
 TEST_CASE("A solution has the same bits for any number of threads", "[pair-matrix]") {
-    const ForceLaw law = clouds::lawOf("liquid");
+    const ForceField field = clouds::forceFieldOf("liquid");
     const Particles particles = clouds::strewnUnequal(3000, 2.2);
     const auto solution = [&] {
-        ForceEvaluator evaluator(law, ForceMethod::grid);
+        ForceEvaluator evaluator(field, ForceMethod::grid);
         PairMatrix matrix;
         SolverScratch scratch;
         std::vector<Vec3> forces, x;

@@ -5,7 +5,7 @@
 
 #include "engine/run/advance.h"
 #include "engine/state/bodies.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "tests/engine/clouds.h"
 
 namespace runs {

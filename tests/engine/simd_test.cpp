@@ -13,7 +13,7 @@
 #include "engine/run/diagnostics.h"
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/state_checks.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "tests/engine/on_instruction_set.h"
 #include "tests/engine/runs.h"
 
@@ -30,7 +30,7 @@ Particles block(const Material& material, const Vec3& center) {
 }
 
 std::vector<Vec3> pairForces(const Material& material, const Particles& particles, Precision precision) {
-    ForceEvaluator evaluator(clouds::lawOf(material), ForceMethod::grid, precision);
+    ForceEvaluator evaluator(clouds::forceFieldOf(material), ForceMethod::grid, precision);
     std::vector<Vec3> forces;
     evaluator.evaluatePairs(particles, particles.velocity, forces);
     return forces;
@@ -181,9 +181,9 @@ TEST_CASE("Kick and drift report particles that are not valid", "[simd]") {
 
 TEST_CASE("External forces have the bits of weight and contacts one by one on every instruction set", "[simd]") {
     Particles particles = clouds::strewnUnequal(1003, 1.0);
-    ForceLaw law;
-    law.gravity = Vec3(0.3, -9.8, 0.1);
-    law.obstacles.law = {.radius = 0.4, .repulsion = 9.0, .dampingFactor = 4.0, .coreFraction = 0.3};
+    ForceField field;
+    field.gravity = Vec3(0.3, -9.8, 0.1);
+    field.obstacles.law = {.radius = 0.4, .repulsion = 9.0, .dampingFactor = 4.0, .coreFraction = 0.3};
     const Sphere sphere{Vec3(0.1, -0.2, 0.3), 0.4};
     particles.position[4] = sphere.center;
     // One wall at a distance of exactly the first particle's radius, and one an ulp nearer: both differences are exact.
@@ -200,21 +200,21 @@ TEST_CASE("External forces have the bits of weight and contacts one by one on ev
                                           Sphere{Vec3(50, 0, 0), 1.0}};
     const std::size_t far = shapes.size() - 1;
     for (const char* second : {"powder", "sand"}) {  // without friction, and with
-        law.materials = {*materialPreset("liquid"), *materialPreset(second)};
+        field.materials = {*materialPreset("liquid"), *materialPreset(second)};
         for (std::uint32_t p = 0; p < particles.count(); ++p) particles.material[p] = p % 3 == 0 ? 1 : 0;
         for (std::size_t shape = 0; shape <= shapes.size(); ++shape) {  // each alone, then all
-            law.obstacles.shapes = shape < shapes.size() ? std::vector{shapes[shape]} : shapes;
+            field.obstacles.shapes = shape < shapes.size() ? std::vector{shapes[shape]} : shapes;
             std::vector<Vec3> before;
             for (std::uint64_t p = 0; p < particles.count(); ++p) before.push_back(clouds::randomVector(53, p));
             std::vector<Vec3> expected = before;
             std::size_t touched = 0;
             for (std::size_t p = 0; p < particles.count(); ++p) {
-                const Material& material = law.materials[particles.material[p]];
+                const Material& material = field.materials[particles.material[p]];
                 const Vec3 contact =
-                    sumContacts(law.obstacles, {particles.position[p], particles.velocity[p], particles.radius[p],
-                                                material.dampingReach, material.friction})
+                    sumContacts(field.obstacles, {particles.position[p], particles.velocity[p], particles.radius[p],
+                                                  material.dampingReach, material.friction})
                         .force;
-                expected[p] += particles.mass[p] * law.gravity;
+                expected[p] += particles.mass[p] * field.gravity;
                 expected[p] += contact;
                 if (contact != Vec3::Zero()) ++touched;
             }
@@ -223,8 +223,8 @@ TEST_CASE("External forces have the bits of weight and contacts one by one on ev
                 const OnInstructionSet only(name);
                 for (const std::size_t split : {0U, 501U}) {
                     std::vector<Vec3> actual = before;
-                    addExternalForces(law, particles, particles.velocity, 0, split, actual);
-                    addExternalForces(law, particles, particles.velocity, split, particles.count(), actual);
+                    addExternalForces(field, particles, particles.velocity, 0, split, actual);
+                    addExternalForces(field, particles, particles.velocity, split, particles.count(), actual);
                     INFO(second << ", shape " << shape << ", " << name << ", split at " << split);
                     CHECK(std::memcmp(actual.data(), expected.data(), actual.size() * sizeof(Vec3)) == 0);
                 }
@@ -252,15 +252,15 @@ TEST_CASE("A step has the same bits with an obstacle out of reach as without obs
 
 TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
     for (Material material : materialPresets()) {
-        ForceLaw law = clouds::lawOf(material);
-        ForceEvaluator lanes(law, ForceMethod::grid);
+        ForceField field = clouds::forceFieldOf(material);
+        ForceEvaluator lanes(field, ForceMethod::grid);
         const Particles particles = block(material, Vec3(1.0, 2.0, 3.0));
-        REQUIRE(termsFor(law, particles).uniform);
+        REQUIRE(termsFor(field, particles).uniform);
         // A second material, which no particle has, rules out the SIMD kernel.
         material.repulsion *= 2.0;
-        law.materials.push_back(material);
-        ForceEvaluator scalar(law, ForceMethod::grid);
-        REQUIRE_FALSE(termsFor(law, particles).uniform);
+        field.materials.push_back(material);
+        ForceEvaluator scalar(field, ForceMethod::grid);
+        REQUIRE_FALSE(termsFor(field, particles).uniform);
         std::vector<Vec3> actual;
         std::vector<Vec3> expected;
         lanes.evaluatePairs(particles, particles.velocity, actual);
@@ -312,15 +312,15 @@ TEST_CASE("In float, forces and energies need no particles packed in double", "[
     const Material material = *materialPreset("solid");
     Particles particles = block(material, Vec3::Zero());
     particles.position[17] = particles.position[16];
-    const ForceLaw law = clouds::lawOf(material);
-    PairTraversal pairs(law, Precision::singles);
+    const ForceField field = clouds::forceFieldOf(material);
+    PairTraversal pairs(field, Precision::singles);
     std::vector<Vec3> forces(particles.count());
     double energy = 0.0;
-    pairs.prepare(law, particles, particles.velocity);
+    pairs.prepare(field, particles, particles.velocity);
     sumPairs(pairs, {.forces = forces, .energy = &energy});
     CHECK(!pairs.isPacked);
     CHECK_THAT(energy,
-               Catch::Matchers::WithinRel(pairEnergyReference(law, particles), 1e-5));  // some roundings of float
+               Catch::Matchers::WithinRel(pairEnergyReference(field, particles), 1e-5));  // some roundings of float
     std::vector<Vec3> alone(particles.count());
     sumPairs(pairs, {.forces = alone});
     CHECK(alone == forces);

@@ -6,7 +6,7 @@
 #include "engine/run/diagnostics.h"
 #include "engine/state/bodies.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

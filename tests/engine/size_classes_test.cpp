@@ -139,8 +139,8 @@ TEST_CASE("forces of particles of many sizes are those of every pair") {
     for (std::size_t p = 0; p < particles.count(); ++p) particles.mass[p] = 1e3 * std::pow(particles.radius[p], 3.0);
     for (const char* preset : {"liquid", "solid", "powder"}) {
         INFO(preset);
-        ForceEvaluator grid(clouds::lawOf(preset), ForceMethod::grid, Precision::doubles);
-        ForceEvaluator everyPair(clouds::lawOf(preset), ForceMethod::reference, Precision::doubles);
+        ForceEvaluator grid(clouds::forceFieldOf(preset), ForceMethod::grid, Precision::doubles);
+        ForceEvaluator everyPair(clouds::forceFieldOf(preset), ForceMethod::reference, Precision::doubles);
         std::vector<Vec3> forces, expected;
         grid.evaluatePairs(particles, particles.velocity, forces);
         everyPair.evaluatePairs(particles, particles.velocity, expected);

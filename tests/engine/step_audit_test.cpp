@@ -47,7 +47,7 @@ struct Fresh {
 };
 
 Fresh freshEnergy(const Simulation& simulation) {
-    ForceEvaluator evaluator(simulation.cache->evaluator.law(), ForceMethod::reference);
+    ForceEvaluator evaluator(simulation.cache->evaluator.forceField(), ForceMethod::reference);
     const Energy parts = energy(evaluator, simulation.particles);
     return {parts.total(), parts.kinetic + std::abs(parts.pairs) + std::abs(parts.contacts) + std::abs(parts.gravity)};
 }

@@ -1,6 +1,6 @@
 // Order of convergence, closed forms, and quantities that must be conserved or may only fall.
-#include "engine/stepping/steppers.h"
 #include "engine/stepping/step_cache.h"
+#include "engine/stepping/take_step.h"
 
 #include <cmath>
 #include "tests/catch.h"
@@ -170,7 +170,7 @@ TEST_CASE("Drag does not depend on the step", "[steppers]") {
 
 TEST_CASE("The step bound of two bodies is the closed form, and it is the limit", "[steppers]") {
     Simulation pair = start(oscillator(StepperKind::symplecticEuler, 0.01, 0.0));
-    const auto bound = stepBound(pair.cache->evaluator.law(), pair.particles, StepperKind::symplecticEuler);
+    const auto bound = stepBound(pair.cache->evaluator.forceField(), pair.particles, StepperKind::symplecticEuler);
     REQUIRE(bound);
     // w^2 = 2 k / m without damping: dt = 2 / w.
     const double stiffness = 2.0 * 0.75 * 0.8 / std::pow(0.3, 5);
@@ -192,10 +192,10 @@ TEST_CASE("The step bound of two bodies is the closed form, and it is the limit"
 }
 
 TEST_CASE("No step bound without pairs, a damping bound with strong damping", "[steppers]") {
-    CHECK_FALSE(stepBound(clouds::lawOf("solid"), clouds::strewn(1, 1.0), StepperKind::velocityVerlet));
+    CHECK_FALSE(stepBound(clouds::forceFieldOf("solid"), clouds::strewn(1, 1.0), StepperKind::velocityVerlet));
     Material honey = *materialPreset("liquid");
     honey.damping = 1000.0;
-    const auto bound = stepBound(clouds::lawOf(honey), clouds::strewn(50, 0.4), StepperKind::velocityVerlet);
+    const auto bound = stepBound(clouds::forceFieldOf(honey), clouds::strewn(50, 0.4), StepperKind::velocityVerlet);
     REQUIRE(bound);
     CHECK(bound->byDamping);
 }
@@ -210,7 +210,7 @@ TEST_CASE("The step bound is the limit of a damped pair for each explicit steppe
             Setup setup = freeSetup(material, stepper, 1.0);
             append(setup.initial, {.position = Vec3(0.15, 0, 0), .velocity = Vec3(1e-7, 0, 0)});
             append(setup.initial, {.position = Vec3(-0.15, 0, 0), .velocity = Vec3(-1e-7, 0, 0)});
-            const auto bound = stepBound(clouds::lawOf(material), setup.initial, stepper);
+            const auto bound = stepBound(clouds::forceFieldOf(material), setup.initial, stepper);
             REQUIRE(bound);
             struct Speeds {
                 double last = 0.0, largest = 0.0;

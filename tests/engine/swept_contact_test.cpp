@@ -5,7 +5,7 @@
 #include <limits>
 #include "tests/catch.h"
 
-#include "engine/law/obstacle_surfaces.h"
+#include "engine/force_law/obstacle_surfaces.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/runs.h"
 

@@ -28,7 +28,7 @@ Simulation parting(double speed, double step, ForceMethod method) {
 }
 
 double skinOf(const Simulation& simulation) {
-    const double cutoff = termsFor(simulation.cache->evaluator.law(), simulation.particles).cutoff;
+    const double cutoff = termsFor(simulation.cache->evaluator.forceField(), simulation.particles).cutoff;
     return simulation.cache->evaluator.list().reach() / cutoff - 1.0;
 }
 

@@ -47,7 +47,7 @@ const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
 const std::map<std::string, std::vector<std::string>> kRooms = {
     {"engine",
      {"engine/run", "engine/error_control", "engine/stepping", "engine/forces", "engine/neighbors", "engine/state",
-      "engine/law", "engine/core"}},
+      "engine/force_law", "engine/core"}},
     {"render",
      {"render", "render/opengl", "render/cpu", "render/cpu/shading", "render/cpu/lighting", "render/cpu/metaballs",
       "render/cpu/raster", "render/prepare", "render/overlay", "render/output", "render/compare", "render/picture"}},
@@ -157,11 +157,11 @@ TEST_CASE("No room holds more files than one can overlook", "[layering]") {
 }
 
 TEST_CASE("A wrong arrow between rooms is noticed", "[layering]") {
-    CHECK(verdict({"engine", "engine/core/x.h", 1, "engine/law/pair_law.h"}) != "");
-    CHECK(verdict({"engine", "engine/law/x.h", 1, "engine/core/vec3.h"}) == "");
-    CHECK(verdict({"engine", "engine/law/x.h", 1, "engine/law/pair_law.h"}) == "");
+    CHECK(verdict({"engine", "engine/core/x.h", 1, "engine/force_law/pair_law.h"}) != "");
+    CHECK(verdict({"engine", "engine/force_law/x.h", 1, "engine/core/vec3.h"}) == "");
+    CHECK(verdict({"engine", "engine/force_law/x.h", 1, "engine/force_law/pair_law.h"}) == "");
     CHECK(verdict({"engine", "engine/cellar/x.h", 1, "engine/core/vec3.h"}) != "");
-    CHECK(verdict({"engine", "engine/law/x.h", 1, "engine/cellar/vec3.h"}) != "");
+    CHECK(verdict({"engine", "engine/force_law/x.h", 1, "engine/cellar/vec3.h"}) != "");
     CHECK(verdict({"render", "render/cpu/raster/x.cpp", 1, "render/cpu/shading/shade.h"}) != "");
     CHECK(verdict({"render", "render/renderer.cpp", 1, "render/cpu/shading/shade.h"}) == "");
     CHECK(verdict({"tools", "tools/run/x.cpp", 1, "tools/commands/commands.h"}) != "");

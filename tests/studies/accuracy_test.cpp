@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "scenes/build/read_scene.h"
 #include "studies/accuracy/accuracy.h"
 

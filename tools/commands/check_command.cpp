@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "engine/stepping/step_bound.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
 #include "tools/run/threads.h"
@@ -49,7 +49,7 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
     engine::StepperKind stepper = scene.setup.stepper;
     for (const engine::StepperKind kind : engine::kSteppers)
         if (engine::nameOf(kind) == stepperName) stepper = kind;
-    const auto bound = engine::stepBound(lawOf(scene.setup), scene.setup.initial, stepper);
+    const auto bound = engine::stepBound(forceFieldOf(scene.setup), scene.setup.initial, stepper);
     if (!bound) return nullptr;
     return {{"seconds", bound->seconds},
             {"limited_by", bound->byDamping ? "damping" : "stiffness"},
@@ -64,7 +64,7 @@ Json materialJson(const engine::Material& material) {
 }
 
 Json checkJson(const scenes::Scene& scene) {
-    const engine::ForceTerms terms = engine::termsFor(lawOf(scene.setup), everyKind(scene));
+    const engine::ForceTerms terms = engine::termsFor(forceFieldOf(scene.setup), everyKind(scene));
     const std::uint64_t births = plannedBirths(scene);
     const std::uint64_t most = scene.setup.initial.count() + births;
     const int frames = scenes::frameCount(scene);
@@ -121,7 +121,7 @@ std::string checkText(const Json& json) {
     std::string terms;
     for (const Json& term : json["terms"]) terms += (terms.empty() ? "" : ", ") + term.get<std::string>();
     text += fmt::format("kernel     {}; {}; {}; cutoff {:.4g} m\n", json["kernel"].get<std::string>(), terms,
-                        json["uniform"].get<bool>() ? "one law and radius" : "law and radii looked up per pair",
+                        json["uniform"].get<bool>() ? "one field and radius" : "law and radii looked up per pair",
                         json["cutoff"].get<double>());
     for (const Json& material : json["materials"]) {
         const auto value = [&](const char* key) { return material[key].get<double>(); };

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "render/output/png.h"
 #include "tools/commands/commands.h"
 #include "tools/pages/figures_page.h"

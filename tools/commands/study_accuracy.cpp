@@ -9,7 +9,7 @@
 #include <memory>
 #include <set>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "studies/accuracy/accuracy.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "studies/stability/stability.h"
 #include "tools/pages/html.h"
 

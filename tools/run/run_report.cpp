@@ -10,7 +10,7 @@
 #include "engine/error_control/long_error_estimate.h"
 #include "engine/forces/simd_forces.h"
 #include "engine/run/diagnostics.h"
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 #include "render/picture/system_error.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"

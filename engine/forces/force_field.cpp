@@ -1,5 +1,5 @@
 // Finds the terms of the force law and the cutoff that a set of materials and radii needs.
-#include "engine/forces/force_law.h"
+#include "engine/forces/force_field.h"
 
 #include <algorithm>
 #include <cstring>
@@ -44,21 +44,21 @@ double cutoffRatio(const std::vector<Material>& materials) {
     return ratio;
 }
 
-ForceTerms termsFor(const ForceLaw& law, const Particles& particles) {
+ForceTerms termsFor(const ForceField& field, const Particles& particles) {
     ForceTerms terms;
     terms.pair.equalReach = true;  // reaches that are equal in every material are equal in every mixture
-    for (const Material& material : law.materials) {
+    for (const Material& material : field.materials) {
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;
         terms.pair.friction |= material.friction > 0.0;
         if (material.damping > 0.0) terms.pair.equalReach &= material.repulsionReach == material.dampingReach;
-        terms.uniform &= sameLaw(material, law.materials.front());
+        terms.uniform &= sameLaw(material, field.materials.front());
     }
     const std::vector<double>& radii = particles.radius;
     const bool isOneRadius = allEqual(radii);
     terms.uniform &= isOneRadius;
     const double largest = radii.empty() ? 0.0 : isOneRadius ? radii.front() : *std::ranges::max_element(radii);
-    terms.cutoff = cutoffRatio(law.materials) * 2.0 * largest;
+    terms.cutoff = cutoffRatio(field.materials) * 2.0 * largest;
     return terms;
 }
 

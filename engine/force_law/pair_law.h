@@ -1,5 +1,5 @@
 // The force between two particles: equations 2, 5 and 6 of Cote 2024, and the pair energy, stiffness and friction that
-// belong to it. Start reading here. Force and friction are in pair_formulas-inl.h, which is compiled both for plain
+// belong to it. Start reading here. Force and friction are in pair_force-inl.h, which is compiled both for plain
 // numbers and for SIMD vectors and serves particles and obstacles. This file has what is computed with plain numbers
 // only: constants, energy and stiffness of a pair.
 //
@@ -13,7 +13,7 @@
 #include <cstdint>
 
 #include "engine/core/vec3.h"
-#include "engine/law/material.h"
+#include "engine/force_law/material.h"
 
 namespace engine {
 
@@ -49,7 +49,7 @@ inline constexpr PairTerms kRepulsorTerms{.attraction = false, .damping = true};
 /// speed, it moves a centimeter in ten seconds.
 inline constexpr double kStickingSpeed = 1e-3;
 
-// The functions that pair_formulas-inl.h needs, for plain numbers. core/simd_vectors-inl.h has the same functions for
+// The functions that pair_force-inl.h needs, for plain numbers. core/simd_vectors-inl.h has the same functions for
 // SIMD vectors.
 template <std::floating_point Number>
 Number larger(Number a, Number b) {
@@ -73,7 +73,7 @@ Number squareRoot(Number number) {
 }
 
 // Included inside namespace engine on purpose: the formulas are compiled again in other namespaces, for SIMD vectors.
-#include "engine/law/pair_formulas-inl.h"
+#include "engine/force_law/pair_force-inl.h"
 
 /// Constants of the force law for a pair of particles of the given material; for unlike particles that is mixed() of
 /// the two.

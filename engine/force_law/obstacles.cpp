@@ -1,8 +1,8 @@
 // The forces of obstacles on a particle, as in the paper, and the energy of these forces.
-#include "engine/law/obstacles.h"
+#include "engine/force_law/obstacles.h"
 
 #include "engine/core/parallel.h"
-#include "engine/law/obstacle_surfaces.h"
+#include "engine/force_law/obstacle_surfaces.h"
 
 namespace engine {
 

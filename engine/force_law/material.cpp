@@ -1,5 +1,5 @@
 // The material presets, and the symmetric mixture of two materials.
-#include "engine/law/material.h"
+#include "engine/force_law/material.h"
 
 #include <algorithm>
 #include <array>

@@ -1,26 +1,26 @@
-// The force law of a run: materials, gravity and obstacles, and which of its terms a given set of particles needs. Made
-// from a Setup; read by all of engine/forces.
+// The force field of a run: materials, gravity and obstacles, and which terms of the force law a given set of particles
+// needs. Made from a Setup; read by all of engine/forces.
 #pragma once
 
 #include <vector>
 
-#include "engine/law/material.h"
-#include "engine/law/obstacles.h"
-#include "engine/law/pair_law.h"
+#include "engine/force_law/material.h"
+#include "engine/force_law/obstacles.h"
+#include "engine/force_law/pair_law.h"
 #include "engine/state/particles.h"
 #include "engine/state/setup.h"
 
 namespace engine {
 
 /// Everything that acts on particles.
-struct ForceLaw {
+struct ForceField {
     std::vector<Material> materials;
     Vec3 gravity = Vec3::Zero();  ///< m/s^2
     Obstacles obstacles;
 };
 
 /// The part of a setup that acts on particles.
-inline ForceLaw lawOf(const Setup& setup) {
+inline ForceField forceFieldOf(const Setup& setup) {
     return {setup.materials, setup.gravity, setup.obstacles};
 }
 
@@ -35,7 +35,7 @@ struct ForceTerms {
 /// The largest cutoff that a pair of these materials can have, in rest lengths (sums of the two radii).
 double cutoffRatio(const std::vector<Material>& materials);
 
-ForceTerms termsFor(const ForceLaw& law, const Particles& particles);
+ForceTerms termsFor(const ForceField& field, const Particles& particles);
 
 /// The mixtures of every material with every other (see mixed()), in row-major order: materials.size() squared entries.
 /// Two materials with the same force law are not mixed, so that their pairs have exactly the constants of that law.

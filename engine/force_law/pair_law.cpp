@@ -1,5 +1,5 @@
 // The random separation that is used in place of P where two particles coincide.
-#include "engine/law/pair_law.h"
+#include "engine/force_law/pair_law.h"
 
 #include "engine/core/random.h"
 

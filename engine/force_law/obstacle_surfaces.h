@@ -7,8 +7,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/law/obstacles.h"
-#include "engine/law/pair_law.h"
+#include "engine/force_law/obstacles.h"
+#include "engine/force_law/pair_law.h"
 
 namespace engine {
 

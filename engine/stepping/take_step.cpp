@@ -1,5 +1,5 @@
 // Calls the function of the stepper in use, and has the tables of names and orders.
-#include "engine/stepping/steppers.h"
+#include "engine/stepping/take_step.h"
 
 #include <cmath>
 
