@@ -27,7 +27,7 @@ constexpr int kUnstable = 3;
 /// are next used. That took up to a quarter of the time of a frame.
 void keepFreedMemory() {
 #ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes; the largest threshold that glibc accepts
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // size of blocks, bytes; the largest that glibc accepts
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }

@@ -79,7 +79,7 @@ void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& 
 /// a normal, that excludes the many obstacles that are far away.
 template <class Shape>
 bool mayReach(const Shape& shape, const Vec3& point, double reach) {
-    constexpr double kSlack = 1.0 + 1e-9;  // chosen: far above the sum of all rounding errors
+    constexpr double kSlack = 1.0 + 1e-9;  // margin of the test; chosen: far above its rounding errors
     if constexpr (std::is_same_v<Shape, Sphere>) {
         const double within = shape.radius + reach;
         return squaredLength(point - shape.center) < kSlack * within * within;

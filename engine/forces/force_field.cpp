@@ -18,7 +18,7 @@ bool sameLaw(const Material& a, const Material& b) {
 /// take a tenth as long as the forces in a scene of powder.
 bool allEqual(const std::vector<double>& numbers) {
     if (numbers.size() < 2) return true;
-    constexpr std::size_t kGrain = 1U << 16;  // numbers for a thread; chosen: half a megabyte
+    constexpr std::size_t kGrain = 1U << 16;  // fewest numbers a thread; chosen: half a megabyte
     return holdsInRanges(numbers.size() - 1, kGrain, [&](std::size_t begin, std::size_t end) {
         const double* const first = numbers.data() + begin;
         return std::memcmp(first, first + 1, (end - begin) * sizeof(double)) == 0;

@@ -96,7 +96,7 @@ void makeRoom(PairMatrix& matrix, const NeighborList& list, bool hasFriction) {
 }
 
 void padRows(PairMatrix& matrix) {
-    constexpr std::size_t kGrain = 16;  // clusters for a thread; chosen: each takes a fraction of a microsecond
+    constexpr std::size_t kGrain = 16;  // fewest clusters a thread; chosen: one takes a fraction of a microsecond
     inParallel(matrix.rows.clusterCount(), kGrain, [&](std::size_t cluster) {
         const std::size_t first = cluster * kClusterSize;
         const std::size_t block = NeighborRows::blockOf(first);
@@ -121,7 +121,7 @@ void multiply(PairMatrix& matrix, const std::vector<Vec3>& x, std::vector<Vec3>&
         particle.vy = x[k].y();
         particle.vz = x[k].z();
     });
-    constexpr std::size_t kGrain = 4;  // clusters for a thread; chosen: a row takes up to 0.1 microseconds
+    constexpr std::size_t kGrain = 4;  // fewest clusters a thread; chosen: one takes up to 2 microseconds
     inParallel(matrix.rows.clusterCount(), kGrain, [&](std::size_t cluster) {
         HWY_DYNAMIC_DISPATCH(multiplyClusterHere)(matrix, cluster, product);
     });

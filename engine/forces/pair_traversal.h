@@ -102,7 +102,7 @@ struct PairTraversal {
     /// Calls body(lane slot) for every particle, divided among the threads.
     template <class Body>
     void forEachParticle(const Body& body) const {
-        constexpr std::size_t kGrain = 64;  // particles for a thread; chosen: each takes up to 0.5 microseconds
+        constexpr std::size_t kGrain = 64;  // fewest particles a thread; chosen: one takes up to 0.5 microseconds
         inParallel(list.count(), kGrain, body);
     }
 

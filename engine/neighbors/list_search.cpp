@@ -72,7 +72,7 @@ struct Search {
     std::span<const CellRange> around;
     double perReach;        ///< 1/m
     std::uint32_t count;    ///< number of candidates
-    std::uint32_t skipped;  ///< number of candidates, the first ones, that are no neighbors
+    std::uint32_t skipped;  ///< number of the first candidates, which are no neighbors of any particle
     SearchScratch& scratch;
     Vec3 origin;  ///< position of the group's first particle, m
 

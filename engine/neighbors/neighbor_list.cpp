@@ -40,8 +40,8 @@ struct FoundBlock {
     SearchScratch scratch;
     FoundRows rows;
     std::array<std::uint32_t, kSlotsPerBlock> lengths;
-    FoundRows parts;                         ///< parts of rows, class by class
-    std::vector<std::uint32_t> partLengths;  ///< of each particle in the first class, then of each in the next
+    FoundRows parts;  ///< parts of rows: the neighbors of one class of sizes after those of another
+    std::vector<std::uint32_t> partLengths;  ///< length of each particle's part in the first class, then in the next
     std::vector<CellRange> ranges;
 };
 

@@ -31,7 +31,7 @@ struct NeighborList {
     NeighborRows rows;                         ///< neighbors of the particle in each lane slot
     std::size_t entryCount = 0;                ///< sum of the lengths of all rows
     std::vector<Vec3> builtAt;                 ///< positions by particle index when the list was built, m
-    double cutoff = 0.0;                       ///< of the largest particles, m
+    double cutoff = 0.0;                       ///< cutoff of the largest particles, m
     double skin = 0.0;                         ///< m
     Scratch<BuildScratch> scratch;
 

@@ -16,9 +16,9 @@ namespace engine {
 /// Particles whose radii differ by a factor below 2, and their cell grid.
 struct SizeClass {
     double relativeRadius = 1.0;         ///< largest radius in the class, divided by the largest of all particles
-    CellRange sorted;                    ///< sorted indices of its particles in the neighbor list
+    CellRange sorted;                    ///< sorted indices of the class' particles in the neighbor list
     std::vector<std::uint32_t> members;  ///< particle indices, ascending; empty if the class has all particles
-    CellGrid grid;                       ///< its order counts the members, or all particles
+    CellGrid grid;                       ///< the cell grid of the members, which counts them from 0
 };
 
 /// Divides particles into classes, those with the largest particles first. Particles that are all of similar size, and

@@ -45,7 +45,7 @@ void takeStep(Simulation& simulation, double h) {
         case StepperKind::linearlyImplicit:
             return implicitStep(simulation, h, {.damping = 0.5 * h, .stiffness = 0.25 * h * h});
         case StepperKind::automatic:
-            break;  // never in use: it puts another stepper into use
+            break;  // the automatic stepper chooses one of the others for each step
     }
 }
 

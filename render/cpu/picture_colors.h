@@ -26,7 +26,7 @@ struct PictureJob {
 
 /// A picture that is the mean of several samplings, which are colored one after another.
 struct PictureMean {
-    std::size_t index = 0;           ///< number of samplings before this one
+    std::size_t index = 0;           ///< number of earlier samplings of the same picture
     std::size_t count = 1;           ///< number of samplings
     std::vector<PointColors>& sums;  ///< per tile: sums of the colors so far; not used if count is 1
 };

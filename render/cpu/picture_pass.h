@@ -29,7 +29,7 @@ struct Sampling {
     int samples = 1;         ///< samples per pixel, 1 or 4
     glm::vec2 offset{0.0F};  ///< offset of a single sample from the pixel's middle, pixels
     bool isSparse = false;   ///< whether smooth metaballs are cast at every second pixel only and interpolated between
-    std::size_t index = 0;   ///< number of samplings before this one
+    std::size_t index = 0;   ///< number of earlier samplings of the same picture
     std::size_t count = 1;   ///< number of samplings
 };
 

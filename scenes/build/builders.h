@@ -27,7 +27,7 @@ struct Materials {
 /// What the builders share.
 struct BuildContext {
     ProblemList& problems;
-    ProblemList& warnings;  ///< of what may not be meant although it is valid
+    ProblemList& warnings;  ///< messages on what is valid but may not be meant
     std::string folder;     ///< the scene file's folder, which file names in it are relative to
     double duration = 1.0;  ///< s
     std::uint64_t seed = 1;

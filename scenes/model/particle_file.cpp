@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 8> kRealProperties = {"x", "y", "z", "vx"
 /// Names of the radius: ours, and those of Houdini and of programs that read its files.
 constexpr std::array<std::string_view, 3> kRadiusNames = {"radius", "pscale", "psize"};
 
-/// "id" is no news, because particles get new ids in the order of the rows.
+/// Properties that are read or may be left out silently: "id", because particles get new ids in the order of the rows.
 constexpr std::array<std::string_view, 12> kReadProperties = {"x",      "y",      "z",     "vx",   "vy",       "vz",
                                                               "radius", "pscale", "psize", "mass", "material", "id"};
 

@@ -38,7 +38,7 @@ struct Scene {
     std::string sourceName;          ///< the file it was read from
     std::string sceneHash;  ///< 16 hexadecimal digits: hash over the values of all keys and the files that they name
     std::vector<EffectiveValue> values;
-    std::vector<std::string> warnings;  ///< of what may not be meant although it is valid: "file:line:column: ..."
+    std::vector<std::string> warnings;  ///< messages on what is valid but may not be meant
 };
 
 /// Number of frames of the animation: round(duration * fps), at least 1.

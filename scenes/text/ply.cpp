@@ -51,7 +51,7 @@ constexpr std::array kTypes = {
 struct Property {
     std::string name;
     const NumberType* type = nullptr;
-    const NumberType* lengthType = nullptr;  ///< of a list's length; nullptr for a single number
+    const NumberType* lengthType = nullptr;  ///< type of a list's length; nullptr for a single number
 };
 
 struct Element {
@@ -69,9 +69,9 @@ struct Header {
 struct Reader {
     std::string_view bytes;
     const std::string& fileName;
-    std::size_t at = 0;   ///< number of bytes that have been read
+    std::size_t at = 0;   ///< number of bytes of the file that have been read
     int line = 0;         ///< of the header, from 1
-    char lineEnd = '\n';  ///< or '\r' alone, as old Macintosh programs end lines
+    char lineEnd = '\n';  ///< last character of a line; '\r' in files of old Macintosh programs
     Encoding encoding = Encoding::text;
 };
 
@@ -80,7 +80,7 @@ struct Reader {
 }
 
 std::string nextLine(Reader& reader) {
-    constexpr std::size_t kMaxHeaderBytes = 65536;  // chosen: ten times the longest that is known
+    constexpr std::size_t kMaxHeaderBytes = 65536;  // largest size of a header; chosen: ten times the longest known
     ++reader.line;
     const std::size_t end = reader.bytes.find(reader.lineEnd, reader.at);
     if (end == std::string_view::npos || end > kMaxHeaderBytes) failInHeader(reader, "the header has no end_header");
@@ -162,7 +162,7 @@ std::string_view nextWord(Reader& reader) {
     return reader.bytes.substr(begin, reader.at - begin);
 }
 
-/// What is read, for messages.
+/// Where in the file a number stands, for messages.
 struct Place {
     const Element& element;
     std::uint64_t row;
@@ -221,7 +221,7 @@ void skipRows(Reader& reader, const Element& element) {
 void readVertices(Reader& reader, const Element& element, std::span<const std::string_view> wanted,
                   PlyVertices& vertices) {
     vertices.count = element.rowCount;
-    vertices.columns.reserve(element.properties.size());  // pointers to the columns stay valid
+    vertices.columns.reserve(element.properties.size());  // so that pointers to columns stay valid
     std::vector<std::vector<double>*> columns;
     for (const Property& property : element.properties) {
         columns.push_back(nullptr);
@@ -262,7 +262,7 @@ PlyVertices readPlyVertices(std::string_view bytes, const std::string& fileName,
             isRead = true;
         } else {
             vertices.skipped.push_back("element " + element.name);
-            if (!isRead) skipRows(reader, element);  // nothing after the vertices has to be read
+            if (!isRead) skipRows(reader, element);  // rows after the vertices need not be read
         }
     }
     const std::size_t left = bytes.size() - reader.at;

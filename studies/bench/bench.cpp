@@ -145,7 +145,7 @@ BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precisi
 }
 
 BenchRow multiplyAddRow(const BenchSettings& settings) {
-    constexpr std::size_t kRounds = 1U << 22;  // chosen: the loop takes some milliseconds
+    constexpr std::size_t kRounds = 1U << 22;  // repetitions of the loop; chosen: they take some milliseconds
     const std::size_t threads = engine::threadCount();
     float sink = 0.0F;
     double operations = 0.0;
@@ -159,7 +159,7 @@ BenchRow multiplyAddRow(const BenchSettings& settings) {
 }
 
 BenchRow copyRow(const BenchSettings& settings) {
-    constexpr std::size_t kNumbers = 1U << 24;  // 128 MiB for each of the two arrays, far beyond any cache
+    constexpr std::size_t kNumbers = 1U << 24;  // length of each array: 128 MiB, far beyond any cache
     constexpr std::size_t kParts = 64;
     const std::vector<double> from(kNumbers, 1.0);
     std::vector<double> to(kNumbers, 0.0);

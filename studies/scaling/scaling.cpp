@@ -71,7 +71,7 @@ class MethodTimer {
         runCount_ = std::max(1, static_cast<int>(std::ceil(settings.secondsPerRound / once)));
     }
 
-    /// Measures the time of one round.
+    /// Times one round: so many runs of the same steps that they take long enough for the clock.
     void measure() {
         double sum = 0.0;
         for (int k = 0; k < runCount_; ++k) sum += run();

@@ -21,7 +21,7 @@ inline constexpr int kPeerSteps = 200;
 
 struct ScalingSettings {
     std::vector<std::size_t> cubeSizes = {1000, 2000, 5000, 10000, kPeerParticles, 100000, 320000, 1000000};
-    std::size_t mostInScenes = 2000;      ///< larger numbers of particles in Table 2 are left out
+    std::size_t mostInScenes = 2000;      ///< largest number of particles of Table 2 that is measured
     std::size_t mostByEveryPair = 10000;  ///< largest number of particles that the paper's method is measured with
     int rounds = 5;                       ///< number of rounds that medians are taken of
     double secondsPerRound = 0.1;         ///< least time of a round, s; a round repeats its steps until then

@@ -123,9 +123,9 @@ Signal \fIN\fR ended the run; a run that was interrupted goes on with \fB\-\-res
 
 /// The branches of the case statements in the bash completion script.
 struct CompletionCases {
-    std::string commands;  ///< branches that recognize the words of subcommands
-    std::string words;     ///< branches that list the words that may follow a command
-    std::string values;    ///< branches that list the values that a flag accepts
+    std::string commands;  ///< case branches of the script that recognize subcommands
+    std::string words;     ///< case branches that list the words that may follow a command
+    std::string values;    ///< case branches that list the values that a flag accepts
 };
 
 /// Adds the branches of the completion script for a command and its subcommands.

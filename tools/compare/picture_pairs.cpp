@@ -24,7 +24,7 @@ std::map<std::string, fs::path> pngsBelow(const fs::path& folder) {
     std::map<std::string, fs::path> pictures;
     std::error_code error;
     constexpr auto kFollow = fs::directory_options::follow_directory_symlink;
-    std::vector<fs::path> entered{fs::canonical(folder, error)};  // the real paths of the folders around an entry
+    std::vector<fs::path> entered{fs::canonical(folder, error)};  // real paths of the folders around the present entry
     for (fs::recursive_directory_iterator file(folder, kFollow, error), end; !error && file != end;
          file.increment(error)) {
         const fs::path& path = file->path();

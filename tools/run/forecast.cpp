@@ -13,7 +13,7 @@ namespace tools {
 namespace {
 
 void recordMemory(Preview& preview) {
-    constexpr std::size_t kFramesInFlight = 4;  // in the pipeline of the render loop
+    constexpr std::size_t kFramesInFlight = 4;  // number of frames in the pipeline of the render loop
     const std::size_t count = preview.simulation.particles.count();
     if (count == 0 || count < preview.mostParticles) return;
     preview.mostParticles = count;
@@ -46,7 +46,7 @@ engine::Particles everyKind(const scenes::Scene& scene) {
 }
 
 Preview simulateBeginning(const scenes::Scene& scene) {
-    constexpr double kSecondsEnough = 2.0;  // s; chosen: as long as a user is willing to wait for a check
+    constexpr double kSecondsEnough = 2.0;  // time for the first frames, s; chosen: as long as one waits for a check
     Preview preview;
     preview.simulation = engine::start(scene.setup);
     recordMemory(preview);

@@ -26,7 +26,7 @@ struct RunOptions {
 struct SceneOptions {
     std::string scene;                 ///< path of a scene file or name of a built-in scene
     std::vector<std::string> changes;  ///< changes of keys, "key=value"
-    std::vector<std::string> limits;   ///< raised limits, "name=number"
+    std::vector<std::string> limits;   ///< raised limits on particles, frames or pixels, "name=number"
 };
 
 /// How frames are drawn.

@@ -16,7 +16,7 @@ std::string indentedText(const Json& json) {
 
 void printJson(const Json& json) {
     fmt::print("{}\n", compactText(json));
-    std::fflush(stdout);  // another program may be reading along
+    std::fflush(stdout);  // so that a program that reads along gets each line at once
 }
 
 }  // namespace tools

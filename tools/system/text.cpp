@@ -51,7 +51,7 @@ Table parseCsv(const std::string& csv, std::size_t skippedColumns) {
         else
             lines.back().back() += c;
     }
-    lines.pop_back();  // the empty line after the last line end
+    lines.pop_back();  // the text after the last line end is no line
     for (Cells& line : lines) line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(skippedColumns));
     Table table{lines.front(), {lines.begin() + 1, lines.end()}};
     for (std::string& text : table.head) std::replace(text.begin(), text.end(), '_', ' ');

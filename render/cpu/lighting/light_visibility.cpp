@@ -36,7 +36,7 @@ V sharpEdge(V x) {
     return clamp(x + splat(0.5F), 0.0F, 1.0F);
 }
 
-/// edge(x) of shading_model.h.
+/// The transition across the edge of a shadow from 0 to 1: edge(x) of shading_model.h.
 V softEdge(V x) {
     const V t = sharpEdge(x);
     return t * t * (splat(3.0F) - (t + t));

@@ -24,7 +24,7 @@ struct CoarseHits {
     Values depth{};                           ///< view depth of the hit, m; negative without a hit
     Values maxField{};                        ///< greatest value of the field at the samples of the ray
     std::array<Values, 3> normal{}, color{};  ///< unit normal in view coordinates, and linear RGB
-    std::array<Values, 3> sky{};              ///< sky visibility along the normal, against it and mirrored
+    std::array<Values, 3> sky{};  ///< sky visibility along the normal, against it and along the mirrored ray
 
     /// Copies the hits of the tile's own rays. @param block  rays through kCoarsePixels
     void set(const RayBlock& block, bool hasSky);

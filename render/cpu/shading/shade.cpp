@@ -81,7 +81,7 @@ V positive(V value) {
     return hn::Max(value, splat(0.0F));
 }
 
-/// skyLight(d) of shading_model.h. @param up  the component d.y
+/// Ambient light from a direction d: skyLight(d) of shading_model.h. @param up  the component d.y
 Vec3 skyToward(const Ambient& ambient, V up) {
     return lerp(ambient.ground, ambient.sky, splat(0.5F) + splat(0.5F) * up);
 }
@@ -107,7 +107,7 @@ Vec3 highlight(const Shading& shading, const ShadingInputs& at) {
     return fresnel(shading.surface, at.albedo, dot(at.toEye, halfway)) * (splat((gloss + 8.0F) / 8.0F) * peak);
 }
 
-/// surroundings(d) of shading_model.h. @param up  the component d.y
+/// What a mirror shows in a direction d: surroundings(d) of shading_model.h. @param up  the component d.y
 Vec3 surroundingsToward(const Surroundings& around, V up) {
     const Vec3 above = lerp(around.horizon, around.top, up * (splat(2.0F) - up));
     const Vec3 below = lerp(around.horizon, around.bottom, hn::Min(splat(1.0F), splat(-4.0F) * up));
@@ -151,7 +151,7 @@ Vec3 bodyColor(const Shading& shading, const ShadingInputs& at) {
     return color * (one - at.isParticle * splat(surface.metal));
 }
 
-/// shoulder(c) of shading_model.h.
+/// Compresses colors that are too bright to display: shoulder(c) of shading_model.h.
 Vec3 shoulder(const Vec3& color) {
     const V one = splat(1.0F);
     const V peak = hn::Max(color.x, hn::Max(color.y, color.z));
