@@ -12,8 +12,8 @@ namespace engine {
 /// limits needs.
 inline constexpr double kShortestStep = 1e-12;
 
-/// Advances the simulation to the given time (s) with its stepper in use. A step that the audit rejects is retried at
-/// half the length; after a few accepted steps the length is doubled again.
+/// Advances the simulation to the given time (s) with its stepper in use. A step that gains energy or moves a particle
+/// too far (step_audit.h) is retried at half the length; after a few accepted steps the length is doubled again.
 /// @param longest          upper bound on the step, s
 /// @param reason           the reason for this bound, for the report
 /// @param mostEvaluations  number of force evaluations after which the function gives up

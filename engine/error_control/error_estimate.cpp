@@ -14,7 +14,7 @@ namespace engine {
 namespace {
 
 /// Smallest value that is assumed for 1 - (h'/h)^p, the difference of the two runs over the error of the first. The
-/// ratio h'/h of their mean steps is near 1 where the audit has shortened the steps of both. Chosen.
+/// ratio h'/h of their mean steps is near 1 where the check of energy has shortened the steps of both. Chosen.
 constexpr double kLeastContrast = 0.3;
 
 /// Largest factor by which one measurement changes a step. Chosen: for larger changes the error no longer behaves like
@@ -67,7 +67,8 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
         trial.restriction = there.restriction.reason;
     const Particles coarse = std::move(there.particles);
     there = simulation;
-    // The second run takes half the mean step of the first run, whose steps the audit and emissions may have shortened.
+    // The second run takes half the mean step of the first run, whose steps may have been shortened by rejections and
+    // for emissions.
     run(there, trialRun, 0.5 * trial.step, std::numeric_limits<double>::infinity());
     const double contrast = std::max(kLeastContrast, 1.0 - errorRatio(trialRun.stepper, meanStep() / trial.step));
     const std::size_t count = simulation.particles.count();
@@ -81,8 +82,8 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
 
 double wantedStep(const Trial& trial, double wanted) {
     const double change = trial.error > 0.0 ? stepRatio(trial.stepper, wanted / trial.error) : kMostChange;
-    // If the audit has limited the steps, a larger wanted error does not allow longer ones; if only emissions have, it
-    // does.
+    // If rejections have limited the steps, a larger wanted error does not allow longer ones; if only emissions have,
+    // it does.
     if (trial.restriction || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
     return trial.asked * std::min(change, kMostChange);
 }

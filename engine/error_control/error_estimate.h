@@ -32,7 +32,7 @@ struct Trial {
     double error = 0.0;    ///< error at the mean step, radii per second of motion
     double cost = 0.0;     ///< cost at the mean step, force evaluations per second
     double spent = 0.0;    ///< force evaluations of both runs together
-    /// Reason of the last rejection, if the audit has rejected or restricted steps of the first run.
+    /// Reason of the last rejection, if steps of the first run were rejected (step_audit.h) or restricted.
     std::optional<StepLimit> restriction;
 };
 

@@ -40,7 +40,7 @@ struct FoundBlock {
     SearchScratch scratch;
     FoundRows rows;
     std::array<std::uint32_t, kSlotsPerBlock> lengths;
-    FoundRows parts;  ///< parts of rows: the neighbors of one class of sizes after those of another
+    FoundRows parts;                         ///< the neighbors in each class of sizes, before they are joined to rows
     std::vector<std::uint32_t> partLengths;  ///< length of each particle's part in the first class, then in the next
     std::vector<CellRange> ranges;
 };

@@ -10,8 +10,9 @@ namespace engine {
 Simulation start(const Setup& setup);
 
 /// Advances the simulation to the given time (s), which is reached exactly. The paper's stepper takes equal steps that
-/// are no longer than the setup's step; with all other steppers, steps that fail the audit (step_audit.h) are taken
-/// back and retried. Particles that are outside the bounds of the world are removed before the first step.
+/// are no longer than the setup's step; with all other steppers, steps that gain energy or move a particle too far
+/// (step_audit.h) are taken back and retried. Particles that are outside the bounds of the world are removed before the
+/// first step.
 /// @throws InstabilityError if a position or velocity becomes infinite, NaN or too large for the engine
 void advance(Simulation& simulation, double time);
 

@@ -45,7 +45,7 @@ struct StepStatistics {
 /// Adds one step of h seconds to the statistics.
 void record(StepStatistics& steps, double h, StepLimit limit, StepperKind stepper);
 
-/// Upper bound on the following steps that the audit sets when it rejects a step. Accepted steps raise it again.
+/// Upper bound on the steps that follow a rejected step. Accepted steps raise it again.
 struct StepRestriction {
     double seconds = std::numeric_limits<double>::infinity();
     StepLimit reason = StepLimit::audit;

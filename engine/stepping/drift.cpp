@@ -65,8 +65,9 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     const BallisticState state = ballisticStateOf(simulation, p);
     const Contacts contacts = contactsInStep(obstacles, state, h, isVerlet(simulation.stepper));
     cache.clearance[p] = contacts.gap - kMargin * state.probe.radius;
-    // On a particle without neighbors only the obstacle acts, and the sweep is nearly exact. With neighbors, its
-    // contact is coupled to the forces in the heap around it.
+    // The contact of a particle without neighbors is swept, which means integrated along its path by small steps: only
+    // the obstacle acts on it, so that this is nearly exact. With neighbors, the contact is coupled to the forces in
+    // the heap around the particle.
     const auto hasNoNeighbor = [&] {
         return cache.startIsListed && cache.evaluator.hasNoNeighborWithin(cache.startPositions, cache.startCutoff, p,
                                                                           cache.cachedNeighbors[p]);

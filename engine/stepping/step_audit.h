@@ -1,5 +1,6 @@
-// The audit of time steps. A step is rejected if it gains energy or moves a particle by more than its radius; then the
-// state before it is restored. Every step is audited, except those of the paper's stepper.
+// The audit of time steps, a check of every step that was taken. A step is rejected if it gains energy or moves a
+// particle by more than its radius; then the state before it is restored. Every step is audited, except those of the
+// paper's stepper.
 #pragma once
 
 #include <optional>
@@ -37,7 +38,8 @@ inline ParticleEnergy particleEnergy(const Simulation& simulation, std::size_t p
             contacts - mass * dot(simulation.setup.gravity, particles.position[p])};
 }
 
-/// Records the energy of the present state for the audit, from the sums over particles and over pairs (J).
+/// Records the energy of the present state, with which the audit compares that after the next step, from the sums over
+/// particles and over pairs (J).
 void recordEnergy(Simulation& simulation, const ParticleEnergy& own, double pairEnergy);
 
 /// Records the energy of the present state for the audit; the sum over particles is computed here, the pair energy (J)

@@ -18,8 +18,9 @@ namespace {
 /// % of those at a tenth of this fraction.
 constexpr double kFraction = 0.1;
 
-/// A step that covers less than this share of a contact's depth needs no sweep. Measured on drops and dams: with half
-/// or twice this share the errors change by less than the error of the stepper itself.
+/// In a step that covers less than this share of a contact's depth, the contact may act as a force, without small steps
+/// along the path. Measured on drops and dams: with half or twice this share the errors change by less than the error of
+/// the stepper itself.
 constexpr double kResolved = 0.2;
 
 /// Contacts act as explicit forces in steps up to this share of the limit of stability. Chosen: a safe distance from

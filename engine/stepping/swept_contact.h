@@ -20,9 +20,9 @@ struct Contacts {
     Vec3 force = Vec3::Zero();  ///< sum of the contact forces, N
 };
 
-/// Finds the contacts of a particle for a step of this duration (s). They need a sweep where the particle may cover
-/// more than a fraction of a contact's depth in the step, or where contacts act as explicit forces and the step is near
-/// the limit of stability.
+/// Finds the contacts of a particle for a step of this duration (s). They need to be swept, which means integrated
+/// along the path by small steps, where the particle may cover more than a fraction of a contact's depth in the step,
+/// or where contacts act as explicit forces and the step is near the limit of stability.
 Contacts contactsInStep(const Obstacles& obstacles, const BallisticState& state, double duration, bool isExplicit);
 
 /// Moves a particle for a duration (s) under the forces of the obstacles alone (section 3.2 of the paper). At any

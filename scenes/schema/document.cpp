@@ -73,7 +73,7 @@ Value valueOf(const toml::node& node, int depth = 0) {
 struct RepairableText {
     std::vector<std::string> lines;
     std::vector<Statement> statements;
-    std::vector<int> repairCounts;  ///< how often each statement was repaired
+    std::vector<int> repairCounts;  ///< for each statement (a key or header), how often its syntax was repaired
     bool hasOmissions = false;
 
     explicit RepairableText(std::string_view text)

@@ -104,8 +104,8 @@ double momentumDrift(const ObservableInput& input) {
 }
 
 /// Observable: the largest rise of the total energy from one frame to the next, divided by the number of steps between
-/// them and by a kinetic energy: the larger one of the two frames plus slowKinetic(), as in the engine's audit of
-/// steps. The scene must be closed, without births.
+/// them and by a kinetic energy: the larger one of the two frames plus slowKinetic(), as in the engine's check
+/// (step_audit.h) of steps. The scene must be closed, without births.
 double energyRise(const ObservableInput& input) {
     engine::ForceEvaluator evaluator(forceFieldOf(input.scene.setup), input.scene.setup.forces);
     double worst = 0.0;

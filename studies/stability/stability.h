@@ -73,7 +73,7 @@ bool oursPasses(const CaseResult& result);
 /// Whether the paper's stepper fails in every variant of a case in which the scene file says that it must.
 bool paperIsAsExpected(const CaseResult& result);
 
-/// Which hard case is run, and how much of it.
+/// Which hard case is run: a scene that strains the stability of the stepper.
 struct CaseOptions {
     std::string name;
     std::string path;    ///< path of the scene file

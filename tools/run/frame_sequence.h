@@ -23,7 +23,7 @@ struct SequencedFrame {
     double time = 0.0;      ///< seconds
     bool isWanted = true;   ///< whether the frame was asked for; if not, it is simulated, but not written
     bool isKept = false;    ///< the frame's file exists already; the simulation may be at another frame
-    std::string stateHash;  ///< hash of the particles; empty if no file is to be written
+    std::string stateHash;  ///< hash of the particles; empty if the frame gets no file
     std::vector<std::uint8_t> checkpoint;  ///< encoded checkpoint of this frame; empty if none is due
     Json report;                           ///< what the run has measured so far, for the checkpoint
 };
