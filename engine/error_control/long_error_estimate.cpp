@@ -65,7 +65,7 @@ LongEstimate estimateLongError(const Simulation& simulation, StepperKind stepper
     if (less.error > 0.0 && less.error <= wanted && more.error > wanted)
         estimate.step = interpolatedStep(less, more, wanted);
     else if (second.error <= wanted || second.error > kWasted * first.error)
-        estimate.step = next;  // a longer step passed the trial, or a shorter step does not help
+        estimate.step = next;  // the longer step meets the wanted error, or the shorter one has no smaller error
     return estimate;
 }
 

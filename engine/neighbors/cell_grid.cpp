@@ -53,7 +53,7 @@ struct AxisLanes {
 void findCellsHere(const CellAxes& axes, const Vec3* positions, std::size_t count, std::uint32_t* cells) {
     const AxisLanes alongX(axes[0]), alongY(axes[1]), alongZ(axes[2]);
     const std::size_t lanes = hn::Lanes(kTag);
-    const V integer = hn::Set(kTag, 0x1p52);  // adding it puts an integer into the last 32 bits
+    const V integer = hn::Set(kTag, 0x1p52);  // adding it to a double puts the integer part into the last 32 bits
     std::size_t p = 0;
     for (; p + lanes <= count; p += lanes) {
         V x, y, z;

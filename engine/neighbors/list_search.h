@@ -47,7 +47,8 @@ inline constexpr float kFloatMargin = 1.00001F;
 /// Appends a row of neighbors for each particle of a range: the sorted indices of all other particles within reach (m),
 /// in the order of the ranges. A row contains no particle whose squared distance exceeds reach^2 kFloatMargin by more
 /// than the rounding error of float.
-/// @param around   ranges of particles in which neighbors are searched, and those of `own`
+/// @param around   ranges of sorted indices (positions in the order of the cells) of the candidates, which include the
+///                 particles of `own`
 /// @param own      range of sorted indices of the particles that get rows
 /// @param skipped  0; or, if `around` begins with `own` and none of these are to be neighbors of each other, their
 /// number

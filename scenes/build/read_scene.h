@@ -13,9 +13,9 @@ namespace scenes {
 /// The largest scene that is accepted, so that a mistyped number does not exhaust the memory or fill the disk. The
 /// option --limit raises a limit. The defaults are chosen.
 struct Limits {
-    double particles = 2e6;         ///< particles of bodies and emitters together; one takes about a kilobyte
-    double frames = 1e5;            ///< frames of the animation: an hour at 30 frames per second
-    double pixels = 3840.0 * 2160;  ///< pixels of a picture; at final quality one takes about 150 bytes
+    double particles = 2e6;         ///< most particles of bodies and emitters together; one takes about a kilobyte
+    double frames = 1e5;            ///< most frames of the animation: an hour at 30 frames per second
+    double pixels = 3840.0 * 2160;  ///< most pixels of a picture; at final quality one takes about 150 bytes
 };
 
 /// Reads a scene from TOML text.

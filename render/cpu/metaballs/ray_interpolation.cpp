@@ -104,7 +104,8 @@ HitVector meanOf(const CoarseHits& coarse, const std::array<std::size_t, kCount>
 /// @param first  index in the tile of the left pixel of the first pair
 void storePairs(V left, V right, std::size_t first, std::array<float, kTilePixels>& values) {
     const D d;
-    constexpr std::size_t kPairs = std::min(hn::MaxLanes(D()), kCoarseSide);  // number of pairs in a row of the tile
+    constexpr std::size_t kPairs =
+        std::min(hn::MaxLanes(D()), kCoarseSide);  // number of pairs of pixels in a row of the tile
     alignas(64) std::array<float, 2 * kTileSize> both;
     hn::StoreInterleaved2(left, right, d, both.data());
     for (std::size_t pair = 0; pair < hn::Lanes(d); pair += kPairs)
