@@ -39,8 +39,8 @@ constexpr double kSettledRatio = 1.5;
 constexpr double kLeastGrowth = 0.5;
 constexpr double kMostGrowth = 16.0;
 
-/// Largest number of trial runs in a row until the step of a candidate has settled, at its first measurement and later.
-/// Chosen.
+/// Largest number of trial runs in a row in which the step of a candidate, one of the steppers, is adjusted to the
+/// wanted error: when the candidate is measured for the first time, and when it is measured again. Chosen.
 constexpr int kMostFirstTrials = 6;
 constexpr int kMostTrials = 2;
 

@@ -22,7 +22,7 @@ struct PairTerms {
     bool attraction = true;   ///< whether particles attract: c_r is above 1
     bool damping = true;      ///< whether there is damping: b_d is above 0
     bool friction = false;    ///< whether there is friction: mu is above 0
-    bool equalReach = false;  ///< whether R = S in every damped pair: allows a shorter formula
+    bool equalReach = false;  ///< whether attraction and damping end at one distance (R = S) in every damped pair
 };
 
 /// Calls visit.operator()<terms>() with the cheapest compiled combination of terms that contains all needed terms, and

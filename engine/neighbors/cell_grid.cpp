@@ -39,7 +39,7 @@ struct AxisLanes {
     /// Difference of a coordinate's cell number from the number of the grid's lowest cell.
     V stepsTo(V coordinate) const { return hn::Sub(hn::Floor(hn::Div(coordinate, width)), first); }
 
-    /// Whether these differences are within the size of the grid; a NaN is not.
+    /// Whether cells this many cells beyond the first one are within the size of the grid; a NaN is not.
     hn::Mask<decltype(kTag)> areInside(V steps) const {
         return hn::And(hn::Ge(steps, hn::Zero(kTag)), hn::Lt(steps, size));
     }

@@ -24,8 +24,8 @@ struct DepthMap {
     int rows = 1;            ///< number of rows of texels
     float bottom = 0.0F;     ///< height that the steps are counted from, m
     float step = 1.0F;       ///< difference of height between two steps, m
-    /// Stored heights, two rows of them per row of texels. Unused entries follow, because loads of several heights may
-    /// read beyond the last one.
+    /// The heights, in steps from `bottom`. A row of texels has two rows of heights, of which each texel has two in
+    /// each. Unused entries follow, because loads of several heights may read beyond the last one.
     std::vector<std::uint16_t> heights;
     /// Per texel: the lowest and the highest of the stored heights within two texels of it.
     std::vector<float> lowest, highest;
