@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 template <class D, bool addsWeight>
 bool move(const KickDrift& step, std::size_t first, Particles& particles) {
     using V = hn::Vec<D>;
-    constexpr D kTag{};
+    static constexpr D kTag{};  // static, so that the lambdas need not capture it
     const auto read = [](const Vec3& at) {
         Vector3<V> vectors;
         hn::LoadInterleaved3(kTag, at.data(), vectors.x, vectors.y, vectors.z);
