@@ -105,7 +105,8 @@ ParticleSums sumParticle(const PairTraversal& pairs, const PairSums& wanted, std
     return sums;
 }
 
-/// Calls sumCluster(first lane slot, end lane slot) for every cluster of particles, divided among the threads. Returns
+/// Calls sumCluster(first, end) for every cluster of particles, given by the range of its lane slots, which number the
+/// rows of the neighbor list. The clusters are divided among the threads. Returns
 /// the sum of the energies (J) that sumCluster returns, or 0 if no energy is wanted.
 template <class SumCluster>
 double overClusters(const PairTraversal& pairs, bool hasEnergy, const SumCluster& sumCluster) {

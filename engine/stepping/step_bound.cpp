@@ -48,7 +48,7 @@ double longestStep(StepperKind stepper, double frequencySq, double decay) {
     return 2.0 / (decay + std::sqrt(decay * decay + frequencySq));
 }
 
-/// Damping C and stiffness K of all pairs of particles, each as a matrix without the mass.
+/// The damping matrix C and the stiffness matrix K of the whole set of particles; neither contains their masses.
 struct PairSystem {
     PairMatrix damping;
     PairMatrix stiffness;

@@ -39,8 +39,8 @@ struct StepCache {
     Scratch<std::vector<Vec3>> startPositions;  ///< positions at the step's start, m
     double startCutoff = 0.0;                   ///< cutoff of the pair forces at the step's start, m
     bool startIsListed = false;                 ///< whether the neighbor list covers startPositions within startCutoff
-    /// For each particle near obstacles, the index of the neighbor that was found last. The next search for a neighbor
-    /// begins with it.
+    /// For each particle, another particle that was within the cutoff when this was last asked for, which is done near
+    /// obstacles. The next search for such a particle begins with it.
     Scratch<std::vector<std::uint32_t>> cachedNeighbors;
 
     Scratch<std::vector<Vec3>> predictedVelocities;  ///< velocities from which velocity Verlet computes damping, m/s

@@ -40,7 +40,7 @@ void advanceInEqualSteps(Simulation& simulation, double time) {
     const double from = simulation.time;
     const double count = stepCount(time - from, simulation.setup.step);
     const double h = (time - from) / count;
-    if (simulation.steps.count == 0) requireValid(simulation, h);  // the state after every step is checked below
+    if (simulation.steps.count == 0) requireValid(simulation, h);  // the states after later steps are validated below
     for (double step = 0.0; step < count; step += 1.0) {
         simulation.time = from + step * h;
         emitDue(simulation);

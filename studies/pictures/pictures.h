@@ -103,7 +103,7 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, const R
 /// How steady pictures of a still scene are while the camera moves slowly. I_k is picture k, in 8-bit steps.
 struct FlickerRow : PictureSubject {
     double change = 0.0;  ///< mean RMS of I_(k+1) - I_k over the frames; contains the motion
-    double jerk = 0.0;    ///< mean RMS of I_(k+1) - 2 I_k + I_(k-1) over the frames; small for a motion
+    double jerk = 0.0;    ///< mean RMS of I_(k+1) - 2 I_k + I_(k-1) over the frames; small where pixels change steadily
 };
 
 struct FlickerSettings {
