@@ -111,7 +111,7 @@ void joinParts(FoundBlock& found, std::size_t count, std::uint32_t* lengths) {
         lengths[k] = 0;
         for (std::size_t c = 0; c < classes; ++c) {
             const std::uint32_t length = found.partLengths[c * count + k];
-            std::copy_n(next[c], length, &rows.sortedIndices[rows.used]);
+            std::copy_n(next[c], length, rows.sortedIndices.data() + rows.used);
             next[c] += length;
             rows.used += length;
             lengths[k] += length;

@@ -106,6 +106,9 @@ TEST_CASE("rows of particles of any sizes have every pair that acts, and few oth
         checkRows(mixture(300, 50.0, 8.0, 1e-3));
         checkRows(boulder(700, 0.5));
         checkRows(boulder(130, 0.2));
+        Particles alone = clouds::strewn(3, 1e3);
+        alone.radius = {0.02, 0.5, 0.1};
+        checkRows(alone);
     }
 }
 
