@@ -71,7 +71,7 @@ class ForceEvaluator {
     void restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double cutoff, double skin);
 
     /// Whether none of the listed neighbors of particle p is within a cutoff (m) of it, at the given positions (m). If
-    /// the neighbor list covers these positions, then no other particle is either. False for a particle that was
+    /// the neighbor list covers these positions, then no other particle acts on p either. False for a particle that was
     /// emitted after the list was built and has no listed neighbors.
     /// @param cachedNeighbor  index of the particle that is tried first; set to the neighbor that was found. Any value
     ///                        is valid on entry, and the answer does not depend on it.

@@ -97,8 +97,8 @@ std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
     return index < size ? index : index - size;
 }
 
-/// Numbers of cells along the axes. Their product is at most about two cells for each particle, so that the size of the
-/// grid is linear in the number of particles even if they are far apart.
+/// Largest number of cells: about two for each particle, so that the size of the grid is linear in the number of
+/// particles even if they are far apart.
 std::int64_t cellLimit(std::size_t particleCount) {
     return std::max<std::int64_t>(64, 2 * static_cast<std::int64_t>(particleCount));
 }

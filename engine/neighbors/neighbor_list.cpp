@@ -192,7 +192,7 @@ void makeRoom(std::vector<std::int32_t>& entries, std::size_t count) {
 }
 
 /// Interleaves the found rows of a cluster and pads them to the length of the longest. Four lanes are written together
-/// as far as the shortest of their rows goes: that takes half the time of writing lane after lane, or less.
+/// as far as the shortest of their rows goes, because their entries lie side by side in memory.
 /// @param rows     found row of each lane
 /// @param lengths  of these rows
 /// @param padding  entry that follows the row of each lane

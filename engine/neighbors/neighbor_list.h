@@ -54,8 +54,8 @@ struct NeighborList {
 void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<const double> radii, double cutoff,
            double skin);
 
-/// Whether a neighbor list certainly contains every pair of particles that is closer than the cutoff (m) at these
-/// positions (m).
+/// Whether a neighbor list certainly contains every pair of particles that act on each other at these positions (m).
+/// @param cutoff  of the largest particles, m
 bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff);
 
 /// Skin, as a share of the cutoff, for use where the speed of the particles is not known. Chosen: about the best for a

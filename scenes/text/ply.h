@@ -1,5 +1,5 @@
 // Reads the vertices of PLY files (the Stanford polygon format) as other programs write them: as text or binary of
-// either byte order, with numbers of any type, beside properties, lists and elements that nobody asked for. Called by
+// either byte order, with numbers of any type, beside properties, lists and elements that are not wanted. Called by
 // model/particle_file.cpp.
 #pragma once
 
