@@ -80,6 +80,7 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
     const double passesBefore = forceEvaluationsOf(simulation);
     while (simulation.time < time) {
         if (forceEvaluationsOf(simulation) - passesBefore > mostEvaluations) return false;
+        if (simulation.beforeStep) simulation.beforeStep(simulation);
         StepRestriction& restriction = simulation.restriction;
         const double stop = nextStop(simulation, time);
         const double remaining = stop - simulation.time;

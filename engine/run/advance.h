@@ -14,6 +14,7 @@ Simulation start(const Setup& setup);
 /// (step_audit.h) are taken back and retried. Particles that are outside the bounds of the world are removed before the
 /// first step.
 /// @throws InstabilityError if a position or velocity becomes infinite, NaN or too large for the engine
+/// @throws Stopped if Simulation::beforeStep does
 void advance(Simulation& simulation, double time);
 
 }  // namespace engine

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -106,7 +108,14 @@ struct Simulation {
     AutoState automatic;
     StepStatistics steps;
     StepCachePointer cache;
+    /// Called before every step with the simulation that takes it, which is a copy in the trial runs of error
+    /// estimates; may be empty. To end advance() inside an interval, it throws Stopped. The simulation is then
+    /// somewhere between two points in time that a run reaches, so that nothing can be continued from it.
+    std::function<void(const Simulation&)> beforeStep;
 };
+
+/// Thrown by Simulation::beforeStep, and therefore by advance(), where a run is to end before the requested time.
+class Stopped : public std::exception {};
 
 /// Thrown when a run has become unstable. what() names time, step, particle, position, speed, step size and what to
 /// change.

@@ -43,6 +43,7 @@ void advanceInEqualSteps(Simulation& simulation, double time) {
     if (simulation.steps.count == 0) requireValid(simulation, h);  // the states after later steps are validated below
     for (double step = 0.0; step < count; step += 1.0) {
         simulation.time = from + step * h;
+        if (simulation.beforeStep) simulation.beforeStep(simulation);
         emitDue(simulation);
         const bool areAllValid = symplecticEulerStep(simulation, h);
         record(simulation.steps, h, StepLimit::fixed, simulation.stepper);

@@ -70,6 +70,27 @@ TEST_CASE("A run has the same hash for 1, 2, 3 and 8 threads", "[simulation]") {
     }
 }
 
+TEST_CASE("Steps are announced, trial runs' too, and can be stopped", "[simulation]") {
+    for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::leapfrog, StepperKind::automatic}) {
+        INFO(static_cast<int>(stepper));
+        const Setup setup = busyScene(stepper);
+        Simulation simulation = start(setup);
+        int announced = 0;
+        simulation.beforeStep = [&](const Simulation&) { ++announced; };
+        advance(simulation, 0.12);
+        CHECK(stateHash(simulation.particles) == hashAfter(setup, 0.12));
+        const auto taken = static_cast<int>(simulation.steps.count + simulation.steps.rejected);
+        CHECK(announced >= taken);  // the trial runs of the automatic stepper make it more
+        int allowed = announced / 2;
+        Simulation stopped = start(setup);
+        stopped.beforeStep = [&](const Simulation&) {
+            if (--allowed < 0) throw Stopped();
+        };
+        CHECK_THROWS_AS(advance(stopped, 0.12), Stopped);
+        CHECK(allowed == -1);
+    }
+}
+
 TEST_CASE("Obstacles that threads share out give the same bits for any number of them", "[simulation]") {
     for (const Precision precision : {Precision::doubles, Precision::singles}) {
         Setup setup = crowdAmongObstacles();
