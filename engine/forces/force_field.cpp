@@ -27,11 +27,18 @@ bool allEqual(const std::vector<double>& numbers) {
 
 }  // namespace
 
-std::vector<Material> mixedPairs(const std::vector<Material>& materials) {
-    std::vector<Material> pairs;
+std::vector<Material> tabulatedMixtures(const std::vector<Material>& materials) {
+    std::vector<Material> mixtures;
+    if (materials.size() > kMostTabulated) return mixtures;
+    mixtures.reserve(tabulatedCount(materials.size()));
     for (const Material& a : materials)
-        for (const Material& b : materials) pairs.push_back(sameLaw(a, b) ? a : mixed(a, b));
-    return pairs;
+        for (const Material& b : materials) mixtures.push_back(sameLaw(a, b) ? a : mixed(a, b));
+    return mixtures;
+}
+
+PairConstants<double> mixedConstants(const Material& a, const Material& b, double restLength) {
+    if (sameLaw(a, b)) return pairConstants<double>(a, restLength);
+    return pairConstants<double>(mixed(a, b), restLength);
 }
 
 double cutoffRatio(const std::vector<Material>& materials) {

@@ -37,8 +37,22 @@ double cutoffRatio(const std::vector<Material>& materials);
 
 ForceTerms termsFor(const ForceField& field, const Particles& particles);
 
-/// The mixtures of every material with every other (see mixed()), in row-major order: materials.size() squared entries.
-/// Two materials with the same force law are not mixed, so that their pairs have exactly the constants of that law.
-std::vector<Material> mixedPairs(const std::vector<Material>& materials);
+/// Up to this many materials, the mixtures of every two of them (see mixed()) are tabulated. A mixture of more
+/// materials is computed for each pair of particles that occurs: the table would grow with the square of their number,
+/// and reading from a table larger than the cache takes longer. Chosen: the table of 64 materials takes 400 kB.
+inline constexpr std::size_t kMostTabulated = 64;
+
+/// The number of mixtures that are tabulated for so many materials.
+constexpr std::size_t tabulatedCount(std::size_t materials) {
+    return materials <= kMostTabulated ? materials * materials : 0;
+}
+
+/// The mixtures of every material with every other, in row-major order; empty above kMostTabulated materials. Two
+/// materials with the same force law are not mixed, so that their pairs have exactly the constants of that law.
+std::vector<Material> tabulatedMixtures(const std::vector<Material>& materials);
+
+/// The constants of a pair of particles of these materials, the same bits as from the table.
+/// @param restLength  in meters
+PairConstants<double> mixedConstants(const Material& a, const Material& b, double restLength);
 
 }  // namespace engine

@@ -31,7 +31,10 @@ double neighborsWithin(double cutoff, double reach, const NeighborList& list) {
 }  // namespace
 
 PairTraversal::PairTraversal(const ForceField& field, Precision wanted)
-    : pairMaterials(mixedPairs(field.materials)), materialCount(field.materials.size()), precision(wanted) {}
+    : materials(field.materials),
+      mixtures(tabulatedMixtures(field.materials)),
+      materialCount(field.materials.size()),
+      precision(wanted) {}
 
 void PairTraversal::renewList(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                               double step) {
@@ -54,7 +57,7 @@ void PairTraversal::prepare(const ForceField& field, const Particles& particles,
     renewList(field, particles, velocities, step);
     if (terms.uniform && particles.count() > 0) {
         uniformRadius = particles.radius.front();
-        uniform = pairConstants<double>(pairMaterials.front(), 2.0 * uniformRadius);
+        uniform = pairConstants<double>(materials.front(), 2.0 * uniformRadius);
     }
     isPacked = false;
     packedFloat.clear();

@@ -20,7 +20,8 @@ namespace engine {
 
 /// State that is kept from one pass over the pairs to the next, since the neighbor list stays valid for many passes.
 struct PairTraversal {
-    std::vector<Material> pairMaterials;  ///< mixtures of every two materials, see mixedPairs()
+    std::vector<Material> materials;
+    std::vector<Material> mixtures;  ///< see tabulatedMixtures()
     std::size_t materialCount = 0;
     ForceTerms terms;
     PairConstants<double> uniform = {};  ///< constants of every pair where terms.uniform
@@ -50,7 +51,9 @@ struct PairTraversal {
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
 
     PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {
-        return pairConstants<double>(pairMaterials[p.material * materialCount + i.material], p.radius + i.radius);
+        const double restLength = p.radius + i.radius;
+        if (mixtures.empty()) return mixedConstants(materials[p.material], materials[i.material], restLength);
+        return pairConstants<double>(mixtures[p.material * materialCount + i.material], restLength);
     }
 
     /// Index, in the order of the neighbor list, of the particle in a lane slot.

@@ -37,6 +37,13 @@ std::size_t bytesOfMatrix(const Simulation& simulation) {
 
 }  // namespace
 
+std::size_t peakBytesOfMaterials(const Simulation& simulation) {
+    constexpr std::size_t kLists = 3;  // in the setup, the force field and the traversal of pairs
+    const std::size_t count = simulation.setup.materials.size();
+    const std::size_t run = (kLists * count + tabulatedCount(count)) * sizeof(Material);
+    return simulation.setup.stepper == StepperKind::automatic ? (1 + kRunsOfEstimate) * run : run;
+}
+
 std::size_t peakBytes(const Simulation& simulation) {
     const std::size_t run = bytesOfState(simulation) + bytesOf(simulation.cache->evaluator.list());
     const std::size_t before = bytesBefore(simulation);

@@ -75,6 +75,17 @@ TEST_CASE("The grid agrees with the reference for several materials", "[forces]"
     checkGridAgainstReference(field, particles);
 }
 
+TEST_CASE("Forces have the same bits whether mixtures are tabulated or not", "[forces]") {
+    ForceField field;
+    field.materials = {*materialPreset("liquid"), *materialPreset("solid"), *materialPreset("jam")};
+    Particles particles = clouds::strewnUnequal(300, 1.0);
+    for (std::size_t p = 0; p < particles.count(); ++p) particles.material[p] = static_cast<std::uint32_t>(p % 3);
+    const auto tabulated = onGrid(field, particles);
+    field.materials.resize(kMostTabulated + 1, field.materials.front());
+    CHECK(tabulatedMixtures(field.materials).empty());
+    CHECK(onGrid(field, particles) == tabulated);
+}
+
 TEST_CASE("The grid agrees with the reference without damping", "[forces]") {
     for (const char* name : {"solid", "powder"}) {
         Material material = *materialPreset(name);

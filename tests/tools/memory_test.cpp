@@ -44,6 +44,32 @@ TEST_CASE("A long run takes no more memory than a short one", "[tools]") {
     CHECK(lengthy - brief < 4000);
 }
 
+TEST_CASE("The memory of a run does not grow with the square of the number of materials", "[tools]") {
+    const program::Folder folder;
+    const auto scene = [&](int materials) {
+        const std::string path = (folder / "materials.toml").string();
+        std::ofstream file(path);
+        file << "title = \"materials\"\nduration = 0.1\n";
+        for (int k = 0; k < materials; ++k)
+            file << "[[material]]\nname = \"m" << k << "\"\nb1 = " << 0.01 + 1e-6 * k << "\n";
+        for (int k = 0; k < 3; ++k)
+            file << "[[body]]\nmaterial = \"m" << k << "\"\nshape = \"ball\"\nradius = 0.3\ncenter = [" << 0.5 * k
+                 << ", 1, 0]\n";
+        return path;
+    };
+    const auto simulated = [&](int materials) {
+        return peakOf("simulate " + scene(materials) + " --quiet --overwrite -o " + (folder / "states").string());
+    };
+    const long few = simulated(3);
+    const long many = simulated(1000);
+    INFO(few << " kB, " << many << " kB");
+    // A material takes some kB while the scene file is read. Mixtures of every two of a thousand would
+    // take 96 MB for each of the six runs of an error estimate.
+    CHECK(many - few < 30'000);
+    const auto said = nlohmann::json::parse(program::run("check --json " + scene(1000)).out);
+    CHECK(said["memory_bytes"].get<double>() > 1000 * 6 * 100);  // six runs, and more than 100 bytes a material
+}
+
 TEST_CASE("A run takes no more memory than check says, and not much less", "[tools]") {
     const program::Folder folder;
     const auto scene = [&](double height) {

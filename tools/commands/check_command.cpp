@@ -42,6 +42,7 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
     json["seconds_simulating"] =
         preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
     json["bytes_per_particle"] = preview.bytesPerParticle;
+    json["bytes_of_materials"] = preview.bytesOfMaterials;
     return json;
 }
 
@@ -95,7 +96,8 @@ Json checkJson(const scenes::Scene& scene) {
     json["predicted"] = predictionJson(scene, meanParticles);
     json["step_bound_at_start"] = boundJson(scene, json["predicted"]["stepper"].get<std::string>());
     json["bytes_per_particle"] = json["predicted"]["bytes_per_particle"];
-    json["memory_bytes"] = most * json["bytes_per_particle"].get<std::uint64_t>();
+    json["memory_bytes"] = most * json["bytes_per_particle"].get<std::uint64_t>() +
+                           json["predicted"]["bytes_of_materials"].get<std::uint64_t>();
     return json;
 }
 

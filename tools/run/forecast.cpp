@@ -49,6 +49,7 @@ Preview simulateBeginning(const scenes::Scene& scene) {
     constexpr double kSecondsEnough = 2.0;  // time for the first frames, s; chosen: as long as one waits for a check
     Preview preview;
     preview.simulation = engine::start(scene.setup);
+    preview.bytesOfMaterials = engine::peakBytesOfMaterials(preview.simulation);
     recordMemory(preview);
     const auto start = std::chrono::steady_clock::now();
     while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {

@@ -27,6 +27,7 @@ struct Preview {
     /// Memory per particle of a simulation whose frames are drawn at the same time, in bytes, measured when there were
     /// most particles; 0 if there were none.
     std::size_t bytesPerParticle = 0;
+    std::size_t bytesOfMaterials = 0;  ///< memory that does not depend on the number of particles, in bytes
 };
 
 /// Simulates the first frames of a scene, for about two seconds.
