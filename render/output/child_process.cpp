@@ -22,8 +22,6 @@
 
 #include <fmt/format.h>
 
-#include "render/picture/system_error.h"
-
 extern char** environ;
 
 namespace render {
@@ -51,14 +49,21 @@ int unnamedFile() {
     return file;
 }
 
+/// The standard streams of a child process.
+struct Streams {
+    int input = -1;
+    int output = -1;
+    int errors = -1;
+};
+
 /// Starts the child process with the file descriptors 0, 1 and 2 only, because all others are opened with O_CLOEXEC.
 /// Returns an errno value.
-int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& pid) {
+int spawn(const std::vector<std::string>& arguments, const Streams& streams, pid_t& pid) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, streams.input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, streams.output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, streams.errors, STDERR_FILENO);
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
@@ -82,7 +87,7 @@ int spawn(const std::vector<std::string>& arguments, int input, int log, pid_t& 
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chrono::duration<double> progressTimeout,
-                           std::string outputPath)
+                           std::string outputPath, StandardOutput standardOutput)
     : progressTimeout_(progressTimeout), outputPath_(std::move(outputPath)) {
     log_ = unnamedFile();
     std::array<int, 2> ends{-1, -1};
@@ -92,12 +97,16 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chron
         throw SystemError(fmt::format("cannot create a socket pair for {}: {}", arguments.front(), reason));
     }
     input_ = ends[0];
-    const int error = spawn(arguments, ends[1], log_, pid_);
+    // A socket carries bytes both ways.
+    const int output = standardOutput == StandardOutput::piped ? ends[1] : log_;
+    const int error = spawn(arguments, {ends[1], output, log_}, pid_);
     ::close(ends[1]);
     if (error == 0) return;
     ::close(input_);
     ::close(log_);
-    throw SystemError(fmt::format("cannot start {}: {}", arguments.front(), messageOf(error)));
+    const std::string message = fmt::format("cannot start {}: {}", arguments.front(), messageOf(error));
+    if (error == ENOENT) throw ProgramMissing(message);
+    throw SystemError(message);
 }
 
 ChildProcess::~ChildProcess() {
@@ -160,6 +169,25 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
         bytes = bytes.subspan(static_cast<std::size_t>(sent));
     }
     return true;
+}
+
+std::size_t ChildProcess::read(std::span<std::uint8_t> bytes, const std::function<void()>& whileWaiting) {
+    constexpr int kInterval = 100;  // ms
+    std::size_t count = 0;
+    startWatch();
+    while (count < bytes.size() && input_ >= 0 && !hasStalled_) {
+        whileWaiting();
+        pollfd end = {input_, POLLIN, 0};
+        const int ready = ::poll(&end, 1, kInterval);
+        if (ready < 0 && errno != EINTR) break;
+        if (ready == 0) killIfStalled();
+        if (ready <= 0) continue;
+        const ssize_t received = ::recv(input_, bytes.data() + count, bytes.size() - count, 0);
+        if (received < 0 && errno == EINTR) continue;
+        if (received <= 0) break;
+        count += static_cast<std::size_t>(received);
+    }
+    return count;
 }
 
 std::string ChildProcess::wait() {

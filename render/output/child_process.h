@@ -1,14 +1,17 @@
-// Runs another program with its input on a socket and its output and errors in a temporary file: ffmpeg for video.cpp
-// and for the comparison of videos, and LAMMPS for the scaling study.
+// Runs another program with its input on a socket and its output and errors in a temporary file, or its output on the
+// socket too: ffmpeg for video.cpp and video_reader.cpp, and LAMMPS for the scaling study.
 #pragma once
 
 #include <sys/types.h>
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "render/picture/system_error.h"
 
 namespace render {
 
@@ -19,18 +22,30 @@ inline constexpr std::chrono::duration<double> kProgressTimeout{120.0};
 /// How long a child process that may sleep for any time may make no progress before it is killed, s.
 inline constexpr std::chrono::duration<double> kNoTimeout{1e6};
 
-/// A running program. Its output goes to an unnamed file, because a pipe that is not read would fill up and block both
-/// processes.
+/// Thrown for a program that is not installed, so that callers can say what to install.
+class ProgramMissing : public SystemError {
+ public:
+    using SystemError::SystemError;
+};
+
+/// Where a program's standard output goes: with its errors to the unnamed file whose end output() returns, or to
+/// read().
+enum class StandardOutput { logged, piped };
+
+/// A running program. Its errors go to an unnamed file, and so does its output unless it is read, because a pipe that
+/// is not read would fill up and block both processes.
 class ChildProcess {
  public:
     /// Starts a program without a shell. The program is killed when it makes no progress for `progressTimeout` while
-    /// write() or wait() wait for it. It makes progress while it uses processor time or its output file changes.
+    /// write(), read() or wait() wait for it. It makes progress while it uses processor time or its output file
+    /// changes.
     /// @param arguments  arguments[0] is the program, looked up on PATH
     /// @param outputPath  the file that the program writes; empty if there is none to watch
-    /// @throws SystemError when the program cannot be started
+    /// @throws ProgramMissing when there is no such program
+    /// @throws SystemError when the program cannot be started for another reason
     explicit ChildProcess(const std::vector<std::string>& arguments,
-                          std::chrono::duration<double> progressTimeout = kProgressTimeout,
-                          std::string outputPath = {});
+                          std::chrono::duration<double> progressTimeout = kProgressTimeout, std::string outputPath = {},
+                          StandardOutput standardOutput = StandardOutput::logged);
     /// Kills the child if it is still running.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
@@ -39,11 +54,17 @@ class ChildProcess {
     /// Writes all bytes to the child's input. Returns false when the child no longer reads. Never raises SIGPIPE.
     bool write(std::span<const std::uint8_t> bytes);
 
+    /// Fills `bytes` from the child's piped standard output. Returns how many bytes were read: fewer than wanted only
+    /// when the child has closed its output.
+    /// @param whileWaiting  called at least ten times a second; ends the wait by throwing
+    std::size_t read(std::span<std::uint8_t> bytes, const std::function<void()>& whileWaiting);
+
     /// Closes the input, waits for the end of the program, and says how it ended: empty for exit status 0, otherwise
     /// for example "exit status 1", "signal 9 (Killed)" or "no progress for 120 s".
     std::string wait();
 
-    /// The end of what the program has written to its output and errors, at most `most` bytes.
+    /// The end of what the program has written to its errors and, unless that is piped, its output, at most `most`
+    /// bytes.
     std::string output(std::size_t most = 2000) const;
 
  private:

@@ -21,7 +21,7 @@ int even(int pixels) {
 ChildProcess started(const std::vector<std::string>& arguments, const VideoOptions& options) {
     try {
         return ChildProcess(arguments, options.progressTimeout);
-    } catch (const SystemError& error) {
+    } catch (const ProgramMissing& error) {
         throw SystemError(fmt::format("{}; install ffmpeg or render frames only", error.what()));
     }
 }

@@ -1,5 +1,6 @@
 // Videos: what ffprobe reads back, identical bytes on one core and on several, and every way in which ffmpeg fails.
 #include <sched.h>
+#include <sys/resource.h>
 
 #include "tests/catch.h"
 
@@ -7,9 +8,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <stdexcept>
 
 #include "render/output/child_process.h"
 #include "render/output/video.h"
+#include "render/output/video_reader.h"
 #include "render/picture/system_error.h"
 
 namespace fs = std::filesystem;
@@ -139,6 +143,43 @@ TEST_CASE("A missing ffmpeg is one clear SystemError") {
     CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("cannot start /nowhere/ffmpeg: No such file") &&
                                                         Catch::Contains("install ffmpeg"));
     CHECK(folder.entryCount() == 0);
+}
+
+TEST_CASE("Too few files that may be open are no missing ffmpeg") {
+    const Folder folder;
+    struct rlimit before = {};
+    REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+    const struct rlimit none = {0, before.rlim_max};
+    std::string message;
+    REQUIRE(::setrlimit(RLIMIT_NOFILE, &none) == 0);
+    try {
+        render::requireEncoder({folder.file("a.mp4"), {16, 16}});
+    } catch (const render::SystemError& error) {
+        message = error.what();
+    }
+    REQUIRE(::setrlimit(RLIMIT_NOFILE, &before) == 0);
+    CHECK_THAT(message, Catch::Contains("Too many open files") && !Catch::Contains("install"));
+}
+
+TEST_CASE("A video is read frame by frame") {
+    const Folder folder;
+    writeVideo({folder.file("100%d.mp4"), {33, 17}}, 5);
+    int waits = 0;
+    const auto count = [&] { ++waits; };
+    render::VideoReader reader(folder.file("100%d.mp4"));
+    for (int k = 0; k < 5; ++k) {
+        const std::optional<render::Image> image = reader.next(count);
+        REQUIRE(image);
+        CHECK(image->width == 34);  // padded to even numbers
+        CHECK(image->height == 18);
+        CHECK(image->rgb.size() == image->byteCount());
+    }
+    CHECK_FALSE(reader.next(count));
+    CHECK(waits > 5);
+    CHECK_THROWS_WITH(render::VideoReader(folder.file("none.mp4")).next(count),
+                      Catch::Contains("ffmpeg cannot decode") && Catch::Contains("No such file"));
+    CHECK_THROWS_AS(render::VideoReader(folder.file("100%d.mp4")).next([] { throw std::runtime_error("enough"); }),
+                    std::runtime_error);
 }
 
 TEST_CASE("An ffmpeg without libx264 is named as such") {
