@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using Bytes = std::vector<std::uint8_t>;
 using scenes_test::ScratchFolder;
 
-constexpr tools::FrameRange kFrames = {0, 5};
+const tools::FrameList kFrames = {{0, 1, 2, 3, 4, 5}};
 
 // Everything that the stages hand over or share: a moving camera, overlays, births and deaths, shadows, ambient
 // occlusion, an obstacle; more particles than engine::kParticleGrain, so that the engine's loops are shared out, too.

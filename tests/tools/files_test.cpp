@@ -1,4 +1,4 @@
-// Tests the writing of files, base64, lines for a shell, tables and frame ranges.
+// Tests the writing of files, base64, lines for a shell, tables and lists of frames.
 #include <sys/stat.h>
 
 #include <atomic>
@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "render/picture/system_error.h"
+#include "scenes/text/input_error.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
 #include "tools/pages/html.h"
-#include "tools/run/options.h"
+#include "tools/run/frame_list.h"
 #include "tools/system/output_file.h"
 #include "tools/system/text.h"
 
@@ -171,11 +172,25 @@ TEST_CASE("Tables are aligned, and CSV files are read into tables", "[tools]") {
     CHECK(read.rows[1] == tools::Cells{"", "x"});
 }
 
-TEST_CASE("Frame ranges", "[tools]") {
-    CHECK(tools::frameRange("", 10).last == 9);
-    CHECK(tools::frameRange("3", 10).first == 3);
-    CHECK(tools::frameRange("3", 10).last == 3);
-    CHECK(tools::frameRange("2-7", 10).first == 2);
-    CHECK(tools::frameRange("2-7", 10).last == 7);
-    for (const char* wrong : {"7-2", "0-10", "a", "1-", "-1", "1-2-3"}) CHECK_THROWS(tools::frameRange(wrong, 10));
+TEST_CASE("Frames are named one by one, as ranges with steps and open ends, and in lists", "[tools]") {
+    using Numbers = std::vector<int>;
+    const auto numbers = [](const char* text) { return tools::frameList(text, 10).numbers; };
+    CHECK(numbers("") == Numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+    CHECK(numbers("3") == Numbers{3});
+    CHECK(numbers("2-5") == Numbers{2, 3, 4, 5});
+    CHECK(numbers("7-") == Numbers{7, 8, 9});
+    CHECK(numbers("0-8:4") == Numbers{0, 4, 8});
+    CHECK(numbers("1-:5") == Numbers{1, 6});
+    CHECK(numbers("2-9:2147483647") == Numbers{2});
+    CHECK(numbers("8,1-3,2,0-6:3") == Numbers{0, 1, 2, 3, 6, 8});
+    for (const char* wrong : {"7-2", "0-10", "10-", "0,10", "a", "-1", "1-2-3", "3:2", "0-5:0", "0-5:", "0-5:-1", ",",
+                              "1,", "1,,2", "0:5", "0:5-7", "1 ,2", "5-99999999999"})
+        CHECK_THROWS_AS(tools::frameList(wrong, 10), scenes::InputError);
+    CHECK_THROWS_WITH(tools::frameList("0:100:10", 10),
+                      "--frames 0:100:10: must be frames A, ranges A-B or A- and every S-th frame of a range A-B:S, "
+                      "separated by commas, e.g. 0-119:10 or 3,7,60-");
+    const tools::FrameList list = tools::frameList("2,5-7", 10);
+    CHECK(list.indexOf(6) == 2);
+    CHECK_FALSE(list.indexOf(4));
+    CHECK_FALSE(list.indexOf(9));
 }

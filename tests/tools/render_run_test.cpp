@@ -2,6 +2,7 @@
 // agree.
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "render/output/png.h"
@@ -58,6 +59,29 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
     CHECK(single["threads"] == 1);
     CHECK(single["state_hash"] == json["state_hash"]);
     CHECK(single["scene_hash"] == json["scene_hash"]);
+}
+
+TEST_CASE("A list of frames gives just these frames, and is resumed", "[tools]") {
+    const program::Folder folder;
+    const std::string states = "simulate powder --quiet --checkpoint 0 -o ";
+    REQUIRE(run(states + (folder / "all").string() + " --frames 0-9").code == 0);
+    const std::string list = states + (folder / "list").string() + " --frames 1,3-9:3";
+    REQUIRE(run(list).code == 0);
+    std::set<std::string> names;
+    for (const auto& file : fs::directory_iterator(folder / "list"))
+        if (file.path().extension() == ".ply") names.insert(file.path().filename().string());
+    const std::set<std::string> wanted = {"particles-00001.ply", "particles-00003.ply", "particles-00006.ply",
+                                          "particles-00009.ply"};
+    CHECK(names == wanted);
+    for (const std::string& name : names) CHECK(textOf(folder / "list" / name) == textOf(folder / "all" / name));
+    CHECK(nlohmann::json::parse(textOf(folder / "list/run.json"))["frames"] == 4);
+
+    fs::remove(folder / "list/particles-00009.ply");
+    REQUIRE(run(list + " --resume").code == 0);
+    const auto resumed = nlohmann::json::parse(textOf(folder / "list/run.json"));
+    CHECK(resumed["frames"] == 4);
+    CHECK(resumed["resumed_from"] == 8);  // a frame that is not in the list, but has a checkpoint
+    CHECK(textOf(folder / "list/particles-00009.ply") == textOf(folder / "all/particles-00009.ply"));
 }
 
 TEST_CASE("Leaving frames out changes none of those that are drawn", "[tools]") {

@@ -36,9 +36,7 @@ void drawPictures(const scenes::Scene& scene, const FiguresOptions& options, con
 
 FinishedRun renderVideo(const scenes::Scene& scene, const FiguresOptions& options, const FigureEntry& entry) {
     const RenderJob job{drawJob(scene, options.draw, options.run, fmt::format("figure {}", entry.number)),
-                        {0, scenes::frameCount(scene) - 1},
-                        std::nullopt,
-                        entry.videoPath};
+                        frameList("", scenes::frameCount(scene)), std::nullopt, entry.videoPath};
     FinishedRun result = renderFrames(job);
     if (!result.report.unstable.empty()) throw engine::InstabilityError(result.report.unstable);
     return result;

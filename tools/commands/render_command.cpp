@@ -38,7 +38,7 @@ void render(RenderOptions options) {
     const std::string name = runName(options.scene);
     if (options.folder.path.empty()) options.folder.path = (fs::path("out") / name).string();
     const RenderJob job{drawJob(scene, options.draw, options.run, name),
-                        frameRange(options.frames, scenes::frameCount(scene)), options.folder, options.video};
+                        frameList(options.frames, scenes::frameCount(scene)), options.folder, options.video};
 
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
     const FinishedRun run = renderFrames(job);
@@ -55,8 +55,7 @@ void addRenderCommand(CLI::App& program) {
     addTo(command, options->scene);
     addTo(command, options->folder, "out/NAME");
     command.add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
-    command.add_option("--frames", options->frames, "draw only frames A to B, counted from 0, or one")
-        ->type_name("A-B");
+    command.add_option("--frames", options->frames, std::string("draw only ") + kFrameListHelp)->type_name("FRAMES");
     addTo(command, options->draw);
     addTo(command, options->run);
     command.footer(std::string(kErrorSampleNotes) +

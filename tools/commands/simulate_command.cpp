@@ -22,7 +22,7 @@ struct SimulateOptions {
     std::string format = "ply";
 };
 
-FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames, const SimulateOptions& options,
+FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, const SimulateOptions& options,
                            const std::string& title) {
     FrameFolder folder(options.folder, kStateNames, sceneIdentity(scene));
     FrameSequence sequence(scene, frames, &folder, options.folder.checkpointSeconds);
@@ -47,7 +47,7 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameRange& frames,
 
 void simulate(SimulateOptions options) {
     const scenes::Scene scene = load(options.scene);
-    const FrameRange frames = frameRange(options.frames, scenes::frameCount(scene));
+    const FrameList frames = frameList(options.frames, scenes::frameCount(scene));
     const std::string name = runName(options.scene);
     std::string& folder = options.folder.path;
     if (folder.empty()) folder = (fs::path("out") / (name + "-states")).string();
@@ -70,8 +70,7 @@ void addSimulateCommand(CLI::App& program) {
     addTo(command, options->scene);
     addTo(command, options->folder, "out/NAME-states");
     command.add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
-    command.add_option("--frames", options->frames, "write only frames A to B, counted from 0, or one")
-        ->type_name("A-B");
+    command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");
     addTo(command, options->run);
     command.footer(std::string(kErrorSampleNotes) + "Example: globular simulate powder -o out/states --frames 0-59");
     command.callback([options] { simulate(*options); });

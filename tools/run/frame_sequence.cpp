@@ -1,9 +1,11 @@
-// Frames before the first wanted one are also simulated one by one, so that a run that ends there early can be resumed
+// Frames that are not wanted are also simulated one by one, so that a run that ends there early can be resumed
 // close to its end.
 #include "tools/run/frame_sequence.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "engine/core/hash.h"
 #include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
 #include "scenes/view/frame_view.h"
@@ -16,21 +18,26 @@ namespace {
 /// costs as much as three frames.
 constexpr int kErrorSampleCount = 8;
 
-int sampleStride(const FrameRange& frames) {
-    return (frames.count() - 1 + kErrorSampleCount) / kErrorSampleCount;
+/// Whether the error is estimated at a frame.
+bool isSampled(const FrameList& frames, int frame) {
+    const int stride = (frames.count() - 1 + kErrorSampleCount) / kErrorSampleCount;
+    const auto index = frames.indexOf(frame);
+    return index && *index % stride == 0;
 }
 
-/// A range of frames as JSON. Checkpoints record it, because it decides at which frames errors are sampled.
-Json rangeOf(const FrameRange& frames) {
-    return {frames.first, frames.last};
+/// Hash of a list of frames. Checkpoints record it, because the list decides at which frames errors are sampled.
+std::string hashOf(const FrameList& frames) {
+    std::uint64_t hash = engine::fnv1a({});
+    for (const int frame : frames.numbers) hash = engine::fnv1a(static_cast<std::uint64_t>(frame), hash);
+    return engine::hexadecimal(hash);
 }
 
 }  // namespace
 
-FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, FrameFolder* folder,
+FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder,
                              double checkpointSeconds)
     : scene_(scene),
-      frames_(frames),
+      frames_(std::move(frames)),
       folder_(folder),
       checkpointSeconds_(checkpointSeconds),
       lastCheckpoint_(std::chrono::steady_clock::now()) {
@@ -41,20 +48,21 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameRange frames, Fram
 /// Resumes from the newest checkpoint before the first frame that has to be made, or from the newest of all if no frame
 /// has to be made. Returns false if there is no checkpoint.
 bool FrameSequence::resume() {
-    int firstToMake = frames_.first;
-    while (firstToMake <= frames_.last && folder_->isKept(firstToMake)) ++firstToMake;
-    auto restart = folder_->restartPoint(scene_.setup, firstToMake - 1);
+    const auto isKept = [&](int frame) { return folder_->isKept(frame); };
+    const auto toMake = std::ranges::find_if_not(frames_.numbers, isKept);
+    const int latest = toMake == frames_.numbers.end() ? frames_.last() : *toMake - 1;
+    auto restart = folder_->restartPoint(scene_.setup, latest);
     if (!restart) return false;
     position_ = restart->frame;
     run_.simulation = std::move(restart->simulation);
-    if (restart->report.value("range", Json()) == rangeOf(frames_)) run_.report.errors = decodeErrors(restart->report);
+    if (restart->report.value("frames", Json()) == hashOf(frames_)) run_.report.errors = decodeErrors(restart->report);
     run_.report.resumedFrom = restart->frame;
-    next_ = std::min(frames_.first, position_ + 1);
+    next_ = std::min(frames_.first(), position_ + 1);
     return true;
 }
 
 std::optional<SequencedFrame> FrameSequence::next() {
-    if (next_ > frames_.last) return std::nullopt;
+    if (next_ > frames_.last()) return std::nullopt;
     // A signal is ignored while frames that exist already are passed on for a video. That takes little time, and a
     // video of some of them would be worth less than the earlier video that it replaces.
     if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
@@ -62,7 +70,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     SequencedFrame frame;
     frame.number = next_;
     frame.time = scenes::frameTime(scene_, frame.number);
-    frame.isWanted = frame.number >= frames_.first;
+    frame.isWanted = frames_.indexOf(frame.number).has_value();
     frame.isKept = frame.isWanted && folder_ != nullptr && folder_->isKept(frame.number);
     const bool isNew = frame.number > position_;
     if (isNew && !advanceTo(frame.number)) return std::nullopt;
@@ -90,14 +98,13 @@ bool FrameSequence::advanceTo(int frame) {
         return false;
     }
     position_ = frame;
-    if (frame >= frames_.first && (frame - frames_.first) % sampleStride(frames_) == 0)
-        addSample(run_.report.errors, scene_, run_.simulation);
+    if (isSampled(frames_, frame)) addSample(run_.report.errors, scene_, run_.simulation);
     return true;
 }
 
 Json FrameSequence::checkpointReport() const {
     Json report = encodeErrors(run_.report.errors);
-    report["range"] = rangeOf(frames_);
+    report["frames"] = hashOf(frames_);
     return report;
 }
 

@@ -10,6 +10,7 @@
 
 #include "scenes/model/scene.h"
 #include "tools/run/frame_folder.h"
+#include "tools/run/frame_list.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"
 #include "tools/system/json.h"
@@ -33,7 +34,7 @@ class FrameSequence {
  public:
     /// @param folder  where the frames go; nullptr for a run that cannot be resumed
     /// @param checkpointSeconds  time between two checkpoints
-    FrameSequence(const scenes::Scene& scene, FrameRange frames, FrameFolder* folder, double checkpointSeconds);
+    FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder, double checkpointSeconds);
 
     /// Advances to the next frame. The simulation is at that frame unless the frame is kept. Returns nothing after the
     /// last frame, after a signal, and when the simulation has become unstable; report() tells which.
@@ -58,7 +59,7 @@ class FrameSequence {
     Json checkpointReport() const;
 
     const scenes::Scene& scene_;
-    FrameRange frames_;
+    FrameList frames_;
     FrameFolder* folder_;
     double checkpointSeconds_;
     FinishedRun run_;

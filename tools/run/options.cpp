@@ -115,17 +115,4 @@ std::string sceneFolder() {
     return GLOBULAR_SOURCE_SCENES;
 }
 
-FrameRange frameRange(const std::string& text, int count) {
-    if (text.empty()) return {0, count - 1};
-    const std::size_t dash = text.find('-');
-    const auto first = parseNumber(std::string_view(text).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : parseNumber(std::string_view(text).substr(dash + 1));
-    const std::string flag = "--frames " + text;
-    if (!first || !last) throw scenes::InputError(flag, "must be FIRST-LAST or a single frame, e.g. 0-119");
-    if (*first > *last)
-        throw scenes::InputError(flag, fmt::format("the first frame, {}, comes after the last, {}", *first, *last));
-    if (*last >= count) throw scenes::InputError(flag, fmt::format("the scene has frames 0 to {}", count - 1));
-    return {*first, *last};
-}
-
 }  // namespace tools

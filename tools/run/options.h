@@ -56,14 +56,6 @@ struct DrawJob {
     std::string title;  ///< name of the work in messages about its progress
 };
 
-/// Frame numbers from first to last, both included.
-struct FrameRange {
-    int first = 0;
-    int last = 0;
-
-    int count() const { return last - first + 1; }
-};
-
 /// Prints a result of a command: JSON on a line of its own with --json, else the text unless --quiet.
 void printResult(const RunOptions& options, const Json& json, const std::string& text);
 
@@ -99,10 +91,5 @@ render::PictureSize parseSize(const std::string& text, const std::string& flag);
 
 /// The folder of the built-in scenes: beside the installed program, or else in the sources that it was built from.
 std::string sceneFolder();
-
-/// The frames that "A-B" or "A" names; an empty text stands for all.
-/// @param count  the scene has frames 0 to count - 1
-/// @throws scenes::InputError for anything else, and for frames that the scene does not have
-FrameRange frameRange(const std::string& text, int count);
 
 }  // namespace tools

@@ -8,6 +8,7 @@
 #include "render/opengl/context.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
+#include "tools/run/frame_list.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"
 #include "tools/system/progress.h"
@@ -15,7 +16,7 @@
 namespace tools {
 
 struct RenderJob : DrawJob {
-    FrameRange frames;
+    FrameList frames;
     std::optional<FolderOptions> folder;  ///< folder of frames and checkpoints; none: only a video is made
     std::string videoPath;                ///< path of the video; empty: no video is made
 };
