@@ -73,10 +73,11 @@ int spawn(const std::vector<std::string>& arguments, const Streams& streams, pid
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
     posix_spawnattr_setpgroup(&attributes, 0);
-    // The child would ignore SIGPIPE as this process does, unless the signal is reset to its default.
+    // The child would ignore these signals as this process does, unless they are reset to their defaults.
     sigset_t ignored;
     sigemptyset(&ignored);
     sigaddset(&ignored, SIGPIPE);
+    sigaddset(&ignored, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes, &ignored);
     const int error = ::posix_spawnp(&pid, pointers[0], &actions, &attributes, pointers.data(), environ);
     posix_spawnattr_destroy(&attributes);
@@ -139,26 +140,33 @@ ChildProcess::Progress ChildProcess::progress() const {
 
 void ChildProcess::startWatch() {
     lastProgress_ = progress();
-    lastProgressTime_ = std::chrono::steady_clock::now();
+    lastLook_ = std::chrono::steady_clock::now();
+    silence_ = {};
+}
+
+std::chrono::milliseconds ChildProcess::lookInterval() const {
+    using std::chrono::milliseconds;
+    return std::clamp(std::chrono::duration_cast<milliseconds>(progressTimeout_ / 4), milliseconds(1),
+                      milliseconds(1000));
 }
 
 void ChildProcess::killIfStalled() {
-    const Progress now = progress();
-    if (now != lastProgress_) {
-        startWatch();
-    } else if (!hasStalled_ && std::chrono::steady_clock::now() - lastProgressTime_ > progressTimeout_) {
-        hasStalled_ = true;
-        ::kill(-pid_, SIGKILL);  // kills the whole process group of the child
-    }
+    if (progress() != lastProgress_) return startWatch();
+    const auto now = std::chrono::steady_clock::now();
+    // Where much more time than the interval has passed since the last look, this process did not run either: both
+    // processes were stopped, for example by `docker pause`. That time is not the child's.
+    silence_ += std::min<std::chrono::duration<double>>(now - lastLook_, lookInterval());
+    lastLook_ = now;
+    if (hasStalled_ || silence_ <= progressTimeout_) return;
+    hasStalled_ = true;
+    ::kill(-pid_, SIGKILL);  // kills the whole process group of the child
 }
 
 bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
-    using std::chrono::milliseconds;
-    const auto interval = std::min(std::chrono::duration_cast<milliseconds>(progressTimeout_), milliseconds(1000));
     startWatch();
     while (!bytes.empty()) {
         pollfd end = {input_, POLLOUT, 0};
-        const int ready = ::poll(&end, 1, static_cast<int>(interval.count()));
+        const int ready = ::poll(&end, 1, static_cast<int>(lookInterval().count()));
         if (ready < 0 && errno != EINTR) return false;
         if (ready == 0) killIfStalled();
         if (hasStalled_) return false;
@@ -167,6 +175,7 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
         if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (sent < 0) return false;
         bytes = bytes.subspan(static_cast<std::size_t>(sent));
+        startWatch();  // the child has taken data
     }
     return true;
 }
@@ -206,6 +215,13 @@ std::string ChildProcess::wait() {
     if (hasStalled_) return fmt::format("no progress for {:g} s", progressTimeout_.count());
     if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
     return WEXITSTATUS(status) == 0 ? std::string() : fmt::format("exit status {}", WEXITSTATUS(status));
+}
+
+std::string ChildProcess::firstLine() const {
+    std::string text(1000, '\0');  // longer than any line that says what a program has
+    const ssize_t got = ::pread(log_, text.data(), text.size(), 0);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    return text.substr(0, text.find('\n'));
 }
 
 std::string ChildProcess::output(std::size_t most) const {

@@ -37,8 +37,8 @@ enum class StandardOutput { logged, piped };
 class ChildProcess {
  public:
     /// Starts a program without a shell. The program is killed when it makes no progress for `progressTimeout` while
-    /// write(), read() or wait() wait for it. It makes progress while it uses processor time or its output file
-    /// changes.
+    /// write(), read() or wait() wait for it. It makes progress while it uses processor time, takes input, or its
+    /// output file changes. Time in which this process was stopped does not count.
     /// @param arguments  arguments[0] is the program, looked up on PATH
     /// @param outputPath  the file that the program writes; empty if there is none to watch
     /// @throws ProgramMissing when there is no such program
@@ -63,6 +63,9 @@ class ChildProcess {
     /// for example "exit status 1", "signal 9 (Killed)" or "no progress for 120 s".
     std::string wait();
 
+    /// The first line of what output() returns the end of.
+    std::string firstLine() const;
+
     /// The end of what the program has written to its errors and, unless that is piped, its output, at most `most`
     /// bytes.
     std::string output(std::size_t most = 2000) const;
@@ -80,12 +83,14 @@ class ChildProcess {
     void closeInput();
     Progress progress() const;
     void startWatch();
+    std::chrono::milliseconds lookInterval() const;
     void killIfStalled();
 
     std::chrono::duration<double> progressTimeout_;
     std::string outputPath_;
     Progress lastProgress_;
-    std::chrono::steady_clock::time_point lastProgressTime_;
+    std::chrono::steady_clock::time_point lastLook_;
+    std::chrono::duration<double> silence_{};  ///< time without progress, s
     bool hasStalled_ = false;
 
     int input_ = -1;

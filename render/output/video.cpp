@@ -77,11 +77,11 @@ void requireEncoder(const VideoOptions& options) {
     ChildProcess probe =
         started({options.ffmpeg, "-hide_banner", "-loglevel", "error", "-h", "encoder=libx264"}, options);
     const std::string ended = probe.wait();
-    const std::string messages = probe.output(100000);
-    if (!ended.empty()) throw SystemError(fmt::format("{} ended with {}: {}", options.ffmpeg, ended, messages));
-    if (messages.find("Encoder libx264") == std::string::npos) {
-        throw SystemError(fmt::format("{} has no libx264 encoder; install an ffmpeg that has one", options.ffmpeg));
-    }
+    // Pages of options follow the first line. Under a limit on the size of files ffmpeg is killed while it writes them.
+    const std::string answer = probe.firstLine();
+    if (answer.find("Encoder libx264") != std::string::npos) return;
+    if (!ended.empty()) throw SystemError(fmt::format("{} ended with {}: {}", options.ffmpeg, ended, answer));
+    throw SystemError(fmt::format("{} has no libx264 encoder; install an ffmpeg that has one", options.ffmpeg));
 }
 
 VideoWriter::VideoWriter(VideoOptions options)
@@ -93,7 +93,10 @@ VideoWriter::VideoWriter(VideoOptions options)
 }
 
 void VideoWriter::fail(const std::string& ended) const {
-    const std::string messages = process_.output();
+    // An error is one line of this program's.
+    std::string messages = process_.output();
+    for (std::size_t at = 0; (at = messages.find('\n', at)) != std::string::npos; at += 2)
+        messages.replace(at, 1, "; ");
     throw SystemError(fmt::format("cannot write {}: {} ended with {}{}{}", options_.path, options_.ffmpeg,
                                   ended.empty() ? "exit status 0 too early" : ended, messages.empty() ? "" : ": ",
                                   messages));

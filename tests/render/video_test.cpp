@@ -4,8 +4,11 @@
 
 #include "tests/catch.h"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -230,6 +233,71 @@ TEST_CASE("An ffmpeg that works longer than the timeout is waited for") {
     options.ffmpeg =
         fakeFfmpeg(folder, "for k in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; echo >>$out; done; cat >/dev/null");
     writeVideo(options, 3);
+}
+
+TEST_CASE("Time in which this program and ffmpeg are both stopped is not held against ffmpeg") {
+    const Folder folder;
+    render::VideoOptions options{folder.file("a.mp4"), {640, 360}};
+    options.progressTimeout = std::chrono::milliseconds(1500);
+    // The script stops itself. Its helper then stops the program that waits for it for twice the timeout.
+    options.ffmpeg = fakeFfmpeg(
+        folder,
+        "cat >/dev/null; (sleep 0.1; kill -STOP $PPID; sleep 3; kill -CONT $PPID; sleep 0.1; kill -CONT $$) &\n"
+        "kill -STOP $$; echo >>$out");
+    // A process of its own is stopped, so that no shell takes the suite for stopped.
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        try {
+            writeVideo(options, 1);
+        } catch (const std::exception&) {
+            ::_exit(1);
+        }
+        ::_exit(0);
+    }
+    int status = -1;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(status == 0);
+}
+
+TEST_CASE("The encoder is known by the first line of ffmpeg's answer, even if it cannot write the others") {
+    const Folder folder;
+    const std::string path = folder.file("limited-ffmpeg");
+    std::ofstream(path) << "#!/bin/sh\necho 'Encoder libx264 [H.264]:'; kill -XFSZ $$\n";
+    fs::permissions(path, fs::perms::owner_all);
+    render::VideoOptions options;
+    options.ffmpeg = path;
+    CHECK_NOTHROW(render::requireEncoder(options));
+    std::ofstream(path) << "#!/bin/sh\necho 'no such codec'; echo 'Encoder libx264'; exit 2\n";
+    CHECK_THROWS_WITH(render::requireEncoder(options),
+                      Catch::Contains("exit status 2: no such codec") && !Catch::Contains("\n"));
+}
+
+TEST_CASE("An ffmpeg that is killed at a limit on the size of files is one line") {
+    const Folder folder;
+    render::VideoOptions options{folder.file("a.mp4"), {640, 360}};
+    options.ffmpeg = fakeFfmpeg(folder, "echo one >&2; echo two >&2; kill -XFSZ $$");
+    const auto previous = std::signal(SIGXFSZ, SIG_IGN);  // as the program does; the script must not inherit it
+    CHECK_THROWS_WITH(writeVideo(options, 5),
+                      Catch::Contains("signal 25") && Catch::Contains("one; two") && !Catch::Contains("\n"));
+    std::signal(SIGXFSZ, previous);
+    CHECK_FALSE(fs::exists(folder.file("a.mp4")));
+}
+
+TEST_CASE("To install ffmpeg is no advice when there is one that cannot be started") {
+    const Folder folder;
+    render::VideoOptions options{folder.file("a.mp4"), {16, 16}};
+    options.ffmpeg = folder.file("no-program");
+    std::ofstream(options.ffmpeg) << "no permission to run it";
+    CHECK_THROWS_WITH(render::requireEncoder(options),
+                      Catch::Contains("Permission denied") && !Catch::Contains("install"));
+    rlimit files = {};
+    REQUIRE(::getrlimit(RLIMIT_NOFILE, &files) == 0);
+    const rlimit none = {0, files.rlim_max};
+    REQUIRE(::setrlimit(RLIMIT_NOFILE, &none) == 0);
+    CHECK_THROWS_WITH(render::requireEncoder(options),
+                      Catch::Contains("Too many open files") && !Catch::Contains("install"));
+    ::setrlimit(RLIMIT_NOFILE, &files);
 }
 
 TEST_CASE("An encoder that outlived its run does not write into the next run's video") {

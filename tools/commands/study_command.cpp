@@ -17,7 +17,7 @@ namespace {
 render::ChildProcess startGnuplot() {
     try {
         return render::ChildProcess({"gnuplot", "-"});
-    } catch (const render::SystemError& error) {
+    } catch (const render::ProgramMissing& error) {
         throw render::SystemError(fmt::format("{}; install gnuplot (Debian: gnuplot-nox) for the plots", error.what()));
     }
 }

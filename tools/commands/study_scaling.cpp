@@ -96,7 +96,7 @@ double lammpsSeconds(const std::string& script, int ranks) {
     LammpsRun run;
     try {
         run = runLammps(script, ranks);
-    } catch (const render::SystemError& error) {
+    } catch (const render::ProgramMissing& error) {
         throw render::SystemError(fmt::format("{} {}", error.what(), kRemedy));
     }
     const std::optional<double> seconds = studies::lammpsSeconds(run.output);
