@@ -71,6 +71,7 @@ int run(CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
     keepFreedMemory();
     tools::prepareStandardStreams();
+    tools::ensureTemporaryFolder();
     CLI::App program("turns a scene file into an animation of globular dynamics", "globular");
     program.require_subcommand(0, 1);
     program.set_version_flag("--version", "globular " GLOBULAR_VERSION, "print the version");

@@ -129,6 +129,42 @@ TEST_CASE("globular video makes the same video of the frames, and refuses a gap"
     CHECK_FALSE(fs::exists(folder / "gap.mp4"));
 }
 
+TEST_CASE("A limit on the size of files is an error like a full disk", "[tools]") {
+    const program::Folder folder;
+    // 2 blocks of 512 bytes are less than a frame or a video takes, and enough for the messages.
+    const std::string limited = "ulimit -f 2; " GLOBULAR_PROGRAM " ";
+    const auto frames = program::shell(limited + "render liquid --size 320x180 --frames 0-1 --quiet -o " +
+                                       (folder / "limited").string());
+    INFO(frames.err);
+    CHECK(frames.code == 1);
+    CHECK(program::lineCount(frames.err) == 1);
+    CHECK(frames.err.find("frame-00000.png: File too large") != std::string::npos);
+    for (const auto& entry : fs::directory_iterator(folder / "limited")) CHECK(entry.path().extension() != ".partial");
+
+    REQUIRE(run(fountainRun(folder / "a", "")).code == 0);
+    const auto video = program::shell(limited + "video " + (folder / "a").string() + " --quiet -o " +
+                                      (folder / "limited.mp4").string());
+    INFO(video.err);
+    CHECK(video.code == 1);
+    CHECK(program::lineCount(video.err) == 1);
+    CHECK(video.err.find("ffmpeg ended with signal 25") != std::string::npos);
+    for (const auto& entry : fs::directory_iterator(folder / "")) CHECK(entry.path().extension() != ".partial");
+}
+
+TEST_CASE("A folder for temporary files that is not there is named, and the system's is used", "[tools]") {
+    const program::Folder folder;
+    REQUIRE(run(fountainRun(folder / "a", "")).code == 0);
+    const std::string video = (folder / "a.mp4").string();
+    for (const std::string& arguments :
+         {fountainRun(folder / "b", ""), "compare " + video + " " + video + " --quiet"}) {
+        INFO(arguments);
+        const auto outcome = run(arguments, "TMPDIR=/nonexistent");
+        CHECK(outcome.code == 0);
+        CHECK(outcome.err.find("warning: TMPDIR is \"/nonexistent\", which is no folder") != std::string::npos);
+    }
+    CHECK(textOf(folder / "b.mp4") == textOf(video));
+}
+
 TEST_CASE("globular simulate writes states that a scene can start from", "[tools]") {
     const program::Folder folder;
     REQUIRE(run("simulate powder --frames 0-3 --quiet -o " + (folder / "states").string()).code == 0);

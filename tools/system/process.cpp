@@ -3,10 +3,14 @@
 #include "tools/system/process.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 #include "render/picture/system_error.h"
 
@@ -41,7 +45,19 @@ void recordSignal(int signal) {
 void prepareStandardStreams() {
     for (const int descriptor : {0, 1, 2})
         if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);  // open() takes the lowest free descriptor
-    std::signal(SIGPIPE, SIG_IGN);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+}
+
+void ensureTemporaryFolder() {
+    constexpr const char* kFolder = "/tmp";
+    if (std::error_code error; !std::filesystem::temp_directory_path(error).empty()) return;
+    for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"}) {  // in the order of temp_directory_path()
+        const char* const folder = std::getenv(name);
+        if (folder == nullptr) continue;
+        printWarning(fmt::format("{} is \"{}\", which is no folder; temporary files go to {}", name, folder, kFolder));
+        break;
+    }
+    ::setenv("TMPDIR", kFolder, 1);
 }
 
 void printToStderr(const std::string& text) {

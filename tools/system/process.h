@@ -30,9 +30,13 @@ class ExitStatus : public std::runtime_error {
 };
 
 /// Opens /dev/null for each of the three standard streams that is closed, so that no file opened later takes its
-/// descriptor. SIGPIPE is ignored from then on, so that a reader that goes away is an error of the write and does not
-/// end a run halfway.
+/// descriptor. SIGPIPE and SIGXFSZ are ignored from then on, so that a reader that goes away and a limit on the size of
+/// files (`ulimit -f`) are errors of the write and do not end a run halfway.
 void prepareStandardStreams();
+
+/// Warns if TMPDIR, or another variable that names the folder for temporary files, does not name a folder, and sets
+/// TMPDIR to the system's folder, for this program and those that it starts.
+void ensureTemporaryFolder();
 
 /// Writes to standard error and ignores failures, because a lost message must not end a run.
 void printToStderr(const std::string& text);
