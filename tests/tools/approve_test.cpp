@@ -89,6 +89,12 @@ TEST_CASE("approve: single files, names that do not exist, files that are not si
     const auto sidecar = jsonOf(folder / "golden/b.json");
     CHECK(sidecar["gl_renderer"].is_null());
 
+    for (const char* into : {"golden", "more/"})
+        CHECK(run("approve " + (folder / "actual/a.png").string() + " " + (folder / into).string()).code == 0);
+    CHECK(textOf(folder / "golden/a.png") == textOf(folder / "actual/a.png"));
+    CHECK(fs::exists(folder / "more/a.json"));
+    fs::remove(folder / "golden/a.png");
+
     const std::string folders = "approve " + (folder / "actual").string() + " " + (folder / "golden").string();
     const auto unknown = run(folders + " c.png");
     CHECK(unknown.code == 2);

@@ -6,6 +6,7 @@
 #include "tests/catch.h"
 #include "tests/tools/golden_files.h"
 #include "tests/tools/program.h"
+#include "tools/compare/picture_set.h"
 
 using namespace golden_files;
 using namespace test_pictures;
@@ -117,6 +118,94 @@ TEST_CASE("compare: pictures behind links to folders count, and no folder is ent
     fs::create_directory_symlink("nowhere", sides / "actual/nowhere.png");
     CHECK(sides.results()["nowhere.png"]["status"] == "unreadable");
     CHECK(sides.compare().code == 2);
+}
+
+TEST_CASE("compare: what may be a picture and cannot be read is trouble, and the others are still compared",
+          "[compare]") {
+    Sides sides;
+    sides.both("a.png", balls());
+    sides.both("b.png", balls());
+    sides.both(".hidden.png", balls());
+    sides.expected("z.png", blank(balls()));
+    sides.actual("z.png", balls());
+    // One changed bit among the compressed pixels.
+    auto bytes = tools::readFile(sides / "expected/b.png");
+    bytes[bytes.size() / 2] ^= 1U;
+    tools::writeFile(sides / "expected/b.png", bytes);
+    tools::writeFile(sides / "actual/photo.JPG", std::string("Exif"));
+    fs::create_directory_symlink("nowhere", sides / "actual/more");
+    auto results = sides.results();
+    CHECK(results["a.png"]["status"] == "identical");
+    CHECK(results[".hidden.png"]["status"] == "identical");
+    CHECK(results["z.png"]["status"] == "different");
+    for (const char* name : {"b.png", "photo.JPG", "more"}) CHECK(results[name]["status"] == "unreadable");
+    CHECK(results["b.png"]["reasons"].size() == 1);
+    CHECK(results["done"]["unreadable"] == 3);
+    const auto outcome = sides.compare("--junit " + (sides / "junit.xml").string());
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.find("b.png: unreadable\n  expected picture: cannot read " + (sides / "expected/b.png").string() +
+                           " as PNG: it is damaged: a checksum does not match\n") != std::string::npos);
+    CHECK(outcome.out.find("more: unreadable\n  actual picture: ") != std::string::npos);
+    CHECK(program::textOf(sides / "junit.xml").find("failures=\"1\" errors=\"3\"") != std::string::npos);
+}
+
+TEST_CASE("compare: names that differ in Unicode's form alone are pointed out", "[compare]") {
+    CHECK(tools::differInUnicodeForm("\u00e9.png", "e\u0301.png"));
+    CHECK(tools::differInUnicodeForm("e\u0301a\u0308.png", "\u00e9a\u0308.png"));
+    CHECK(tools::differInUnicodeForm("\u1ebf", "\u00ea\u0301"));
+    CHECK(tools::differInUnicodeForm("\uac01", "\u1100\u1161\u11a8"));
+    CHECK_FALSE(tools::differInUnicodeForm("\u00e9", "\u00e9"));
+    CHECK_FALSE(tools::differInUnicodeForm("\u00e9", "e"));
+    CHECK_FALSE(tools::differInUnicodeForm("\u00e9", "e\u0301x"));
+    CHECK_FALSE(tools::differInUnicodeForm("e\u0301", "ex"));
+    CHECK_FALSE(tools::differInUnicodeForm("\xff", "e\u0301"));
+    Sides sides;
+    sides.actual("\u00e9.png", balls());
+    sides.expected("e\u0301.png", balls());
+    const auto outcome = sides.compare();
+    CHECK(outcome.code == 1);
+    CHECK(outcome.out.find("approve it, or remove it; the name of " + (sides / "expected/e\u0301.png").string() +
+                           " looks the same") != std::string::npos);
+    CHECK(outcome.out.find("; the name of " + (sides / "actual/\u00e9.png").string() + " looks the same") !=
+          std::string::npos);
+}
+
+TEST_CASE("compare: the command that it prints works as it stands", "[compare]") {
+    const auto approve = [](const program::Outcome& compared) {
+        const std::string before = "to approve: globular ";
+        const std::size_t begin = compared.out.find(before);
+        REQUIRE(begin != std::string::npos);
+        const std::string line = compared.out.substr(begin + before.size());
+        return run(line.substr(0, line.find('\n')));
+    };
+    Sides sides;
+    sides.actual("-front.png", balls());
+    CHECK(approve(sides.compare()).code == 0);
+    CHECK(sides.compare().code == 0);
+    const std::string pair =
+        "compare " + (sides / "actual/-front.png").string() + " " + (sides / "single.png").string();
+    CHECK(approve(run(pair)).code == 0);
+    CHECK(run(pair).code == 0);
+}
+
+TEST_CASE("compare: a signal ends it at once, and ffmpeg with it", "[compare]") {
+    Sides sides;
+    tools::createFolder(sides / "tmp");
+    for (const char* file : {"a.mp4", "b.mp4"}) tools::writeFile(sides / file, std::string("film"));
+    const fs::path pid = sides / "pid";
+    tools::writeFile(sides / "ffmpeg", "#!/bin/sh\necho $$ > " + pid.string() + "\nexec sleep 100\n");
+    fs::permissions(sides / "ffmpeg", fs::perms::owner_all);
+    for (const auto& [signal, number] : {std::pair{"TERM", 15}, {"HUP", 1}}) {
+        fs::remove(pid);
+        const auto outcome = program::shell(
+            "export TMPDIR=" + (sides / "tmp").string() + "; PATH=" + (sides / "").string() +
+            ":$PATH " GLOBULAR_PROGRAM " compare " + (sides / "a.mp4").string() + " " + (sides / "b.mp4").string() +
+            " & child=$!; until [ -s " + pid.string() + " ]; do sleep 0.02; done; kill -" + signal +
+            " $child; wait $child; code=$?; if kill -0 $(cat " + pid.string() + "); then exit 99; fi; exit $code");
+        INFO(outcome.out << outcome.err);
+        CHECK(outcome.code == 128 + number);
+        CHECK(fs::is_empty(sides / "tmp"));
+    }
 }
 
 TEST_CASE("compare: missing, extra, unreadable and differently sized pictures have statuses of their own",

@@ -111,13 +111,19 @@ bool canBeApproved(const PictureResult& result) {
 }
 
 void compareAll(const CompareOptions& options) {
-    const CompareJob job{options.actual, options.expected, limitsOf(options), readMask(options.mask)};
+    const InterruptWatch watch;
+    const auto endIfInterrupted = [&] {
+        if (watch.signal() != 0) throw ExitStatus(kSignalExitBase + watch.signal(), "");
+    };
+    const CompareJob job{.actual = options.actual,
+                         .expected = options.expected,
+                         .limits = limitsOf(options),
+                         .mask = readMask(options.mask),
+                         .whileWaiting = endIfInterrupted};
     JunitReport junit;
     ComparePage page;
     std::vector<std::string> failed;
-    const InterruptWatch watch;
     const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
-        if (watch.signal() != 0) throw ExitStatus(kSignalExitBase + watch.signal(), "");
         if (canBeApproved(result)) failed.push_back(result.name);
         printPicture(options, result, job.limits);
         if (!options.junit.empty()) junit.add(result);

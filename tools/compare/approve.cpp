@@ -8,8 +8,8 @@
 #include "render/output/png.h"
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
-#include "tools/compare/picture_pairs.h"
 #include "tools/compare/picture_provenance.h"
+#include "tools/compare/picture_set.h"
 #include "tools/run/manifest.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
@@ -31,7 +31,7 @@ struct Candidate {
 std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set) {
     std::vector<Candidate> candidates;
     std::vector<scenes::Problem> problems;
-    if (set.decodedFrames)
+    if (set.isVideo)
         throw render::SystemError("frames of a video cannot be goldens; approve the PNG files it was made of");
     if (set.isSingle && !job.names.empty())
         throw scenes::InputError(job.names.front(), "names are of pictures in a folder");
@@ -39,10 +39,12 @@ std::vector<Candidate> candidatesOf(const ApproveJob& job, const PictureSet& set
         if (!set.isSingle && set.pictures.count(name) == 0)
             problems.push_back({name, 0, 0, fmt::format("there is no such picture in {}", job.actual.string())});
     if (!problems.empty()) throw scenes::InputError(problems);
+    const bool isInto = !job.expected.has_filename() || fs::is_directory(job.expected);
     for (const auto& [name, path] : set.pictures) {
         const bool chosen =
             set.isSingle || job.names.empty() || std::find(job.names.begin(), job.names.end(), name) != job.names.end();
-        if (chosen) candidates.push_back({name, path, set.isSingle ? job.expected : job.expected / name, {}, {}});
+        if (chosen)
+            candidates.push_back({name, path, set.isSingle && !isInto ? job.expected : job.expected / name, {}, {}});
     }
     if (candidates.empty())
         throw render::SystemError(fmt::format("there are no pictures to approve in {}", job.actual.string()));
@@ -110,8 +112,12 @@ std::vector<Approved> approvePictures(const ApproveJob& job) {
 
 std::string approvalLine(const fs::path& actual, const fs::path& expected, const std::vector<std::string>& names) {
     if (names.empty() || hasExtension(actual, ".mp4")) return {};
-    std::vector<std::string> words = {"globular", "approve", actual.string(), expected.string()};
-    words.insert(words.end(), names.begin(), names.end());
+    std::vector<std::string> operands = {actual.string(), expected.string()};
+    if (fs::is_directory(actual)) operands.insert(operands.end(), names.begin(), names.end());
+    std::vector<std::string> words = {"globular", "approve"};
+    const auto isLikeFlag = [](const std::string& word) { return word.starts_with('-'); };
+    if (std::any_of(operands.begin(), operands.end(), isLikeFlag)) words.emplace_back("--");
+    words.insert(words.end(), operands.begin(), operands.end());
     return shellLine(words);
 }
 

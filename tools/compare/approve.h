@@ -9,7 +9,7 @@ namespace tools {
 
 struct ApproveJob {
     std::filesystem::path actual;
-    std::filesystem::path expected;
+    std::filesystem::path expected;  ///< for a single picture, the golden or a folder, into which the picture goes
     std::vector<std::string> names;  ///< names of the pictures to approve, as `compare` prints them; empty: all
     bool force = false;              ///< also replaces goldens that another OpenGL renderer drew
 };

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <new>
 #include <numeric>
 
 #include "render/output/png.h"
+#include "render/output/video_reader.h"
 #include "render/picture/system_error.h"
+#include "tools/compare/picture_set.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 
@@ -16,18 +20,74 @@ namespace {
 
 namespace fs = std::filesystem;
 
-PictureSide readSide(const std::optional<fs::path>& path, std::vector<std::string>& problems) {
-    PictureSide side;
-    if (!path) return side;
-    side.path = *path;
-    try {
-        side.bytes = readFile(side.path);
-        side.provenance = provenanceOf(side.path, side.bytes);
-        side.image = render::decodePng(side.bytes, side.path.string());
-    } catch (const render::SystemError& error) {
-        problems.emplace_back(error.what());
+/// One side of a comparison: its pictures in the order of their names. The frames of a video are decoded one by one.
+class PictureQueue {
+ public:
+    PictureQueue(const PictureSet& set, const CompareJob& job)
+        : set_(set), file_(set.pictures.begin()), whileWaiting_(job.whileWaiting) {
+        if (set.isVideo) frame_ = video_.emplace(set.path.string()).next(whileWaiting_);
     }
-    return side;
+
+    const PictureSet& set() const { return set_; }
+
+    /// The name of the first picture; nothing if none is left.
+    std::optional<std::string> name() const {
+        if (frame_) return fmt::format("frame-{:05}.png", frameNumber_);
+        return file_ == set_.pictures.end() ? std::nullopt : std::optional(file_->first);
+    }
+
+    /// Reads the first picture. Why it cannot be read is added to the problems.
+    PictureSide read(const char* side, std::vector<std::string>& problems) {
+        if (video_) return {set_.path, {}, std::move(frame_), {}};
+        PictureSide picture{file_->second, {}, {}, {}};
+        try {
+            picture.bytes = readFile(picture.path);
+            picture.provenance = provenanceOf(picture.path, picture.bytes);
+            picture.image = render::decodePng(picture.bytes, picture.path.string());
+        } catch (const render::SystemError& error) {
+            problems.push_back(fmt::format("{} picture: {}", side, error.what()));
+        } catch (const std::bad_alloc&) {
+            problems.push_back(fmt::format("{} picture: {} does not fit into memory", side, picture.path.string()));
+        }
+        return picture;
+    }
+
+    /// Removes the first picture.
+    void pop() {
+        if (video_) {
+            frame_ = video_->next(whileWaiting_);
+            ++frameNumber_;
+        } else {
+            ++file_;
+        }
+    }
+
+ private:
+    const PictureSet& set_;
+    decltype(PictureSet::pictures)::const_iterator file_;
+    const std::function<void()>& whileWaiting_;
+    std::optional<render::VideoReader> video_;
+    std::optional<render::Image> frame_;
+    int frameNumber_ = 0;
+};
+
+/// The two sides of a comparison.
+struct Sides {
+    PictureSet actual, expected;
+};
+
+/// The sides, where two single files have one name.
+/// @throws render::SystemError if one side is a file and the other a folder or video
+Sides sidesOf(const CompareJob& job) {
+    Sides sides{picturesOf(job.actual), picturesOf(job.expected)};
+    const auto isThere = [](const PictureSet& set) { return set.isVideo || !set.pictures.empty(); };
+    if (!isThere(sides.actual) || !isThere(sides.expected)) return sides;
+    if (sides.actual.isSingle != sides.expected.isSingle)
+        throw render::SystemError(
+            "one side is a single picture, the other a folder or a video; compare like with like");
+    if (sides.actual.isSingle)
+        sides.actual.pictures = {{sides.expected.pictures.begin()->first, sides.actual.pictures.begin()->second}};
+    return sides;
 }
 
 void evaluate(PictureResult& result, const CompareJob& job) {
@@ -53,20 +113,36 @@ std::string displayName(const fs::path& whole, const std::string& name) {
     return hasExtension(whole, ".mp4") ? fmt::format("{} in {}", name, whole.string()) : (whole / name).string();
 }
 
-PictureResult comparePair(const PicturePair& pair, const CompareJob& job) {
+/// Says that a name of one side only has a twin on the other side that looks the same; empty if it has none.
+std::string twinNote(const std::string& name, const PictureSet& here, const PictureSet& there) {
+    if (std::all_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x80; })) return {};
+    for (const auto& [other, path] : there.pictures)
+        if (differInUnicodeForm(name, other) && here.pictures.count(other) == 0)
+            return fmt::format(
+                "; the name of {} looks the same, but one has composed, the other decomposed characters (Unicode NFC "
+                "and NFD)",
+                path.string());
+    return {};
+}
+
+/// Compares the pictures of a name, of which at least one side has one at the head of its queue.
+PictureResult compareNamed(const std::string& name, const CompareJob& job, PictureQueue& actual,
+                           PictureQueue& expected) {
     PictureResult result;
-    result.name = pair.name;
-    result.actual = readSide(pair.actual, result.reasons);
-    result.expected = readSide(pair.expected, result.reasons);
+    result.name = name;
+    if (actual.name() == name) result.actual = actual.read("actual", result.reasons);
+    if (expected.name() == name) result.expected = expected.read("expected", result.reasons);
     if (!result.reasons.empty()) {
         result.status = PictureStatus::unreadable;
-    } else if (!pair.expected) {
+    } else if (result.expected.path.empty()) {
         result.status = PictureStatus::extra;
-        result.reasons.push_back(
-            fmt::format("there is no golden {}; approve it, or remove it", displayName(job.expected, pair.name)));
-    } else if (!pair.actual) {
+        result.reasons.push_back(fmt::format("there is no golden {}; approve it, or remove it{}",
+                                             displayName(job.expected, name),
+                                             twinNote(name, actual.set(), expected.set())));
+    } else if (result.actual.path.empty()) {
         result.status = PictureStatus::missing;
-        result.reasons.push_back(fmt::format("there is no picture {}", displayName(job.actual, pair.name)));
+        result.reasons.push_back(fmt::format("there is no picture {}{}", displayName(job.actual, name),
+                                             twinNote(name, expected.set(), actual.set())));
     } else {
         evaluate(result, job);
     }
@@ -122,13 +198,22 @@ std::string PictureResult::rule() const {
 CompareCounts comparePictures(const CompareJob& job, const std::function<void(const PictureResult&)>& visit) {
     if (!fs::exists(job.actual))
         throw render::SystemError(fmt::format("there is no file or folder {}", job.actual.string()));
-    const PictureSet actual = picturesOf(job.actual);
-    const PictureSet expected = picturesOf(job.expected);
+    const Sides sides = sidesOf(job);
+    PictureQueue actual(sides.actual, job), expected(sides.expected, job);
     CompareCounts counts;
-    for (const PicturePair& pair : pairsOf(actual, expected)) {
-        const PictureResult result = comparePair(pair, job);
-        counts.add(result.status);
-        visit(result);
+    while (actual.name() || expected.name()) {
+        job.whileWaiting();
+        const std::string name = !actual.name()     ? *expected.name()
+                                 : !expected.name() ? *actual.name()
+                                                    : std::min(*actual.name(), *expected.name(), ByNumber{});
+        const bool isActual = actual.name() == name, isExpected = expected.name() == name;
+        if (job.only.empty() || job.only.contains(name)) {
+            const PictureResult result = compareNamed(name, job, actual, expected);
+            counts.add(result.status);
+            visit(result);
+        }
+        if (isActual) actual.pop();
+        if (isExpected) expected.pop();
     }
     // A check that has compared nothing must not pass.
     if (counts.pictures() == 0)

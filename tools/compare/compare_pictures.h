@@ -1,5 +1,5 @@
-// Compares pictures pair by pair, so that the memory does not grow with the folder. Called by `compare` and by the
-// golden suite.
+// Compares pictures pair by pair, so that the memory does not grow with the folder or the video. Called by `compare`,
+// by its report and by the golden suite.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "render/compare/compare.h"
-#include "tools/compare/picture_pairs.h"
 #include "tools/compare/picture_provenance.h"
 #include "tools/system/json.h"
 
@@ -26,8 +26,8 @@ const char* nameOf(PictureStatus status);
 
 /// The actual or the expected picture of a comparison.
 struct PictureSide {
-    std::filesystem::path path;  ///< path of the file; empty if there is no picture
-    std::vector<std::uint8_t> bytes;
+    std::filesystem::path path;          ///< path of the file or the video; empty if there is no picture
+    std::vector<std::uint8_t> bytes;     ///< content of the file; empty for a frame of a video
     std::optional<render::Image> image;  ///< decoded picture; none if the file cannot be read
     PictureProvenance provenance;
 };
@@ -50,7 +50,9 @@ struct CompareJob {
     std::filesystem::path actual;
     std::filesystem::path expected;
     render::CompareLimits limits;
-    render::Image mask;  ///< picture whose black pixels do not count; empty: every pixel counts
+    render::Image mask;                          ///< picture whose black pixels do not count; empty: every pixel counts
+    std::set<std::string> only = {};                  ///< names of the pictures to compare; empty: all
+    std::function<void()> whileWaiting = [] {};  ///< called many times a second; ends the comparison by throwing
 };
 
 /// Counts the pairs of pictures by outcome.
@@ -65,10 +67,10 @@ class CompareCounts {
     std::array<int, 6> counts_ = {};
 };
 
-/// Compares every pair and passes each result to `visit`, ordered by name. Missing and unreadable pictures are results
-/// like any other.
-/// @throws render::SystemError if nothing can be compared: no such file or folder, no pictures at all, or a mask of
-/// another size
+/// Compares every pair of pictures with the same name and passes each result to `visit`, ordered by name. Two single
+/// files form a pair under the expected file's name. Missing and unreadable pictures are results like any other.
+/// @throws render::SystemError if nothing can be compared: no such file or folder, no pictures at all, one side a
+/// single picture and the other not, a video that ffmpeg cannot decode, or a mask of another size
 CompareCounts comparePictures(const CompareJob& job, const std::function<void(const PictureResult&)>& visit);
 
 /// A result as an object for scripts: status, rule, reasons, metrics, worst pixels, what changed, and the provenance of

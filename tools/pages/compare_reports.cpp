@@ -14,12 +14,16 @@
 namespace tools {
 namespace {
 
+std::vector<std::uint8_t> pngOf(const PictureSide& side) {
+    return side.bytes.empty() ? render::encodePng(*side.image) : side.bytes;
+}
+
 /// The pictures of a comparison as data URIs, under the names that the script of the page uses.
 Json imagesOf(const PictureResult& result) {
     Json images = Json::object();
-    if (result.actual.image) images["actual"] = dataUri("image/png", result.actual.bytes);
+    if (result.actual.image) images["actual"] = dataUri("image/png", pngOf(result.actual));
     if (result.expected.image && result.status != PictureStatus::identical)
-        images["expected"] = dataUri("image/png", result.expected.bytes);
+        images["expected"] = dataUri("image/png", pngOf(result.expected));
     if (!result.comparison || result.comparison->rule == render::CompareRule::size ||
         result.comparison->metrics.differing == 0)
         return images;
@@ -107,7 +111,7 @@ void ComparePage::inlinePictures(const PictureResult& result, Json& json) {
 }
 
 void ComparePage::addRun(const PictureSide& side, Json& json) {
-    if (side.path.empty()) return;
+    if (side.bytes.empty()) return;
     const std::filesystem::path path = side.path.parent_path() / "run.json";
     auto known = runs_.find(path.string());
     if (known == runs_.end()) known = runs_.emplace(path.string(), readJson(path)).first;
