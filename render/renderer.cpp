@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -16,12 +17,13 @@
 #include "render/opengl/gl.h"
 #include "render/overlay/draw_overlay.h"
 #include "render/picture/system_error.h"
+#include "render/prepare/strays.h"
 
 namespace render {
 
 namespace {
 
-/// Texels along the longer side of the light's depth map, which covers all particles.
+/// Texels along the longer side of the light's depth map, which covers all particles but strays.
 int depthMapTexels(Quality quality) {
     return quality == Quality::final ? 2048 : 1024;
 }
@@ -93,8 +95,15 @@ struct Renderer::Parts {
         return pass.visiblePoints(view, sampling);
     }
 
-    void prepare(const View& view) {
-        pass.prepare(cameraFrame(view.camera, size), view, depthMapTexels(quality), times);
+    /// Prepares everything that does not depend on the sampling.
+    /// @return the view without its strays, from which the picture is drawn; it may refer to `view`
+    const View& prepare(const View& view) {
+        times = {};
+        const CameraFrame frame = cameraFrame(view.camera, size);
+        timed(times.bin, [&] { near = withoutStrays(view, frame); });
+        const View& drawn = near ? *near : view;
+        pass.prepare(frame, drawn, depthMapTexels(quality), times);
+        return drawn;
     }
 
     Image readBack(Image image) {
@@ -135,6 +144,7 @@ struct Renderer::Parts {
     PictureSize size;
     PictureSize padded;
     Quality quality;
+    std::optional<View> near;  // the last view without its strays, if it had any
     PicturePass pass;
     Target target;
     std::vector<PixelColor> pixels;  // pixels of whole tiles, row by row
@@ -160,9 +170,7 @@ Renderer::~Renderer() {
 Image Renderer::draw(const View& view, Image old) {
     requireFinite(view);
     const CurrentContext current(parts_->context);
-    parts_->times = {};
-    parts_->prepare(view);
-    parts_->color(view);
+    parts_->color(parts_->prepare(view));
     timed(parts_->times.openGl, [&] { parts_->target.put(parts_->pixels); });
     Image image;
     timed(parts_->times.readBack, [&] { image = parts_->readBack(std::move(old)); });
@@ -172,9 +180,7 @@ Image Renderer::draw(const View& view, Image old) {
 
 std::vector<VisiblePoint> Renderer::visiblePoints(const View& view) {
     requireFinite(view);
-    parts_->times = {};
-    parts_->prepare(view);
-    return parts_->visiblePoints(view);
+    return parts_->visiblePoints(parts_->prepare(view));
 }
 
 const DrawTimes& Renderer::times() const {

@@ -63,8 +63,8 @@ constexpr int kReach = 6;  // number of cubes that the sum tau of shading_model.
 // Cubes between the particles and the sides of the grid: the reach, one that volumes are spread over, one more for the
 // blur, and two for the interpolation at points that are offset along a direction.
 constexpr int kMargin = kReach + 4;
-// Largest number of cubes: with six values each, they take 24 MB. Where a single particle flies far, the cubes become
-// wider instead.
+// Largest number of cubes: with six values each, they take 24 MB. Where particles lie too far apart for it, the cubes
+// become wider instead.
 constexpr double kMostCells = 1e6;
 
 /// The side s of the cubes of shading_model.h, before it is doubled.

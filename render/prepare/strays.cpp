@@ -1,0 +1,237 @@
+// What can be seen lies in the picture's volume: the pyramid of all rays in perspective, a prism in parallel
+// projection. A shadow is a cylinder from its caster away from the light. It falls on something that is seen if it
+// meets both the picture's volume and the box around the thing, which are convex: the axis of the cylinder is clipped
+// by their faces, moved outward by the radius of the cylinder.
+#include "render/prepare/strays.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "render/prepare/tiles.h"
+
+namespace render {
+
+namespace {
+
+using Extent = Bounds<glm::vec3>;
+
+/// A half space: the points p with dot(normal, p) + offset >= 0. The normal has unit length.
+struct HalfSpace {
+    glm::vec3 normal{0.0F};
+    float offset = 0.0F;
+
+    float distanceInside(glm::vec3 point) const { return dot(normal, point) + offset; }
+};
+
+/// The half spaces whose intersection a picture shows, two pixels wider on each side; relative to the eye.
+std::array<HalfSpace, 5> pictureVolume(const CameraFrame& frame) {
+    const float width = frame.halfWidth * (1.0F + 4.0F / static_cast<float>(frame.width));
+    const float height = frame.halfHeight * (1.0F + 4.0F / static_cast<float>(frame.height));
+    const auto side = [&](glm::vec3 outward, float half) {
+        if (!frame.perspective) return HalfSpace{-outward, half};
+        return HalfSpace{normalize(half * frame.forward - outward), 0.0F};
+    };
+    return {HalfSpace{frame.forward, 0.0F}, side(frame.right, width), side(-frame.right, width), side(frame.up, height),
+            side(-frame.up, height)};
+}
+
+/// A particle or a sphere obstacle.
+struct Ball {
+    glm::vec3 center{0.0F};  ///< relative to the eye, m
+    float radius = 0.0F;     ///< of what is drawn, m
+    float reach = 0.0F;      ///< how far from the center it may change the picture, m
+};
+
+/// The part of a ray at distances from `first` to `second` from its start; empty where first > second.
+using RayPart = std::pair<float, float>;
+
+/// Clips a ray to the points at most `slack` outside of a half space.
+void clipRay(const HalfSpace& half, glm::vec3 start, glm::vec3 direction, float slack, RayPart& part) {
+    const float room = half.distanceInside(start) + slack;
+    const float slope = dot(half.normal, direction);
+    if (slope > 0.0F)
+        part.first = std::max(part.first, -room / slope);
+    else if (slope < 0.0F)
+        part.second = std::min(part.second, -room / slope);
+    else if (!(room >= 0.0F))
+        part.second = -1.0F;
+}
+
+/// What a picture shows, and what may shade it.
+class VisibleVolume {
+ public:
+    VisibleVolume(const CameraFrame& frame, const View& view)
+        : frame_(frame), volume_(pictureVolume(frame)), toLight_(normalize(view.light.toLight)), ground_(view.ground) {
+        if (ground_) ground_->height -= frame.eye.y;
+        if (ground_) ground_->center -= frame.eye;
+        hasShadows_ = view.light.shadows;
+        for (const BoxObstacle& box : view.boxObstacles)
+            if (pixelsTouchedByBox(frame, box.minimum, box.maximum))
+                addReceiver({box.minimum - frame.eye, box.maximum - frame.eye});
+    }
+
+    /// Whether a sphere may touch the picture. @param center  relative to the eye
+    bool shows(glm::vec3 center, float radius) const {
+        return std::ranges::all_of(volume_,
+                                   [&](const HalfSpace& half) { return half.distanceInside(center) >= -radius; });
+    }
+
+    /// Adds a box around something that is seen and may lie in shadow.
+    void addReceiver(const Extent& box) { receivers_.push_back(box); }
+
+    /// Whether the picture may change with a ball: by what is drawn of it, by the sky that it hides or by its shadow.
+    bool isChangedBy(const Ball& ball) const {
+        return shows(ball.center, ball.reach) || (hasShadows_ && (shadesGround(ball) || shadesReceiver(ball)));
+    }
+
+ private:
+    // Chosen: single precision places a shadow from so far away to a thousandth of the radius of what casts it, and no
+    // real light casts one from there.
+    static constexpr float kFarthestShadow = 2048.0F;  // radii
+
+    // Farther from its center the ground has less than a ten-thousandth of its own color: not one step of a pixel's
+    // color.
+    static constexpr float kFadedGround = 10.0F;  // fade distances
+
+    /// Whether a shadow of this radius is too narrow to be seen at a view depth.
+    bool isTooNarrow(float radius, float depth) const {
+        return radius < 0.25F * frame_.pixelWidth() * (frame_.perspective ? std::max(depth, 0.0F) : 1.0F);
+    }
+
+    bool shadesGround(const Ball& ball) const {
+        if (!ground_ || toLight_.y <= 0.0F || ball.center.y + ball.reach < ground_->height) return false;
+        // On the ground the shadow is an ellipse that is longer by this factor than wide.
+        const float stretch = 1.0F / toLight_.y;
+        const float distance = (ball.center.y - ground_->height) * stretch;
+        const glm::vec3 middle = ball.center - distance * toLight_;
+        const float faded = kFadedGround * ground_->fadeDistance + ball.reach * stretch;
+        return distance <= kFarthestShadow * ball.radius && shows(middle, ball.reach * stretch) &&
+               glm::distance(middle, ground_->center) <= faded &&
+               !isTooNarrow(ball.radius * stretch, dot(middle, frame_.forward) - ball.reach * stretch);
+    }
+
+    bool shadesReceiver(const Ball& ball) const {
+        return std::ranges::any_of(receivers_, [&](const Extent& box) {
+            RayPart part{0.0F, kFarthestShadow * ball.radius};
+            for (const HalfSpace& half : volume_) clipRay(half, ball.center, -toLight_, ball.reach, part);
+            for (int axis = 0; axis < 3; ++axis) {
+                glm::vec3 along(0.0F);
+                along[axis] = 1.0F;
+                clipRay({along, -box.low[axis]}, ball.center, -toLight_, ball.reach, part);
+                clipRay({-along, box.high[axis]}, ball.center, -toLight_, ball.reach, part);
+            }
+            if (!(part.first <= part.second)) return false;
+            const auto depthAt = [&](float distance) { return dot(ball.center - distance * toLight_, frame_.forward); };
+            return !isTooNarrow(ball.radius, std::min(depthAt(part.first), depthAt(part.second)));
+        });
+    }
+
+    const CameraFrame& frame_;
+    std::array<HalfSpace, 5> volume_;
+    glm::vec3 toLight_;
+    std::optional<Ground> ground_;  // relative to the eye
+    bool hasShadows_ = true;
+    std::vector<Extent> receivers_;  // relative to the eye
+};
+
+/// The particles of a view, then its sphere obstacles. `reach` is `radius` at first.
+std::vector<Ball> ballsOf(const View& view, glm::vec3 eye) {
+    std::vector<Ball> balls;
+    balls.reserve(view.particles.size() + view.sphereObstacles.size());
+    const float drawn = view.style == Style::metaballs ? view.field.reach : 1.0F;
+    for (const Sphere& particle : view.particles)
+        balls.push_back({particle.center - eye, drawn * particle.radius, drawn * particle.radius});
+    for (const SphereObstacle& sphere : view.sphereObstacles)
+        balls.push_back({sphere.center - eye, sphere.radius, sphere.radius});
+    return balls;
+}
+
+/// 1 for each ball that passes a test, 0 for the others.
+template <typename Test>
+std::vector<std::uint8_t> flagsOf(std::span<const Ball> balls, const Test& test) {
+    std::vector<std::uint8_t> flags(balls.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, balls.size(), 4096), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) flags[k] = test(balls[k]) ? 1 : 0;
+    });
+    return flags;
+}
+
+/// The box around the flagged balls, each as far as it reaches. @param flags  of the first balls; the others are left
+/// out
+Extent boxAround(std::span<const Ball> balls, std::span<const std::uint8_t> flags) {
+    Extent box;
+    for (std::size_t k = 0; k < flags.size(); ++k)
+        if (flags[k] != 0) box.add(balls[k].center - balls[k].reach, balls[k].center + balls[k].reach);
+    return box;
+}
+
+/// Adds to the reach of each ball the width of soft shadows, and the distance from which particles hide the sky from
+/// others or pull the balls of a smooth skin.
+/// @param seen  flags of the particles that are seen
+void addInfluence(std::span<const std::uint8_t> seen, std::span<Ball> balls) {
+    double sum = 0.0;
+    double count = 0.0;
+    float largest = 0.0F;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        if (seen[k] == 0) continue;
+        sum += double(balls[k].radius);
+        largest = std::max(largest, balls[k].radius);
+        ++count;
+    }
+    // Ten cubes of shading_model.h, each at most 2.4 mean radii wide, along each of the three axes; and twice the reach
+    // of the field, because a particle that is not seen may pull one that is.
+    const float influence = static_cast<float>(42.0 * sum / std::max(count, 1.0)) + 2.0F * largest;
+    for (Ball& ball : balls) ball.reach = 1.61F * ball.radius + influence;  // 1.61: as in light_space.cpp
+}
+
+template <typename Item>
+void keepFlagged(std::span<const std::uint8_t> flags, std::vector<Item>& items) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < items.size(); ++k)
+        if (flags[k] != 0) items[count++] = items[k];
+    items.resize(count);
+}
+
+/// Flags the balls that are no strays.
+std::vector<std::uint8_t> flagsOfKept(const View& view, const CameraFrame& frame) {
+    std::vector<Ball> balls = ballsOf(view, frame.eye);
+    const std::size_t particles = view.particles.size();
+    VisibleVolume visible(frame, view);
+    const auto seen = flagsOf(balls, [&](const Ball& ball) { return visible.shows(ball.center, ball.radius); });
+    const auto seenParticles = std::span(seen).first(particles);
+    visible.addReceiver(boxAround(balls, seenParticles));
+    for (std::size_t k = particles; k < balls.size(); ++k)
+        if (seen[k] != 0) visible.addReceiver({balls[k].center - balls[k].radius, balls[k].center + balls[k].radius});
+    addInfluence(seenParticles, balls);
+
+    auto kept = flagsOf(balls, [&](const Ball& ball) { return visible.isChangedBy(ball); });
+    const Extent box = boxAround(balls, std::span(kept).first(particles));
+    const glm::vec3 size = box.high - box.low;
+    if (!(size.x >= 0.0F)) return std::vector<std::uint8_t>(balls.size(), 1);
+    const float margin = 0.5F * std::max({size.x, size.y, size.z});
+    for (std::size_t k = 0; k < balls.size(); ++k) {
+        const glm::vec3 at = balls[k].center;
+        if (all(greaterThanEqual(at, box.low - margin)) && all(lessThanEqual(at, box.high + margin))) kept[k] = 1;
+    }
+    return kept;
+}
+
+}  // namespace
+
+std::optional<View> withoutStrays(const View& view, const CameraFrame& frame) {
+    const std::vector<std::uint8_t> kept = flagsOfKept(view, frame);
+    if (std::ranges::find(kept, 0) == kept.end()) return std::nullopt;
+    View near = view;
+    keepFlagged(std::span(kept).first(view.particles.size()), near.particles);
+    keepFlagged(std::span(kept).subspan(view.particles.size()), near.sphereObstacles);
+    return near;
+}
+
+}  // namespace render

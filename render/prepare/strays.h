@@ -1,0 +1,26 @@
+// Strays: particles and sphere obstacles that have left the picture, because they fell off an edge, for example, or
+// were shot away. They are removed before anything else is made of a view. Otherwise the light's depth map and the grid
+// of the sky visibility, which have a limited number of cells, would have to cover the way to them and would be coarse
+// where the picture is. Called by the renderer.
+#pragma once
+
+#include <optional>
+
+#include "render/picture/camera_frame.h"
+#include "render/picture/view.h"
+
+namespace render {
+
+/// The view without its strays, or nothing if it has none.
+///
+/// A particle matters if it may touch the picture, or if it lies so near that it may hide some of the sky from what is
+/// seen, or if its shadow may fall on something that is seen. A stray is a particle that does not matter and lies
+/// outside of the box around those that do, grown by half of its longest side on each side: what is nearer does no
+/// harm, and a film in which particles leave the picture shall not change with each of them. The same holds for sphere
+/// obstacles. A view in which no particle matters has no strays.
+///
+/// The shadow of a ball does not count at a distance of more than 2048 of its radii, or where it is narrower than half
+/// a pixel. The radius of a metaball is that of its field.
+std::optional<View> withoutStrays(const View& view, const CameraFrame& frame);
+
+}  // namespace render
