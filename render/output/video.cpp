@@ -40,8 +40,8 @@ std::vector<std::string> commandLine(const VideoOptions& options, const std::str
     return {options.ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y", "-f", "rawvideo",
             "-pix_fmt", "rgb24", "-video_size",
             fmt::format("{}x{}", even(options.size.width), even(options.size.height)), "-framerate",
-            fmt::format("{}", options.fps), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset", "superfast", "-bf",
-            "0", "-x264-params", "weightp=0", "-crf", "20", "-pix_fmt", "yuv420p", "-threads", "2", "-sws_flags",
+            options.frameRate.text(), "-i", "-", "-vf", filter, "-c:v", "libx264", "-preset", "superfast", "-bf", "0",
+            "-x264-params", "weightp=0", "-crf", "20", "-pix_fmt", "yuv420p", "-threads", "2", "-sws_flags",
             "+accurate_rnd+bitexact", "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709",
             "-color_trc", "bt709", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-bsf:v",
             "filter_units=remove_types=6", "-movflags", "+faststart", "-f", "mp4",
@@ -51,9 +51,9 @@ std::vector<std::string> commandLine(const VideoOptions& options, const std::str
 
 /// Returns the options if a video can be made with them, and throws otherwise.
 VideoOptions checked(VideoOptions options) {
-    if (options.size.width <= 0 || options.size.height <= 0 || options.fps <= 0)
+    if (options.size.width <= 0 || options.size.height <= 0 || options.frameRate.numerator <= 0)
         throw std::logic_error(fmt::format("video: {} x {} pixels at {} frames a second", options.size.width,
-                                           options.size.height, options.fps));
+                                           options.size.height, options.frameRate.text()));
     requireEncoder(options);
     return options;
 }

@@ -17,7 +17,7 @@ namespace render {
 struct VideoOptions {
     std::string path;  ///< path of the video; the file appears there when it is whole
     PictureSize size;
-    int fps = 30;
+    FrameRate frameRate = {};
     std::string ffmpeg = "ffmpeg";  ///< the program, looked up on PATH
     std::chrono::duration<double> progressTimeout =
         kProgressTimeout;  ///< time without progress after which ffmpeg is killed, s

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -106,6 +107,23 @@ struct View {
 struct PictureSize {
     int width = 1280;
     int height = 720;
+};
+
+/// Frames per second as a fraction in lowest terms, such as 30000/1001, with which frames are never rounded to others.
+struct FrameRate {
+    int numerator = 30;
+    int denominator = 1;
+
+    bool operator==(const FrameRate&) const = default;
+
+    /// The time of a frame that is counted from 0, in seconds: exact but for one rounding.
+    double timeOf(int frame) const { return static_cast<double>(frame) * denominator / numerator; }
+    /// How many frames there are in a time (s).
+    double framesIn(double seconds) const { return seconds * numerator / denominator; }
+    /// "30" or "30000/1001", as ffmpeg takes it.
+    std::string text() const {
+        return std::to_string(numerator) + (denominator == 1 ? "" : "/" + std::to_string(denominator));
+    }
 };
 
 }  // namespace render

@@ -20,7 +20,7 @@ void readTop(const Section& top, Scene& scene) {
     scene.title = top.string("title");
     scene.description = top.string("description");
     scene.duration = top.number("duration");
-    scene.fps = static_cast<int>(top.integer("fps"));
+    scene.fps = top.frameRate("fps");
     scene.setup.seed = static_cast<std::uint64_t>(top.integer("seed"));
 }
 
@@ -102,7 +102,7 @@ void checkPopulation(const Sections& sections, const engine::Setup& setup, Build
 void checkSize(Sections& sections, BuildContext& context) {
     Section& top = sections.top;
     if (top.has("duration") && top.has("fps")) {
-        const double frames = top.number("duration") * static_cast<double>(top.integer("fps"));
+        const double frames = top.frameRate("fps").framesIn(top.number("duration"));
         if (frames > context.limits.frames)
             report(top, top.isGiven("duration") ? "duration" : "fps", context,
                    "the animation would have about {:.7g} frames, {}", frames,

@@ -8,17 +8,17 @@ namespace scenes {
 namespace {
 
 int nearestFrame(const Scene& scene, double time) {
-    return std::clamp(static_cast<int>(std::lround(time * scene.fps)), 0, frameCount(scene) - 1);
+    return std::clamp(static_cast<int>(std::lround(scene.fps.framesIn(time))), 0, frameCount(scene) - 1);
 }
 
 }  // namespace
 
 int frameCount(const Scene& scene) {
-    return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps)));
+    return std::max(1, static_cast<int>(std::lround(scene.fps.framesIn(scene.duration))));
 }
 
 double frameTime(const Scene& scene, int frame) {
-    return static_cast<double>(frame) / scene.fps;
+    return scene.fps.timeOf(frame);
 }
 
 int stillFrame(const Scene& scene) {

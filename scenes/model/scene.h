@@ -26,7 +26,7 @@ struct Scene {
     std::string title;
     std::string description;
     double duration = 1.0;  ///< s
-    int fps = 30;           ///< frames per second
+    render::FrameRate fps;
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB of the particles, one for each of the setup's materials
     CameraPath camera;

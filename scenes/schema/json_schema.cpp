@@ -43,6 +43,9 @@ Json typeSchema(const Key& key) {
             return arraySchema(numberSchema("number", key.range), 0);
         case Type::integer:
             return numberSchema("integer", key.range);
+        case Type::frameRate:
+            return {
+                {"anyOf", {numberSchema("integer", key.range), {{"type", "string"}, {"pattern", "^[0-9]+/[0-9]+$"}}}}};
         case Type::boolean:
             return {{"type", "boolean"}};
         case Type::string:

@@ -11,7 +11,8 @@ std::vector<Key> topKeys() {
         key("description", Type::string, "", "more about the scene").defaultsTo("\"\""),
         // A duration of at most a million seconds keeps every frame number within 32 bits.
         key("duration", Type::number, "s", "length of the animation").required().within({0.0, 1e6, true}),
-        key("fps", Type::integer, "1/s", "frames per second; frame k shows the time k / fps")
+        key("fps", Type::frameRate, "1/s",
+            "frames per second, also as a fraction such as \"30000/1001\"; frame k shows the time k / fps")
             .defaultsTo("30")
             .within({1.0, 240.0}),
         key("seed", Type::integer, "", "seed of all random numbers").defaultsTo("1").within(kNotNegative),

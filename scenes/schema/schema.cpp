@@ -24,6 +24,7 @@ const TypeWords& wordsOf(Type type) {
         {Type::number, "number", "a number"},
         {Type::numberList, "list of numbers", "a list of numbers"},
         {Type::integer, "integer", "a whole number"},
+        {Type::frameRate, "integer or fraction", "a whole number or a fraction such as \"30000/1001\""},
         {Type::boolean, "boolean", "true or false"},
         {Type::string, "string", "a string"},
         {Type::stringList, "list of strings", "a list of strings"},

@@ -15,6 +15,7 @@ enum class Type {
     number,
     numberList,
     integer,
+    frameRate,  ///< a whole number, or a fraction "30000/1001"
     boolean,
     string,
     stringList,
@@ -37,7 +38,7 @@ struct Range {
 };
 
 /// A key of a table in a scene file. All texts are static. The member functions return a changed copy, so that a key is
-/// written as `key("fps", Type::integer, "1/s", "frames per second").within({1, 240}).defaultsTo("30")`.
+/// written as `key("fps", Type::frameRate, "1/s", "frames per second").within({1, 240}).defaultsTo("30")`.
 struct Key {
     std::string_view table{};  ///< name of the table; empty for keys above the first table
     std::string_view name{};

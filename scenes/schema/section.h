@@ -39,6 +39,7 @@ class Section {
     // The functions below return the value of a key. It has to exist, and its type has to be that of the function.
     double number(std::string_view name) const { return typed(name).number; }
     std::int64_t integer(std::string_view name) const { return typed(name).integer; }
+    const render::FrameRate& frameRate(std::string_view name) const { return typed(name).frameRate; }
     bool boolean(std::string_view name) const { return typed(name).boolean; }
     const std::string& string(std::string_view name) const { return typed(name).string; }
     const std::vector<std::string>& strings(std::string_view name) const { return typed(name).strings; }

@@ -8,6 +8,7 @@
 
 #include "scenes/text/color.h"
 #include "scenes/text/edit_distance.h"
+#include "scenes/text/frame_rate.h"
 
 namespace scenes {
 namespace {
@@ -53,6 +54,22 @@ MaybeValue numberOf(const Subject& subject, const Value& value) {
     TypedValue typed = TypedValue::ofNumber(value.number);
     typed.integer = value.integer;
     if (subject.key.type == Type::integer) typed.canonical = fmt::format("{}", value.integer);
+    return typed;
+}
+
+/// Validates the value as a whole number, or as a string with a fraction, within the range of the key.
+MaybeValue frameRateOf(const Subject& subject, const Value& value) {
+    const bool isInteger = value.kind == ValueKind::integer;
+    const bool isFraction = value.kind == ValueKind::string && value.string.find('/') != std::string::npos;
+    if (!isInteger && !isFraction) return reject(subject, value);
+    const auto rate = frameRateFrom(isInteger ? fmt::to_string(value.integer) : value.string);
+    if (!rate && isFraction) return reject(subject, value);
+    if (!rate || !contains(subject.key.range, rate->framesIn(1.0)))
+        return reject(subject, value.position, describe(value), rangeText(subject.key.range));
+    TypedValue typed;
+    typed.frameRate = *rate;
+    // A fraction that is a whole number means the same as that number.
+    typed.canonical = rate->denominator == 1 ? rate->text() : tomlString(rate->text());
     return typed;
 }
 
@@ -126,6 +143,8 @@ MaybeValue typedOf(const Subject& subject, const Value& value) {
         case Type::number:
         case Type::integer:
             return numberOf(subject, value);
+        case Type::frameRate:
+            return frameRateOf(subject, value);
         case Type::boolean:
             if (value.kind == ValueKind::boolean) return TypedValue::ofBoolean(value.boolean);
             break;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/vec3.h"
+#include "render/picture/view.h"
 #include "scenes/schema/schema.h"
 #include "scenes/text/problem_list.h"
 
@@ -17,6 +18,7 @@ namespace scenes {
 struct TypedValue {
     double number = 0.0;                ///< number
     std::int64_t integer = 0;           ///< integer
+    render::FrameRate frameRate;        ///< frameRate
     bool boolean = false;               ///< boolean
     std::string string;                 ///< string, choice
     std::vector<std::string> strings;   ///< stringList

@@ -35,13 +35,13 @@ render::Camera cameraOf(const CameraPlacement& placement) {
 
 void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int frame) {
     // The time of a frame is its index / fps, so the index of the current frame follows from the time.
-    const int current = static_cast<int>(std::lround(simulation.time * scene.fps));
+    const int current = static_cast<int>(std::lround(scene.fps.framesIn(simulation.time)));
     for (int next = current + 1; next <= frame; ++next) engine::advance(simulation, frameTime(scene, next));
 }
 
 std::string timeText(const Scene& scene, double time) {
     // Frames are 1/fps apart: two decimals distinguish their times up to 100 frames per second.
-    return fmt::format("t = {:.{}f} s", time, scene.fps > 100 ? 3 : 2);
+    return fmt::format("t = {:.{}f} s", time, scene.fps.framesIn(1.0) > 100.0 ? 3 : 2);
 }
 
 render::View frameView(const Scene& scene, const engine::Simulation& simulation) {

@@ -22,12 +22,15 @@ std::vector<Variant> variantsOf(const scenes::Scene& scene, const AccuracySettin
         if (stepper == engine::StepperKind::automatic)
             for (const double error : settings.errors) variants.push_back({stepper, error, {}});
         else
-            for (const int count : settings.stepsPerFrame) variants.push_back({stepper, 1.0 / (scene.fps * count), {}});
+            for (const int count : settings.stepsPerFrame)
+                variants.push_back({stepper, 1.0 / (scene.fps.framesIn(1.0) * count), {}});
     }
     // Single precision is measured with the stepper that spends nearly all of its time on pair forces.
     for (const int count : settings.stepsPerFrame)
-        variants.push_back(
-            {engine::StepperKind::velocityVerlet, 1.0 / (scene.fps * count), {}, engine::Precision::singles});
+        variants.push_back({engine::StepperKind::velocityVerlet,
+                            1.0 / (scene.fps.framesIn(1.0) * count),
+                            {},
+                            engine::Precision::singles});
     return variants;
 }
 

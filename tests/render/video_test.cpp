@@ -80,7 +80,7 @@ std::string fakeFfmpeg(const Folder& folder, const std::string& action) {
 TEST_CASE("A video has its frames, rate, size and color tags") {
     const Folder folder;
     const std::string path = folder.file("a.mp4");
-    writeVideo({path, {64, 48}, 25}, 7);
+    writeVideo({path, {64, 48}, {25}}, 7);
     const std::string found = probe(path);
     INFO(found);
     for (const char* expected :
@@ -91,9 +91,17 @@ TEST_CASE("A video has its frames, rate, size and color tags") {
     CHECK(folder.entryCount() == 1);
 }
 
+TEST_CASE("A frame rate may be a fraction") {
+    const Folder folder;
+    writeVideo({folder.file("a.mp4"), {64, 48}, {30000, 1001}}, 5);
+    const std::string found = probe(folder.file("a.mp4"));
+    CHECK_THAT(found, Catch::Contains("r_frame_rate=30000/1001"));
+    CHECK_THAT(found, Catch::Contains("nb_read_frames=5"));
+}
+
 TEST_CASE("Odd sizes are padded to even") {
     const Folder folder;
-    writeVideo({folder.file("odd.mp4"), {33, 17}, 30}, 3);
+    writeVideo({folder.file("odd.mp4"), {33, 17}, {30}}, 3);
     const std::string found = probe(folder.file("odd.mp4"));
     CHECK_THAT(found, Catch::Contains("width=34"));
     CHECK_THAT(found, Catch::Contains("height=18"));
@@ -109,9 +117,9 @@ TEST_CASE("The number of cores does not change a byte") {
     cpu_set_t one;
     CPU_ZERO(&one);
     CPU_SET(first, &one);
-    writeVideo({folder.file("all"), {640, 360}, 30}, 24);
+    writeVideo({folder.file("all"), {640, 360}, {30}}, 24);
     REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);  // ffmpeg inherits it
-    writeVideo({folder.file("one"), {640, 360}, 30}, 24);
+    writeVideo({folder.file("one"), {640, 360}, {30}}, 24);
     REQUIRE(sched_setaffinity(0, sizeof all, &all) == 0);
     CHECK(bytesOf(folder.file("all")).size() > 1000);
     CHECK(bytesOf(folder.file("one")) == bytesOf(folder.file("all")));
@@ -122,7 +130,7 @@ TEST_CASE("Colors survive: a red video is red") {
     render::Image red{64, 64, {}};
     for (int k = 0; k < 64 * 64; ++k) red.rgb.insert(red.rgb.end(), {220, 40, 30});
     {
-        render::VideoWriter writer({folder.file("red.mp4"), {64, 64}, 30});
+        render::VideoWriter writer({folder.file("red.mp4"), {64, 64}, {30}});
         writer.add(red);
         writer.finish();
     }
@@ -302,11 +310,11 @@ TEST_CASE("To install ffmpeg is no advice when there is one that cannot be start
 
 TEST_CASE("An encoder that outlived its run does not write into the next run's video") {
     const Folder folder;
-    writeVideo({folder.file("whole.mp4"), {64, 64}, 30}, 3);
+    writeVideo({folder.file("whole.mp4"), {64, 64}, {30}}, 3);
     const std::string abandoned = folder.file(".a.mp4.abc123.partial");
     std::ofstream old(abandoned);
     old << "old" << std::flush;
-    render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30});
+    render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, {30}});
     CHECK_FALSE(fs::exists(abandoned));  // no lock: its run has ended
     for (int k = 0; k < 3; ++k) writer.add(frame({64, 64}, k));
     old << std::string(1000, 'x') << std::flush;
@@ -316,9 +324,9 @@ TEST_CASE("An encoder that outlived its run does not write into the next run's v
 
 TEST_CASE("Two writers of one video both succeed, and the last to finish wins") {
     const Folder folder;
-    writeVideo({folder.file("three.mp4"), {64, 64}, 30}, 3);
-    render::VideoWriter first({folder.file("a.mp4"), {64, 64}, 30});
-    render::VideoWriter second({folder.file("a.mp4"), {64, 64}, 30});
+    writeVideo({folder.file("three.mp4"), {64, 64}, {30}}, 3);
+    render::VideoWriter first({folder.file("a.mp4"), {64, 64}, {30}});
+    render::VideoWriter second({folder.file("a.mp4"), {64, 64}, {30}});
     for (int k = 0; k < 3; ++k) first.add(frame({64, 64}, k));
     second.add(frame({64, 64}, 0));
     second.finish();
@@ -330,9 +338,9 @@ TEST_CASE("Two writers of one video both succeed, and the last to finish wins") 
 TEST_CASE("A video keeps the permissions of the file that it replaces, and may have a name of 250 bytes") {
     const Folder folder;
     const std::string name = std::string(250, 'v');
-    writeVideo({folder.file(name), {64, 64}, 30}, 1);
+    writeVideo({folder.file(name), {64, 64}, {30}}, 1);
     fs::permissions(folder.file(name), fs::perms::owner_read);
-    writeVideo({folder.file(name), {64, 64}, 30}, 1);
+    writeVideo({folder.file(name), {64, 64}, {30}}, 1);
     CHECK(fs::status(folder.file(name)).permissions() == fs::perms::owner_read);
 }
 
@@ -351,7 +359,7 @@ TEST_CASE("A folder that does not exist is named, with the reason") {
 TEST_CASE("A video that is not finished leaves no file") {
     const Folder folder;
     {
-        render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, 30});
+        render::VideoWriter writer({folder.file("a.mp4"), {64, 64}, {30}});
         for (int k = 0; k < 5; ++k) writer.add(frame({64, 64}, k));
     }
     CHECK(folder.entryCount() == 0);

@@ -39,8 +39,9 @@ SCENE = {
     "body": [{"shape": "ball", "radius": 0.5}],
     "emitter": [{"position": [0, 1, 0], "rate": 2.0}],
 }
-if not validator.is_valid(SCENE):
-    failures.append("the scene that the mistakes are made in is rejected")
+for scene in (SCENE, SCENE | {"fps": "30000/1001"}):
+    if not validator.is_valid(scene):
+        failures.append(f"{scene} is rejected")
 
 
 def mistake(description, change):

@@ -55,8 +55,13 @@ TEST_CASE("the message for a wrong type names the value and the expected type") 
     CHECK(physics("stepper = 4") ==
           Lines{"pile.toml:7:11: stepper is 4, must be \"symplectic-euler\", \"velocity-verlet\", "
                 "\"leapfrog\", \"implicit-damping\", \"linearly-implicit\" or \"auto\""});
-    CHECK(problemsOf("fps = 29.97\n" + kBall) ==
-          Lines{"pile.toml:1:7: fps is 29.97, must be a whole number (per second)"});
+    CHECK(
+        problemsOf("fps = 29.97\n" + kBall) ==
+        Lines{"pile.toml:1:7: fps is 29.97, must be a whole number or a fraction such as \"30000/1001\" (per second)"});
+    for (const std::string wrong : {"30", "30/0", "30/-1", "a/b", "30/1.001", "1000001/1000001", "30000/1001/1"})
+        CHECK(problemsOf("fps = \"" + wrong + "\"\n" + kBall) ==
+              Lines{"pile.toml:1:7: fps is \"" + wrong +
+                    "\" (a string), must be a whole number or a fraction such as \"30000/1001\" (per second)"});
     CHECK(problemsOf("description = 1\n" + kBall) == Lines{"pile.toml:1:15: description is 1, must be a string"});
     CHECK(problemsOf(kBall + "[look]\nshadows = 1\n") == Lines{"pile.toml:7:11: shadows is 1, must be true or false"});
     CHECK(problemsOf(kBall + "[look]\nsize = [640.5, 480]\n") ==
@@ -70,6 +75,10 @@ TEST_CASE("numbers out of range are rejected, with bounds and unit") {
           Lines{"pile.toml:5:10: radius is -0.2, must be > 0 and <= 100000000 (meters)"});
     CHECK(problemsOf("fps = 241\n" + kBall) == Lines{"pile.toml:1:7: fps is 241, must be 1 to 240 (per second)"});
     CHECK(problemsOf("fps = 0\n" + kBall) == Lines{"pile.toml:1:7: fps is 0, must be 1 to 240 (per second)"});
+    CHECK(problemsOf("fps = 4294967326\n" + kBall) ==
+          Lines{"pile.toml:1:7: fps is 4294967326, must be 1 to 240 (per second)"});
+    CHECK(problemsOf("fps = \"1001/2\"\n" + kBall) ==
+          Lines{"pile.toml:1:7: fps is \"1001/2\" (a string), must be 1 to 240 (per second)"});
     CHECK(problemsOf(kBall + "[material]\ncr = 0.9\n") == Lines{"pile.toml:7:6: cr is 0.9, must be >= 1"});
     CHECK(problemsOf(kBall + "[material]\ncore = 1\n") == Lines{"pile.toml:7:8: core is 1, must be > 0 and < 1"});
     CHECK(problemsOf(kBall + "[look]\nsize = [15, 8193]\n") ==

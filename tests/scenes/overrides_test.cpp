@@ -14,7 +14,8 @@ TEST_CASE("overrides replace values of the file and add to it") {
     CHECK(sceneOf(text, {"physics.step=0.005"}).setup.step == 0.005);
     CHECK(sceneOf(text, {"physics.step=0.005", "physics.step=0.25"}).setup.step == 0.25);
     CHECK(sceneOf(kBall, {"physics.drag=2"}).setup.drag == 2.0);
-    CHECK(sceneOf(kBall, {"fps=50"}).fps == 50);
+    CHECK(sceneOf(kBall, {"fps=50"}).fps == render::FrameRate{50, 1});
+    CHECK(sceneOf(kBall, {"fps=30000/1001"}).fps == render::FrameRate{30000, 1001});
 }
 
 TEST_CASE("a bare word is a string, other values are TOML") {

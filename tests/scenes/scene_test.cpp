@@ -16,7 +16,7 @@ TEST_CASE("a minimal scene has the defaults of the schema") {
     const scenes::Scene scene = sceneOf(kBall);
     CHECK(scene.title == "t");
     CHECK(scene.duration == 2.0);
-    CHECK(scene.fps == 30);
+    CHECK(scene.fps == render::FrameRate{30, 1});
     CHECK(scene.setup.seed == 1);
     CHECK(scene.setup.gravity == Vec3(0.0, -9.8, 0.0));
     CHECK(scene.setup.drag == 0.0);
@@ -43,7 +43,7 @@ TEST_CASE("the keys of a file reach the scene") {
         "[[body]]\nshape = \"ball\"\nradius = 1\n[still]\ntime = 3\n[look]\nsize = [640, 480]\nstyle = "
         "\"metaballs\"\n");
     CHECK(scene.description == "d");
-    CHECK(scene.fps == 25);
+    CHECK(scene.fps == render::FrameRate{25, 1});
     // 2^53 + 1 is not a double: a seed keeps all its bits.
     CHECK(scene.setup.seed == 9007199254740993ULL);
     CHECK(scene.setup.gravity == Vec3(1.0, 2.0, 3.0));
@@ -62,7 +62,7 @@ TEST_CASE("the keys of a file reach the scene") {
 
 TEST_CASE("frames are counted by rounding and start at time zero") {
     scenes::Scene scene;
-    scene.fps = 30;
+    scene.fps = {30, 1};
     scene.duration = 2.0;
     CHECK(scenes::frameCount(scene) == 60);
     scene.duration = 0.001;
@@ -76,6 +76,18 @@ TEST_CASE("frames are counted by rounding and start at time zero") {
     CHECK(scenes::frameTime(scene, 0) == 0.0);
     CHECK(scenes::frameTime(scene, 1) == 1.0 / 30.0);
     CHECK(scenes::frameTime(scene, 45) == 1.5);
+}
+
+TEST_CASE("a frame rate may be a fraction, whose frames are never rounded to others") {
+    const scenes::Scene scene = sceneOf("fps = \"60000/2002\"\n" + kBall, {"duration=1001"});
+    CHECK(scene.fps == render::FrameRate{30000, 1001});
+    CHECK(scenes::frameCount(scene) == 30000);
+    CHECK(scenes::frameTime(scene, 1) == 1001.0 / 30000.0);
+    CHECK(scenes::frameTime(scene, 30000) == 1001.0);
+    CHECK(scenes::frameTime(scene, 299999) == 299999.0 * 1001.0 / 30000.0);
+    // Equal rates make equal scenes, and the hash of a whole number is that of scenes before there were fractions.
+    CHECK(sceneOf("fps = \"30000/1001\"\n" + kBall, {"duration=1001"}).sceneHash == scene.sceneHash);
+    CHECK(sceneOf("fps = \"60/2\"\n" + kBall).sceneHash == sceneOf(kBall).sceneHash);
 }
 
 TEST_CASE("the effective values list every key that applies once, with its origin") {

@@ -74,7 +74,7 @@ TEST_CASE("rows show each key with type, unit, default, range and help") {
         REQUIRE(found != rows.end());
         return *found;
     };
-    CHECK(row("fps").type == "integer");
+    CHECK(row("fps").type == "integer or fraction");
     CHECK(row("fps").unit == "1/s");
     CHECK(row("fps").defaultText == "30");
     CHECK(row("fps").range == "1 to 240");

@@ -103,7 +103,7 @@ TEST_CASE("the paper's scenes have the paper's constants and method") {
         CHECK(scene.setup.stepper == engine::StepperKind::symplecticEuler);
         CHECK(scene.setup.step == 0.01);
         CHECK(scene.setup.drag == 1.005);
-        CHECK(100 % scene.fps == 0);  // a frame is a whole number of published steps of 0.01 s
+        CHECK(100 % scene.fps.numerator == 0);  // a frame is a whole number of published steps of 0.01 s
         CHECK(scene.look.common.background.top == glm::vec3(0.0F));
         CHECK(scene.size.width % 2 == 0);
         CHECK(scene.size.height % 2 == 0);

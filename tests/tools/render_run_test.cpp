@@ -165,6 +165,35 @@ TEST_CASE("A folder for temporary files that is not there is named, and the syst
     CHECK(textOf(folder / "b.mp4") == textOf(video));
 }
 
+TEST_CASE("A frame rate that is a fraction is kept by run.json, video and a resumed run", "[tools]") {
+    const program::Folder folder;
+    const std::string ntsc =
+        "render fountain --size 64x36 --quality draft --quiet --checkpoint 0 "
+        "--set fps=30000/1001 --frames 0-4 -o " +
+        (folder / "a").string() + " --video " + (folder / "a.mp4").string();
+    REQUIRE(run(ntsc).code == 0);
+    const auto json = nlohmann::json::parse(textOf(folder / "a/run.json"));
+    CHECK(json["fps"] == "30000/1001");
+    const std::string video = "video " + (folder / "a").string() + " --quiet -o " + (folder / "again.mp4").string();
+    REQUIRE(run(video).code == 0);
+    CHECK(textOf(folder / "again.mp4") == textOf(folder / "a.mp4"));
+    REQUIRE(run(video + " --fps 30").code == 0);
+    CHECK(textOf(folder / "again.mp4") != textOf(folder / "a.mp4"));
+    REQUIRE(run(video + " --fps 60000/2002").code == 0);
+    CHECK(textOf(folder / "again.mp4") == textOf(folder / "a.mp4"));
+    for (const char* wrong : {"29.97", "0", "241", "1/2", "30/0", "ntsc"}) {
+        const auto outcome = run(video + " --fps " + wrong);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err == "error: --fps " + std::string(wrong) +
+                                 ": must be a whole number or a fraction such as 30000/1001, from 1 to 240\n");
+    }
+    const std::string frame = textOf(folder / "a/frame-00004.png");
+    fs::remove(folder / "a/frame-00004.png");
+    REQUIRE(run(ntsc + " --resume").code == 0);
+    CHECK(nlohmann::json::parse(textOf(folder / "a/run.json"))["resumed_from"] == 3);
+    CHECK(textOf(folder / "a/frame-00004.png") == frame);
+}
+
 TEST_CASE("globular simulate writes states that a scene can start from", "[tools]") {
     const program::Folder folder;
     REQUIRE(run("simulate powder --frames 0-3 --quiet -o " + (folder / "states").string()).code == 0);

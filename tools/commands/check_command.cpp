@@ -30,7 +30,7 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
     json["unstable"] = preview.unstable.empty() ? Json(nullptr) : Json(preview.unstable);
     json["from_frames"] = preview.frames;
     json["stepper"] = engine::nameOf(simulation.stepper);
-    json["step"] = perFrame > 0.0 ? 1.0 / scene.fps / perFrame : 0.0;
+    json["step"] = perFrame > 0.0 ? scene.fps.timeOf(1) / perFrame : 0.0;
     json["steps"] = static_cast<std::int64_t>(static_cast<double>(simulation.steps.count) + framesLeft * perFrame);
     const auto& limits = simulation.steps.limitedBy;
     json["limited_by"] =
@@ -77,7 +77,7 @@ Json checkJson(const scenes::Scene& scene) {
     json["scene"] = scene.title;
     json["source"] = scene.sourceName;
     json["frames"] = frames;
-    json["fps"] = scene.fps;
+    json["fps"] = frameRateJson(scene.fps);
     json["particles_at_start"] = scene.setup.initial.count();
     json["particles_at_most"] = most;
     json["kernel"] = scene.setup.forces == engine::ForceMethod::grid ? "cell grid" : "every pair";
@@ -117,7 +117,8 @@ std::string boundText(const Json& json) {
 /// What `check` prints without --json.
 std::string checkText(const Json& json) {
     std::string text = fmt::format("{}: {}\n", json["source"].get<std::string>(), json["scene"].get<std::string>());
-    text += fmt::format("frames     {} at {} a second\n", json["frames"].get<int>(), json["fps"].get<int>());
+    text += fmt::format("frames     {} at {} a second\n", json["frames"].get<int>(),
+                        json["fps"].is_string() ? json["fps"].get<std::string>() : compactText(json["fps"]));
     text += fmt::format("particles  {} at the start, {} at most\n", json["particles_at_start"].get<std::uint64_t>(),
                         json["particles_at_most"].get<std::uint64_t>());
     std::string terms;

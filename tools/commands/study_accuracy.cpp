@@ -49,7 +49,7 @@ struct Subject {
 
 /// @throws scenes::InputError for a window that is shorter than a frame or has more frames than a run may have
 void requireFrames(const Subject& subject, const std::string& text) {
-    const double fps = subject.scene.fps;
+    const double fps = subject.scene.fps.framesIn(1.0);
     const double most = scenes::Limits().frames;
     if (!(std::lround(std::min(subject.window * fps, most)) >= 1))
         throw scenes::InputError(
@@ -85,8 +85,8 @@ Subject parseSubject(const std::string& text, const AccuracyOptions& options) {
 studies::AccuracySettings settingsFor(const Subject& subject, const AccuracyOptions& options) {
     const scenes::Scene& scene = subject.scene;
     studies::AccuracySettings settings;
-    settings.firstFrame = static_cast<int>(std::lround(subject.from * scene.fps));
-    settings.frameCount = static_cast<int>(std::lround(subject.window * scene.fps));
+    settings.firstFrame = static_cast<int>(std::lround(scene.fps.framesIn(subject.from)));
+    settings.frameCount = static_cast<int>(std::lround(scene.fps.framesIn(subject.window)));
     if (options.quick) {
         settings.stepsPerFrame = {4, 8, 16, 32};
         settings.errors = {1e-1, 1e-2};

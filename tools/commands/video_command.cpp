@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "render/output/png.h"
 #include "render/output/video.h"
 #include "render/picture/system_error.h"
+#include "scenes/text/frame_rate.h"
+#include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
 #include "tools/run/frame_folder.h"
 #include "tools/system/json.h"
@@ -24,7 +28,7 @@ struct EncodeOptions {
     RunOptions run;
     std::string folder;
     std::string output;
-    int fps = 0;
+    std::string fps;
 };
 
 /// The numbers of the frames in a folder, in order.
@@ -44,20 +48,32 @@ std::vector<int> frameNumbers(const fs::path& folder) {
     return numbers;
 }
 
-/// Frame rate of the video, in frames per second: from --fps, or else from run.json, or 30 if there is no run.json.
-int rateOf(const EncodeOptions& options) {
-    if (options.fps > 0) return options.fps;
+/// The frame rate that a text spells, if a scene may have it.
+std::optional<render::FrameRate> rateFrom(const std::string& text) {
+    const auto rate = scenes::frameRateFrom(text);
+    const bool isAllowed = rate && rate->framesIn(1.0) >= 1.0 && rate->framesIn(1.0) <= 240.0;
+    return isAllowed ? rate : std::nullopt;
+}
+
+/// Frame rate of the video: from --fps, or else from run.json, or 30 a second if there is no run.json.
+render::FrameRate rateOf(const EncodeOptions& options) {
+    if (!options.fps.empty()) {
+        if (const auto rate = rateFrom(options.fps)) return *rate;
+        throw scenes::InputError("--fps " + options.fps,
+                                 "must be a whole number or a fraction such as 30000/1001, from 1 to 240");
+    }
     const fs::path run = fs::path(options.folder) / "run.json";
-    if (!fs::exists(run)) return 30;
+    if (!fs::exists(run)) return {};
     const Json json = Json::parse(readFile(run), nullptr, false);
-    if (!json.is_object() || !json.contains("fps") || !json["fps"].is_number_integer() || json["fps"] < 1 ||
-        json["fps"] > 240)
-        throw render::SystemError(fmt::format("{} has no frame rate; give one with --fps", run.string()));
-    return json["fps"].get<int>();
+    const Json fps = json.is_object() ? json.value("fps", Json()) : Json();
+    const auto rate = rateFrom(fps.is_string() ? fps.get<std::string>() : compactText(fps));
+    if (!rate) throw render::SystemError(fmt::format("{} has no frame rate; give one with --fps", run.string()));
+    return *rate;
 }
 
 void encode(const EncodeOptions& options) {
     const fs::path folder = options.folder;
+    const render::FrameRate rate = rateOf(options);
     const std::vector<int> numbers = frameNumbers(folder);
     if (fs::path(options.output).has_parent_path()) createFolder(fs::path(options.output).parent_path());
 
@@ -69,7 +85,7 @@ void encode(const EncodeOptions& options) {
     render::VideoOptions video;
     video.path = options.output;
     video.size = {first.width, first.height};
-    video.fps = rateOf(options);
+    video.frameRate = rate;
     render::VideoWriter writer(video);
     Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.verbosity());
     for (const int number : numbers) {
@@ -79,7 +95,7 @@ void encode(const EncodeOptions& options) {
                                                   (folder / kPictureNames.fileName(number)).string(), image.width,
                                                   image.height, first.width, first.height));
         writer.add(image);
-        progress.frameDone(number, static_cast<double>(number) / video.fps);
+        progress.frameDone(number, rate.timeOf(number));
     }
     writer.finish();
     printResult(options.run, {{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}},
@@ -93,8 +109,10 @@ void addVideoCommand(CLI::App& program) {
     const auto options = std::make_shared<EncodeOptions>();
     command.add_option("DIR", options->folder, "folder with frame-00000.png, ...")->required();
     command.add_option("-o,--output", options->output, "the video to write")->required()->type_name("FILE.mp4");
-    command.add_option("--fps", options->fps, "frames per second (default: that of run.json, else 30)")
-        ->check(CLI::Range(1, 240));
+    command
+        .add_option("--fps", options->fps,
+                    "frames per second, also as a fraction such as 30000/1001 (default: that of run.json, else 30)")
+        ->type_name("RATE");
     addTo(command, options->run);
     command.footer("Example: globular video out/liquid -o out/liquid.mp4");
     command.callback([options] { encode(*options); });

@@ -85,7 +85,7 @@ class RenderRun {
         render::VideoOptions options;
         options.path = job.videoPath;
         options.size = job.scene->size;
-        options.fps = job.scene->fps;
+        options.frameRate = job.scene->fps;
         return options;
     }
 

@@ -107,7 +107,7 @@ ErrorSamples decodeErrors(const Json& json) {
 void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation) {
     if (simulation.setup.stepper == engine::StepperKind::automatic) return;
     try {
-        const double next = simulation.time + 1.0 / scene.fps;
+        const double next = simulation.time + scene.fps.timeOf(1);
         const auto estimate = engine::measure(simulation, {next, simulation.stepper, simulation.setup.step});
         ++samples.count;
         samples.sum += estimate.error;
@@ -118,12 +118,16 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
     }
 }
 
+Json frameRateJson(const render::FrameRate& rate) {
+    return rate.denominator == 1 ? Json(rate.numerator) : Json(rate.text());
+}
+
 Json sceneIdentity(const scenes::Scene& scene) {
     return {{"scene", scene.title},
             {"scene_hash", scene.sceneHash},
             {"version", GLOBULAR_VERSION},
             {"seed", scene.setup.seed},
-            {"fps", scene.fps}};
+            {"fps", frameRateJson(scene.fps)}};
 }
 
 Json runJson(const scenes::Scene& scene, FinishedRun& run) {

@@ -67,6 +67,9 @@ struct FinishedRun {
     Json json;  ///< the content of run.json; null for a run without a folder
 };
 
+/// A frame rate as JSON: a number, or a string if it is a fraction.
+Json frameRateJson(const render::FrameRate& rate);
+
 /// The parts of a scene that determine what its frames show. They are the first fields of run.json and part of the
 /// identity in a folder's manifest.
 Json sceneIdentity(const scenes::Scene& scene);
