@@ -75,8 +75,10 @@ std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minim
         const glm::vec3 at((corner & 1) != 0 ? maximum.x : minimum.x, (corner & 2) != 0 ? maximum.y : minimum.y,
                            (corner & 4) != 0 ? maximum.z : minimum.z);
         const glm::dvec3 view(frame.toView(at));
-        if (view.z <= 1e-6) ++behind;
-        const double scale = frame.perspective ? 1.0 / std::max(view.z, 1e-6) : 1.0;
+        // A corner that rounding may have moved across the eye's plane counts as behind it.
+        const double least = frame.perspective ? 1e-6 * std::max(std::abs(view.x), std::abs(view.y)) : 0.0;
+        if (view.z <= least) ++behind;
+        const double scale = frame.perspective && view.z > least ? 1.0 / view.z : 1.0;
         x = {std::min(x.low, view.x * scale), std::max(x.high, view.x * scale)};
         y = {std::min(y.low, view.y * scale), std::max(y.high, view.y * scale)};
     }

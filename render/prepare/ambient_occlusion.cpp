@@ -70,11 +70,12 @@ constexpr double kMostCells = 1e6;
 /// The side s of the cubes of shading_model.h, before it is doubled.
 float cubeSide(std::span<const Sphere> particles) {
     const double wanted = 2.0 * meanRadius(particles);
-    constexpr double kStep = 1.189207115002721;  // 2^(1/4), see shading_model.h
-    double side = 1.0;
-    while (side < wanted) side *= kStep;
-    while (side / kStep >= wanted && side > 1e-6) side /= kStep;
-    return static_cast<float>(side);
+    if (!(wanted > 0.0)) return 1.0F;
+    // Powers of 2^(1/4) from 1/2 to 1: those around the mantissa that std::frexp() returns.
+    constexpr std::array<double, 5> kPowers = {0.5, 0.5946035575013605, 0.7071067811865476, 0.8408964152537145, 1.0};
+    int exponent = 0;
+    const double mantissa = std::frexp(wanted, &exponent);
+    return static_cast<float>(std::ldexp(*std::ranges::lower_bound(kPowers, mantissa), exponent));
 }
 
 /// Calls visit(cell index, trilinear weight) for the eight cubes whose centers surround a point within the grid.

@@ -27,7 +27,7 @@ float wantedCellSize(std::span<const ViewSphere> spheres, glm::vec2 extent) {
     for (const ViewSphere& sphere : spheres) sum += double(sphere.radius);
     return std::max({static_cast<float>(2.0 * sum / static_cast<double>(spheres.size())),
                      extent.x / static_cast<float>(kMostCellsPerSide - 1),
-                     extent.y / static_cast<float>(kMostCellsPerSide - 1), 1e-6F});
+                     extent.y / static_cast<float>(kMostCellsPerSide - 1)});
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ struct LightGrid {
 };
 
 /// Lists the spheres that cast shadows.
-/// @param spheres  in world axes, relative to the eye
+/// @param spheres  in world axes, relative to the eye; their radii are above zero
 /// @param softness  softness of the light; a sphere is listed in all cells that the soft edge of its shadow reaches
 LightGrid lightGrid(const LightBasis& basis, std::span<const ViewSphere> spheres, float softness);
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <tbb/parallel_for.h>
@@ -158,7 +159,7 @@ namespace {
 void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
     constexpr double kMostCells = 4e6;  // largest number of cells; chosen: they take 16 MB
     Bounds<glm::vec3> bounds;
-    float largestRadius = 1e-6F;
+    float largestRadius = std::numeric_limits<float>::min();
     for (const Sphere& particle : particles) {
         bounds.add(particle.center);
         largestRadius = std::max(largestRadius, particle.radius);

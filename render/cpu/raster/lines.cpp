@@ -13,8 +13,9 @@ namespace render {
 
 namespace {
 
-// Least view depth of a line, m. Chosen: at the eye itself a line has no direction on the picture.
-constexpr double kNearDepth = 1e-3;
+// Least view depth of a line, as a share of the depth of its farther end. Chosen: at the eye itself a line has no
+// direction on the picture.
+constexpr double kNearDepth = 1e-6;
 
 struct ScreenPoint {
     double x;      // position on the picture, pixels
@@ -28,11 +29,12 @@ ScreenPoint project(const CameraFrame& frame, glm::dvec3 view) {
             0.5 * frame.height * (1.0 - view.y * scale / frame.halfHeight), view.z};
 }
 
-/// Clips the segment from a to b to view depths of at least kNearDepth. @return false if nothing is left
+/// Clips the segment from a to b to view depths above zero. @return false if nothing is left
 bool clipNear(glm::dvec3& a, glm::dvec3& b) {
-    if (a.z < kNearDepth && b.z < kNearDepth) return false;
-    if (a.z < kNearDepth) a += (b - a) * ((kNearDepth - a.z) / (b.z - a.z));
-    if (b.z < kNearDepth) b += (a - b) * ((kNearDepth - b.z) / (a.z - b.z));
+    const double least = kNearDepth * std::max(a.z, b.z);
+    if (least <= 0.0) return false;
+    if (a.z < least) a += (b - a) * ((least - a.z) / (b.z - a.z));
+    if (b.z < least) b += (a - b) * ((least - b.z) / (a.z - b.z));
     return true;
 }
 

@@ -12,9 +12,8 @@ namespace {
 
 using Rectangle = Bounds<glm::vec2>;
 
-/// Whether two rectangles overlap or almost touch: far away single precision is coarse.
-bool overlap(const Rectangle& a, const Rectangle& b) {
-    const glm::vec2 slack = 1e-4F * (max(abs(a.low), abs(a.high)) + 1.0F);
+/// Whether two rectangles overlap or are at most `slack` apart.
+bool overlap(const Rectangle& a, const Rectangle& b, float slack) {
     return b.low.x <= b.high.x && all(lessThanEqual(a.low - slack, b.high)) &&
            all(greaterThanEqual(a.high + slack, b.low));
 }
@@ -77,11 +76,13 @@ TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, c
     if (groundCorners < 4) return TileKind::mixed;
     Rectangle onLightPlane;
     Rectangle onGround;
+    float slack = 0.0F;  // far away single precision is coarse
     for (const Corner& corner : corners) {
+        slack = std::max(slack, 1e-4F * length(*corner));
         onLightPlane.add(glm::vec2(light.toLightSpace(*corner)));
         onGround.add({corner->x, corner->z});
     }
-    const bool isOccluded = overlap(onLightPlane, shadows) || overlap(onGround, sky);
+    const bool isOccluded = overlap(onLightPlane, shadows, slack) || overlap(onGround, sky, slack);
     return isOccluded ? TileKind::occludedGround : TileKind::openGround;
 }
 
