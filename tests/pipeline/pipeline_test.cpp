@@ -77,7 +77,7 @@ tools::RenderJob jobOf(const scenes::Scene& scene, const ScratchFolder& folder, 
     job.folder = tools::FolderOptions{.path = (folder.path / "frames").string(), .checkpointSeconds = 0.0};
     job.videoPath = (folder.path / "video.mp4").string();
     job.threads = threads;
-    job.verbosity = tools::Verbosity::quiet;
+    job.verbosity = tools::Verbosity::normal;  // the thread that shows the progress looks at what the stages change
     return job;
 }
 

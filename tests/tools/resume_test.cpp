@@ -107,6 +107,30 @@ TEST_CASE("A signal ends a run after the current frame, with a video that plays 
     CHECK(textOf(folder / "a/frame-00019.png") == textOf(folder / "whole/frame-00019.png"));
 }
 
+TEST_CASE("A run whose frame takes long says so, answers a signal, and can be ended inside the frame", "[resume]") {
+    const Folder folder;
+    // A frame of more than a million steps.
+    const std::string arguments =
+        "simulate liquid --set physics.stepper=\\\"velocity-verlet\\\" --set physics.step=2e-8 -o " +
+        (folder / "a").string();
+    const std::string log = (folder / "log").string();
+    const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143});
+    INFO(signal);
+    std::string when = onceThat("grep -q \"% of its time, steps of 2e-08 s\" " + log);
+    // The first Ctrl-C is answered while the frame goes on. After a SIGTERM the frame has a few seconds.
+    if (std::string(signal) == "INT")
+        when += "; kill -INT $child; " + onceThat("grep -q \"press again to stop now\" " + log);
+    CHECK(interrupted(arguments, signal, when, log) == code);
+    const std::string text = textOf(log);
+    INFO(text);
+    CHECK(text.find("interrupted after ") != std::string::npos);
+    CHECK((text.find("ending after this frame") != std::string::npos) == (code == 130));
+    const auto json = runOf(folder / "a");
+    CHECK(json["interrupted"] == true);
+    CHECK_FALSE(json.contains("energy"));  // the state inside the frame is none of the run's
+    for (const auto& entry : fs::directory_iterator(folder / "a")) CHECK(entry.path().extension() != ".partial");
+}
+
 TEST_CASE("A signal that a run was started to ignore stays ignored", "[resume]") {
     const Folder folder;
     const std::string arguments = "render fountain --size 96x54 --quiet --frames 0-30 -o " + (folder / "a").string();

@@ -24,13 +24,13 @@ struct SimulateOptions {
 
 FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, const SimulateOptions& options,
                            const std::string& title) {
+    Progress progress(title, frames.count(), options.run.verbosity());
     FrameFolder folder(options.folder, kStateNames, sceneIdentity(scene));
-    FrameSequence sequence(scene, frames, &folder, options.folder.checkpointSeconds);
+    FrameSequence sequence(scene, frames, &folder, progress);
     RunReport& report = sequence.report();
     report.threads = threadCount(options.run);
     {
         const Stopwatch total(report.seconds.all);
-        Progress progress(title, frames.count(), options.run.verbosity());
         while (const auto frame = sequence.next()) {
             std::string ply;
             const Stopwatch watch(report.seconds.encoding);

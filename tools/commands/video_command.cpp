@@ -86,18 +86,21 @@ void encode(const EncodeOptions& options) {
     video.path = options.output;
     video.size = {first.width, first.height};
     video.frameRate = rate;
-    render::VideoWriter writer(video);
-    Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.verbosity());
-    for (const int number : numbers) {
-        const render::Image image = read(number);
-        if (image.width != first.width || image.height != first.height)
-            throw render::SystemError(fmt::format("{} is {}x{}, the frames before it are {}x{}",
-                                                  (folder / kPictureNames.fileName(number)).string(), image.width,
-                                                  image.height, first.width, first.height));
-        writer.add(image);
-        progress.frameDone(number, rate.timeOf(number));
+    {
+        render::VideoWriter writer(video);
+        Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.verbosity());
+        for (const int number : numbers) {
+            const render::Image image = read(number);
+            if (image.width != first.width || image.height != first.height)
+                throw render::SystemError(fmt::format("{} is {}x{}, the frames before it are {}x{}",
+                                                      (folder / kPictureNames.fileName(number)).string(), image.width,
+                                                      image.height, first.width, first.height));
+            writer.add(image);
+            progress.frameDone(number, rate.timeOf(number));
+        }
+        const Progress::Work work(progress, "completing the video");
+        writer.finish();
     }
-    writer.finish();
     printResult(options.run, {{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}},
                 fmt::format("{} frames in {}\n", numbers.size(), options.output));
 }

@@ -90,7 +90,11 @@ FolderLock::~FolderLock() {
 }
 
 FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity)
-    : folder_(options.path), lock_(folder_), resumes_(options.resume), names_(names) {
+    : folder_(options.path),
+      lock_(folder_),
+      resumes_(options.resume),
+      checkpointSeconds_(options.checkpointSeconds),
+      names_(names) {
     const fs::path path = folder_ / "manifest.json";
     if (options.overwrite) {
         for (const fs::path& file : filesIn(folder_))

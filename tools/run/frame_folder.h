@@ -72,6 +72,9 @@ class FrameFolder {
 
     std::filesystem::path pathOf(int frame) const;
 
+    /// Wall-clock time between two checkpoints, s.
+    double checkpointSeconds() const { return checkpointSeconds_; }
+
     /// The newest usable checkpoint of a frame up to `latest`; nothing if there is none or the run does not resume.
     std::optional<RestartPoint> restartPoint(const engine::Setup& setup, int latest) const;
 
@@ -94,6 +97,7 @@ class FrameFolder {
     std::filesystem::path folder_;
     FolderLock lock_;
     bool resumes_ = false;
+    double checkpointSeconds_ = 0.0;
     FrameNames names_;
     Manifest manifest_;
     std::map<int, FrameRecord> kept_;

@@ -2,6 +2,9 @@
 // close to its end.
 #include "tools/run/frame_sequence.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -17,6 +20,10 @@ namespace {
 /// The error of a fixed step is estimated at no more than this many frames of a run. Chosen, because each estimate
 /// costs as much as three frames.
 constexpr int kErrorSampleCount = 8;
+
+/// What the first Ctrl-C is answered with. On a terminal it replaces the line of progress, which is drawn again below.
+constexpr const char* kNotice = "ending after this frame; press again to stop now\n";
+constexpr const char* kNoticeOnTerminal = "\r\x1b[Kending after this frame; press again to stop now\n";
 
 /// Whether the error is estimated at a frame.
 bool isSampled(const FrameList& frames, int frame) {
@@ -34,15 +41,21 @@ std::string hashOf(const FrameList& frames) {
 
 }  // namespace
 
-FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder,
-                             double checkpointSeconds)
+FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder, Progress& progress)
     : scene_(scene),
       frames_(std::move(frames)),
       folder_(folder),
-      checkpointSeconds_(checkpointSeconds),
+      progress_(progress),
       lastCheckpoint_(std::chrono::steady_clock::now()) {
-    if (folder_ != nullptr) interrupts_.emplace();
+    const char* const notice = progress_.verbosity() == Verbosity::quiet ? nullptr
+                               : isatty(STDERR_FILENO) == 1              ? kNoticeOnTerminal
+                                                                         : kNotice;
+    if (folder_ != nullptr) interrupts_.emplace(2, notice);
     if (folder_ == nullptr || !resume()) run_.simulation = engine::start(scene_.setup);
+    run_.simulation.beforeStep = [this](const engine::Simulation& simulation) {
+        progress_.stepBegins(simulation.time);
+        if (mustStop()) throw engine::Stopped();
+    };
 }
 
 /// Resumes from the newest checkpoint before the first frame that has to be made, or from the newest of all if no frame
@@ -65,7 +78,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     if (next_ > frames_.last()) return std::nullopt;
     // A signal is ignored while frames that exist already are passed on for a video. That takes little time, and a
     // video of some of them would be worth less than the earlier video that it replaces.
-    if (interrupts_ && next_ > position_) run_.report.interruptedBy = interrupts_->signal();
+    if (interrupts_ && (next_ > position_ || mustStop())) run_.report.interruptedBy = interrupts_->signal();
     if (run_.report.interruptedBy != 0) return std::nullopt;
     SequencedFrame frame;
     frame.number = next_;
@@ -75,12 +88,14 @@ std::optional<SequencedFrame> FrameSequence::next() {
     const bool isNew = frame.number > position_;
     if (isNew && !advanceTo(frame.number)) return std::nullopt;
     ++next_;
+    if (!frame.isWanted)
+        progress_.frameSkipped(frame.number, frame.time, *std::ranges::upper_bound(frames_.numbers, frame.number));
     if (folder_ == nullptr) return frame;
     if (frame.isWanted && frame.number == position_)
         run_.report.stateHash = engine::stateHash(run_.simulation.particles);
     if (frame.isWanted && !frame.isKept) frame.stateHash = run_.report.stateHash;
     const std::chrono::duration<double> sinceCheckpoint = std::chrono::steady_clock::now() - lastCheckpoint_;
-    if (isNew && sinceCheckpoint.count() >= checkpointSeconds_) {
+    if (isNew && sinceCheckpoint.count() >= folder_->checkpointSeconds()) {
         frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
         frame.report = checkpointReport();
         lastCheckpoint_ = std::chrono::steady_clock::now();
@@ -88,18 +103,29 @@ std::optional<SequencedFrame> FrameSequence::next() {
     return frame;
 }
 
-/// Returns false if the simulation became unstable. That is not thrown, because earlier frames are still being written.
+/// Returns false if the simulation became unstable or had to stop. That is not thrown, because earlier frames are still
+/// being written.
 bool FrameSequence::advanceTo(int frame) {
     const Stopwatch watch(run_.report.seconds.simulating);
+    const auto frameTime = [&](int number) { return scenes::frameTime(scene_, number); };
     try {
-        scenes::advanceToFrame(scene_, run_.simulation, frame);
+        {
+            const Progress::Work work(progress_, fmt::format("frame {}", frame), run_.simulation.time,
+                                      frameTime(frame));
+            scenes::advanceToFrame(scene_, run_.simulation, frame);
+        }
+        position_ = frame;
+        if (!isSampled(frames_, frame)) return true;
+        const Progress::Work work(progress_, fmt::format("error of frame {}", frame), frameTime(frame),
+                                  frameTime(frame + 1));
+        addSample(run_.report.errors, scene_, run_.simulation);
+        return true;
     } catch (const engine::InstabilityError& error) {
         run_.report.unstable = error.what();
-        return false;
+    } catch (const engine::Stopped&) {
+        // finish() reports it.
     }
-    position_ = frame;
-    if (isSampled(frames_, frame)) addSample(run_.report.errors, scene_, run_.simulation);
-    return true;
+    return false;
 }
 
 Json FrameSequence::checkpointReport() const {
@@ -114,11 +140,19 @@ void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint
 }
 
 void FrameSequence::finish() {
-    // An unstable simulation has stopped between two frames, so that there is no state to save.
-    if (!run_.report.unstable.empty()) return;
+    RunReport& report = run_.report;
+    // This is the only place that decides whether the run was complete, because the signal may come at any moment.
+    if (mustStop()) {
+        report.interruptedBy = interrupts_->signal();
+        report.isCutShort = true;
+        report.stateHash.clear();
+    }
+    // A simulation that became unstable or was stopped has no state of a frame, and a checkpoint needs all frames
+    // before it to be written.
+    if (!report.unstable.empty() || report.isCutShort) return;
     if (folder_ != nullptr && position_ >= 0)
         folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation), checkpointReport());
-    run_.report.stateHash = engine::stateHash(run_.simulation.particles);
+    report.stateHash = engine::stateHash(run_.simulation.particles);
 }
 
 FinishedRun FrameSequence::take() {
@@ -126,6 +160,7 @@ FinishedRun FrameSequence::take() {
         run_.json = runJson(scene_, run_);
         folder_->writeReport(run_.json);
     }
+    run_.simulation.beforeStep = nullptr;  // refers to this object
     return std::move(run_);
 }
 

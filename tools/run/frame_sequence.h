@@ -15,6 +15,7 @@
 #include "tools/run/run_report.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"
+#include "tools/system/progress.h"
 
 namespace tools {
 
@@ -33,17 +34,23 @@ struct SequencedFrame {
 class FrameSequence {
  public:
     /// @param folder  where the frames go; nullptr for a run that cannot be resumed
-    /// @param checkpointSeconds  time between two checkpoints
-    FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder, double checkpointSeconds);
+    /// @param progress  is told of frames that are not wanted and of steps; must outlive the sequence
+    FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder, Progress& progress);
+    FrameSequence(const FrameSequence&) = delete;
+    FrameSequence& operator=(const FrameSequence&) = delete;
 
     /// Advances to the next frame. The simulation is at that frame unless the frame is kept. Returns nothing after the
     /// last frame, after a signal, and when the simulation has become unstable; report() tells which.
     std::optional<SequencedFrame> next();
 
+    /// Whether a signal asks the run to end at once: without the frames in flight, their video and a last checkpoint.
+    /// May be called by any stage of the pipeline; once true, it stays true.
+    bool mustStop() const { return interrupts_ && interrupts_->mustStop(); }
+
     /// Writes the file of a frame that next() returned, unless it is kept or not wanted, and then its checkpoint.
     void store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes);
 
-    /// Writes the last checkpoint and completes the report, when all frames are stored.
+    /// Writes the last checkpoint, unless the run must stop, and completes the report, when all frames are stored.
     void finish();
 
     /// Writes run.json, if there is a folder, and hands over the results.
@@ -61,7 +68,7 @@ class FrameSequence {
     const scenes::Scene& scene_;
     FrameList frames_;
     FrameFolder* folder_;
-    double checkpointSeconds_;
+    Progress& progress_;
     FinishedRun run_;
     std::optional<InterruptWatch> interrupts_;  ///< watches for signals if the run can be resumed
     int position_ = -1;                         ///< the frame that the simulation is at; -1 before the first

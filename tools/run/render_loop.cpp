@@ -1,6 +1,7 @@
 // A oneTBB pipeline of in-order stages. With one thread the stages take turns.
 #include "tools/run/render_loop.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -31,6 +32,7 @@ constexpr std::size_t kTokens = 4;
 struct FrameInFlight {
     SequencedFrame frame;
     std::optional<render::View> view;    ///< view to draw; empty once it is drawn, and for frames that are not drawn
+    bool isDropped = false;              ///< whether the run must stop before the frame is drawn
     std::optional<render::Image> image;  ///< the drawn picture
     render::Image oldImage;              ///< the picture of an earlier frame, whose memory the next one reuses
 };
@@ -51,10 +53,10 @@ class RenderRun {
     explicit RenderRun(const RenderJob& job)
         : job_(job),
           context_(openContext(job.backend, job.threads)),
+          progress_(job.title, job.frames.count(), job.verbosity),
           folder_(openFolder(job, context_.rendererName())),
           renderer_(context_, job.scene->size, job.quality),
-          frames_(*job.scene, job.frames, folder_.get(), job.folder ? job.folder->checkpointSeconds : 0.0),
-          progress_(job.title, job.frames.count(), job.verbosity) {
+          frames_(*job.scene, job.frames, folder_.get(), progress_) {
         report().threads = job.threads;
         report().glRenderer = context_.rendererName();
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
@@ -65,7 +67,7 @@ class RenderRun {
             const Stopwatch watch(report().seconds.all);
             onThreads(job_.threads, [this] { runPipeline(); });
             frames_.finish();
-            if (video_ && report().frames > 0) video_->finish();
+            if (video_ && report().frames > 0 && !report().isCutShort) finishVideo();
         }
         return frames_.take();
     }
@@ -119,8 +121,10 @@ class RenderRun {
     }
 
     void draw(FrameInFlight& flight) {
-        if (!flight.view) return;
+        flight.isDropped = frames_.mustStop();
+        if (!flight.view || flight.isDropped) return;
         const Stopwatch watch(report().seconds.drawing);
+        const Progress::Work work(progress_, fmt::format("drawing frame {}", flight.frame.number));
         // Drawing is isolated, so that a thread that waits for others in it does not take up the simulation of another
         // frame while it holds the OpenGL context.
         tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view, std::move(flight.oldImage)); });
@@ -128,6 +132,7 @@ class RenderRun {
     }
 
     void encode(FrameInFlight& flight) {
+        if (flight.isDropped) return;
         const Stopwatch watch(report().seconds.encoding);
         const SequencedFrame& frame = flight.frame;
         std::vector<std::uint8_t> png;
@@ -137,6 +142,11 @@ class RenderRun {
         if (video_) video_->add(flight.image ? *flight.image : readKept(frame.number));
         ++report().frames;
         progress_.frameDone(frame.number, frame.time);
+    }
+
+    void finishVideo() {
+        const Progress::Work work(progress_, "completing the video");
+        video_->finish();
     }
 
     /// Reads the picture of a frame whose file existed before the run.
@@ -149,13 +159,13 @@ class RenderRun {
 
     const RenderJob& job_;
     render::Context context_;
+    Progress progress_;
     std::unique_ptr<FrameFolder> folder_;
     render::Renderer renderer_;
     FrameSequence frames_;
     std::array<FrameInFlight, kTokens> flights_;
     std::size_t startedCount_ = 0;
     std::unique_ptr<render::VideoWriter> video_;
-    Progress progress_;
 };
 
 }  // namespace

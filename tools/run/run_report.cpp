@@ -152,11 +152,11 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
                        {"encoding", report.seconds.encoding},
                        {"all", report.seconds.all}};
     json["error_estimate"] = errorJson(simulation, report.errors);
-    if (report.unstable.empty()) {
+    if (report.unstable.empty() && !report.isCutShort) {
         json["energy"] = energyJson(engine::energy(simulation));
         json["linear_momentum"] = vectorJson(engine::linearMomentum(simulation.particles));
         json["angular_momentum"] = vectorJson(engine::angularMomentum(simulation.particles));
-    } else {
+    } else if (!report.unstable.empty()) {
         json["unstable"] = report.unstable;
     }
     json["state_hash"] = report.stateHash;

@@ -54,10 +54,11 @@ struct RunReport {
     ErrorSamples errors;
     int frames = 0;  ///< number of frames asked for that were written or kept
     int threads = 1;
-    std::string glRenderer;          ///< name of the OpenGL renderer; empty if nothing was drawn
-    std::string stateHash;           ///< hash of the particles at the last frame; empty if there is none
-    std::string unstable;            ///< why the simulation became unstable; empty if it did not
-    int interruptedBy = 0;           ///< the signal that ended the run early, or 0
+    std::string glRenderer;   ///< name of the OpenGL renderer; empty if nothing was drawn
+    std::string stateHash;    ///< hash of the particles at the last frame; empty if there is none
+    std::string unstable;     ///< why the simulation became unstable; empty if it did not
+    int interruptedBy = 0;    ///< the signal that ended the run early, or 0
+    bool isCutShort = false;  ///< whether the signal ended the run at once: without frames in flight and final state
     std::optional<int> resumedFrom;  ///< the frame whose checkpoint the run resumed from
 };
 

@@ -24,6 +24,12 @@ void trimOverlay(const scenes::Scene& scene, const std::vector<int>& frames, int
     if (frame != frames.front() && scene.camera.size() == 1) overlay.scaleBar.reset();
 }
 
+void advanceTo(const scenes::Scene& scene, int frame, engine::Simulation& simulation, Progress& progress) {
+    const Progress::Work work(progress, fmt::format("frame {}", frame), simulation.time,
+                              scenes::frameTime(scene, frame));
+    scenes::advanceToFrame(scene, simulation, frame);
+}
+
 StillPictures drawAll(const DrawJob& job, const StillSelection& selection) {
     const scenes::Scene& scene = *job.scene;
     std::set<int> frames(selection.stripFrames.begin(), selection.stripFrames.end());
@@ -34,8 +40,10 @@ StillPictures drawAll(const DrawJob& job, const StillSelection& selection) {
     Progress progress(job.title, static_cast<int>(frames.size()), job.verbosity);
     StillPictures pictures;
     std::vector<render::Panel> panels;
+    simulation.beforeStep = [&](const engine::Simulation& stepping) { progress.stepBegins(stepping.time); };
     for (const int frame : frames) {
-        scenes::advanceToFrame(scene, simulation, frame);
+        advanceTo(scene, frame, simulation, progress);
+        const Progress::Work work(progress, fmt::format("drawing frame {}", frame));
         render::View view = scenes::frameView(scene, simulation);
         if (frame == selection.stillFrame) pictures.still = renderer.draw(view);
         if (std::binary_search(selection.stripFrames.begin(), selection.stripFrames.end(), frame)) {

@@ -1,10 +1,12 @@
-// Shell quoting, where single quotes protect every character except the single quote itself, and columns of text.
+// Shell quoting, where single quotes protect every character except the single quote itself, and the widths of texts.
 #include "tools/system/text.h"
 
 #include <fmt/format.h>
+#include <locale.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cwchar>
 
 namespace tools {
 namespace {
@@ -33,6 +35,29 @@ std::string shellLine(const std::vector<std::string>& words) {
         line.append(quoted(word));
     }
     return line;
+}
+
+FittedText fitColumns(std::string_view text, int most) {
+    // The C library knows characters and their widths by the locale, and the program runs in the locale "C".
+    static const locale_t utf8 = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    const locale_t previous = ::uselocale(utf8);
+    FittedText fitted;
+    std::size_t length = 0;
+    for (; !text.empty(); text.remove_prefix(length)) {
+        std::mbstate_t state = {};
+        wchar_t character = 0;
+        length = std::mbrtowc(&character, text.data(), text.size(), &state);
+        const bool isCharacter = length > 0 && length <= text.size();  // errors are the largest numbers
+        if (!isCharacter) length = 1;
+        const int width = isCharacter ? ::wcwidth(character) : -1;
+        const bool isPrintable = width >= 0;
+        const int columns = isPrintable ? width : 1;
+        if (fitted.columns + columns > most) break;
+        fitted.columns += columns;
+        fitted.text += isPrintable ? text.substr(0, length) : std::string_view("?");
+    }
+    ::uselocale(previous);
+    return fitted;
 }
 
 Table parseCsv(const std::string& csv, std::size_t skippedColumns) {

@@ -25,6 +25,16 @@ std::optional<Number> parseNumber(std::string_view text) {
 /// The words as one line for a POSIX shell, each quoted if it needs to be.
 std::string shellLine(const std::vector<std::string>& words);
 
+/// The beginning of a text, as a terminal shows it.
+struct FittedText {
+    std::string text;
+    int columns = 0;  ///< how many columns of the terminal it takes
+};
+
+/// As much of a text in UTF-8 as fits into `most` columns of a terminal, where characters may be none, one or two
+/// columns wide. Control characters and bytes that are not UTF-8 become question marks.
+FittedText fitColumns(std::string_view text, int most);
+
 /// The texts of one row of a table.
 using Cells = std::vector<std::string>;
 
