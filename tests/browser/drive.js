@@ -82,7 +82,7 @@ addEventListener("load", async () => {
     control.focus();
     return document.activeElement !== control;
   }).length;
-  seen.fetched = performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => !name.startsWith("data:"));
+  seen.fetched = performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => !name.startsWith("file:"));
   seen.problems = problems;
   const outcome = document.createElement("pre");
   outcome.id = "outcome";

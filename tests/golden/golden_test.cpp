@@ -69,9 +69,7 @@ TEST_CASE("Every built-in scene looks as it did", "[golden]") {
         CHECK(showsSameState(result));
     });
     CHECK(counts.pictures() == 4 * static_cast<int>(golden::scenes().size()));
-    tools::createFolder(kReport);
-    tools::writeFile(kReport / "index.html", page.html({kActual.string(), kExpected.string(), "vendor", job.limits,
-                                                        counts, tools::approvalLine(kActual, kExpected, failed)}));
+    page.write(kReport, job, {"vendor", counts, tools::approvalLine(kActual, kExpected, failed)});
 }
 
 TEST_CASE("A golden whose particle state is not known fails", "[golden]") {

@@ -141,6 +141,9 @@ TEST_CASE("compare: what may be a picture and cannot be read is trouble, and the
     for (const char* name : {"b.png", "photo.JPG", "more"}) CHECK(results[name]["status"] == "unreadable");
     CHECK(results["b.png"]["reasons"].size() == 1);
     CHECK(results["done"]["unreadable"] == 3);
+    CHECK(sides.compare("--quiet --report " + (sides / "actual/report").string()).code == 2);
+    CHECK(fs::exists(sides / "actual/report/index-files"));
+    CHECK(sides.results()["done"]["pictures"] == 6);  // pictures of a report do not count
     const auto outcome = sides.compare("--junit " + (sides / "junit.xml").string());
     CHECK(outcome.code == 2);
     CHECK(outcome.out.find("b.png: unreadable\n  expected picture: cannot read " + (sides / "expected/b.png").string() +
@@ -331,7 +334,37 @@ TEST_CASE("compare: JUnit's XML counts failures and errors, and stays XML", "[co
     CHECK(xml.find("name=\"frame-00000.png\"/>") != std::string::npos);
     CHECK(xml.find("name=\"a&lt;b&gt;&amp;&quot;.png\">\n    <failure type=\"largest\"") != std::string::npos);
     CHECK(xml.find("<error type=\"unreadable\"") != std::string::npos);
-    CHECK(sides.compare("--junit " + (sides / "no/folder.xml").string()).code == 2);
+    fs::remove(sides / "actual/broken.png");
+    fs::remove(sides / "expected/broken.png");
+    CHECK(sides.compare("--quiet --junit " + (sides / "no/such/folder.xml").string()).code == 1);
+    CHECK(program::textOf(sides / "no/such/folder.xml").find("errors=\"0\"") != std::string::npos);
+    // What cannot be written is known before the first picture is compared.
+    const auto folder = sides.compare("--junit " + (sides / "no").string());
+    CHECK(folder.code == 2);
+    CHECK(folder.out.empty());
+    CHECK(folder.err.find("it is a folder") != std::string::npos);
+}
+
+TEST_CASE("compare: JUnit's XML has no characters that XML cannot express", "[compare]") {
+    Sides sides;
+    // U+FFFE, U+FFFF, a lone surrogate, an overlong form, control characters; U+1FFFE and DEL are allowed.
+    for (const char* name : {"\xEF\xBF\xBE\xEF\xBF\xBF.png", "\xED\xA0\x80.png", "\xC0\x80.png", "\x01\x1B\n.png",
+                             "\xF0\x9F\xBF\xBE\x7F.png"})
+        sides.actual(name, balls());
+    CHECK(sides.compare("--junit " + (sides / "junit.xml").string()).code == 1);
+    const std::string xml = program::textOf(sides / "junit.xml");
+    std::u32string characters;
+    REQUIRE_NOTHROW(characters = fs::path(xml).u32string());  // the whole is UTF-8
+    for (const char32_t c : characters) {
+        const bool isAllowed =
+            c == 9 || c == 10 || c == 13 || (c >= 0x20 && c <= 0xD7FF) || (c >= 0xE000 && c <= 0xFFFD) || c >= 0x10000;
+        CHECK(isAllowed);
+    }
+    CHECK(xml.find("name=\"??.png\"") != std::string::npos);
+    CHECK(xml.find("name=\"\xF0\x9F\xBF\xBE\x7F.png\"") != std::string::npos);
+    CHECK(program::shell("python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' " +
+                         (sides / "junit.xml").string())
+              .err.empty());
 }
 
 TEST_CASE("compare: frames of two videos", "[compare]") {

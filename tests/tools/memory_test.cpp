@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 #include "tests/tools/program.h"
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The peak memory of a run of the program, in kB.
 long peakOf(const std::string& arguments) {
@@ -92,4 +95,28 @@ TEST_CASE("A run takes no more memory than check says, and not much less", "[too
     INFO(said["memory_bytes"] << " said, " << taken << " taken by " << said["particles_at_start"]);
     CHECK(taken < said["memory_bytes"].get<double>());
     CHECK(taken > 0.25 * said["memory_bytes"].get<double>());
+}
+
+TEST_CASE("A report of many pictures takes no more memory than one of a few", "[tools]") {
+    const program::Folder folder;
+    const auto report = [&](int count) {
+        const fs::path work = folder / std::to_string(count);
+        for (const char* side : {"1", "2"}) {
+            fs::create_directories(work / side);
+            const std::string noise = std::string("color=gray:s=640x360:r=1,noise=alls=80:allf=t:all_seed=") + side;
+            const auto made =
+                program::shell("ffmpeg -loglevel error -nostdin -f lavfi -i " + noise + " -frames:v " +
+                               std::to_string(count) + " -pix_fmt rgb24 " + (work / side).string() + "/frame-%05d.png");
+            INFO(made.err);
+            REQUIRE(made.code == 0);
+        }
+        return peakOf("compare " + (work / "1").string() + " " + (work / "2").string() +
+                      " --max-difference 255 --max-share 100 --max-mean 255 --min-ssim -1 --quiet --report " +
+                      (work / "report").string());
+    };
+    const long brief = report(3);
+    const long lengthy = report(24);
+    INFO(brief << " kB, " << lengthy << " kB");
+    // The PNG files of a picture, its golden and their two differences take 2.4 MB, those of 21 more pictures 50 MB.
+    CHECK(lengthy - brief < 8000);
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "render/output/atomic_file.h"
 #include "render/output/png.h"
 #include "render/picture/system_error.h"
 #include "tools/commands/commands.h"
@@ -120,23 +121,32 @@ void compareAll(const CompareOptions& options) {
                          .limits = limitsOf(options),
                          .mask = readMask(options.mask),
                          .whileWaiting = endIfInterrupted};
+    // Opened first, so that a report that cannot be written is known before the pictures are compared.
+    std::optional<render::AtomicFile> junitFile;
+    if (!options.junit.empty()) {
+        createFolderOf(options.junit);
+        junitFile.emplace(options.junit);
+    }
+    if (!options.report.empty()) createFolder(options.report);
     JunitReport junit;
     ComparePage page;
     std::vector<std::string> failed;
     const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
         if (canBeApproved(result)) failed.push_back(result.name);
         printPicture(options, result, job.limits);
-        if (!options.junit.empty()) junit.add(result);
+        if (junitFile) junit.add(result);
         if (!options.report.empty())
             page.add(result, canBeApproved(result) ? approvalLine(options.actual, options.expected, {result.name})
                                                    : std::string{});
     });
     const std::string approval = approvalLine(options.actual, options.expected, failed);
-    if (!options.junit.empty()) writeFile(options.junit, junit.text(counts));
+    if (junitFile) {
+        const std::string text = junit.text(counts);
+        junitFile->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        junitFile->commit();
+    }
     if (!options.report.empty()) {
-        createFolder(options.report);
-        writeFile(fs::path(options.report) / "index.html",
-                  page.html({options.actual, options.expected, options.profile, job.limits, counts, approval}));
+        page.write(options.report, job, {options.profile, counts, approval});
     }
     printSummary(options, counts, approval);
     flushStandardOutput();
@@ -182,7 +192,7 @@ void addCompareCommand(CLI::App& program) {
     command.add_option("EXPECTED", options->expected, "the golden one, or their folder")->required();
     addLimits(command, *options);
     command.add_option("--mask", options->mask, "a PNG whose black pixels do not count")->type_name("FILE.png");
-    command.add_option("--report", options->report, "also write DIR/index.html, one page to look at everything")
+    command.add_option("--report", options->report, "also write DIR/index.html, a page to look at everything")
         ->type_name("DIR");
     command.add_option("--junit", options->junit, "also write the results for CI systems")->type_name("FILE.xml");
     command.add_flag("--json", options->run.json, "results as JSON, one object a line");

@@ -103,7 +103,7 @@ std::vector<Approved> approvePictures(const ApproveJob& job) {
             hasContent(sidecar, {candidate.sidecar.begin(), candidate.sidecar.end()}))
             continue;
         approved.push_back({candidate.name, !fs::exists(candidate.to)});
-        if (candidate.to.has_parent_path()) createFolder(candidate.to.parent_path());
+        createFolderOf(candidate.to);
         writeFile(candidate.to, bytes);
         writeFile(sidecar, candidate.sidecar);
     }

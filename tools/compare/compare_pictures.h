@@ -51,7 +51,7 @@ struct CompareJob {
     std::filesystem::path expected;
     render::CompareLimits limits;
     render::Image mask;                          ///< picture whose black pixels do not count; empty: every pixel counts
-    std::set<std::string> only = {};                  ///< names of the pictures to compare; empty: all
+    std::set<std::string> only = {};             ///< names of the pictures to compare; empty: all
     std::function<void()> whileWaiting = [] {};  ///< called many times a second; ends the comparison by throwing
 };
 

@@ -32,6 +32,12 @@ bool isPicture(const fs::directory_entry& file) {
                                        [&](const char* format) { return hasExtension(file.path(), format); });
 }
 
+/// Whether a folder has the pictures of a report, which may have been written among the pictures that it is about.
+bool isOfReport(const fs::path& folder) {
+    std::error_code ignored;
+    return folder.filename() == kReportPictures && fs::exists(folder.parent_path() / "index.html", ignored);
+}
+
 /// The pictures below a folder by their path in it. Links to folders are followed, but no folder is entered again from
 /// below itself.
 auto picturesBelow(const fs::path& folder) {
@@ -47,8 +53,8 @@ auto picturesBelow(const fs::path& folder) {
         if (std::error_code ignored; file->is_directory(ignored)) {
             entered.push_back(fs::canonical(last, error));
             if (error) break;
-            if (std::find(entered.begin(), entered.end() - 1, entered.back()) != entered.end() - 1)
-                file.disable_recursion_pending();
+            const bool isAround = std::find(entered.begin(), entered.end() - 1, entered.back()) != entered.end() - 1;
+            if (isAround || isOfReport(last)) file.disable_recursion_pending();
         } else if (isPicture(*file)) {
             pictures.emplace(last.lexically_relative(folder).generic_string(), last);
         }

@@ -27,9 +27,12 @@ struct PictureSet {
     bool isVideo = false;   ///< the set is the frames of a video, under the names that `render` gives to frames
 };
 
+/// The folder beside index.html for the pictures of a report of `compare`.
+inline constexpr const char* kReportPictures = "index-files";
+
 /// The pictures that a path stands for; none if nothing exists at the path. Everything below a folder that may be a
 /// picture counts, so that nothing is left out of a check without a word: pictures of formats that cannot be read, and
-/// links that lead nowhere, which may have led to a folder of pictures.
+/// links that lead nowhere, which may have led to a folder of pictures. Only pictures of reports do not count.
 /// @throws render::SystemError if a folder cannot be read
 PictureSet picturesOf(const std::filesystem::path& path);
 

@@ -26,11 +26,7 @@ function element(tag, attributes = {}, ...children) {
 }
 
 function passed(picture) { return picture.status === "identical" || picture.status === "within-limits"; }
-function sourceOf(picture, kind) {
-  const images = picture.images || {};
-  if (picture.status === "identical" && kind === "expected") return images.actual;
-  return images[kind];
-}
+function sourceOf(picture, kind) { return (picture.images || {})[kind]; }
 
 // --- the list
 
@@ -216,8 +212,8 @@ function drawStage() {
   $("stage").replaceChildren(...(view ? stageOf(picture, view) : []));
   $("slide").hidden = view !== "slider";
   $("zoom").value = shown.zoom;
-  $("hint").textContent = !view ? "The picture is not in this page."
-    : picture.status === "identical" ? "Both are the same, pixel for pixel." : HINT[view] || "";
+  $("hint").textContent = picture.status === "identical" ? "Both are the same, pixel for pixel."
+    : view ? HINT[view] || "" : "The report shows the worst pictures; this one is not among them.";
 }
 
 function choose(picture) {

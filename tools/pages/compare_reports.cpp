@@ -1,49 +1,62 @@
-// Turns results into JSON with the pictures as data URIs, which goes into the page's template, and into JUnit's XML,
-// where each picture is a test case.
+// Turns results into JSON, which goes into the page's template, and into JUnit's XML, where each picture is a test
+// case.
 #include "tools/pages/compare_reports.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <regex>
+#include <string_view>
 
 #include "render/compare/compare.h"
 #include "render/output/png.h"
+#include "tools/compare/picture_set.h"
 #include "tools/pages/html.h"
 #include "tools/system/json.h"
+#include "tools/system/output_file.h"
 
 namespace tools {
 namespace {
 
-std::vector<std::uint8_t> pngOf(const PictureSide& side) {
+namespace fs = std::filesystem;
+
+using Png = std::vector<std::uint8_t>;
+
+Png pngOf(const PictureSide& side) {
     return side.bytes.empty() ? render::encodePng(*side.image) : side.bytes;
 }
 
-/// The pictures of a comparison as data URIs, under the names that the script of the page uses.
-Json imagesOf(const PictureResult& result) {
-    Json images = Json::object();
-    if (result.actual.image) images["actual"] = dataUri("image/png", pngOf(result.actual));
-    if (result.expected.image && result.status != PictureStatus::identical)
-        images["expected"] = dataUri("image/png", pngOf(result.expected));
+/// The pictures of a comparison under the names that the script of the page uses.
+std::map<std::string, Png> imagesOf(const PictureResult& result) {
+    std::map<std::string, Png> images;
+    if (result.actual.image) images["actual"] = pngOf(result.actual);
+    if (result.expected.image) images["expected"] = pngOf(result.expected);
     if (!result.comparison || result.comparison->rule == render::CompareRule::size ||
         result.comparison->metrics.differing == 0)
         return images;
-    images["difference"] =
-        dataUri("image/png", render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image)));
-    images["heat"] =
-        dataUri("image/png", render::encodePng(render::heatMap(*result.actual.image, *result.expected.image)));
+    images["difference"] = render::encodePng(render::differenceImage(*result.actual.image, *result.expected.image));
+    images["heat"] = render::encodePng(render::heatMap(*result.actual.image, *result.expected.image));
     return images;
 }
 
-std::size_t byteCount(const Json& images) {
-    std::size_t bytes = 0;
-    for (const auto& image : images) bytes += image.get_ref<const std::string&>().size();
-    return bytes;
+/// Removes the pictures that an earlier report has left.
+void removePictures(const fs::path& files) {
+    static const std::regex pattern("[0-9]{5,}-(actual|expected|difference|heat)\\.png");
+    std::error_code error;
+    std::vector<fs::path> old;
+    for (fs::directory_iterator file(files, error), end; !error && file != end; file.increment(error))
+        if (std::regex_match(file->path().filename().string(), pattern)) old.push_back(file->path());
+    for (const fs::path& path : old) fs::remove(path, error);
+    fs::remove(files, error);  // fails if it holds something else
 }
 
 /// JSON as the text of an HTML script element. The character < is escaped, so that nothing can end the element early.
 std::string scriptJson(const Json& json) {
+    const std::string raw = compactText(json);
     std::string text;
-    for (const char c : compactText(json)) {
+    text.reserve(raw.size());
+    for (const char c : raw) {
         if (c == '<')
             text += "\\u003c";
         else
@@ -66,10 +79,10 @@ std::string fillTemplate(std::string_view page, const std::map<std::string, std:
     return text;
 }
 
-Json headingJson(const PageHeading& heading) {
-    const render::CompareLimits& limits = heading.limits;
-    return {{"actual", heading.actual},
-            {"expected", heading.expected},
+Json headingJson(const CompareJob& job, const PageHeading& heading) {
+    const render::CompareLimits& limits = job.limits;
+    return {{"actual", job.actual.string()},
+            {"expected", job.expected.string()},
             {"profile", heading.profile},
             {"version", GLOBULAR_VERSION},
             {"limits",
@@ -82,12 +95,15 @@ Json headingJson(const PageHeading& heading) {
             {"approve", heading.approval}};
 }
 
-/// A text as an attribute of an XML element. Bytes that are not UTF-8 become U+FFFD, and control characters, which
-/// XML 1.0 cannot express, question marks.
+/// A text as an attribute of an XML element. Bytes that are not UTF-8, surrogates among them, become U+FFFD, and the
+/// control characters and noncharacters that XML 1.0 cannot express, question marks.
 std::string attribute(const std::string& bytes) {
     std::string text = Json::parse(compactText(bytes)).get<std::string>();
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20) c = '?';
+    for (const std::string_view noncharacter : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})  // U+FFFE and U+FFFF
+        for (std::size_t at = 0; (at = text.find(noncharacter, at)) != std::string::npos;)
+            text.replace(at, noncharacter.size(), "?");
     return escaped(text);
 }
 
@@ -98,35 +114,71 @@ void ComparePage::add(const PictureResult& result, const std::string& approval) 
     json["approve"] = approval;
     addRun(result.actual, json["actual"]);
     addRun(result.expected, json["expected"]);
-    inlinePictures(result, json);
-    entries_.push_back({result.status, std::move(json)});
+    const bool isOtherSize = result.comparison && result.comparison->rule == render::CompareRule::size;
+    const double difference = isOtherSize         ? std::numeric_limits<double>::infinity()
+                              : result.comparison ? result.comparison->metrics.mean
+                                                  : 0.0;
+    entries_.push_back({result.status, difference, std::move(json)});
 }
 
-void ComparePage::inlinePictures(const PictureResult& result, Json& json) {
-    std::size_t& spent = result.passed() ? passedBytes_ : failedBytes_;
-    if (spent > (result.passed() ? kPassedBytes : kFailedBytes)) return;
-    Json images = imagesOf(result);
-    spent += byteCount(images);
-    json["images"] = std::move(images);
+std::vector<ComparePage::Entry*> ComparePage::worst() {
+    std::vector<Entry*> worst;
+    for (Entry& entry : entries_)
+        if (entry.status != PictureStatus::identical) worst.push_back(&entry);
+    std::stable_sort(worst.begin(), worst.end(), [](const Entry* a, const Entry* b) {
+        return a->status != b->status ? a->status < b->status : a->difference > b->difference;
+    });
+    worst.resize(std::min(worst.size(), kMostShown));
+    return worst;
+}
+
+void ComparePage::addPictures(const fs::path& folder, CompareJob job) {
+    const fs::path files = folder / kReportPictures;
+    removePictures(files);
+    std::map<std::string, Entry*> shown;
+    for (Entry* entry : worst()) {
+        shown[entry->json["name"].get<std::string>()] = entry;
+        job.only.insert(entry->json["name"].get<std::string>());
+    }
+    if (shown.empty()) return;
+    createFolder(files);
+    try {
+        comparePictures(job, [&](const PictureResult& result) {
+            Entry& entry = *shown.at(result.name);
+            for (const auto& [kind, png] : imagesOf(result)) {
+                const std::string name = fmt::format("{:05}-{}.png", &entry - entries_.data(), kind);
+                writeFile(files / name, png);
+                entry.json["images"][kind] = fmt::format("{}/{}", kReportPictures, name);
+            }
+        });
+    } catch (...) {
+        removePictures(files);  // no page refers to them
+        throw;
+    }
+}
+
+void ComparePage::write(const fs::path& folder, const CompareJob& job, const PageHeading& heading) {
+    createFolder(folder);
+    addPictures(folder, job);
+    writeFile(folder / "index.html", html(job, heading));
 }
 
 void ComparePage::addRun(const PictureSide& side, Json& json) {
     if (side.bytes.empty()) return;
-    const std::filesystem::path path = side.path.parent_path() / "run.json";
+    const fs::path path = side.path.parent_path() / "run.json";
     auto known = runs_.find(path.string());
     if (known == runs_.end()) known = runs_.emplace(path.string(), readJson(path)).first;
     if (!known->second.is_null()) json["run"] = path.string();
 }
 
-std::string ComparePage::html(const PageHeading& heading) const {
-    std::vector<const Entry*> sorted;
-    for (const Entry& entry : entries_) sorted.push_back(&entry);
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const Entry* a, const Entry* b) { return a->status < b->status; });
-    Json data = headingJson(heading);
+std::string ComparePage::html(const CompareJob& job, const PageHeading& heading) {
+    std::stable_sort(entries_.begin(), entries_.end(),
+                     [](const Entry& a, const Entry& b) { return a.status < b.status; });
+    Json data = headingJson(job, heading);
     data["runs"] = runs_;
     data["pictures"] = Json::array();
-    for (const Entry* entry : sorted) data["pictures"].push_back(entry->json);
+    for (Entry& entry : entries_) data["pictures"].push_back(std::move(entry.json));
+    entries_.clear();
     return fillTemplate(embeddedText("compare.html"), {{"STYLE", std::string(embeddedText("compare.css"))},
                                                        {"SCRIPT", std::string(embeddedText("compare.js"))},
                                                        {"DATA", scriptJson(data)}});

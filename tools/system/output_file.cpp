@@ -30,6 +30,10 @@ void createFolder(const fs::path& folder) {
     if (!fs::is_directory(folder)) fail("create folder", folder, ENOTDIR);
 }
 
+void createFolderOf(const fs::path& file) {
+    if (file.has_parent_path()) createFolder(file.parent_path());
+}
+
 void writeFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
     render::AtomicFile file(path);
     file.write(bytes);
