@@ -10,6 +10,7 @@
 #include "engine/stepping/take_step.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
+#include "tools/run/run_report.h"
 #include "tools/run/threads.h"
 
 namespace tools {
