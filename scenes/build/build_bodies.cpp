@@ -168,15 +168,15 @@ void buildBody(const Body& body, BuildContext& context, engine::Particles& parti
 
 }  // namespace
 
-engine::Particles buildBodies(std::vector<Section>& sections, const Materials& materials, BuildContext& context) {
-    engine::Particles particles;
+void buildBodies(std::vector<Section>& sections, const Materials& materials, Scene& scene, BuildContext& context) {
+    engine::Particles& particles = scene.setup.initial;
     for (std::size_t index = 0; index < sections.size(); ++index) {
         const auto material = materialOf(sections[index], materials, context);
         const std::size_t countBefore = particles.count();
         buildBody({sections[index], index, material.value_or(0), materials}, context, particles);
         checkWithinWorld(sections[index], "shape", std::span(particles.position).subspan(countBefore), context);
+        scene.tables.bodyEnds.push_back(particles.count());
     }
-    return particles;
 }
 
 }  // namespace scenes

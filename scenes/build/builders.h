@@ -39,7 +39,8 @@ struct BuildContext {
 };
 
 Materials buildMaterials(std::vector<Section>& sections, BuildContext& context);
-engine::Particles buildBodies(std::vector<Section>& sections, const Materials& materials, BuildContext& context);
+/// Adds the particles of the bodies to the scene, and which of them are of which body.
+void buildBodies(std::vector<Section>& sections, const Materials& materials, Scene& scene, BuildContext& context);
 std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const Materials& materials,
                                            BuildContext& context);
 

@@ -150,11 +150,17 @@ BuildContext contextOf(const Sections& sections, const std::string& fileName, Pr
     return context;
 }
 
+std::vector<SourcePosition> positionsOf(const std::vector<Section>& sections) {
+    std::vector<SourcePosition> positions;
+    for (const Section& section : sections) positions.push_back(section.position());
+    return positions;
+}
+
 /// Builds the parts of a scene from its tables. They are complete only if no problem was recorded.
 void build(Sections& sections, BuildContext& context, Scene& scene) {
     Materials materials = buildMaterials(sections.materials, context);
     scene.setup.world = buildWorld(sections.world, context);
-    scene.setup.initial = buildBodies(sections.bodies, materials, context);
+    buildBodies(sections.bodies, materials, scene, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
     scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, context);
@@ -167,6 +173,9 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     checkWorld(sections.world, scene.setup, context);
     scene.setup.materials = std::move(materials.list);
     scene.materialColors = std::move(materials.colors);
+    scene.tables.bodies = positionsOf(sections.bodies);
+    scene.tables.emitters = positionsOf(sections.emitters);
+    scene.tables.obstacles = positionsOf(sections.obstacles);
 }
 
 }  // namespace

@@ -22,6 +22,12 @@ struct EffectiveValue {
     ValueOrigin origin = ValueOrigin::given;
 };
 
+/// Where the tables of a scene are in its file, in their order, for messages about what was made of them.
+struct SourceTables {
+    std::vector<SourcePosition> bodies, emitters, obstacles;
+    std::vector<std::size_t> bodyEnds;  ///< for each body, the number of initial particles up to its last one
+};
+
 struct Scene {
     std::string title;
     std::string description;
@@ -38,6 +44,7 @@ struct Scene {
     std::string sourceName;          ///< the file it was read from
     std::string sceneHash;  ///< 16 hexadecimal digits: hash over the values of all keys and the files that they name
     std::vector<EffectiveValue> values;
+    SourceTables tables;
     std::vector<std::string> warnings;  ///< messages on what is valid but may not be meant
 };
 

@@ -40,6 +40,7 @@ void render(RenderOptions options) {
     const RenderJob job{drawJob(scene, options.draw, options.run, name),
                         frameList(options.frames, scenes::frameCount(scene)), options.folder, options.video};
 
+    warnOfStart(scene, job.threads);
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
     const FinishedRun run = renderFrames(job);
     requireComplete(run.report, options.folder.path);

@@ -52,6 +52,7 @@ void simulate(SimulateOptions options) {
     std::string& folder = options.folder.path;
     if (folder.empty()) folder = (fs::path("out") / (name + "-states")).string();
 
+    warnOfStart(scene, threadCount(options.run));
     FinishedRun run;
     onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options, name); });
     const RunReport& report = run.report;

@@ -10,7 +10,9 @@
 #include "render/overlay/text.h"
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
+#include "scenes/build/start_warnings.h"
 #include "scenes/text/input_error.h"
+#include "tools/run/threads.h"
 #include "tools/system/process.h"
 #include "tools/system/processors.h"
 #include "tools/system/text.h"
@@ -65,6 +67,12 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
         if (const std::string missing = render::charactersWithoutGlyph(colorBar->title); !missing.empty())
             printWarning(fmt::format("the font has no {}, which overlay.color_label asks for", missing));
     return scene;
+}
+
+void warnOfStart(const scenes::Scene& scene, int threads) {
+    onThreads(threads, [&] {
+        for (const std::string& warning : scenes::startWarnings(scene)) printWarning(warning);
+    });
 }
 
 std::string runName(const SceneOptions& options) {

@@ -67,6 +67,10 @@ int threadCount(const RunOptions& options);
 /// @throws scenes::InputError
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = {});
 
+/// Prints the warnings about where the particles of a scene start (scenes/build/start_warnings.h).
+/// @param threads  number of threads to look for them with
+void warnOfStart(const scenes::Scene& scene, int threads);
+
 /// What a run of the scene is called in the names of its files: a built-in scene as it was given, such as "hard/honey",
 /// and a scene file by its name without folder and extension.
 /// @throws scenes::InputError if there is no such scene

@@ -1,0 +1,162 @@
+// Warnings about particles that start inside obstacles, in gaps without room, or within one another; and none of scenes
+// that are as they should be.
+#include "scenes/build/start_warnings.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "scenes/build/library.h"
+#include "tests/catch.h"
+#include "tests/scenes/scene_text.h"
+
+using scenes_test::kTop;
+using scenes_test::Lines;
+using scenes_test::sceneOf;
+
+namespace {
+
+/// The warnings of a scene of particles with a radius of 0.1 m. The text stands in line 5 and after.
+Lines warningsOf(const std::string& text) {
+    return scenes::startWarnings(sceneOf(kTop + "[material]\nradius = 0.1\n" + text));
+}
+
+/// Two lines that make a body of one particle.
+std::string particleAt(const std::string& position) {
+    return "[[body]]\nshape = \"points\"\npositions = [[" + position + "]]\n";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("A plane whose normal is flipped has the particles inside") {
+    const Lines lines = warningsOf(
+        "[[body]]\nshape = \"grid\"\ncounts = [3, 3, 3]\ncenter = [0, 1, 0]\n"
+        "[[obstacle]]\nshape = \"plane\"\nnormal = [0, -1, 0]\n");
+    // The layers are 0.2 m apart: at 0.8, 1 and 1.2 m.
+    CHECK(lines ==
+          Lines{"pile.toml:9:1: 27 particles start inside obstacle 1, a plane, up to 1.2 m deep, e.g. at (-0.2, "
+                "0.8, -0.2) in body 1 (line 5); is its normal flipped?"});
+}
+
+TEST_CASE("Particles inside a box, inside a sphere and outside a container are counted and located") {
+    const std::string body = particleAt("0, 0.92, 0], [0, 5, 0");
+    const std::string box = "[[obstacle]]\nshape = \"box\"\nminimum = [-1, 0, -1]\nmaximum = [1, 1, 1]\n";
+    CHECK(warningsOf(body + box) ==
+          Lines{"pile.toml:8:1: 1 particle starts inside obstacle 1, a box, up to 0.08 m deep, "
+                "e.g. at (0, 0.92, 0) in body 1 (line 5)"});
+    const std::string sphere = "[[obstacle]]\nshape = \"sphere\"\nradius = 0.5\ncenter = [0, 4.7, 0]\n";
+    CHECK(warningsOf(body + sphere) ==
+          Lines{"pile.toml:8:1: 1 particle starts inside obstacle 1, a sphere, up to 0.2 m "
+                "deep, e.g. at (0, 5, 0) in body 1 (line 5)"});
+    const std::string container = "[[obstacle]]\nshape = \"container\"\nminimum = [-1, 0, -1]\nmaximum = [1, 4.5, 1]\n";
+    CHECK(warningsOf(body + container) ==
+          Lines{"pile.toml:8:1: 1 particle starts outside obstacle 1, a container, up to 0.5 m in the solid around it, "
+                "e.g. at (0, 5, 0) in body 1 (line 5)"});
+}
+
+TEST_CASE("Particles that rest on an obstacle or lie on its surface are not inside") {
+    const std::string plane = "[[obstacle]]\nshape = \"plane\"\n";
+    CHECK(warningsOf(particleAt("0, 0.1, 0") + plane).empty());
+    CHECK(warningsOf(particleAt("0, 0, 0") + plane).empty());
+    CHECK(warningsOf(particleAt("0, -0.04, 0") + plane).empty());
+    CHECK(warningsOf(particleAt("0, -0.06, 0") + plane).size() == 1);
+}
+
+TEST_CASE("A particle between two obstacles that leave it no room is reported, in a corner it is not") {
+    const std::string plane = "[[obstacle]]\nshape = \"plane\"\n";
+    const auto lid = [&](const std::string& bottom) {
+        return "[[obstacle]]\nshape = \"box\"\nminimum = [-1, " + bottom + ", -1]\nmaximum = [1, 3, 1]\n";
+    };
+    CHECK(
+        warningsOf(particleAt("0, 0.04, 0") + plane + lid("0.08")) ==
+        Lines{
+            "pile.toml:10:1: 1 particle has no room, the first of them between obstacle 1, a plane, and obstacle 2, a "
+            "box, at (0, 0.04, 0) in body 1 (line 5)"});
+    CHECK(warningsOf(particleAt("0, 0.1, 0") + plane + lid("0.2")).empty());
+    CHECK(warningsOf(particleAt("0.05, 0.05, 0.05") + plane +
+                     "[[obstacle]]\nshape = \"container\"\nminimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n")
+              .empty());
+}
+
+TEST_CASE("Points of emission inside an obstacle are reported at the emitter") {
+    const std::string plane = "[[obstacle]]\nshape = \"plane\"\n";
+    const std::string emitter = "[[emitter]]\npositions = [[0, 1, 0], [0, -1, 0], [0, 0.1, 0]]\ninterval = 1\n";
+    CHECK(warningsOf(emitter + plane) ==
+          Lines{"pile.toml:5:1: 1 of 3 points of emission are inside obstacle 1, a plane, "
+                "up to 1 m deep, e.g. at (0, -1, 0)"});
+}
+
+TEST_CASE("Bodies within each other are reported, bodies side by side are not") {
+    const auto ball = [](const std::string& center) {
+        return "[[body]]\nshape = \"ball\"\nradius = 0.5\ncenter = [" + center + "]\n";
+    };
+    // Lattices that are shifted by a third of a diameter: each particle has its counterpart there.
+    const std::size_t count = sceneOf(kTop + "[material]\nradius = 0.1\n" + ball("0, 0, 0")).setup.initial.count();
+    CHECK(warningsOf(ball("0, 0, 0") + ball("0, 0.06, 0")) ==
+          Lines{"pile.toml:9:1: bodies 1 and 2 overlap: they start with " + std::to_string(count) +
+                " pairs of particles closer than 0.6 rest lengths, the closest at 0.3 rest lengths, e.g. at "
+                "(0, -0.1414, -0.4243)"});
+    CHECK(warningsOf(ball("0, 0, 0") + ball("0, 1.1, 0")).empty());
+    CHECK(warningsOf(ball("0, 0, 0") + ball("0, 0.9, 0")).size() == 1);
+    // The same particles as one body are a matter of its author, up to the core.
+    CHECK(warningsOf(particleAt("0, 0, 0], [0.1, 0, 0")).empty());
+    const Lines coincident = warningsOf(particleAt("0, 0, 0], [0.04, 0, 0], [0, 0, 0"));
+    CHECK(coincident == Lines{"pile.toml:5:1: body 1 starts with 3 pairs of particles closer than their core, the "
+                              "closest at 0 rest lengths, e.g. at (0, 0, 0)"});
+}
+
+TEST_CASE("Pairs of particles of unequal radii are judged by their own rest length") {
+    const std::string large = "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\nparticle_radius = 2\n";
+    CHECK(warningsOf(large + particleAt("1.3, 0, 0")).empty());      // 0.62 of 2.1 m
+    CHECK(warningsOf(large + particleAt("1.2, 0, 0")).size() == 1);  // 0.57 of 2.1 m
+    CHECK(warningsOf(large + particleAt("3, 0, 0], [3.1, 0, 0")).empty());
+}
+
+TEST_CASE("Very many close pairs are estimated, and messages of one kind are limited") {
+    // 200,000 particles within a core: 2e10 pairs.
+    const Lines dense = warningsOf("[[body]]\nshape = \"grid\"\ncounts = [200, 100, 10]\nspacing = 0.0002\n");
+    REQUIRE(dense.size() == 1);
+    CHECK(contains(dense[0], "about "));
+    double pairs = 0.0;
+    REQUIRE(std::sscanf(dense[0].c_str(), "pile.toml:5:1: body 1 starts with about %lf pairs", &pairs) == 1);
+    CHECK(pairs > 0.8 * 2e10);  // of 4000 particles chosen at random, the number of pairs varies by some percent
+    CHECK(pairs < 1.2 * 2e10);
+
+    std::string many;
+    for (int body = 0; body < 12; ++body)
+        many += particleAt(std::to_string(body) + ", 0, 0], [" + std::to_string(body) + ", 0, 0");
+    const Lines lines = warningsOf(many);
+    REQUIRE(lines.size() == 9);
+    CHECK(lines.back() == "pile.toml: and 4 more like the one before");
+}
+
+TEST_CASE("Scenes of the repository start with particles where they are meant to be") {
+    namespace fs = std::filesystem;
+    // On purpose, 64 particles in one place, and the overlapping sheets of the paper's author.
+    const std::map<std::string, std::string> overlapping = {{"hard/coincident", "2016 pairs"},
+                                                            {"paper/repulsion-1", "712 pairs"},
+                                                            {"paper/repulsion-2", "712 pairs"},
+                                                            {"paper/repulsion-3", "712 pairs"}};
+    int looked = 0;
+    for (const scenes::LibraryEntry& entry : scenes::listScenes(GLOBULAR_SOURCE "/scenes/library")) {
+        INFO(entry.name);
+        const Lines lines = scenes::startWarnings(scenes::loadScene(entry.path, {}));
+        if (overlapping.contains(entry.name)) {
+            REQUIRE(lines.size() == 1);
+            CHECK(contains(lines[0], overlapping.at(entry.name)));
+        } else {
+            CHECK(lines == Lines{});
+        }
+        ++looked;
+    }
+    CHECK(looked > 40);
+    for (const auto& file : fs::directory_iterator(GLOBULAR_SOURCE "/docs"))
+        if (file.path().extension() == ".toml") {
+            INFO(file.path());
+            CHECK(scenes::startWarnings(scenes::loadScene(file.path(), {})) == Lines{});
+        }
+}
