@@ -2,7 +2,9 @@
 #include "tools/run/forecast.h"
 #include "scenes/build/read_scene.h"
 
+#include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/catch.h"
 #include "tests/tools/program.h"
@@ -41,4 +43,40 @@ TEST_CASE("The beginning of a run is simulated and measured", "[forecast]") {
     CHECK(preview.mostParticles == 10);
     CHECK(preview.bytesPerParticle > 0);
     CHECK(tools::everyKind(scene).count() == 1);
+}
+
+TEST_CASE("A frame that takes too long is cut off", "[forecast]") {
+    scenes::Scene scene = sceneWith("position = [0, 0, 0]\nvelocity = [0, 5, 0]\ninterval = 0.1\n");
+    scene.setup.stepper = engine::StepperKind::velocityVerlet;
+    scene.setup.step = 1e-9;  // 33 million steps for a frame
+    const tools::Preview preview = tools::simulateBeginning(scene, 0.05);
+    CHECK(preview.isCutOff);
+    CHECK(preview.frames == 0);
+    CHECK(preview.steps.count == 0);
+    CHECK(preview.stepsInCutOff > 0);
+    CHECK(preview.seconds >= 0.05);
+    CHECK(preview.bytesPerParticle > 0);
+}
+
+TEST_CASE("check tells what starts in the wrong place, and comes to an end", "[forecast]") {
+    const program::Folder folder;
+    const std::string path = (folder / "slow.toml").string();
+    std::ofstream(path) << "title = \"t\"\nduration = 1\n[physics]\nstepper = \"velocity-verlet\"\nstep = 1e-9\n"
+                           "[[body]]\nshape = \"ball\"\nradius = 0.5\n[[obstacle]]\nshape = \"plane\"\n"
+                           "normal = [0, -1, 0]\npoint = [0, -2, 0]\n";
+    const auto start = std::chrono::steady_clock::now();
+    const auto outcome = program::run("check " + path);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(seconds < 20.0);  // ten, and as many for a machine with other work
+    CHECK(outcome.out.find("\ncut off    frame 1 was not done after 5 s and ") != std::string::npos);
+    CHECK(outcome.out.find("\nwarning    " + path + ":9:1: ") != std::string::npos);
+    CHECK(outcome.out.find("is its normal flipped?\n") != std::string::npos);
+    CHECK(outcome.out.find("\ntime ") == std::string::npos);
+    CHECK(outcome.err == "");
+
+    const auto json = nlohmann::json::parse(program::run("check --json hard/coincident").out);
+    CHECK(json["cut_off"].is_null());
+    CHECK(json["warnings"].size() == 1);
 }

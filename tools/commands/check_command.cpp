@@ -8,10 +8,12 @@
 
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
+#include "scenes/build/start_warnings.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
 #include "tools/run/threads.h"
+#include "tools/system/timed_child.h"
 
 namespace tools {
 namespace {
@@ -21,27 +23,41 @@ struct CheckOptions {
     SceneOptions scene;
 };
 
-/// What a whole run would take, extrapolated from its first frames: steps, stepper, error, time and memory.
+/// Wall-clock time after which everything that needs more than the scene file is cut off, s. Chosen: with the time to
+/// read a large scene, an answer comes within ten seconds.
+constexpr unsigned kMostSeconds = 8;
+
+/// Where the simulation of the first frames was cut off, as text; nothing if it was not.
+Json cutOffJson(const Preview& preview) {
+    if (!preview.isCutOff) return nullptr;
+    return fmt::format("frame {} was not done after {:.0f} s and {} steps", preview.frames + 1, preview.seconds,
+                       preview.stepsInCutOff);
+}
+
+/// What a whole run would take, extrapolated from its first frames: steps, stepper, error, time and memory. What takes
+/// at least one frame to tell is null if the first one was cut off.
 Json predictionJson(const scenes::Scene& scene, double meanParticles) {
     const Preview preview = simulateBeginning(scene);
-    const engine::Simulation& simulation = preview.simulation;
     const double framesLeft = scenes::frameCount(scene) - 1 - preview.frames;
-    const double perFrame = static_cast<double>(simulation.steps.count) / std::max(1, preview.frames);
+    const double perFrame = static_cast<double>(preview.steps.count) / std::max(1, preview.frames);
+    const bool isKnown = preview.frames > 0 || !preview.isCutOff;
+    const auto ifKnown = [&](const auto& value) { return isKnown ? Json(value) : Json(nullptr); };
     Json json;
     json["unstable"] = preview.unstable.empty() ? Json(nullptr) : Json(preview.unstable);
+    json["cut_off"] = cutOffJson(preview);
     json["from_frames"] = preview.frames;
-    json["stepper"] = engine::nameOf(simulation.stepper);
-    json["step"] = perFrame > 0.0 ? scene.fps.timeOf(1) / perFrame : 0.0;
-    json["steps"] = static_cast<std::int64_t>(static_cast<double>(simulation.steps.count) + framesLeft * perFrame);
-    const auto& limits = simulation.steps.limitedBy;
-    json["limited_by"] =
-        engine::nameOf(static_cast<engine::StepLimit>(std::max_element(limits.begin(), limits.end()) - limits.begin()));
-    const engine::AutoState& automatic = simulation.automatic;
-    json["error"] = automatic.estimateCount > 0
-                        ? Json(automatic.errorSum / static_cast<double>(automatic.estimateCount))
+    json["stepper"] = engine::nameOf(preview.stepper);
+    json["step"] = ifKnown(perFrame > 0.0 ? scene.fps.timeOf(1) / perFrame : 0.0);
+    json["steps"] =
+        ifKnown(static_cast<std::int64_t>(static_cast<double>(preview.steps.count) + framesLeft * perFrame));
+    const auto& limits = preview.steps.limitedBy;
+    json["limited_by"] = ifKnown(engine::nameOf(
+        static_cast<engine::StepLimit>(std::max_element(limits.begin(), limits.end()) - limits.begin())));
+    json["error"] = preview.automatic.estimateCount > 0
+                        ? Json(preview.automatic.errorSum / static_cast<double>(preview.automatic.estimateCount))
                         : Json(nullptr);
     json["seconds_simulating"] =
-        preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames);
+        ifKnown(preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames));
     json["bytes_per_particle"] = preview.bytesPerParticle;
     json["bytes_of_materials"] = preview.bytesOfMaterials;
     return json;
@@ -65,22 +81,16 @@ Json materialJson(const engine::Material& material) {
             {"mass", material.mass},         {"core", material.coreFraction}, {"friction", material.friction}};
 }
 
-Json checkJson(const scenes::Scene& scene) {
+/// What follows from the scene file alone.
+Json sceneJson(const scenes::Scene& scene) {
     const engine::ForceTerms terms = engine::termsFor(forceFieldOf(scene.setup), everyKind(scene));
-    const std::uint64_t births = plannedBirths(scene);
-    const std::uint64_t most = scene.setup.initial.count() + births;
-    const int frames = scenes::frameCount(scene);
-    // Emitters emit evenly over the run, so that on average half of their particles exist. Particles that leave a
-    // bounded world are not taken off, because their number is not known.
-    const double meanParticles = static_cast<double>(scene.setup.initial.count()) + 0.5 * static_cast<double>(births);
-
     Json json;
     json["scene"] = scene.title;
     json["source"] = scene.sourceName;
-    json["frames"] = frames;
+    json["frames"] = scenes::frameCount(scene);
     json["fps"] = frameRateJson(scene.fps);
     json["particles_at_start"] = scene.setup.initial.count();
-    json["particles_at_most"] = most;
+    json["particles_at_most"] = scene.setup.initial.count() + plannedBirths(scene);
     json["kernel"] = scene.setup.forces == engine::ForceMethod::grid ? "cell grid" : "every pair";
     json["terms"] = Json::array({"repulsion"});
     if (terms.pair.attraction) json["terms"].push_back("attraction");
@@ -94,11 +104,42 @@ Json checkJson(const scenes::Scene& scene) {
     json["stepper"] = engine::nameOf(scene.setup.stepper);
     json["wanted_error"] =
         scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);
-    json["predicted"] = predictionJson(scene, meanParticles);
-    json["step_bound_at_start"] = boundJson(scene, json["predicted"]["stepper"].get<std::string>());
-    json["bytes_per_particle"] = json["predicted"]["bytes_per_particle"];
-    json["memory_bytes"] = most * json["bytes_per_particle"].get<std::uint64_t>() +
-                           json["predicted"]["bytes_of_materials"].get<std::uint64_t>();
+    return json;
+}
+
+/// Looks at the start of the scene and simulates its first frames, and reports one result after the other.
+void examine(const scenes::Scene& scene, const Report& report) {
+    report({{"warnings", scenes::startWarnings(scene)}});
+    // Emitters emit evenly over the run, so that on average half of their particles exist. Particles that leave a
+    // bounded world are not taken off, because their number is not known.
+    const auto births = static_cast<double>(plannedBirths(scene));
+    const Json predicted = predictionJson(scene, static_cast<double>(scene.setup.initial.count()) + 0.5 * births);
+    report({{"predicted", predicted}});
+    report({{"step_bound_at_start", boundJson(scene, predicted["stepper"].get<std::string>())}});
+}
+
+/// Everything that `check` says. What was not found out when the time was up is missing, and "cut_off" says what took
+/// so long.
+Json checkJson(const scenes::Scene& scene, int threads) {
+    // The child comes first, because it must not be started after other threads.
+    const Json found =
+        runInChild(kMostSeconds, [&](const Report& report) { onThreads(threads, [&] { examine(scene, report); }); });
+    Json json;
+    onThreads(threads, [&] { json = sceneJson(scene); });
+    json.update(found);
+    const char* const slow = !found.contains("warnings")              ? "looking at where the particles start"
+                             : !found.contains("predicted")           ? "the first time step"
+                             : !found.contains("step_bound_at_start") ? "finding the step bound"
+                                                                      : nullptr;
+    json["cut_off"] =
+        slow == nullptr ? Json(nullptr) : Json(fmt::format("{} takes more than {} s", slow, kMostSeconds));
+    if (!found.contains("predicted")) return json;
+    const Json& predicted = json["predicted"];
+    if (slow == nullptr) json["cut_off"] = predicted["cut_off"];
+    json["bytes_per_particle"] = predicted["bytes_per_particle"];
+    json["memory_bytes"] =
+        json["particles_at_most"].get<std::uint64_t>() * predicted["bytes_per_particle"].get<std::uint64_t>() +
+        predicted["bytes_of_materials"].get<std::uint64_t>();
     return json;
 }
 
@@ -106,13 +147,40 @@ std::string boundText(const Json& json) {
     const Json& bound = json["step_bound_at_start"];
     if (bound.is_null()) return "none: no two particles act on each other at the start (obstacles are not counted)";
     const double seconds = bound["seconds"].get<double>();
-    const bool isLonger = json["predicted"]["step"].get<double>() > seconds;
+    const Json& step = json["predicted"]["step"];
+    const bool isLonger = !step.is_null() && step.get<double>() > seconds;
     const bool rescued = json["stepper"].get<std::string>() != "symplectic-euler";
     const char* verdict = !isLonger ? ""
                           : rescued ? " -- the step is longer: expect steps that are taken back"
                                     : " -- the step is longer: expect instability";
     return fmt::format("{:.4g} s for the pairs at the start, limited by the {} of particle {}{}", seconds,
                        bound["limited_by"].get<std::string>(), bound["particle"].get<std::size_t>(), verdict);
+}
+
+/// The lines on what was found out by simulating the first frames, as far as it was found out.
+std::string predictedText(const Json& json) {
+    std::string text = "stepper    " + json["stepper"].get<std::string>();
+    if (!json.contains("predicted")) return text + "\n";
+    const Json& predicted = json["predicted"];
+    if (!predicted["unstable"].is_null())
+        text += fmt::format("; unstable after {} frames", predicted["from_frames"].get<int>());
+    else if (!predicted["steps"].is_null())
+        text += fmt::format("; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}",
+                            predicted["from_frames"].get<int>(), predicted["stepper"].get<std::string>(),
+                            predicted["steps"].get<std::int64_t>(), predicted["step"].get<double>(),
+                            predicted["limited_by"].get<std::string>());
+    text += "\n";
+    if (!predicted["error"].is_null())
+        text += fmt::format("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
+                            json["wanted_error"].get<double>(), predicted["error"].get<double>());
+    if (json.contains("step_bound_at_start")) text += fmt::format("step bound {}\n", boundText(json));
+    text += fmt::format("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
+                        json["bytes_per_particle"].get<std::size_t>());
+    if (predicted["unstable"].is_null() && !predicted["seconds_simulating"].is_null())
+        text += fmt::format("time       {} {:.0f} s of simulating on this machine, drawing not counted\n",
+                            predicted["cut_off"].is_null() ? "about" : "at least",
+                            std::ceil(predicted["seconds_simulating"].get<double>()));
+    return text;
 }
 
 /// What `check` prints without --json.
@@ -136,35 +204,20 @@ std::string checkText(const Json& json) {
             value("mass"), value("core"), value("friction"));
     }
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
-    const Json& predicted = json["predicted"];
-    if (!predicted["unstable"].is_null())
-        text += fmt::format("stepper    {}; unstable after {} frames\n", json["stepper"].get<std::string>(),
-                            predicted["from_frames"].get<int>());
-    else
-        text +=
-            fmt::format("stepper    {}; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}\n",
-                        json["stepper"].get<std::string>(), predicted["from_frames"].get<int>(),
-                        predicted["stepper"].get<std::string>(), predicted["steps"].get<std::int64_t>(),
-                        predicted["step"].get<double>(), predicted["limited_by"].get<std::string>());
-    if (!predicted["error"].is_null())
-        text += fmt::format("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
-                            json["wanted_error"].get<double>(), predicted["error"].get<double>());
-    text += fmt::format("step bound {}\n", boundText(json));
-    text += fmt::format("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
-                        json["bytes_per_particle"].get<std::size_t>());
-    if (predicted["unstable"].is_null())
-        text += fmt::format("time       about {:.0f} s of simulating on this machine, drawing not counted\n",
-                            std::ceil(predicted["seconds_simulating"].get<double>()));
+    text += predictedText(json);
+    if (const Json& cutOff = json["cut_off"]; !cutOff.is_null())
+        text += fmt::format("cut off    {}\n", cutOff.get<std::string>());
+    for (const Json& warning : json.value("warnings", Json::array()))
+        text += fmt::format("warning    {}\n", warning.get<std::string>());
     return text;
 }
 
 void check(const CheckOptions& options) {
     const scenes::Scene scene = load(options.scene);
-    Json json;
-    onThreads(threadCount(options.run), [&] { json = checkJson(scene); });
+    const Json json = checkJson(scene, threadCount(options.run));
     printResult(options.run, json, checkText(json));
-    if (const Json& unstable = json["predicted"]["unstable"]; !unstable.is_null())
-        throw engine::InstabilityError(unstable.get<std::string>());
+    const Json unstable = json.value("/predicted/unstable"_json_pointer, Json(nullptr));
+    if (!unstable.is_null()) throw engine::InstabilityError(unstable.get<std::string>());
 }
 
 }  // namespace
@@ -174,7 +227,9 @@ void addCheckCommand(CLI::App& program) {
     const auto options = std::make_shared<CheckOptions>();
     addTo(command, options->scene);
     addTo(command, options->run);
-    command.footer("Example: globular check my-scene.toml");
+    command.footer(
+        "Simulates the first frames of the scene. What is not found out within about ten seconds is cut off.\n"
+        "Example: globular check my-scene.toml");
     command.callback([options] { check(*options); });
 }
 

@@ -45,25 +45,44 @@ engine::Particles everyKind(const scenes::Scene& scene) {
     return particles;
 }
 
-Preview simulateBeginning(const scenes::Scene& scene) {
+Preview simulateBeginning(const scenes::Scene& scene, double mostSeconds) {
     constexpr double kSecondsEnough = 2.0;  // time for the first frames, s; chosen: as long as one waits for a check
     Preview preview;
-    preview.simulation = engine::start(scene.setup);
-    preview.bytesOfMaterials = engine::peakBytesOfMaterials(preview.simulation);
-    recordMemory(preview);
+    engine::Simulation& simulation = preview.simulation;
     const auto start = std::chrono::steady_clock::now();
-    while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
-        try {
-            scenes::advanceToFrame(scene, preview.simulation, preview.frames + 1);
-        } catch (const engine::InstabilityError& error) {
-            preview.unstable = error.what();
-            break;
-        }
-        ++preview.frames;
-        preview.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        preview.particleFrames += static_cast<double>(preview.simulation.particles.count());
+    const auto secondsSoFar = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    const auto recordFrame = [&] {
+        preview.seconds = secondsSoFar();
+        preview.particleFrames += static_cast<double>(simulation.particles.count());
         recordMemory(preview);
+    };
+    try {
+        simulation = engine::start(scene.setup);
+        preview.stepper = simulation.stepper;
+        preview.bytesOfMaterials = engine::peakBytesOfMaterials(simulation);
+        recordMemory(preview);
+        simulation.beforeStep = [&](const engine::Simulation&) {
+            if (secondsSoFar() > mostSeconds) throw engine::Stopped();
+            ++preview.stepsInCutOff;
+        };
+        while (preview.frames + 1 < scenes::frameCount(scene) && preview.seconds < kSecondsEnough) {
+            preview.stepsInCutOff = 0;
+            scenes::advanceToFrame(scene, simulation, preview.frames + 1);
+            ++preview.frames;
+            preview.stepper = simulation.stepper;
+            preview.steps = simulation.steps;
+            preview.automatic = simulation.automatic;
+            recordFrame();
+        }
+    } catch (const engine::Stopped&) {
+        preview.isCutOff = true;
+        recordFrame();
+    } catch (const engine::InstabilityError& error) {
+        preview.unstable = error.what();
     }
+    simulation.beforeStep = nullptr;  // it refers to this function's variables
     return preview;
 }
 

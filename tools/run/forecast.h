@@ -18,12 +18,17 @@ engine::Particles everyKind(const scenes::Scene& scene);
 
 /// How the first frames of a run went.
 struct Preview {
-    engine::Simulation simulation;  ///< state at the last frame that was simulated
-    std::string unstable;           ///< why the simulation became unstable; empty if it did not
-    int frames = 0;                 ///< how many frames were simulated
-    double seconds = 0.0;           ///< wall-clock time of the simulation, with births and error estimates
-    double particleFrames = 0.0;    ///< sum over the frames of the number of particles
-    std::size_t mostParticles = 0;  ///< largest number of particles at any frame
+    engine::Simulation simulation;    ///< state at the last frame that was simulated; somewhere beyond it if `isCutOff`
+    std::string unstable;             ///< why the simulation became unstable; empty if it did not
+    int frames = 0;                   ///< how many frames were simulated
+    bool isCutOff = false;            ///< whether the time was up before the end of the next frame
+    std::uint64_t stepsInCutOff = 0;  ///< number of steps tried in that frame, those of error estimates included
+    double seconds = 0.0;             ///< wall-clock time of the simulation, with births and error estimates
+    double particleFrames = 0.0;      ///< sum over the frames of the number of particles
+    engine::StepperKind stepper = engine::StepperKind::velocityVerlet;  ///< stepper in use at the last frame
+    engine::StepStatistics steps;                                       ///< steps up to the last frame
+    engine::AutoState automatic;                                        ///< automatic stepper at the last frame
+    std::size_t mostParticles = 0;                                      ///< largest number of particles at any frame
     /// Memory per particle of a simulation whose frames are drawn at the same time, in bytes, measured when there were
     /// most particles; 0 if there were none.
     std::size_t bytesPerParticle = 0;
@@ -31,6 +36,7 @@ struct Preview {
 };
 
 /// Simulates the first frames of a scene, for about two seconds.
-Preview simulateBeginning(const scenes::Scene& scene);
+/// @param mostSeconds  wall-clock time after which a frame is cut off, at the end of a step
+Preview simulateBeginning(const scenes::Scene& scene, double mostSeconds = 5.0);
 
 }  // namespace tools
