@@ -72,14 +72,26 @@ enum class Skin {
 /// share of the distance.
 inline constexpr float kSkinPull = 0.85F;
 
+/// Smallest radius that a neighbor counts as where it ends the kernel of a ball of a smooth skin, as a share of that
+/// ball's radius. Chosen: rays find the surface of so steep a kernel in single precision.
+inline constexpr float kSkinLeastSize = 0.01F;
+
 /// The surface of metaballs is where the field, the sum over all balls of w (1 - d^2/R^2)^2 for d < R, has the value
-/// (1 - 1/reach^2)^2. d is the distance from the ball's center, w its weight and R = reach * radius; a ball alone thus
-/// has its particle's radius. The normal is the negative gradient, the color the mean of the balls' colors weighted by
-/// their terms of the sum.
+/// (1 - 1/reach^2)^2. d is the distance from the ball's center, w its weight and R the radius of its kernel. In a plain
+/// skin w is 1 and R is reach * radius. In both skins a ball alone thus has its particle's radius. The normal is the
+/// negative gradient, the color the mean of the balls' colors weighted by their terms of the sum. Particles whose
+/// radius is 0 have no ball and influence none.
 ///
-/// Smooth skin: let Q be reach times the mean of two particles' radii and k = (1 - d^2/Q^2)^2 for particles at
-/// distances d < Q. A ball is moved from its particle by kSkinPull times the vector to the mean position of all
-/// particles weighted by k, itself included with k = 1, and its weight is (sum of k)^(-3/4).
+/// Smooth skin: let Q be reach times the mean of two particles' radii r and s. For particles at distances d < Q, of
+/// which neither is more than twice as large as the other, let k = (1 - d^2/Q^2)^2 (1 - 9 (r - s)^2/(r + s)^2). A ball
+/// is moved from its particle by kSkinPull times the vector to the mean position of all particles weighted by k, itself
+/// included with k = 1.
+///
+/// The kernel of a large ball must not swallow small particles at its surface. For a particle of radius r, R is
+/// therefore the least of reach r and, for each particle of radius s < r/2 at a distance d,
+/// max(r + (reach - 1) (1 + 2 s/r) s, d - s), where s is no less than kSkinLeastSize r. So the kernel ends before the
+/// small particle until that is about as near as its own kernel reaches. The ball's weight is (sum of k)^(-3/4), times
+/// ((1 - 1/reach^2) / (1 - r^2/R^2))^2, which keeps the surface of a ball alone at r however short its kernel is.
 struct MetaballField {
     float reach = 2.5F;  ///< radius of a ball's field in particle radii, from 1.2 to 4
     Skin skin = Skin::plain;

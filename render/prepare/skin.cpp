@@ -1,6 +1,7 @@
 // Balls of a smooth skin: each is pulled toward the mean of its neighbors and weighs the less, the more of them there
-// are. Particles are sorted into cells as wide as the longest reach. All that may be in reach of one cell's particles
-// is gathered once into blocks of 16, and each particle's sums run over these blocks with 16 accumulators, however wide
+// are, and the kernel of a large ball ends early where small ones are near. Particles are sorted into cells as wide as
+// the longest distance at which two particles influence each other. All that may be in reach of one cell's particles is
+// gathered once into blocks of 16, and each particle's sums run over these blocks with 16 accumulators, however wide
 // the vectors are. The accumulators are added up in a fixed order, so that every instruction set gives the same bits.
 // This file is compiled once per instruction set.
 #include "render/prepare/skin.h"
@@ -29,15 +30,16 @@ namespace render {
 /// Number of particles whose kernels are added up at a time.
 constexpr std::size_t kBlock = 16;
 
-/// Particles sorted by the cells of a grid, component by component, so that all particles in reach of one lie in nine
-/// contiguous runs.
+/// Particles whose radius is above 0, sorted by the cells of a grid, component by component, so that all particles in
+/// reach of one lie in nine contiguous runs.
 struct ParticleCells {
     glm::vec3 low{0.0F};
     float side = 1.0F;
     glm::ivec3 count{1};
     std::vector<std::uint32_t> begin;  ///< sorted index of each cell's first particle; at last the number of particles
-    std::vector<float> x, y, z, radius;  ///< position and radius of each particle, by sorted index
-    std::vector<std::uint32_t> index;    ///< index of each particle in the view, by sorted index
+    std::vector<float> x, y, z, radius;                 ///< position and radius of each particle, by sorted index
+    std::vector<std::uint32_t> index;                   ///< index of each particle in the view, by sorted index
+    float smallestRadius = 0.0F, largestRadius = 0.0F;  ///< of the particles, m
 
     /// The cell of a point. @pre at is not below `low`; conversion then rounds down (glm::floor may be a call).
     glm::ivec3 cellOf(glm::vec3 at) const { return min(glm::ivec3((at - low) / side), count - 1); }
@@ -50,10 +52,11 @@ struct Neighborhood {
     std::array<std::vector<float>, 4> values;  // x, y, z and radius of the particles
 };
 
-/// Sums over a particle's neighbors, itself included, of the kernel k of view.h's smooth skin.
-struct DensitySum {
-    float density = 0.0F;            ///< sum of the kernel
-    glm::vec3 weightedOffset{0.0F};  ///< sum of the kernel times the vector to the neighbor, m
+/// What a particle's neighbors, itself included, make of its ball, in the terms of view.h's smooth skin.
+struct NeighborInfluence {
+    float density = 0.0F;            ///< sum of k
+    glm::vec3 weightedOffset{0.0F};  ///< sum of k times the vector to the neighbor, m
+    float reach = 0.0F;              ///< R, m
 };
 
 }  // namespace render
@@ -102,35 +105,67 @@ HWY_INLINE float total(const BlockSum& sum) {
     return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
-DensitySum densitySum(const Neighborhood& neighborhood, glm::vec4 particle, float reach) {
+/// Vectors from a point to the particles of a neighborhood from index k on.
+HWY_INLINE Vec3 offsetsFrom(const Vec3& point, const Neighborhood& neighborhood, std::size_t k) {
+    const D d;
+    const auto& [x, y, z, radius] = neighborhood.values;
+    return Vec3{hn::LoadU(d, &x[k]), hn::LoadU(d, &y[k]), hn::LoadU(d, &z[k])} - point;
+}
+
+/// The radius of a ball's kernel among the particles of a neighborhood, m.
+float kernelReach(const Neighborhood& neighborhood, glm::vec4 particle, float reach) {
+    const D d;
+    const Vec3 here = splat(glm::vec3(particle));
+    const V own = splat(particle.w);
+    const V least = splat(kSkinLeastSize * particle.w);
+    V end = splat(reach * particle.w);
+    for (std::size_t k = 0; k < neighborhood.size; k += hn::Lanes(d)) {
+        const Vec3 off = offsetsFrom(here, neighborhood, k);
+        const V radius = hn::LoadU(d, &neighborhood.values[3][k]);
+        const V size = hn::Max(radius, least);
+        const V beyond = splat(reach - 1.0F) * (splat(1.0F) + (size + size) / own) * size;
+        const V limit = hn::Max(own + beyond, hn::Sqrt(dot(off, off)) - size);
+        end = hn::Min(end, hn::IfThenElse(radius < splat(0.5F) * own, limit, end));
+    }
+    return hn::GetLane(minOfLanes(end, hn::FirstN(d, hn::Lanes(d))));
+}
+
+/// @tparam kIsMixed  whether particles may have different radii
+template <bool kIsMixed>
+NeighborInfluence influenceOn(glm::vec4 particle, const Neighborhood& neighborhood, float reach) {
     const D d;
     const Vec3 here = splat(glm::vec3(particle));
     const V zero = splat(0.0F);
     const V one = splat(1.0F);
     BlockSum density, offsetX, offsetY, offsetZ;
     for (BlockSum* sum : {&density, &offsetX, &offsetY, &offsetZ}) sum->fill(zero);
-    const auto& [x, y, z, radius] = neighborhood.values;
     for (std::size_t block = 0; block < neighborhood.size; block += kBlock) {
         for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
             const std::size_t k = block + v * hn::Lanes(d);
-            const Vec3 off = Vec3{hn::LoadU(d, &x[k]), hn::LoadU(d, &y[k]), hn::LoadU(d, &z[k])} - here;
-            const V support = splat(0.5F * reach) * (splat(particle.w) + hn::LoadU(d, &radius[k]));
+            const Vec3 off = offsetsFrom(here, neighborhood, k);
+            const V radius = hn::LoadU(d, &neighborhood.values[3][k]);
+            const V support = splat(0.5F * reach) * (splat(particle.w) + radius);
             const V root = hn::Max(zero, one - dot(off, off) / (support * support));
-            const V weight = root * root;
+            V weight = root * root;
+            if constexpr (kIsMixed) {
+                const V contrast = splat(3.0F) * (splat(particle.w) - radius) / (splat(particle.w) + radius);
+                weight = weight * hn::Max(zero, one - contrast * contrast);
+            }
             density[v] = density[v] + weight;
             offsetX[v] = offsetX[v] + weight * off.x;
             offsetY[v] = offsetY[v] + weight * off.y;
             offsetZ[v] = offsetZ[v] + weight * off.z;
         }
     }
-    return {total(density), {total(offsetX), total(offsetY), total(offsetZ)}};
+    return {total(density), {total(offsetX), total(offsetY), total(offsetZ)}, reach * particle.w};
 }
 
-/// Computes the sums of the particles with the sorted indices first, first + 1, ...
-void densitySums(const ParticleCells& cells, float reach, std::size_t first, std::span<DensitySum> sums) {
+/// Computes the influences on the particles with the sorted indices first, first + 1, ...
+void neighborInfluences(const ParticleCells& cells, float reach, std::size_t first,
+                        std::span<NeighborInfluence> influences) {
     thread_local Neighborhood neighborhood;
     std::size_t end = 0;  // sorted index at which the cell ends whose neighborhood has been gathered
-    for (std::size_t k = 0; k < sums.size(); ++k) {
+    for (std::size_t k = 0; k < influences.size(); ++k) {
         const std::size_t sortedIndex = first + k;
         const glm::vec4 particle(cells.x[sortedIndex], cells.y[sortedIndex], cells.z[sortedIndex],
                                  cells.radius[sortedIndex]);
@@ -139,7 +174,10 @@ void densitySums(const ParticleCells& cells, float reach, std::size_t first, std
             gather(cells, cell, neighborhood);
             end = cells.begin[cellIndex(cells.count, cell.x, cell.y, cell.z) + 1];
         }
-        sums[k] = densitySum(neighborhood, particle, reach);
+        const bool isMixed = cells.smallestRadius < cells.largestRadius;
+        influences[k] = isMixed ? influenceOn<true>(particle, neighborhood, reach)
+                                : influenceOn<false>(particle, neighborhood, reach);
+        if (cells.smallestRadius < 0.5F * particle.w) influences[k].reach = kernelReach(neighborhood, particle, reach);
     }
 }
 
@@ -151,21 +189,26 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-HWY_EXPORT(densitySums);
+HWY_EXPORT(neighborInfluences);
 
 namespace {
 
-/// Makes cells as wide as the longest reach, or wider if there were too many.
+/// Makes cells as wide as particles influence each other, or wider if there were too many.
 void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
     constexpr double kMostCells = 4e6;  // largest number of cells; chosen: they take 16 MB
     Bounds<glm::vec3> bounds;
-    float largestRadius = std::numeric_limits<float>::min();
+    cells.smallestRadius = std::numeric_limits<float>::max();
+    cells.largestRadius = std::numeric_limits<float>::min();
     for (const Sphere& particle : particles) {
         bounds.add(particle.center);
-        largestRadius = std::max(largestRadius, particle.radius);
+        if (particle.radius <= 0.0F) continue;
+        cells.smallestRadius = std::min(cells.smallestRadius, particle.radius);
+        cells.largestRadius = std::max(cells.largestRadius, particle.radius);
     }
     cells.low = bounds.low;
-    cells.side = reach * largestRadius;
+    cells.side = reach * cells.largestRadius;
+    // A kernel may end at a particle's distance less its radius, which is less than half of the ball's.
+    if (cells.smallestRadius < 0.5F * cells.largestRadius) cells.side += 0.5F * cells.largestRadius;
     const auto countAlong = [&](int axis) {
         return std::floor(double(bounds.high[axis] - bounds.low[axis]) / cells.side) + 1.0;
     };
@@ -173,23 +216,26 @@ void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCell
     for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(countAlong(axis));
 }
 
-/// Sorts particles into cells by a counting sort. @param reach  reach of the field, in radii
+/// Sorts the particles whose radius is above 0 into cells by a counting sort. @param reach  reach of the field, in
+/// radii
 ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     ParticleCells cells;
     fitToParticles(particles, reach, cells);
     std::vector<std::uint32_t> cellOf(particles.size());
     cells.begin.assign(cellIndex(cells.count, 0, 0, cells.count.z) + 1, 0);
     for (std::size_t k = 0; k < particles.size(); ++k) {
+        if (particles[k].radius <= 0.0F) continue;
         const glm::ivec3 cell = cells.cellOf(particles[k].center);
         cellOf[k] = static_cast<std::uint32_t>(cellIndex(cells.count, cell.x, cell.y, cell.z));
         ++cells.begin[cellOf[k] + 1];
     }
     for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];
     std::vector<std::uint32_t> next(cells.begin.begin(), cells.begin.end() - 1);
-    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius}) values->resize(particles.size());
-    cells.index.resize(particles.size());
+    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius}) values->resize(cells.begin.back());
+    cells.index.resize(cells.begin.back());
     for (std::size_t k = 0; k < particles.size(); ++k) {
         const Sphere& particle = particles[k];
+        if (particle.radius <= 0.0F) continue;
         const std::uint32_t sortedIndex = next[cellOf[k]]++;
         cells.x[sortedIndex] = particle.center.x;
         cells.y[sortedIndex] = particle.center.y;
@@ -200,12 +246,18 @@ ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     return cells;
 }
 
-/// The ball of a smooth skin for a particle with this center.
-SkinBall smoothed(const DensitySum& sum, glm::vec3 center) {
+/// The ball of a smooth skin for a particle.
+SkinBall smoothed(const NeighborInfluence& influence, const Sphere& particle, float reach) {
     // The exponent -3/4 lies between 0, where the field is a sum, which swells where many balls overlap, and -1, where
     // it is a mean, which sinks in at the border.
-    const float root = std::sqrt(sum.density);
-    return {center + kSkinPull * sum.weightedOffset / sum.density, 1.0F / (root * std::sqrt(root))};
+    const float root = std::sqrt(influence.density);
+    SkinBall ball{particle.center + kSkinPull * influence.weightedOffset / influence.density,
+                  1.0F / (root * std::sqrt(root)), influence.reach};
+    if (ball.reach >= reach * particle.radius) return ball;
+    const float share = particle.radius / ball.reach;
+    const float steeper = (1.0F - 1.0F / (reach * reach)) / (1.0F - share * share);
+    ball.weight *= steeper * steeper;
+    return ball;
 }
 
 }  // namespace
@@ -213,21 +265,22 @@ SkinBall smoothed(const DensitySum& sum, glm::vec3 center) {
 std::vector<SkinBall> skinOf(const View& view) {
     std::vector<SkinBall> balls(view.particles.size());
     if (view.field.skin == Skin::plain) {
-        for (std::size_t k = 0; k < balls.size(); ++k) balls[k].center = view.particles[k].center;
+        for (std::size_t k = 0; k < balls.size(); ++k)
+            balls[k] = {view.particles[k].center, 1.0F, view.field.reach * view.particles[k].radius};
         return balls;
     }
     if (balls.empty()) return balls;
     const ParticleCells cells = sortIntoCells(view.particles, view.field.reach);
     constexpr std::size_t kChunk = 128;
-    tbb::parallel_for(std::size_t{0}, (balls.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t count = cells.index.size();
+    tbb::parallel_for(std::size_t{0}, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
         const std::size_t first = chunk * kChunk;
-        std::array<DensitySum, kChunk> buffer;
-        const std::span<DensitySum> sums = std::span(buffer).first(std::min(kChunk, balls.size() - first));
-        HWY_DYNAMIC_DISPATCH(densitySums)(cells, view.field.reach, first, sums);
-        for (std::size_t k = 0; k < sums.size(); ++k) {
+        std::array<NeighborInfluence, kChunk> buffer;
+        const auto influences = std::span(buffer).first(std::min(kChunk, count - first));
+        HWY_DYNAMIC_DISPATCH(neighborInfluences)(cells, view.field.reach, first, influences);
+        for (std::size_t k = 0; k < influences.size(); ++k) {
             const std::uint32_t index = cells.index[first + k];
-            const Sphere& particle = view.particles[index];
-            if (particle.radius > 0.0F) balls[index] = smoothed(sums[k], particle.center);
+            balls[index] = smoothed(influences[k], view.particles[index], view.field.reach);
         }
     });
     return balls;

@@ -244,33 +244,6 @@ Indices Scene::ballsAlong(const Ray& ray) const {
     return all;
 }
 
-std::vector<Ball> ballsOf(const render::View& view) {
-    std::vector<Ball> balls;
-    for (const render::Sphere& particle : view.particles)
-        balls.push_back({dvec3(particle.center), double(view.field.reach) * double(particle.radius), 1.0});
-    if (view.field.skin == render::Skin::plain || view.style == render::Style::spheres) return balls;
-    std::vector<Extent> extents;
-    // Two balls influence each other below the mean of their reaches, where balls of half the reach overlap.
-    for (const Ball& ball : balls) extents.push_back({ball.center, 0.5 * ball.reach});
-    const BallGrid grid(extents);
-    std::vector<Ball> smooth = balls;
-    for (std::size_t k = 0; k < balls.size(); ++k) {
-        const dvec3 here = balls[k].center;
-        double density = 0.0;
-        dvec3 pull(0.0);
-        for (const std::uint32_t other : grid.within(here, 0.5 * balls[k].reach)) {
-            const dvec3 off = balls[other].center - here;
-            const double reach = 0.5 * (balls[k].reach + balls[other].reach);
-            const double root = std::max(0.0, 1.0 - glm::dot(off, off) / (reach * reach));
-            density += root * root;
-            pull += root * root * off;
-        }
-        smooth[k].center = here + double(render::kSkinPull) * pull / density;
-        smooth[k].weight = std::pow(density, -0.75);
-    }
-    return smooth;
-}
-
 Ray pixelRay(const render::View& view, render::PictureSize size, double px, double py) {
     const render::Camera& camera = view.camera;
     const dvec3 eye(camera.eye);

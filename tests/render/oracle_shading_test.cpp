@@ -113,18 +113,50 @@ TEST_CASE("oracle: the field of two balls by hand") {
     CHECK(oracle::fieldAt(unequal, {0.0, 0.0, 0.0}) == 2.0 * 0.75 * 0.75);
 }
 
-TEST_CASE("oracle: in a smooth skin a small ball feels a large one from afar") {
-    // Reach 2.5, radii 0.1 and 1: the pair's reach is 1.375 m, thrice what the small ball has of its own.
-    render::View view = metaballView({{{}, 0.1F, {}}, {{0.7F, 0.0F, 0.0F}, 1.0F, {}}}, 2.5F);
+TEST_CASE("oracle: a smooth skin averages two sizes the less, the more they differ") {
+    // Reach 2.5, radii 0.5 and 0.75: the pair's reach is 1.5625 m, and 1 - 9 (0.25/1.25)^2 = 0.64.
+    render::View view = metaballView({{{}, 0.5F, {}}, {{1.25F, 0.0F, 0.0F}, 0.75F, {}}}, 2.5F);
     view.field.skin = render::Skin::smooth;
-    const double root = 1.0 - 0.49 / (1.375 * 1.375);
-    const double share = root * root;
+    const double root = 1.0 - 1.5625 / (1.5625 * 1.5625);  // 0.36
+    const double share = 0.64 * root * root;
+    const double pull = double(render::kSkinPull) * 1.25 * share / (1.0 + share);
     const std::vector<oracle::Ball> balls = oracle::ballsOf(view);
-    const double pull = double(render::kSkinPull) * 0.7 * share / (1.0 + share);
-    constexpr double kSingle = 1e-7;  // relative rounding of the view's floats
-    CHECK(std::abs(balls[0].center.x - pull) < kSingle);
-    CHECK(std::abs(balls[1].center.x - (0.7 - pull)) < kSingle);
-    for (const oracle::Ball& ball : balls) CHECK(std::abs(ball.weight - std::pow(1.0 + share, -0.75)) < kSingle);
+    checkNear(balls[0].center.x, pull, 10 * kEps);  // some ten roundings of numbers near 1, as in all lines below
+    checkNear(balls[1].center.x, 1.25 - pull, 10 * kEps);
+    for (const oracle::Ball& ball : balls) checkNear(ball.weight, std::pow(1.0 + share, -0.75), 10 * kEps);
+    checkNear(balls[0].reach, 1.25, 10 * kEps);
+    checkNear(balls[1].reach, 1.875, 10 * kEps);
+}
+
+TEST_CASE("oracle: in a smooth skin a small ball shortens the kernel of a large one, and neither moves") {
+    // Reach 2, radii 1 and 0.25. The large kernel ends 0.25 m before the small particle, but neither beyond 2 m nor
+    // within 1 + (2 - 1) (1 + 2/4)/4 = 1.375 m.
+    struct Pair {
+        float distance;
+        double end;
+    };
+    for (const Pair pair :
+         {Pair{3.0F, 2.0}, Pair{2.25F, 2.0}, Pair{2.0F, 1.75}, Pair{1.25F, 1.375}, Pair{0.5F, 1.375}}) {
+        CAPTURE(pair.distance);
+        render::View view = metaballView({{{}, 1.0F, {}}, {{pair.distance, 0.0F, 0.0F}, 0.25F, {}}}, 2.0F);
+        view.field.skin = render::Skin::smooth;
+        const std::vector<oracle::Ball> balls = oracle::ballsOf(view);
+        checkNear(balls[0].reach, pair.end, 4 * kEps);
+        checkNear(balls[1].reach, 0.5, 4 * kEps);
+        CHECK(balls[0].center == dvec3(0.0));
+        CHECK(balls[1].center == dvec3(double(pair.distance), 0.0, 0.0));
+        checkNear(balls[0].weight, std::pow(0.75 / (1.0 - 1.0 / (pair.end * pair.end)), 2.0), 20 * kEps);
+        checkNear(balls[1].weight, 1.0, 4 * kEps);
+    }
+}
+
+TEST_CASE("oracle: in a smooth skin a large ball's kernel does not shrink to that of a speck") {
+    render::View view =
+        metaballView({{{}, 1.0F, {}}, {{1.0F, 0.0F, 0.0F}, 1e-6F, {}}, {{0.0F, 1.0F, 0.0F}, 0.0F, {}}}, 2.0F);
+    view.field.skin = render::Skin::smooth;
+    const oracle::Ball ball = oracle::ballsOf(view)[0];
+    checkNear(ball.reach, 1.0 + 0.01 * 1.02, kFloatEps);  // a hundredth counts
+    CHECK(ball.center == dvec3(0.0));
 }
 
 TEST_CASE("oracle: a ray from inside the surface hits at once, with weighted color and the field's gradient") {

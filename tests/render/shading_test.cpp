@@ -232,6 +232,7 @@ TEST_CASE("Thread counts change neither sky visibility nor skin") {
         for (std::size_t k = 0; k < skin.size(); ++k) {
             REQUIRE(skin[k].center == first[k].center);
             REQUIRE(skin[k].weight == first[k].weight);
+            REQUIRE(skin[k].reach == first[k].reach);
         }
     }
 }
@@ -255,7 +256,7 @@ TEST_CASE("A smooth skin's balls are the sums over all particles in reach") {
         view.particles.clear();
         for (int k = 0; k < count; ++k) {
             const glm::vec3 at(std::sin(12.9F * float(k)), std::sin(7.3F * float(k)), std::sin(3.1F * float(k)));
-            view.particles.push_back({0.25F * at, 0.1F + 0.02F * float(k % 3), {0.5F, 0.5F, 0.5F}});
+            view.particles.push_back({0.25F * at, 0.04F * float(1 + k % 4), {0.5F, 0.5F, 0.5F}});
         }
         view.particles.push_back({{0.05F, 0.0F, 0.0F}, 0.0F, {0.5F, 0.5F, 0.5F}});
         view.particles.push_back({{9.0F, 9.0F, 9.0F}, 0.2F, {0.5F, 0.5F, 0.5F}});
@@ -263,20 +264,30 @@ TEST_CASE("A smooth skin's balls are the sums over all particles in reach") {
         for (std::size_t p = 0; p < view.particles.size(); ++p) {
             const render::Sphere& here = view.particles[p];
             if (here.radius == 0.0F) continue;
+            const double reach = double(view.field.reach);
+            const double radius = double(here.radius);
             double density = 0.0;
             glm::dvec3 weightedOffset(0.0);
+            double end = reach * radius;
             for (const render::Sphere& other : view.particles) {
+                if (other.radius == 0.0F) continue;
                 const glm::dvec3 off = glm::dvec3(other.center) - glm::dvec3(here.center);
-                const double reach = 0.5 * double(view.field.reach) * (double(here.radius) + double(other.radius));
-                const double root = std::max(0.0, 1.0 - glm::dot(off, off) / (reach * reach));
-                density += root * root;
-                weightedOffset += root * root * off;
+                const double size = double(other.radius);
+                const double sum = radius + size;
+                const double root = std::max(0.0, 1.0 - glm::dot(off, off) / std::pow(0.5 * reach * sum, 2.0));
+                const double k = root * root * std::max(0.0, 1.0 - 9.0 * std::pow((radius - size) / sum, 2.0));
+                density += k;
+                weightedOffset += k * off;
+                const double beyond = (reach - 1.0) * (1.0 + 2.0 * size / radius) * size;
+                if (size < 0.5 * radius) end = std::min(end, std::max(radius + beyond, glm::length(off) - size));
             }
+            const double steeper = (1.0 - 1.0 / (reach * reach)) / (1.0 - radius * radius / (end * end));
             const glm::dvec3 center = glm::dvec3(here.center) + double(render::kSkinPull) * weightedOffset / density;
             INFO("particle " << p << " of " << count);
             // Tolerance: some forty additions of numbers below 1 in single precision (6e-8 each).
             CHECK(glm::length(glm::dvec3(skin[p].center) - center) < 3e-6);
-            CHECK(std::abs(double(skin[p].weight) - std::pow(density, -0.75)) < 3e-6);
+            CHECK(std::abs(double(skin[p].weight) - steeper * steeper * std::pow(density, -0.75)) < 3e-6);
+            CHECK(std::abs(double(skin[p].reach) - end) < 3e-7);
         }
     }
 }
@@ -288,6 +299,7 @@ TEST_CASE("In a smooth skin a lone ball keeps its place and radius, and a flat p
     view.particles.push_back({{0.1F, 1.0F, 0.2F}, 0.3F, {0.5F, 0.5F, 0.5F}});
     CHECK(render::skinOf(view)[0].center == view.particles[0].center);
     CHECK(render::skinOf(view)[0].weight == 1.0F);
+    CHECK(render::skinOf(view)[0].reach == 3.2F * 0.3F);
 
     view.particles.clear();
     for (int k = 0; k < 20 * 20 * 5; ++k) {

@@ -227,8 +227,7 @@ DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const
         const float radius = view.particles[k].radius;
         if (radius <= 0.0F) continue;
         const glm::vec3 center = basis.toLightSpace(balls[k].center - view.camera.eye);
-        const float reach = view.field.reach * radius;
-        bounds.add(center - reach, center + reach);
+        bounds.add(center - balls[k].reach, center + balls[k].reach);
         smallest = std::min(smallest, radius);
     }
     if (bounds.low.x > bounds.high.x) return {};

@@ -28,17 +28,17 @@ MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::spa
     scene.balls.resize(scene.particles.size());
     tbb::parallel_for(std::size_t{0}, scene.balls.size(), [&](std::size_t k) {
         const SkinBall& ball = balls[scene.particles[k]];
-        const float reach = view.field.reach * view.particles[scene.particles[k]].radius;
         const float peak = std::sqrt(ball.weight);
-        scene.balls[k] = {frame.toView(ball.center), reach, peak, std::sqrt(peak) / reach};
+        scene.balls[k] = {frame.toView(ball.center), ball.reach, peak, std::sqrt(peak) / ball.reach};
     });
     std::vector<ViewSphere> kernels(scene.balls.size());
     float smallest = std::numeric_limits<float>::max();
     double sum = 0.0;
     for (std::size_t k = 0; k < scene.balls.size(); ++k) {
         kernels[k] = {scene.balls[k].center, scene.balls[k].reach};
-        smallest = std::min(smallest, scene.balls[k].reach);
-        sum += scene.balls[k].reach;
+        const float reach = view.field.reach * view.particles[scene.particles[k]].radius;
+        smallest = std::min(smallest, reach);
+        sum += reach;
     }
     // Rays may miss a ball with less than a tenth of the mean reach (chosen), because one very small ball must not
     // shorten the steps on all rays.
