@@ -219,6 +219,12 @@ TEST_CASE("The cost of error estimates with a fixed step is reported", "[tools]"
     // A frame takes four steps of 0.01 s, and an estimate takes them at this length and at half of it.
     CHECK(spent >= json["error_estimate"]["samples"].get<double>() * 12.0);
     CHECK(run("simulate --help").out.find("error is estimated at up to 8 frames") != std::string::npos);
+
+    REQUIRE(run("simulate figure-2 --frames 0-9 --no-error-estimate --quiet -o " + (folder / "bare").string()).code ==
+            0);
+    const auto bare = nlohmann::json::parse(textOf(folder / "bare/run.json"));
+    CHECK(bare["error_estimate"].is_null());
+    CHECK(bare["state_hash"] == json["state_hash"]);
 }
 
 TEST_CASE("globular strip puts the frames of its times side by side", "[tools]") {

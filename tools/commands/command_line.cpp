@@ -111,6 +111,12 @@ void addTo(CLI::App& command, FolderOptions& options, const std::string& fallbac
         ->check(numberAtLeastZero());
 }
 
+void addErrorFlag(CLI::App& command, bool& estimatesErrors) {
+    command.add_flag_callback(
+        "--no-error-estimate", [&estimatesErrors] { estimatesErrors = false; },
+        "with a fixed step, do not spend time on estimating its error");
+}
+
 CLI::Validator numberFrom(double least, double most) {
     return numberThat([=](double value) { return value >= least && value <= most; },
                       fmt::format("from {:g} to {:g}", least, most));

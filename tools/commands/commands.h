@@ -31,10 +31,13 @@ void addTo(CLI::App& command, SceneOptions& options);
 void addTo(CLI::App& command, DrawOptions& options);
 /// @param fallback  the folder that is used without -o, named in the help
 void addTo(CLI::App& command, FolderOptions& options, const std::string& fallback);
+/// Adds the flag --no-error-estimate, which makes `estimatesErrors` false.
+void addErrorFlag(CLI::App& command, bool& estimatesErrors);
 /// What the help of `render` and `simulate` says about error estimates.
 inline constexpr const char* kErrorSampleNotes =
-    "With a fixed step the error is estimated at up to 8 frames of a run. Each estimate takes about as long as\n"
-    "simulating three frames; run.json has the cost of all of them as error_estimate.force_evaluations_spent.\n";
+    "With a fixed step the error is estimated at up to 8 frames of a run, unless --no-error-estimate is given. Each\n"
+    "estimate takes about as long as simulating three frames; run.json has the cost of all of them as\n"
+    "error_estimate.force_evaluations_spent.\n";
 
 /// Adds only the flag --gl, the OpenGL backend, for commands that choose the size, style and quality of pictures
 /// themselves.

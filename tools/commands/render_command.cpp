@@ -21,6 +21,7 @@ struct RenderOptions {
     FolderOptions folder;
     std::string video;
     std::string frames;
+    bool estimatesErrors = true;
 };
 
 std::string summaryOf(const RenderOptions& options, const FinishedRun& run) {
@@ -38,7 +39,8 @@ void render(RenderOptions options) {
     const std::string name = runName(options.scene);
     if (options.folder.path.empty()) options.folder.path = (fs::path("out") / name).string();
     const RenderJob job{drawJob(scene, options.draw, options.run, name),
-                        frameList(options.frames, scenes::frameCount(scene)), options.folder, options.video};
+                        frameList(options.frames, scenes::frameCount(scene)), options.folder, options.video,
+                        options.estimatesErrors};
 
     warnOfStart(scene, job.threads);
     if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
@@ -58,6 +60,7 @@ void addRenderCommand(CLI::App& program) {
     command.add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
     command.add_option("--frames", options->frames, std::string("draw only ") + kFrameListHelp)->type_name("FRAMES");
     addTo(command, options->draw);
+    addErrorFlag(command, options->estimatesErrors);
     addTo(command, options->run);
     command.footer(std::string(kErrorSampleNotes) +
                    "Example: globular render liquid -o out/liquid --video out/liquid.mp4");

@@ -19,6 +19,7 @@ struct SimulateOptions {
     SceneOptions scene;
     FolderOptions folder;
     std::string frames;
+    bool estimatesErrors = true;
     std::string format = "ply";
 };
 
@@ -26,7 +27,7 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, 
                            const std::string& title) {
     Progress progress(title, frames.count(), options.run.verbosity());
     FrameFolder folder(options.folder, kStateNames, sceneIdentity(scene));
-    FrameSequence sequence(scene, frames, &folder, progress);
+    FrameSequence sequence(scene, frames, {&folder, options.estimatesErrors}, progress);
     RunReport& report = sequence.report();
     report.threads = threadCount(options.run);
     {
@@ -72,6 +73,7 @@ void addSimulateCommand(CLI::App& program) {
     addTo(command, options->folder, "out/NAME-states");
     command.add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
     command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");
+    addErrorFlag(command, options->estimatesErrors);
     addTo(command, options->run);
     command.footer(std::string(kErrorSampleNotes) + "Example: globular simulate powder -o out/states --frames 0-59");
     command.callback([options] { simulate(*options); });

@@ -41,10 +41,12 @@ std::string hashOf(const FrameList& frames) {
 
 }  // namespace
 
-FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder, Progress& progress)
+FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const SequenceOptions& options,
+                             Progress& progress)
     : scene_(scene),
       frames_(std::move(frames)),
-      folder_(folder),
+      folder_(options.folder),
+      estimatesErrors_(options.estimatesErrors),
       progress_(progress),
       lastCheckpoint_(std::chrono::steady_clock::now()) {
     const char* const notice = progress_.verbosity() == Verbosity::quiet ? nullptr
@@ -68,7 +70,8 @@ bool FrameSequence::resume() {
     if (!restart) return false;
     position_ = restart->frame;
     run_.simulation = std::move(restart->simulation);
-    if (restart->report.value("frames", Json()) == hashOf(frames_)) run_.report.errors = decodeErrors(restart->report);
+    if (estimatesErrors_ && restart->report.value("frames", Json()) == hashOf(frames_))
+        run_.report.errors = decodeErrors(restart->report);
     run_.report.resumedFrom = restart->frame;
     next_ = std::min(frames_.first(), position_ + 1);
     return true;
@@ -115,7 +118,7 @@ bool FrameSequence::advanceTo(int frame) {
             scenes::advanceToFrame(scene_, run_.simulation, frame);
         }
         position_ = frame;
-        if (!isSampled(frames_, frame)) return true;
+        if (!estimatesErrors_ || !isSampled(frames_, frame)) return true;
         const Progress::Work work(progress_, fmt::format("error of frame {}", frame), frameTime(frame),
                                   frameTime(frame + 1));
         addSample(run_.report.errors, scene_, run_.simulation);
@@ -130,7 +133,7 @@ bool FrameSequence::advanceTo(int frame) {
 
 Json FrameSequence::checkpointReport() const {
     Json report = encodeErrors(run_.report.errors);
-    report["frames"] = hashOf(frames_);
+    if (estimatesErrors_) report["frames"] = hashOf(frames_);
     return report;
 }
 

@@ -30,12 +30,17 @@ struct SequencedFrame {
     Json report;                           ///< what the run has measured so far, for the checkpoint
 };
 
+/// What a run over frames does besides simulating them.
+struct SequenceOptions {
+    FrameFolder* folder = nullptr;  ///< where the frames go; nullptr for a run that cannot be resumed
+    bool estimatesErrors = true;    ///< whether the error of a fixed step is estimated at some of the frames
+};
+
 /// Simulates the frames of a run one after the other.
 class FrameSequence {
  public:
-    /// @param folder  where the frames go; nullptr for a run that cannot be resumed
     /// @param progress  is told of frames that are not wanted and of steps; must outlive the sequence
-    FrameSequence(const scenes::Scene& scene, FrameList frames, FrameFolder* folder, Progress& progress);
+    FrameSequence(const scenes::Scene& scene, FrameList frames, const SequenceOptions& options, Progress& progress);
     FrameSequence(const FrameSequence&) = delete;
     FrameSequence& operator=(const FrameSequence&) = delete;
 
@@ -68,6 +73,7 @@ class FrameSequence {
     const scenes::Scene& scene_;
     FrameList frames_;
     FrameFolder* folder_;
+    bool estimatesErrors_;
     Progress& progress_;
     FinishedRun run_;
     std::optional<InterruptWatch> interrupts_;  ///< watches for signals if the run can be resumed

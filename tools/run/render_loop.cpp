@@ -56,7 +56,7 @@ class RenderRun {
           progress_(job.title, job.frames.count(), job.verbosity),
           folder_(openFolder(job, context_.rendererName())),
           renderer_(context_, job.scene->size, job.quality),
-          frames_(*job.scene, job.frames, folder_.get(), progress_) {
+          frames_(*job.scene, job.frames, {folder_.get(), job.estimatesErrors}, progress_) {
         report().threads = job.threads;
         report().glRenderer = context_.rendererName();
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));

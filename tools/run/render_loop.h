@@ -19,6 +19,7 @@ struct RenderJob : DrawJob {
     FrameList frames;
     std::optional<FolderOptions> folder;  ///< folder of frames and checkpoints; none: only a video is made
     std::string videoPath;                ///< path of the video; empty: no video is made
+    bool estimatesErrors = true;          ///< whether the error of a fixed step is estimated at some of the frames
 };
 
 /// Draws the frames of a job. If the simulation becomes unstable, the run ends after the frames before that. After a
