@@ -44,37 +44,24 @@ engine::Obstacle obstacleFrom(Section& section, BuildContext& context) {
     return engine::Sphere{section.vector("center"), section.number("radius"), section.string("repulsor") == "literal"};
 }
 
-/// A corner of a box by its number from 0 to 7: bits 0, 1 and 2 of the number select the maximum in x, y and z.
-glm::vec3 cornerOf(const render::BoxObstacle& box, unsigned corner) {
-    return {(corner & 1U) != 0 ? box.maximum.x : box.minimum.x, (corner & 2U) != 0 ? box.maximum.y : box.minimum.y,
-            (corner & 4U) != 0 ? box.maximum.z : box.minimum.z};
-}
-
-/// Adds a box's twelve edges, each once: from every corner along each axis in which the corner is at the minimum.
-void addEdges(const render::BoxObstacle& box, const glm::vec3& color, float width, render::View& view) {
-    for (unsigned corner = 0; corner < 8; ++corner)
-        for (unsigned axis = 1; axis < 8; axis *= 2)
-            if ((corner & axis) == 0)
-                view.edges.push_back({cornerOf(box, corner), cornerOf(box, corner | axis), color, width});
-}
-
 /// Adds an obstacle to what is drawn. Planes are not drawn; boxes and containers may have edges.
-void addToView(Section& section, const Section& look, render::View& view) {
+void addToLook(Section& section, const Section& lookSection, Look& look) {
     const std::string& shape = section.string("shape");
     if (shape == "plane") return;
     const bool isContainer = shape == "container";
     if (shape != "sphere") section.derive("edges", TypedValue::ofBoolean(isContainer));
-    section.derive("color", TypedValue::ofVector(isContainer ? look.vector("edge_color") : kObstacleColor));
+    const Vec3& edgeColor = lookSection.vector("edge_color");
+    section.derive("color", TypedValue::ofVector(isContainer ? edgeColor : kObstacleColor));
     if (!section.boolean("visible")) return;
     const glm::vec3 color = toFloat(section.vector("color"));
     if (shape == "sphere") {
-        view.sphereObstacles.push_back({toFloat(section.vector("center")), toFloat(section.number("radius")), color});
+        look.spheres.push_back({section.vector("center"), section.number("radius"), color});
         return;
     }
-    const render::BoxObstacle box{toFloat(section.vector("minimum")), toFloat(section.vector("maximum")), color};
-    if (!isContainer) view.boxObstacles.push_back(box);
-    const glm::vec3 edgeColor = isContainer ? color : toFloat(look.vector("edge_color"));
-    if (section.boolean("edges")) addEdges(box, edgeColor, toFloat(look.number("edge_width")), view);
+    DrawnBox box{section.vector("minimum"), section.vector("maximum"), {}, {}};
+    if (!isContainer) box.faces = color;
+    if (section.boolean("edges")) box.edges = isContainer ? color : toFloat(edgeColor);
+    look.boxes.push_back(box);
 }
 
 }  // namespace
@@ -90,7 +77,7 @@ void buildObstacles(std::vector<Section>& sections, const Section& look, Scene& 
         if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
         if (!section.isValid()) continue;
         scene.setup.obstacles.shapes.push_back(obstacleFrom(section, context));
-        addToView(section, look, scene.look.common);
+        addToLook(section, look, scene.look);
     }
 }
 

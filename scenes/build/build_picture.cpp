@@ -98,8 +98,7 @@ void readView(const Section& section, render::View& view) {
     view.exposure = number("exposure");
     view.background = {color("background_top"), color("background_bottom")};
     if (section.boolean("ground"))
-        view.ground = render::Ground{
-            .height = number("ground_height"), .color = color("ground_color"), .fadeDistance = number("ground_fade")};
+        view.ground = render::Ground{.color = color("ground_color"), .fadeDistance = number("ground_fade")};
     view.style = section.string("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;
     view.field.reach = number("metaball_reach");
     view.field.skin = section.string("skin") == "smooth" ? render::Skin::smooth : render::Skin::plain;
@@ -116,11 +115,7 @@ void readView(const Section& section, render::View& view) {
 /// Length of a scale bar at a camera's target, as a share of the picture's width.
 double widthShare(double length, const CameraPlacement& camera, const Section& look) {
     const std::vector<double>& size = look.numbers("size");
-    const double halfHeight =
-        camera.projection == render::Projection::orthographic
-            ? camera.halfHeight
-            : std::tan(0.5 * camera.verticalFov) * std::sqrt(engine::squaredLength(camera.target - camera.eye));
-    return length / (2.0 * halfHeight) * size[1] / size[0];
+    return length / (2.0 * halfHeightAtTarget(camera)) * size[1] / size[0];
 }
 
 void checkScaleBar(Section& section, const Section& look, const CameraPath& camera, BuildContext& context) {
@@ -184,6 +179,8 @@ Look buildLook(Section& section, BuildContext& context) {
     readColors(section, context, look);
     readView(section, look.common);
     look.common.light.toLight = toFloat(*toLight);
+    look.edgeWidth = toFloat(section.number("edge_width"));
+    look.groundHeight = section.number("ground_height");
     return look;
 }
 

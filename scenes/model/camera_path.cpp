@@ -79,6 +79,11 @@ CameraPlacement cameraAt(const CameraPath& path, double time) {
     return placementOf(now, next->placement.projection);
 }
 
+double halfHeightAtTarget(const CameraPlacement& camera) {
+    if (camera.projection == render::Projection::orthographic) return camera.halfHeight;
+    return std::tan(0.5 * camera.verticalFov) * std::sqrt(engine::squaredLength(camera.target - camera.eye));
+}
+
 std::vector<CameraJump> jumpsOf(const CameraPath& path) {
     // Chosen: more moments than a film of a few seconds has frames between two keys.
     constexpr int kMoments = 256;

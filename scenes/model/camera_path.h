@@ -24,6 +24,9 @@ using CameraPath = std::vector<CameraKey>;
 /// Fritsch and Butland 1984, A Method for Constructing Local Monotone Piecewise Cubic Interpolants.
 CameraPlacement cameraAt(const CameraPath& path, double time);
 
+/// Half the height of what the picture shows at the distance of the camera's target, m.
+double halfHeightAtTarget(const CameraPlacement& camera);
+
 /// A moment between two keys of a path at which the picture jumps, although both keys are sound.
 struct CameraJump {
     enum class Cause { throughTarget, alongUp };

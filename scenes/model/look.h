@@ -2,6 +2,7 @@
 // moment, which makes the renderer's input.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/core/vec3.h"
@@ -21,11 +22,30 @@ struct CameraPlacement {
 /// The quantity that a particle's color shows.
 enum class ColorBy { material, speed, age };
 
+/// A sphere that is drawn of an obstacle.
+struct DrawnSphere {
+    engine::Vec3 center = {0.0, 0.0, 0.0};  ///< m
+    double radius = 0.5;                    ///< m
+    glm::vec3 color{0.5F};                  ///< linear RGB
+};
+
+/// A box that is drawn of an obstacle: its faces, its edges, or both.
+struct DrawnBox {
+    engine::Vec3 minimum = {0.0, 0.0, 0.0};  ///< m
+    engine::Vec3 maximum = {0.0, 0.0, 0.0};  ///< m
+    std::optional<glm::vec3> faces;          ///< color of the faces, linear RGB
+    std::optional<glm::vec3> edges;          ///< color of the edges, linear RGB
+};
+
 /// How a scene is drawn, apart from its cameras: tables [look] and [overlay], and what is drawn of the obstacles.
 struct Look {
-    /// What the views of all frames have in common: everything but the particles, the camera, the center of the ground
-    /// and the time stamp of the overlay.
+    /// What the views of all frames have in common: everything but the camera, the time stamp of the overlay, and what
+    /// has a position, which depends on the camera.
     render::View common;
+    std::vector<DrawnSphere> spheres;
+    std::vector<DrawnBox> boxes;
+    float edgeWidth = 1.5F;     ///< width of the boxes' edges, pixels
+    double groundHeight = 0.0;  ///< height of the ground, if there is one, m
     bool hasTimeStamp = false;
     ColorBy colorBy = ColorBy::material;
     std::vector<engine::Vec3> ramp;  ///< linear RGB for low to high speed or age; empty for colors by material

@@ -237,7 +237,7 @@ TEST_CASE("obstacles become shapes of the engine") {
 }
 
 TEST_CASE("the keys of an obstacle determine how it is drawn") {
-    const auto drawn = [](const std::string& text) { return obstacleScene(text).look.common; };
+    const auto drawn = [](const std::string& text) { return scenes_test::viewAt(obstacleScene(text), 0.0); };
     CHECK(drawn("shape = \"plane\"\n").boxObstacles.empty());
     const std::string box = "minimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
     CHECK(drawn("shape = \"box\"\n" + box).edges.empty());

@@ -1,6 +1,8 @@
 // Tests the renderer's input for a frame of a scene: numbers, colors, obstacles and their edges.
 #include "tests/catch.h"
 
+#include <fmt/format.h>
+
 #include <numbers>
 #include <set>
 
@@ -30,6 +32,40 @@ TEST_CASE("particles keep position, radius and order, in single precision") {
     CHECK(view.particles[0].center == glm::vec3(0.1F, 0.2F, 0.3F));
     CHECK(view.particles[1].center == glm::vec3(1.0F, 2.0F, 3.0F));
     CHECK(view.particles[0].radius == 0.7F);
+}
+
+TEST_CASE("positions far from the origin are relative to a point near the camera's target") {
+    const auto viewFar = [](double x) {
+        return viewOf(kTop + fmt::format("[[body]]\nshape = \"points\"\npositions = [[{}, 2.125, 3]]\n"
+                                         "[[obstacle]]\nshape = \"sphere\"\ncenter = [{}, 0, 0]\nradius = 1\n"
+                                         "[[obstacle]]\nshape = \"box\"\nminimum = [{}, 0, 0]\nmaximum = [{}, 1, 1]\n"
+                                         "edges = true\n[camera]\neye = [{}, 2, 10]\ntarget = [{}, 0, 0]\n"
+                                         "[look]\nground = true\n",
+                                         x + 0.0625, x - 0.125, x + 1.25, x + 2.5, x + 0.5, x));
+    };
+    const render::View here = viewFar(0.0);
+    CHECK(here.particles.at(0).center == glm::vec3(0.0625F, 2.125F, 3.0F));
+    // Half the height of the picture is 10 tan(20 degrees) = 3.7 m: the point moves in steps of 1024 m.
+    CHECK(viewFar(511.0).camera.target == glm::vec3(511.0F, 0.0F, 0.0F));
+    const render::View moved = viewFar(1024.0 * 50000.0);
+    CHECK(moved.particles.at(0).center == here.particles.at(0).center);
+    CHECK(moved.sphereObstacles.at(0).center == here.sphereObstacles.at(0).center);
+    CHECK(moved.boxObstacles.at(0).minimum == here.boxObstacles.at(0).minimum);
+    CHECK(moved.boxObstacles.at(0).maximum == here.boxObstacles.at(0).maximum);
+    CHECK(moved.edges.at(11).to == here.edges.at(11).to);
+    CHECK(moved.camera.eye == here.camera.eye);
+    CHECK(moved.camera.target == here.camera.target);
+    CHECK(moved.ground.value().center == here.ground.value().center);
+}
+
+TEST_CASE("the ground is drawn at its height far from the origin") {
+    const auto groundAt = [](double y) {
+        return viewOf(kBall + fmt::format("[camera]\neye = [0, {}, 10]\ntarget = [0, {}, 0]\n"
+                                          "[look]\nground = true\nground_height = {}\n",
+                                          y + 2.0, y, y - 0.75));
+    };
+    CHECK(groundAt(0.0).ground.value().height == -0.75F);
+    CHECK(groundAt(-1024.0 * 3000.0).ground.value().height == -0.75F);
 }
 
 TEST_CASE("numbers beyond single precision stay finite") {

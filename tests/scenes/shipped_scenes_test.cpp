@@ -82,7 +82,7 @@ TEST_CASE("no camera of a shipped scene comes close to its target or the ground"
         for (int frame = 0; frame < scenes::frameCount(scene); ++frame) {
             const scenes::CameraPlacement camera = scenes::cameraAt(scene.camera, scenes::frameTime(scene, frame));
             CHECK((camera.eye - camera.target).norm() > 1.0);
-            if (scene.look.common.ground) CHECK(camera.eye.y() > scene.look.common.ground->height + 0.5);
+            if (scene.look.common.ground) CHECK(camera.eye.y() > scene.look.groundHeight + 0.5);
         }
     }
     CHECK(paths >= 2);
