@@ -128,6 +128,17 @@ std::string charactersWithoutGlyph(std::string_view text) {
     return missing;
 }
 
+bool hasRightToLeftLetters(std::string_view text) {
+    while (!text.empty()) {
+        const int character = takeCharacter(text);
+        // Unicode's blocks from Hebrew to Arabic Extended-A, and the presentation forms of Hebrew and Arabic.
+        if ((character >= 0x0590 && character < 0x0900) || (character >= 0xFB1D && character < 0xFE00) ||
+            (character >= 0xFE70 && character < 0xFEFF))
+            return true;
+    }
+    return false;
+}
+
 Box textBox(std::string_view text, const TextPosition& position) {
     // The box has room for accents, descenders and overhanging strokes of every Latin or Greek letter and digit in
     // DejaVu Sans.

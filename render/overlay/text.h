@@ -26,6 +26,10 @@ Box textBox(std::string_view text, const TextPosition& position);
 /// The characters of a text (UTF-8) that the font does not have and that are drawn as boxes.
 std::string charactersWithoutGlyph(std::string_view text);
 
+/// Whether a text (UTF-8) has letters of a script that is written from right to left. They are drawn from left to
+/// right, and those of Arabic without their joins.
+bool hasRightToLeftLetters(std::string_view text);
+
 /// Covers a line of text in the mask. Parts of the text outside of the mask are left out.
 void coverText(CoverageMask& mask, std::string_view text, const TextPosition& position);
 

@@ -344,3 +344,9 @@ TEST_CASE("characters that the font lacks are named") {
     CHECK(render::charactersWithoutGlyph("速度 of 速").compare("速度") == 0);
     CHECK(render::charactersWithoutGlyph("\xff").empty());  // drawn as a replacement character
 }
+
+TEST_CASE("letters that are written from right to left are noticed") {
+    for (const char* text : {"سرعة", "speed (מהירות)", "\uFEB3"}) CHECK(render::hasRightToLeftLetters(text));
+    for (const char* text : {"", "speed", "скорость", "速度", "\xff", "\uFB00"})
+        CHECK(!render::hasRightToLeftLetters(text));
+}

@@ -66,6 +66,19 @@ TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant"
     CHECK(run("render liquid --gl vulkan").err.find("choose one of: osmesa, egl") != std::string::npos);
 }
 
+TEST_CASE("A label that cannot be drawn as it is written is warned of, on one line", "[tools]") {
+    const auto warningOf = [](const std::string& label) {
+        return run("check paper/attraction-1 --set look.color_by=speed --set overlay.color_bar=true "
+                   "--set 'overlay.color_label=\"" +
+                   label + "\"'")
+            .err;
+    };
+    CHECK(warningOf("Geschwindigkeit, v\u0304").empty());
+    CHECK(warningOf("速度 of 速") == "warning: the font has no \"速度\", which overlay.color_label asks for\n");
+    CHECK(warningOf("a\\nb") == "warning: the font has no \"\\n\", which overlay.color_label asks for\n");
+    CHECK(warningOf("سرعة").find("written from right to left") != std::string::npos);
+}
+
 TEST_CASE("A wrong word of the command line is named, with the nearest one that exists", "[tools]") {
     CHECK(run("").err == "error: missing command; see globular --help\n");
     CHECK(run("rendr liquid").err == "error: unknown command \"rendr\", did you mean \"render\"?\n");

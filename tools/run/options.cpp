@@ -12,6 +12,7 @@
 #include "scenes/build/read_scene.h"
 #include "scenes/build/start_warnings.h"
 #include "scenes/text/input_error.h"
+#include "scenes/text/value.h"
 #include "tools/run/threads.h"
 #include "tools/system/process.h"
 #include "tools/system/processors.h"
@@ -44,6 +45,19 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
     return limits;
 }
 
+/// Warns of characters of overlay.color_label that are not drawn as they are meant. It is the only text of a scene that
+/// is drawn into pictures.
+void warnOfLabel(const std::string& label) {
+    // In quotes line breaks and other control characters are escaped.
+    if (const std::string missing = render::charactersWithoutGlyph(label); !missing.empty())
+        printWarning(
+            fmt::format("the font has no {}, which overlay.color_label asks for", scenes::tomlString(missing)));
+    if (render::hasRightToLeftLetters(label))
+        printWarning(
+            "overlay.color_label has letters that are written from right to left, but are drawn one by one "
+            "from the left");
+}
+
 }  // namespace
 
 void printResult(const RunOptions& options, const Json& json, const std::string& text) {
@@ -63,9 +77,7 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     scenes::Scene scene =
         scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limitsOf(options.limits));
     for (const std::string& warning : scene.warnings) printWarning(warning);
-    if (const auto& colorBar = scene.look.common.overlay.colorBar)
-        if (const std::string missing = render::charactersWithoutGlyph(colorBar->title); !missing.empty())
-            printWarning(fmt::format("the font has no {}, which overlay.color_label asks for", missing));
+    if (const auto& colorBar = scene.look.common.overlay.colorBar) warnOfLabel(colorBar->title);
     return scene;
 }
 
