@@ -14,9 +14,9 @@
 #include <variant>
 
 #include "engine/core/parallel.h"
-#include "engine/core/random.h"
 #include "engine/force_law/obstacle_surfaces.h"
 #include "engine/neighbors/neighbor_list.h"
+#include "engine/neighbors/pair_estimate.h"
 #include "scenes/text/input_error.h"
 
 namespace scenes {
@@ -47,24 +47,8 @@ constexpr double kRounding = 1.0 - 1e-6;
 constexpr double kMostPairs = 2e7;
 constexpr double kMostDistances = 1e8;
 
-/// Number of particles from which the number of pairs is estimated. Chosen: to list all their pairs takes 0.1 s.
-constexpr double kEstimateCount = 4000.0;
-
 /// Most messages about one kind of finding. Chosen: as many as one reads.
 constexpr std::size_t kMostMessages = 8;
-
-/// Indices below `count`, each chosen with a chance of 1 in `stride`. A regular choice would miss pairs in a lattice.
-std::vector<std::uint32_t> sampleOf(std::size_t count, std::uint64_t stride) {
-    std::vector<std::uint32_t> sample;
-    for (std::uint32_t p = 0; p < count; ++p)
-        if (engine::scatter(p) % stride == 0) sample.push_back(p);
-    return sample;
-}
-
-/// The smallest whole number by which a number has to be divided to be at most the limit.
-std::uint64_t strideFor(double number, double most) {
-    return static_cast<std::uint64_t>(std::max(1.0, std::ceil(number / most)));
-}
 
 /// "1 particle", "12 particles", or "about 1.2e+04 particles" for a count in a sample, each of which stands for
 /// `weight` of them.
@@ -182,7 +166,7 @@ const char* hintFor(const engine::Obstacle& obstacle, bool hasMost) {
 
 void findParticlesInside(const Scene& scene, std::uint64_t stride, Messages& messages) {
     const engine::Particles& particles = scene.setup.initial;
-    const std::vector<std::uint32_t> sample = sampleOf(particles.count(), stride);
+    const std::vector<std::uint32_t> sample = engine::sampleOf(particles.count(), stride);
     const std::vector<engine::Obstacle>& obstacles = scene.setup.obstacles.shapes;
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
         const Finding finding =
@@ -205,7 +189,8 @@ void findSitesInside(const Scene& scene, Messages& messages) {
         const engine::Emitter& emitter = scene.setup.emitters[e];
         const double radius = scene.setup.materials[emitter.material].radius;
         const double distances = static_cast<double>(emitter.sites.size() * obstacles.size());
-        const std::vector<std::uint32_t> sample = sampleOf(emitter.sites.size(), strideFor(distances, kMostDistances));
+        const std::vector<std::uint32_t> sample =
+            engine::sampleOf(emitter.sites.size(), engine::strideFor(distances, kMostDistances));
         for (std::size_t k = 0; k < obstacles.size(); ++k) {
             const Finding finding =
                 findInside(obstacles[k], emitter.sites, sample, [&](std::size_t) { return radius; });
@@ -245,7 +230,7 @@ Finding narrowGapAt(const Scene& scene, std::uint32_t p) {
 }
 
 void findNarrowGaps(const Scene& scene, std::uint64_t stride, Messages& messages) {
-    const std::vector<std::uint32_t> sample = sampleOf(scene.setup.initial.count(), stride);
+    const std::vector<std::uint32_t> sample = engine::sampleOf(scene.setup.initial.count(), stride);
     const Finding finding =
         engine::sumOver<Finding>(sample.size(), [&](std::size_t k) { return narrowGapAt(scene, sample[k]); });
     if (finding.count == 0) return;
@@ -266,11 +251,8 @@ struct ClosePairs {
     double closest = std::numeric_limits<double>::infinity();  ///< smallest distance, in rest lengths
 };
 
-/// The pairs that are too close in a sample of the particles.
-struct PairSearch {
-    std::map<std::array<std::uint32_t, 2>, ClosePairs> ofBodies;  ///< by the indices of the bodies, the lower one first
-    std::size_t listedPairs = 0;                                  ///< number of pairs that were examined
-};
+/// Close pairs by the indices of their bodies, the lower one first.
+using PairsOfBodies = std::map<std::array<std::uint32_t, 2>, ClosePairs>;
 
 /// The distance, in rest lengths, below which two particles are too close.
 double leastDistance(const Scene& scene, std::uint32_t p, std::uint32_t q, bool areOfOneBody) {
@@ -280,24 +262,28 @@ double leastDistance(const Scene& scene, std::uint32_t p, std::uint32_t q, bool 
     return kRounding * (areOfOneBody ? core : std::max(core, kOverlapShare));
 }
 
-PairSearch searchPairs(const Scene& scene, std::uint64_t stride) {
+/// The largest distance that may be too close, in rest lengths.
+double largestLeastDistance(const Scene& scene) {
+    double reach = scene.tables.bodies.size() > 1 ? kOverlapShare : 0.0;
+    for (const engine::Material& material : scene.setup.materials) reach = std::max(reach, material.coreFraction);
+    return reach;
+}
+
+/// The pairs in a sample of the particles that are too close.
+PairsOfBodies closePairs(const Scene& scene, std::uint64_t stride) {
     const engine::Particles& particles = scene.setup.initial;
-    const std::vector<std::uint32_t> sample = sampleOf(particles.count(), stride);
+    const std::vector<std::uint32_t> sample = engine::sampleOf(particles.count(), stride);
     std::vector<Vec3> positions;
     std::vector<double> radii;
-    double largestRadius = 0.0;
     for (const std::uint32_t p : sample) {
         positions.push_back(particles.position[p]);
         radii.push_back(particles.radius[p]);
-        largestRadius = std::max(largestRadius, particles.radius[p]);
     }
-    double reach = scene.tables.bodies.size() > 1 ? kOverlapShare : 0.0;  // in rest lengths
-    for (const engine::Material& material : scene.setup.materials) reach = std::max(reach, material.coreFraction);
-    PairSearch search;
-    if (sample.size() < 2 || reach == 0.0) return search;
+    PairsOfBodies found;
+    if (sample.size() < 2) return found;
+    const double largestRadius = *std::max_element(radii.begin(), radii.end());
     engine::NeighborList list;
-    build(list, positions, radii, reach * 2.0 * largestRadius, 0.0);
-    search.listedPairs = list.entryCount / 2;
+    build(list, positions, radii, largestLeastDistance(scene) * 2.0 * largestRadius, 0.0);
     for (std::size_t slot = 0; slot < list.count(); ++slot) {
         const std::uint32_t p = sample[list.order[static_cast<std::size_t>(list.rows.ownIndices[slot])]];
         for (std::uint32_t k = 0; k < list.rows.length[slot]; ++k) {
@@ -307,24 +293,25 @@ PairSearch searchPairs(const Scene& scene, std::uint64_t stride) {
                                     (particles.radius[p] + particles.radius[q]);
             const std::array bodies = {bodyOf(scene, p), bodyOf(scene, q)};
             if (distance >= leastDistance(scene, p, q, bodies[0] == bodies[1])) continue;
-            ClosePairs& pairs = search.ofBodies[bodies];
+            ClosePairs& pairs = found[bodies];
             if (pairs.count++ == 0 || p < pairs.first) pairs.first = p;
             pairs.closest = std::min(pairs.closest, distance);
         }
     }
-    return search;
+    return found;
 }
 
 void findClosePairs(const Scene& scene, Messages& messages) {
-    const auto count = static_cast<double>(scene.setup.initial.count());
-    std::uint64_t stride = strideFor(count, kEstimateCount);
-    PairSearch search = searchPairs(scene, stride);
-    const auto weight = [&] { return static_cast<double>(stride) * static_cast<double>(stride); };
-    if (stride > 1 && static_cast<double>(search.listedPairs) * weight() <= kMostPairs) {
-        stride = 1;
-        search = searchPairs(scene, stride);
-    }
-    for (const auto& [bodies, pairs] : search.ofBodies) {
+    const engine::Particles& particles = scene.setup.initial;
+    if (particles.count() < 2) return;
+    const double largestRadius = *std::max_element(particles.radius.begin(), particles.radius.end());
+    const double pairCount = engine::estimatePairCount(particles.position, particles.radius,
+                                                       largestLeastDistance(scene) * 2.0 * largestRadius);
+    const std::uint64_t stride =
+        pairCount <= kMostPairs ? 1
+                                : engine::strideFor(static_cast<double>(particles.count()), engine::kPairSampleCount);
+    const double weight = static_cast<double>(stride) * static_cast<double>(stride);
+    for (const auto& [bodies, pairs] : closePairs(scene, stride)) {
         const bool areOfOneBody = bodies[0] == bodies[1];
         const std::string what =
             areOfOneBody ? fmt::format("body {} starts", bodies[0] + 1)
@@ -332,7 +319,7 @@ void findClosePairs(const Scene& scene, Messages& messages) {
         messages.add(
             scene.tables.bodies[bodies[1]],
             fmt::format("{} with {} of particles closer than {}, the closest at {:.2g} rest lengths, e.g. at {}", what,
-                        countText(pairs.count, weight(), "pair", "pairs"),
+                        countText(pairs.count, weight, "pair", "pairs"),
                         areOfOneBody ? "their core" : fmt::format("{:g} rest lengths", kOverlapShare), pairs.closest,
                         positionText(scene.setup.initial.position[pairs.first])));
     }
@@ -344,7 +331,7 @@ void findClosePairs(const Scene& scene, Messages& messages) {
 std::vector<std::string> startWarnings(const Scene& scene) {
     Messages messages(scene);
     const double distances = static_cast<double>(scene.setup.initial.count() * scene.setup.obstacles.shapes.size());
-    const std::uint64_t stride = strideFor(distances, kMostDistances);
+    const std::uint64_t stride = engine::strideFor(distances, kMostDistances);
     findParticlesInside(scene, stride, messages);
     findNarrowGaps(scene, stride, messages);
     findSitesInside(scene, messages);

@@ -80,3 +80,18 @@ TEST_CASE("check tells what starts in the wrong place, and comes to an end", "[f
     CHECK(json["cut_off"].is_null());
     CHECK(json["warnings"].size() == 1);
 }
+
+TEST_CASE("check does not try a scene whose neighbor list does not fit into memory", "[forecast]") {
+    const program::Folder folder;
+    const std::string path = (folder / "dense.toml").string();
+    // Two million particles within a cutoff: 2e12 pairs.
+    std::ofstream(path) << "title = \"t\"\nduration = 1\n[[body]]\nshape = \"grid\"\ncounts = [200, 100, 100]\n"
+                           "spacing = 0.0001\n";
+    const auto outcome = program::run("check " + path);
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(
+        outcome.out.find("\ncut off    the particles have 2e+06 neighbors on average at the start, and a list of them "
+                         "takes 1.6e+04 GB of memory") != std::string::npos);
+    CHECK(outcome.out.find("\nwarning    " + path + ":3:1: body 1 starts with about 2e+12 pairs") != std::string::npos);
+}

@@ -1,11 +1,14 @@
 // globular check: validates a scene and predicts what would run, how much memory it would need, and how long it would
 // take.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
+#include "engine/neighbors/pair_estimate.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
 #include "scenes/build/start_warnings.h"
@@ -107,9 +110,26 @@ Json sceneJson(const scenes::Scene& scene) {
     return json;
 }
 
+/// Why the first frames are not simulated: because the list of neighbors would not fit into memory. Nothing if it fits.
+std::optional<std::string> crowdingText(const scenes::Scene& scene) {
+    constexpr double kBytesPerPair = 8.0;  // an entry of 4 bytes in the rows of both particles
+    const engine::Particles& particles = scene.setup.initial;
+    if (scene.setup.forces == engine::ForceMethod::reference) return std::nullopt;
+    const double pairs = engine::estimatePairCount(particles.position, particles.radius,
+                                                   engine::termsFor(forceFieldOf(scene.setup), particles).cutoff);
+    const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+    if (kBytesPerPair * pairs < memory) return std::nullopt;
+    return fmt::format(
+        "the particles have {:.2g} neighbors on average at the start, and a list of them takes {:.2g} GB of memory; "
+        "this "
+        "machine has {:.2g}",
+        2.0 * pairs / static_cast<double>(particles.count()), kBytesPerPair * pairs / 1e9, memory / 1e9);
+}
+
 /// Looks at the start of the scene and simulates its first frames, and reports one result after the other.
 void examine(const scenes::Scene& scene, const Report& report) {
     report({{"warnings", scenes::startWarnings(scene)}});
+    if (const auto crowding = crowdingText(scene)) return report({{"cut_off", *crowding}});
     // Emitters emit evenly over the run, so that on average half of their particles exist. Particles that leave a
     // bounded world are not taken off, because their number is not known.
     const auto births = static_cast<double>(plannedBirths(scene));
@@ -127,6 +147,7 @@ Json checkJson(const scenes::Scene& scene, int threads) {
     Json json;
     onThreads(threads, [&] { json = sceneJson(scene); });
     json.update(found);
+    if (found.contains("cut_off")) return json;
     const char* const slow = !found.contains("warnings")              ? "looking at where the particles start"
                              : !found.contains("predicted")           ? "the first time step"
                              : !found.contains("step_bound_at_start") ? "finding the step bound"
