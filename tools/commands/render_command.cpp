@@ -43,7 +43,7 @@ void render(RenderOptions options) {
                         options.estimatesErrors};
 
     warnOfStart(scene, job.threads);
-    if (fs::path(options.video).has_parent_path()) createFolder(fs::path(options.video).parent_path());
+    if (!options.video.empty()) createFolderOf(options.video);
     const FinishedRun run = renderFrames(job);
     requireComplete(run.report, options.folder.path);
     printResult(options.run, {{"event", "done"}, {"folder", options.folder.path}, {"run", run.json}},

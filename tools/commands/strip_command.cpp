@@ -38,7 +38,7 @@ void drawStrip(const StripOptions& options) {
 
     const std::vector<int> frames = scenes::stripFrames(scene);
     const StillPictures pictures = drawStills(job, {std::nullopt, frames});
-    if (path.has_parent_path()) createFolder(path.parent_path());
+    createFolderOf(path);
     writeFile(path, render::encodePng(pictures.strip));
     Json json{{"event", "done"}, {"strip", path.string()}, {"times", Json::array()}};
     for (const int frame : frames) json["times"].push_back(scenes::frameTime(scene, frame));

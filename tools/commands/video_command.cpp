@@ -75,7 +75,7 @@ void encode(const EncodeOptions& options) {
     const fs::path folder = options.folder;
     const render::FrameRate rate = rateOf(options);
     const std::vector<int> numbers = frameNumbers(folder);
-    if (fs::path(options.output).has_parent_path()) createFolder(fs::path(options.output).parent_path());
+    createFolderOf(options.output);
 
     const auto read = [&](int number) {
         const fs::path path = folder / kPictureNames.fileName(number);
