@@ -50,6 +50,7 @@ TEST_CASE("The line of progress fits any terminal", "[progress]") {
                   std::string::npos);
         }
     CHECK(progressLine("scene", 0.5, {"1/2"}, 24) == "scene [####....] 1/2");
+    CHECK(progressLine("scene", std::nullopt, {"3 done"}, 80) == "scene 3 done");
     CHECK(progressLine("scene", 0.5, {"1/2"}, 18) == "scene 1/2");
     CHECK(progressLine("scene", 0.5, {"1/2"}, 12) == "1/2");
     CHECK(progressLine("scene", 0.5, {"1/2", "1.3 frames/s"}, 14) == "scene 1/2");
@@ -78,4 +79,16 @@ TEST_CASE("On a terminal, frames that are not drawn count, and no line is too wi
         CHECK(has(columns == 50 ? " of 60" : "simulating"));
         CHECK(has("2/2"));
     }
+}
+
+TEST_CASE("A comparison counts its pictures on a terminal, and its summary has a line of its own", "[progress]") {
+    const program::Folder folder;
+    const std::string frames = (folder / "a").string();
+    REQUIRE(program::run("render fountain --size 64x36 --frames 0-2 --quiet -o " + frames).code == 0);
+    const auto outcome =
+        program::shell("script -qec '" GLOBULAR_PROGRAM " compare " + frames + " " + frames + "' /dev/null </dev/null");
+    INFO(outcome.out);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("compare 1 done\x1b[K") != std::string::npos);
+    CHECK(outcome.out.find("\r\x1b[K3 pictures: 3 identical") != std::string::npos);
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "render/output/atomic_file.h"
 #include "render/output/png.h"
@@ -17,6 +18,7 @@
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
+#include "tools/system/progress.h"
 
 namespace tools {
 namespace {
@@ -73,13 +75,16 @@ std::string pictureText(const PictureResult& result, const render::CompareLimits
     return text;
 }
 
-/// Prints the result of one picture. Without --json, a picture that passes is left out unless it or its state has
-/// changed.
+/// Whether the result of a picture is printed without --json: not if it passes, unless it or its state has changed.
+bool isWorthPrinting(const PictureResult& result) {
+    return !result.passed() || result.explanation;
+}
+
+/// Prints the result of one picture.
 void printPicture(const CompareOptions& options, const PictureResult& result, const render::CompareLimits& limits) {
     Json json = {{"event", "picture"}};
     json.update(resultJson(result));
-    const bool isWorthPrinting = !result.passed() || result.explanation;
-    printResult(options.run, json, isWorthPrinting ? pictureText(result, limits) : "");
+    printResult(options.run, json, isWorthPrinting(result) ? pictureText(result, limits) : "");
 }
 
 void printSummary(const CompareOptions& options, const CompareCounts& counts, const std::string& approval) {
@@ -131,14 +136,20 @@ void compareAll(const CompareOptions& options) {
     JunitReport junit;
     ComparePage page;
     std::vector<std::string> failed;
+    const bool isShown = options.run.verbosity() == Verbosity::normal;  // JSON has a line for each picture
+    std::optional<Progress> progress(std::in_place, "compare", 0, isShown ? Verbosity::normal : Verbosity::quiet);
     const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
+        if (isWorthPrinting(result)) progress->hide();
         if (canBeApproved(result)) failed.push_back(result.name);
         printPicture(options, result, job.limits);
         if (junitFile) junit.add(result);
         if (!options.report.empty())
             page.add(result, canBeApproved(result) ? approvalLine(options.actual, options.expected, {result.name})
                                                    : std::string{});
+        progress->frameDone(0, 0.0);
     });
+    progress->hide();
+    progress.reset();
     const std::string approval = approvalLine(options.actual, options.expected, failed);
     if (junitFile) {
         const std::string text = junit.text(counts);

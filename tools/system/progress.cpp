@@ -57,7 +57,8 @@ std::string timeLeft(int frames, double rate) {
 
 }  // namespace
 
-std::string progressLine(const std::string& title, double share, std::vector<std::string> parts, int columns) {
+std::string progressLine(const std::string& title, std::optional<double> share, std::vector<std::string> parts,
+                         int columns) {
     const int room = std::max(1, columns - kFreeColumns);
     std::string text;
     for (;; parts.pop_back()) {
@@ -73,8 +74,8 @@ std::string progressLine(const std::string& title, double share, std::vector<std
         left -= name.columns + 1;
     }
     const int bar = std::min(left - 2, kLongestBar);  // without its brackets
-    if (bar < kShortestBar) return text;
-    const int filled = static_cast<int>(bar * std::clamp(share, 0.0, 1.0));
+    if (bar < kShortestBar || !share) return text;
+    const int filled = static_cast<int>(bar * std::clamp(*share, 0.0, 1.0));
     const std::size_t place = name.columns > 0 ? name.text.size() + 1 : 0;
     return text.insert(place, fmt::format("[{:#<{}}{:.<{}}] ", "", filled, "", bar - filled));
 }
@@ -146,6 +147,11 @@ void Progress::frameSkipped(int frame, double sceneTime, int wanted) {
     show(true);
 }
 
+void Progress::hide() {
+    const std::lock_guard lock(mutex_);
+    if (verbosity_ == Verbosity::normal && isTerminal_ && std::exchange(hasLine_, false)) printToStderr("\r\x1b[K");
+}
+
 void Progress::stepBegins(double time) {
     const double previous = stepTime_.exchange(time, std::memory_order_relaxed);
     if (time > previous) stepLength_.store(time - previous, std::memory_order_relaxed);
@@ -167,9 +173,11 @@ void Progress::show(bool isFrame) {
     hasLine_ = true;
     const std::vector<std::string> said = parts();
     const std::string all = fmt::format("{}", fmt::join(said, ", "));
+    const std::optional<double> share =
+        total_ > 0 ? std::optional(static_cast<double>(done_.count) / total_) : std::nullopt;
     // "Erase to the end of the line" removes what a longer line has left there.
     if (isDrawn)
-        printToStderr("\r" + progressLine(title_, 1.0 * done_.count / total_, said, terminalColumns()) + "\x1b[K");
+        printToStderr("\r" + progressLine(title_, share, said, terminalColumns()) + "\x1b[K");
     else if (verbosity_ == Verbosity::normal)
         printToStderr(fmt::format("{}: {}\n", title_, all));
     else
@@ -186,11 +194,13 @@ std::vector<std::string> Progress::parts() const {
         parts.push_back(fmt::format("simulating, frame {} of {}", lastSkipped_, skippedTo_));
     else if (done_.count == 0 && works_.empty())
         parts.emplace_back("starting");
-    else
+    else if (total_ > 0)
         parts.push_back(fmt::format("{}/{}", done_.count, total_));
+    else
+        parts.push_back(fmt::format("{} done", done_.count));
     for (const Work* work : works_)
         if (Clock::now() - work->start_ >= kLongWork) parts.push_back(textOf(*work));
-    if (pace.count == 0) return parts;
+    if (pace.count == 0 || total_ == 0) return parts;
     const double rate = pace.count / std::max(1e-6, Seconds(Clock::now() - pace.start).count());
     parts.push_back(rateText(rate));
     if (!isSkipping) parts.push_back(timeLeft(total_ - done_.count, rate));

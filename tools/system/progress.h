@@ -8,6 +8,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,16 +21,17 @@ enum class Verbosity { normal, quiet, json };
 /// The line of progress on a terminal: title, bar and parts. What has no room is left out: first the bar, then the last
 /// parts, then the title, which is also cut.
 /// @param title  names the work; may hold any bytes
-/// @param share  share of the work that is done, 0 to 1
+/// @param share  share of the work that is done, 0 to 1; nothing if it is not known, and then there is no bar
 /// @param parts  what the line says, in ASCII, the most important first; at least one
 /// @param columns  width of the terminal. A few columns stay free, because a terminal may wrap a full line.
-std::string progressLine(const std::string& title, double share, std::vector<std::string> parts, int columns);
+std::string progressLine(const std::string& title, std::optional<double> share, std::vector<std::string> parts,
+                         int columns);
 
 /// All functions may be called from several threads at the same time.
 class Progress {
  public:
     /// @param title  names the work in every line
-    /// @param total  how many frames will be done
+    /// @param total  how many frames will be done; 0 if that is not known
     Progress(std::string title, int total, Verbosity verbosity);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -48,6 +50,9 @@ class Progress {
 
     /// Tells that a step of the simulation begins, at a time in seconds. Costs no more than a few stores.
     void stepBegins(double time);
+
+    /// Removes the line from a terminal, so that something else can be printed. It is drawn again when it changes.
+    void hide();
 
     /// Something that is under way while the object exists. It is shown once it has taken a few seconds.
     class Work {
