@@ -273,7 +273,7 @@ TEST_CASE("The encoder is known by the first line of ffmpeg's answer, even if it
     const std::string path = folder.file("limited-ffmpeg");
     std::ofstream(path) << "#!/bin/sh\necho 'Encoder libx264 [H.264]:'; kill -XFSZ $$\n";
     fs::permissions(path, fs::perms::owner_all);
-    render::VideoOptions options;
+    render::VideoOptions options{folder.file("a.mp4"), {16, 16}};
     options.ffmpeg = path;
     CHECK_NOTHROW(render::requireEncoder(options));
     std::ofstream(path) << "#!/bin/sh\necho 'no such codec'; echo 'Encoder libx264'; exit 2\n";
