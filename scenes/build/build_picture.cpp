@@ -1,5 +1,6 @@
 // Makes cameras, look and overlay of a scene from its tables [camera], [look] and [overlay]. A list of [[camera]]
 // tables is a path of the camera.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -171,12 +172,15 @@ CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
     return path;
 }
 
-Look buildLook(Section& section, BuildContext& context) {
+Look buildLook(Section& section, const CameraPath& camera, BuildContext& context) {
     Look look;
     const auto toLight = directionFrom(section, "light_direction", context);
     chooseRamp(section, context);
     if (!section.isValid()) return look;
     readColors(section, context, look);
+    // 30 m suits pictures that are a few meters high.
+    const double halfHeight = halfHeightAtTarget(camera.front().placement);
+    section.derive("ground_fade", TypedValue::ofNumber(std::clamp(30.0, 2.0 * halfHeight, 60.0 * halfHeight)));
     readView(section, look.common);
     look.common.light.toLight = toFloat(*toLight);
     look.edgeWidth = toFloat(section.number("edge_width"));

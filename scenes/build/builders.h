@@ -45,7 +45,8 @@ std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const
                                            BuildContext& context);
 
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
-Look buildLook(Section& section, BuildContext& context);
+/// @param camera  gives the ground's default distance of fading a scale
+Look buildLook(Section& section, const CameraPath& camera, BuildContext& context);
 /// Adds the obstacles to the simulation and to the look of the scene.
 void buildObstacles(std::vector<Section>& sections, const Section& look, Scene& scene, BuildContext& context);
 /// Adds the overlay to the look of the scene. The cameras have to be built before, because a scale bar must fit into

@@ -163,7 +163,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     buildBodies(sections.bodies, materials, scene, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
     scene.camera = buildCamera(sections.cameras, context);
-    scene.look = buildLook(sections.look, context);
+    scene.look = buildLook(sections.look, scene.camera, context);
     buildObstacles(sections.obstacles, sections.look, scene, context);
     buildOverlay(sections.overlay, sections.look, scene, context);
     readStill(sections, context, scene);

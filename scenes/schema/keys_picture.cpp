@@ -70,7 +70,8 @@ std::vector<Key> lightKeys() {
         key("ground", Type::boolean, "", "whether a horizontal plane is drawn").defaultsTo("false"),
         key("ground_height", Type::number, "m", "height of the drawn plane").defaultsTo("0").within(kWithinWorld),
         color("ground_color", "color of the drawn plane").defaultsTo("[0.6, 0.6, 0.6]"),
-        length("ground_fade", "distance at which the drawn plane has half faded into the background").defaultsTo("30"),
+        length("ground_fade", "distance at which the drawn plane has half faded into the background")
+            .derivedAs("30, but from 2 to 60 times half the picture's height at the first camera's target"),
         key("metaball_reach", Type::number, "", "radius of a metaball's field in particle radii; larger is smoother")
             .defaultsTo("2.5")
             .within({1.2, 4.0}),

@@ -196,6 +196,20 @@ TEST_CASE("the camera and the look reach the renderer") {
     CHECK(view.ground->fadeDistance == 12.0F);
 }
 
+TEST_CASE("the default distance at which the ground fades suits the size of the picture") {
+    const auto fadeAt = [](double halfHeight) {
+        return viewOf(kBall + fmt::format("[camera]\nprojection = \"orthographic\"\nhalf_height = {}\n"
+                                          "[look]\nground = true\n",
+                                          halfHeight))
+            .ground.value()
+            .fadeDistance;
+    };
+    CHECK(fadeAt(0.5) == 30.0F);
+    CHECK(fadeAt(15.0) == 30.0F);
+    CHECK(fadeAt(1e6) == 2e6F);
+    CHECK(fadeAt(1e-6) == 6e-5F);
+}
+
 TEST_CASE("an orthographic camera has a half height") {
     const render::View view = viewOf(kBall + "[camera]\nprojection = \"orthographic\"\nhalf_height = 6\n");
     CHECK(view.camera.projection == render::Projection::orthographic);
