@@ -83,7 +83,8 @@ void prepareStandardStreams() {
 
 void ensureTemporaryFolder() {
     constexpr const char* kFolder = "/tmp";
-    if (std::error_code error; !std::filesystem::temp_directory_path(error).empty()) return;
+    std::error_code error;
+    if (std::filesystem::is_directory(std::filesystem::temp_directory_path(error), error)) return;
     for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"}) {  // in the order of temp_directory_path()
         const char* const folder = std::getenv(name);
         if (folder == nullptr) continue;
