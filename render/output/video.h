@@ -1,9 +1,10 @@
-// Encodes frames to an MP4 video with the program ffmpeg, which is started without a shell and reads raw pixels from
-// its input. Used by tools/run/render_loop.cpp and the video command.
+// Encodes frames to a video with the program ffmpeg, which is started without a shell and reads raw pixels from its
+// input. Used by tools/run/render_loop.cpp and the video command.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,18 @@
 
 namespace render {
 
+/// The kinds of videos. GIF, WebP and PNG are animated pictures that repeat without end; a PNG of one frame is an
+/// ordinary picture.
+enum class VideoKind { mp4, mkv, webm, gif, webp, png };
+
+/// The extensions that name the kinds, for messages.
+inline constexpr const char* kVideoExtensions = ".mp4, .mkv, .webm, .gif, .webp or .png";
+
+/// The kind of video that a file name asks for by its extension, in upper or lower case; nothing for any other name.
+std::optional<VideoKind> videoKindOf(const std::string& path);
+
 struct VideoOptions {
-    std::string path;  ///< path of the video; the file appears there when it is whole
+    std::string path;  ///< path of the video, which has a kind; the file appears there when it is whole
     PictureSize size;
     FrameRate frameRate = {};
     std::string ffmpeg = "ffmpeg";  ///< the program, looked up on PATH
@@ -23,16 +34,18 @@ struct VideoOptions {
         kProgressTimeout;  ///< time without progress after which ffmpeg is killed, s
 };
 
-/// Asks ffmpeg for its libx264 encoder, because a distribution's ffmpeg without it fails only after the first frames.
-/// @throws SystemError when ffmpeg cannot be started or has no libx264
+/// Asks ffmpeg for the encoder of the video's kind, because an ffmpeg without it fails only after the first frames.
+/// @throws SystemError when ffmpeg cannot be started or does not have the encoder
 void requireEncoder(const VideoOptions& options);
 
-/// Writes one video: H.264, yuv420p, BT.709. An odd width or height is padded to even by repeating the last column or
-/// row. The same frames give the same bytes on any machine, because the encoder always has two threads. Without
-/// finish(), the destructor kills ffmpeg and removes the temporary file.
+/// Writes one video: H.264 in MP4 and MKV, VP9 in WebM, both yuv420p in BT.709, or an animated picture. An odd width or
+/// height is padded to even for yuv420p by repeating the last column or row. The same frames give the same bytes on any
+/// machine, because the encoder always has two threads. Without finish(), the destructor kills ffmpeg and removes the
+/// temporary file.
 class VideoWriter {
  public:
-    /// @throws SystemError when ffmpeg cannot be started or has no libx264, or when the file cannot be created
+    /// @throws SystemError when ffmpeg cannot be started or has no encoder of the kind, or when the file cannot be
+    /// created
     explicit VideoWriter(VideoOptions options);
 
     /// Appends a frame to the video.

@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "render/output/child_process.h"
+#include "render/output/png.h"
 #include "render/output/video.h"
 #include "render/output/video_reader.h"
 #include "render/picture/system_error.h"
@@ -99,6 +100,74 @@ TEST_CASE("A frame rate may be a fraction") {
     CHECK_THAT(found, Catch::Contains("nb_read_frames=5"));
 }
 
+TEST_CASE("The extension names the kind of a video") {
+    CHECK(render::videoKindOf("a.mp4") == render::VideoKind::mp4);
+    CHECK(render::videoKindOf("out.gif/a.MKV") == render::VideoKind::mkv);
+    CHECK(render::videoKindOf("a.png.webp") == render::VideoKind::webp);
+    for (const char* other : {"", "-", "mp4", ".mp4", "a.avi", "a.mp4.txt", "a.gif/b", "a."})
+        CHECK_FALSE(render::videoKindOf(other));
+    CHECK_THROWS_AS(render::VideoWriter({"a.avi", {16, 16}}), std::logic_error);
+}
+
+TEST_CASE("Every kind of video is what its name says, of the frames' size and rate, with the same bytes again") {
+    struct Expected {
+        const char* name;
+        const char* head;  // how the file begins, in bytes that only this kind has
+        const char* codec;
+        int width;  // of frames 33 pixels wide; kinds without halved colors need no padding
+    };
+    const auto [name, head, codec, width] =
+        GENERATE(Expected{"a.mkv", "\x1A\x45\xDF\xA3", "h264", 34}, Expected{"a.webm", "\x1A\x45\xDF\xA3", "vp9", 34},
+                 Expected{"a.gif", "GIF89a", "gif", 33}, Expected{"a.png", "\x89PNG", "apng", 33});
+    INFO(name);
+    const Folder folder;
+    writeVideo({folder.file(name), {33, 18}, {25}}, 5);
+    const std::string bytes = bytesOf(folder.file(name));
+    CHECK(bytes.starts_with(head));
+    const std::string found = probe(folder.file(name));
+    INFO(found);
+    CHECK_THAT(found, Catch::Contains("codec_name=" + std::string(codec)) &&
+                          Catch::Contains("width=" + std::to_string(width)) && Catch::Contains("height=18") &&
+                          Catch::Contains("nb_read_frames=5"));
+    writeVideo({folder.file(name), {33, 18}, {25}}, 5);
+    CHECK(bytesOf(folder.file(name)) == bytes);
+}
+
+TEST_CASE("Animated pictures repeat without end") {
+    const Folder folder;
+    for (const char* name : {"a.gif", "a.webp", "a.png"}) writeVideo({folder.file(name), {33, 17}, {25}}, 4);
+    using namespace std::string_literals;
+    // A count of 0 stands for no end: in GIF after the block's size and a 1, in WebP after ANIM, the size of the chunk
+    // and a color of four bytes, in PNG after acTL and the number of frames.
+    CHECK_THAT(bytesOf(folder.file("a.gif")), Catch::Contains("NETSCAPE2.0\x03\x01\0\0"s));
+    CHECK_THAT(bytesOf(folder.file("a.png")), Catch::Contains("acTL\0\0\0\x04\0\0\0\0"s));
+    const std::string webp = bytesOf(folder.file("a.webp"));
+    const std::size_t loop = webp.find("ANIM\x06\0\0\0"s);
+    REQUIRE(loop != std::string::npos);
+    CHECK(webp.substr(loop + 12, 2) == "\0\0"s);
+    std::size_t frames = 0;
+    for (std::size_t at = webp.find("ANMF"); at != std::string::npos; at = webp.find("ANMF", at + 1)) ++frames;
+    CHECK(frames == 4);
+}
+
+TEST_CASE("A PNG of one frame is an ordinary picture with the pixels of the frame") {
+    const Folder folder;
+    writeVideo({folder.file("a.png"), {33, 17}, {25}}, 1);
+    const std::string bytes = bytesOf(folder.file("a.png"));
+    CHECK(bytes.find("acTL") == std::string::npos);
+    const std::vector<std::uint8_t> file(bytes.begin(), bytes.end());
+    CHECK(render::decodePng(file, "a.png").rgb == frame({33, 17}, 0).rgb);
+}
+
+TEST_CASE("A GIF has at most 50 frames a second and lasts as long as its frames") {
+    const Folder folder;
+    writeVideo({folder.file("a.gif"), {32, 18}, {100}}, 40);
+    const std::string found = probe(folder.file("a.gif"));
+    INFO(found);
+    CHECK_THAT(found, Catch::Contains("nb_read_frames=20"));
+    CHECK_THAT(found, Catch::Contains("r_frame_rate=50/1"));
+}
+
 TEST_CASE("Odd sizes are padded to even") {
     const Folder folder;
     writeVideo({folder.file("odd.mp4"), {33, 17}, {30}}, 3);
@@ -117,12 +186,12 @@ TEST_CASE("The number of cores does not change a byte") {
     cpu_set_t one;
     CPU_ZERO(&one);
     CPU_SET(first, &one);
-    writeVideo({folder.file("all"), {640, 360}, {30}}, 24);
+    writeVideo({folder.file("all.mp4"), {640, 360}, {30}}, 24);
     REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);  // ffmpeg inherits it
-    writeVideo({folder.file("one"), {640, 360}, {30}}, 24);
+    writeVideo({folder.file("one.mp4"), {640, 360}, {30}}, 24);
     REQUIRE(sched_setaffinity(0, sizeof all, &all) == 0);
-    CHECK(bytesOf(folder.file("all")).size() > 1000);
-    CHECK(bytesOf(folder.file("one")) == bytesOf(folder.file("all")));
+    CHECK(bytesOf(folder.file("all.mp4")).size() > 1000);
+    CHECK(bytesOf(folder.file("one.mp4")) == bytesOf(folder.file("all.mp4")));
 }
 
 TEST_CASE("Colors survive: a red video is red") {
@@ -197,7 +266,9 @@ TEST_CASE("An ffmpeg without libx264 is named as such") {
     const Folder folder;
     render::VideoOptions options{folder.file("a.mp4"), {16, 16}};
     options.ffmpeg = "true";
-    CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("no libx264"));
+    CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("no libx264 encoder, which a .mp4 file needs"));
+    options.path = folder.file("a.webm");
+    CHECK_THROWS_WITH(render::VideoWriter(options), Catch::Contains("no libvpx-vp9 encoder, which a .webm file needs"));
 }
 
 TEST_CASE("An ffmpeg that dies is one clear SystemError with its messages, and no SIGPIPE") {
@@ -337,7 +408,7 @@ TEST_CASE("Two writers of one video both succeed, and the last to finish wins") 
 
 TEST_CASE("A video keeps the permissions of the file that it replaces, and may have a name of 250 bytes") {
     const Folder folder;
-    const std::string name = std::string(250, 'v');
+    const std::string name = std::string(246, 'v') + ".mp4";
     writeVideo({folder.file(name), {64, 64}, {30}}, 1);
     fs::permissions(folder.file(name), fs::perms::owner_read);
     writeVideo({folder.file(name), {64, 64}, {30}}, 1);
