@@ -124,7 +124,7 @@ TEST_CASE("The study of pictures writes its table, plots and a page, and leaves 
     for (const char* name : {"times.svg", "errors.svg"})
         CHECK(program::textOf(folder / "pictures" / name).rfind("<?xml", 0) == 0);
     CHECK(program::textOf(folder / "pictures" / "index.html").find(command) != std::string::npos);
-    CHECK_FALSE(fs::exists(folder / "pictures" / "timing.mp4"));
+    CHECK_FALSE(fs::exists(folder / "pictures" / ".timing.mp4"));
     CHECK(run("study pictures --size 100x100 -o /nonexistent/pictures").code == 2);
     CHECK(run("study pictures --particles 3 -o /nonexistent/pictures").code == 2);
 }

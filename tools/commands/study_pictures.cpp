@@ -33,7 +33,7 @@ render::PictureSize sizeOf(const std::string& text) {
 
 studies::PictureSettings settingsFor(const PicturesOptions& options) {
     studies::PictureSettings settings;
-    settings.videoPath = (fs::path(options.folder) / "timing.mp4").string();
+    settings.videoPath = (fs::path(options.folder) / ".timing.mp4").string();
     if (options.quick) {
         settings.particles = {2000, 10000};
         settings.sizes = {{640, 360}};
@@ -133,8 +133,7 @@ std::string commandOf(const PicturesOptions& options) {
 void study(const PicturesOptions& options) {
     const int threads = threadCount(options.run);
     setRasterizerThreads(threads);
-    const fs::path folder = options.folder;
-    createFolder(folder);
+    prepareFolder(options, {});
     const studies::PictureSettings settings = settingsFor(options);
     PictureResults results;
     onThreads(threads, [&] { results = measure(options, settings); });
