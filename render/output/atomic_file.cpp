@@ -54,11 +54,7 @@ fs::path resolved(const fs::path& path) {
 
 /// The part of a temporary file's name that is the name of its target, cut off where the whole would be too long.
 std::string stemOf(const std::string& name) {
-    constexpr std::size_t kRoom = kLongestName - 2 - kRandomLength - kSuffix.size();  // and two dots
-    std::size_t length = std::min(name.size(), kRoom);
-    const auto continuesCharacter = [&] { return (static_cast<unsigned char>(name[length]) & 0xC0) == 0x80; };
-    while (length < name.size() && length > 0 && continuesCharacter()) --length;
-    return name.substr(0, length);
+    return shortenedName(name, 2 + kRandomLength + kSuffix.size());  // and two dots
 }
 
 std::string randomLetters() {
@@ -123,6 +119,13 @@ void AtomicFile::commit() {
 void AtomicFile::removeAbandoned() const {
     const std::string stem = stemOf(target_.filename().string());
     removeAbandonedFiles(target_.parent_path(), [&](const std::string& name) { return name == stem; });
+}
+
+std::string shortenedName(const std::string& name, std::size_t more) {
+    std::size_t length = std::min(name.size(), kLongestName - more);
+    const auto continuesCharacter = [&] { return (static_cast<unsigned char>(name[length]) & 0xC0) == 0x80; };
+    while (length < name.size() && length > 0 && continuesCharacter()) --length;
+    return name.substr(0, length);
 }
 
 void removeAbandonedFiles(const fs::path& folder, const std::function<bool(const std::string&)>& isOurs) {

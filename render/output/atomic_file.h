@@ -48,6 +48,10 @@ class AtomicFile {
     int descriptor_ = -1;
 };
 
+/// The beginning of a file name, such that `more` bytes after it do not make it longer than file systems allow (255
+/// bytes). No UTF-8 character is cut.
+std::string shortenedName(const std::string& name, std::size_t more);
+
 /// Removes the temporary files that killed runs have left in a folder. Files that a running program is still writing
 /// are locked and stay. On a file system without locks, all stay.
 /// @param isOurs  whether temporary files for a target of this name (without folder) are to be removed

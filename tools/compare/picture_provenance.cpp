@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
+#include "render/output/atomic_file.h"
 #include "render/picture/system_error.h"
 #include "tools/run/manifest.h"
 #include "tools/system/json.h"
@@ -90,8 +93,9 @@ std::string whyUnknown(const char* side, const PictureProvenance& provenance) {
 }  // namespace
 
 fs::path sidecarPath(const fs::path& picture) {
-    fs::path path = picture;
-    return path.replace_extension(".json");
+    constexpr std::string_view kExtension = ".json";
+    const std::string stem = render::shortenedName(picture.stem().string(), kExtension.size());
+    return picture.parent_path() / (stem + std::string(kExtension));
 }
 
 nlohmann::json readJson(const fs::path& path) {
