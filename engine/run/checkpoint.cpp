@@ -17,7 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-/// Version of the checkpoint format: "GLBLCKP6" in ASCII, with another digit for every change of what is stored.
+/// Version of the checkpoint format: kCheckpointMark in ASCII and a digit, another for every change of what is stored.
 constexpr std::uint64_t kFormat = 0x36504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;

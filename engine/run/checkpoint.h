@@ -7,11 +7,15 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "engine/state/simulation.h"
 
 namespace engine {
+
+/// How a checkpoint of any version begins, in ASCII.
+inline constexpr std::string_view kCheckpointMark = "GLBLCKP";
 
 /// Thrown if the bytes of a checkpoint are not those of a state of the given setup; what() gives the reason.
 class CheckpointError : public std::runtime_error {

@@ -292,17 +292,46 @@ TEST_CASE("--overwrite removes every file of a run, pictures and states", "[resu
     CHECK(filesOf(folder / "a").size() == 4);  // three states and the video beside the folder
     CHECK(textOf(folder / "a/notes.txt") == "mine");
     fs::remove(folder / "a/manifest.json");
-    CHECK(run(fountain(folder / "a")).code == 1);
+    CHECK(run(fountain(folder / "a")).code == 2);
 }
 
-TEST_CASE("Frames without a manifest are not touched", "[resume]") {
+TEST_CASE("Files of another origin are not touched, with --overwrite or without", "[resume]") {
     const Folder folder;
+    const std::string name =
+        GENERATE("frame-00003.png", "particles-00009.ply", "checkpoint-00002.state", "manifest.json", "run.json");
+    INFO(name);
+    const std::string content = R"({"format": 1, "name": "a page of mine"})";
     fs::create_directory(folder / "a");
-    std::ofstream(folder / "a/frame-00003.png") << "a picture";
-    const auto outcome = run(fountain(folder / "a"));
-    CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("left no manifest.json") != std::string::npos);
-    CHECK(textOf(folder / "a/frame-00003.png") == "a picture");
+    std::ofstream(folder / "a" / name) << content;
+    for (const char* more : {"", "--overwrite", "--resume"}) {
+        const auto outcome = run(fountain(folder / "a", more));
+        INFO(more << ": " << outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(program::lineCount(outcome.err) == 1);
+        CHECK(outcome.err.find(name + ": this file was not written by a run") != std::string::npos);
+        CHECK(textOf(folder / "a" / name) == content);
+        CHECK(std::distance(fs::directory_iterator(folder / "a"), fs::directory_iterator()) == 1);
+    }
+}
+
+TEST_CASE("--overwrite removes the frames that a manifest lists, and no run may have written others", "[resume]") {
+    const Folder folder;
+    const std::string tiny = "render fountain --size 64x36 --quiet -o " + (folder / "a").string();
+    REQUIRE(run(tiny + " --frames 2,4").code == 0);
+    // A run that was killed leaves frames that its manifest does not list yet: of those that it was asked for.
+    auto manifest = nlohmann::json::parse(textOf(folder / "a/manifest.json"));
+    CHECK(manifest["planned"] == nlohmann::json({2, 4}));
+    fs::copy_file(folder / "a/frame-00002.png", folder / "a/frame-00003.png");
+    CHECK(run(tiny + " --frames 0-1 --overwrite").code == 0);
+    CHECK_FALSE(fs::exists(folder / "a/frame-00003.png"));
+    fs::copy_file(folder / "a/frame-00001.png", folder / "a/frame-00002.png");
+    const std::string other = textOf(folder / "a/frame-00002.png");
+    for (const char* more : {" --frames 0-1 --overwrite", " --frames 0-1", " --frames 0-3 --resume"})
+        CHECK(run(tiny + more).code == 2);
+    CHECK(textOf(folder / "a/frame-00002.png") == other);
+    fs::remove(folder / "a/frame-00002.png");
+    CHECK(run(tiny + " --frames 0-3 --resume").code == 0);
+    CHECK(nlohmann::json::parse(textOf(folder / "a/manifest.json"))["planned"] == nlohmann::json({0, 3}));
 }
 
 TEST_CASE("Two runs cannot write into one folder", "[resume]") {

@@ -26,7 +26,7 @@ struct SimulateOptions {
 FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, const SimulateOptions& options,
                            const std::string& title) {
     Progress progress(title, frames.count(), options.run.verbosity());
-    FrameFolder folder(options.folder, kStateNames, sceneIdentity(scene));
+    FrameFolder folder(options.folder, kStateNames, frames, sceneIdentity(scene));
     FrameSequence sequence(scene, frames, {&folder, options.estimatesErrors}, progress);
     RunReport& report = sequence.report();
     report.threads = threadCount(options.run);

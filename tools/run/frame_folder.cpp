@@ -7,13 +7,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <iterator>
 
 #include "engine/run/checkpoint.h"
 #include "render/output/atomic_file.h"
 #include "render/picture/system_error.h"
+#include "scenes/text/input_error.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
@@ -40,17 +43,29 @@ void removeFile(const fs::path& path) {
     if (error) throw render::SystemError(fmt::format("cannot remove {}: {}", path.string(), error.message()));
 }
 
-bool isFrame(const fs::path& file) {
-    return kPictureNames.frameOf(file) || kStateNames.frameOf(file);
+bool isCheckpoint(const fs::path& file) {
+    std::array<char, engine::kCheckpointMark.size()> beginning{};
+    std::ifstream(file, std::ios::binary).read(beginning.data(), beginning.size());
+    return std::string_view(beginning.data(), beginning.size()) == engine::kCheckpointMark;
 }
 
-/// Whether a run leaves a file of this name in its folder.
-bool isRunFile(const fs::path& file) {
-    return isFrame(file) || kCheckpointNames.frameOf(file) || file.filename() == "manifest.json" ||
-           file.filename() == "run.json";
+/// Whether a run.json has the fields that runJson() gives it. Other programs have files of the same name.
+bool isRunReport(const fs::path& file) {
+    const Json json = Json::parse(readFile(file), nullptr, false);
+    return json.is_object() && json.contains("scene_hash") && json.contains("state_hash");
+}
+
+[[noreturn]] void failForeign(const fs::path& file) {
+    throw scenes::InputError(file.string(),
+                             "this file was not written by a run into this folder; choose another folder or remove it");
 }
 
 }  // namespace
+
+bool isRunFile(const fs::path& file) {
+    return kPictureNames.frameOf(file) || kStateNames.frameOf(file) || kCheckpointNames.frameOf(file) ||
+           file.filename() == "manifest.json" || file.filename() == "run.json";
+}
 
 std::string FrameNames::fileName(int frame) const {
     return fmt::format("{}{:05}{}", prefix, frame, extension);
@@ -89,33 +104,58 @@ FolderLock::~FolderLock() {
     ::close(descriptor_);
 }
 
-FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity)
+FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const FrameList& frames, const Json& identity)
     : folder_(options.path),
       lock_(folder_),
       resumes_(options.resume),
       checkpointSeconds_(options.checkpointSeconds),
       names_(names) {
     const fs::path path = folder_ / "manifest.json";
-    if (options.overwrite) {
-        for (const fs::path& file : filesIn(folder_))
-            if (isRunFile(file)) removeFile(file);
-    } else if (fs::exists(path)) {
-        manifest_ = decodeManifest(readFile(path), path.string());
-        const std::string different = differences(manifest_.identity, identity);
+    bool isDamaged = false;
+    if (fs::exists(path)) {
+        const auto text = readFile(path);
+        if (!isManifest(text)) failForeign(path);
+        try {
+            manifest_ = decodeManifest(text, path.string());
+        } catch (const render::SystemError&) {
+            if (!options.overwrite) throw;
+            isDamaged = true;
+        }
+        const std::string different = options.overwrite ? "" : differences(manifest_.identity, identity);
         if (!different.empty())
             throw render::SystemError(
                 fmt::format("{} holds frames of another run ({}); choose another folder, or --overwrite them",
                             folder_.string(), different));
-    } else if (std::ranges::any_of(filesIn(folder_), isFrame)) {
-        throw render::SystemError(
-            fmt::format("{} holds frames of a run that left no manifest.json; choose another folder, or "
-                        "--overwrite them",
-                        folder_.string()));
     }
+    requireOwnFiles(isDamaged);
+    if (options.overwrite) removeFrames();
     manifest_.identity = identity;
+    const auto [first, last] = manifest_.planned.value_or(std::pair(frames.first(), frames.last()));
+    manifest_.planned = {std::min(first, frames.first()), std::max(last, frames.last())};
     render::removeAbandonedFiles(folder_, isRunFile);
     if (resumes_) keepIntactFrames();
     writeManifest();
+}
+
+/// Makes sure that every file whose name the run may use was written by a run into this folder.
+/// @param isDamaged  whether the manifest can no longer tell which frames were
+void FrameFolder::requireOwnFiles(bool isDamaged) const {
+    for (const fs::path& file : filesIn(folder_)) {
+        std::optional<int> frame = kPictureNames.frameOf(file);
+        if (!frame) frame = kStateNames.frameOf(file);
+        const bool isOwn = frame                            ? isDamaged || manifest_.lists(*frame)
+                           : kCheckpointNames.frameOf(file) ? isCheckpoint(file)
+                           : file.filename() == "run.json"  ? isRunReport(file)
+                                                            : true;
+        if (!isOwn) failForeign(file);
+    }
+}
+
+/// Removes all that earlier runs have left. The manifest goes last, so that it lists what is left if this fails.
+void FrameFolder::removeFrames() {
+    for (const fs::path& file : filesIn(folder_))
+        if (isRunFile(file) && file.filename() != "manifest.json") removeFile(file);
+    manifest_ = {};
 }
 
 FrameFolder::~FrameFolder() {
@@ -176,7 +216,8 @@ void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes
     while (std::distance(all.begin(), all.upper_bound(frame)) > kCheckpointCount) all.erase(all.begin());
     writeManifest();
     for (const fs::path& file : filesIn(folder_))
-        if (const auto old = kCheckpointNames.frameOf(file); old && all.count(*old) == 0) removeFile(file);
+        if (const auto old = kCheckpointNames.frameOf(file); old && all.count(*old) == 0 && isCheckpoint(file))
+            removeFile(file);
 }
 
 void FrameFolder::writeReport(const Json& json) const {

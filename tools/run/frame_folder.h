@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/run/advance.h"
+#include "tools/run/frame_list.h"
 #include "tools/run/manifest.h"
 #include "tools/run/options.h"
 #include "tools/system/json.h"
@@ -28,6 +29,9 @@ struct FrameNames {
 };
 inline constexpr FrameNames kPictureNames = {"frame-", ".png"};
 inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
+
+/// Whether a run may write a file of this name into its folder: a frame, a checkpoint, manifest.json or run.json.
+bool isRunFile(const std::filesystem::path& file);
 
 /// The files in a folder, in no order.
 /// @throws render::SystemError
@@ -58,10 +62,12 @@ struct RestartPoint {
 class FrameFolder {
  public:
     /// Locks the folder and examines its files; damaged ones are reported as warnings on standard error.
+    /// @param frames  the frames that the run is asked for
     /// @param identity  an object with everything that determines the bytes of the frames
     /// @throws render::SystemError if another run is writing into the folder, or if the folder holds frames of another
     /// run that are not to be overwritten
-    FrameFolder(const FolderOptions& options, FrameNames names, const Json& identity);
+    /// @throws scenes::InputError if a file of another origin has a name that the run may use, with `overwrite` or not
+    FrameFolder(const FolderOptions& options, FrameNames names, const FrameList& frames, const Json& identity);
     /// Writes the manifest if frames are missing from it.
     ~FrameFolder();
     FrameFolder(const FrameFolder&) = delete;
@@ -91,6 +97,8 @@ class FrameFolder {
     void writeReport(const Json& json) const;
 
  private:
+    void requireOwnFiles(bool isDamaged) const;
+    void removeFrames();
     void keepIntactFrames();
     void writeManifest();
 

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <string_view>
 
 #include "engine/core/hash.h"
 #include "render/picture/system_error.h"
@@ -15,6 +17,9 @@ namespace {
 
 /// The version of the format. It changes whenever the meaning of a field changes.
 constexpr int kFormat = 1;
+
+/// How every manifest begins.
+constexpr std::string_view kBeginning = "{\n \"format\": ";
 
 int frameNumber(const std::string& text) {
     const auto number = parseNumber(text);
@@ -36,6 +41,8 @@ Manifest parsed(const Json& json) {
     Manifest manifest;
     manifest.identity = json.at("run");
     if (!manifest.identity.is_object()) throw render::SystemError("\"run\" is not an object");
+    if (json.contains("planned"))
+        manifest.planned = {frameNumber(json.at("planned").at(0)), frameNumber(json.at("planned").at(1))};
     for (const auto& [number, frame] : json.at("frames").items())
         manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
                                                 frame.at("state_hash").get<std::string>()};
@@ -66,8 +73,15 @@ std::string encodeManifest(const Manifest& manifest) {
     for (const auto& [number, frame] : manifest.frames)
         frames += fmt::format("{}\n  \"{:05}\": {}", frames.empty() ? "" : ",", number,
                               compactText({{"checksum", frame.checksum}, {"state_hash", frame.stateHash}}));
-    return fmt::format("{{\n \"format\": {},\n \"run\": {},\n \"checkpoints\": {},\n \"frames\": {{{}\n }}\n}}\n",
-                       kFormat, compactText(manifest.identity), compactText(checkpoints), frames);
+    const std::string planned =
+        manifest.planned ? fmt::format(" \"planned\": [{}, {}],\n", manifest.planned->first, manifest.planned->second)
+                         : "";
+    return fmt::format("{}{},\n \"run\": {},\n{} \"checkpoints\": {},\n \"frames\": {{{}\n }}\n}}\n", kBeginning,
+                       kFormat, compactText(manifest.identity), planned, compactText(checkpoints), frames);
+}
+
+bool isManifest(std::span<const std::uint8_t> text) {
+    return text.size() >= kBeginning.size() && std::equal(kBeginning.begin(), kBeginning.end(), text.begin());
 }
 
 Manifest decodeManifest(std::span<const std::uint8_t> text, const std::string& name) {

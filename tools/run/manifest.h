@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "tools/system/json.h"
 
@@ -27,12 +29,24 @@ struct Manifest {
     Json identity;  ///< JSON object with everything that determines the bytes of the frames
     std::map<int, FrameRecord> frames;
     std::map<int, CheckpointRecord> checkpoints;  ///< checkpoints by the number of their frame
+    /// The first and the last frame that a run into this folder was asked for. A run that was killed may have written
+    /// some of them that `frames` does not have yet.
+    std::optional<std::pair<int, int>> planned;
+
+    /// Whether the file of this frame belongs to the runs of the manifest.
+    bool lists(int frame) const {
+        return frames.count(frame) == 1 || (planned && planned->first <= frame && frame <= planned->second);
+    }
 };
 
 /// FNV-1a hash of the bytes as 16 hexadecimal digits.
 std::string checksumOf(std::span<const std::uint8_t> bytes);
 
 std::string encodeManifest(const Manifest& manifest);
+
+/// Whether a file of any content is a manifest of this program's, whole or damaged. Other programs have files of the
+/// same name.
+bool isManifest(std::span<const std::uint8_t> text);
 
 /// @param name  names the file in the error
 /// @throws render::SystemError if the text is not a manifest

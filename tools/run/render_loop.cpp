@@ -80,7 +80,7 @@ class RenderRun {
             render::requireEncoder(videoOptions(job));
             const render::AtomicFile canBeCreated(job.videoPath);
         }
-        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, identityOf(job, glRenderer));
+        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, job.frames, identityOf(job, glRenderer));
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
