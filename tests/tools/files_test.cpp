@@ -126,14 +126,40 @@ TEST_CASE("What a link leads to is replaced, a device or a pipe is not", "[tools
     }
     fs::create_symlink("circle", folder / "circle");
     CHECK_THROWS_AS(tools::writeFile(folder / "circle", std::string("x")), render::SystemError);
-    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    CHECK_THROWS_AS(tools::writeFile(folder / "pipe", std::string("x")), render::SystemError);
-    CHECK(fs::is_fifo(folder / "pipe"));
+    REQUIRE(::mkfifo((folder / "pipe.mp4").c_str(), 0600) == 0);
+    CHECK_THROWS_AS(tools::writeFile(folder / "pipe.mp4", std::string("x")), render::SystemError);
+    CHECK(fs::is_fifo(folder / "pipe.mp4"));
     const auto video = program::run("render fountain --size 64x36 --frames 0 --quiet -o " + (folder / "a").string() +
-                                    " --video " + (folder / "pipe").string());
+                                    " --video " + (folder / "pipe.mp4").string());
     CHECK(video.code == 1);
     CHECK(video.err.find("a file is wanted") != std::string::npos);
-    CHECK(fs::is_fifo(folder / "pipe"));
+    CHECK(fs::is_fifo(folder / "pipe.mp4"));
+}
+
+TEST_CASE("What is printed has no control characters but line ends and tabs", "[tools]") {
+    CHECK(tools::printable("plain \xC3\xA4\n\ttext \xE2\x82\xAC") == "plain \xC3\xA4\n\ttext \xE2\x82\xAC");
+    CHECK(tools::printable("\x1B[2J\r\x07\x7F") == "\\u001b[2J\\u000d\\u0007\\u007f");
+    CHECK(tools::printable("\xC2\x9B"
+                           "2J \xC2\xA0 \xC2") == "\\u009b2J \xC2\xA0 \xC2");
+    const program::Folder folder;
+    std::ofstream(folder / "a.toml") << "title = \"\\u001b[31mred\\u009b0m\"\nduration = 1\n\"\\u001b[2J\" = 1\n"
+                                        "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\n";
+    fs::copy_file(folder / "a.toml", folder / "\x1B[2J.toml");
+    for (const char* name : {"a.toml", "\x1B[2J.toml", "\x1B[2J"})
+        for (const char* format : {"", " --json"}) {
+            const auto outcome = program::run("check '" + (folder / name).string() + "'" + format);
+            CHECK(outcome.code == 2);
+            CHECK((outcome.out + outcome.err).find('\x1B') == std::string::npos);
+        }
+    std::ofstream(folder / "b.toml") << "title = \"\\u001b[31mred\\u009b0m\"\nduration = 1\n"
+                                        "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\n";
+    for (const char* format : {"", " --json"}) {
+        const auto outcome = program::run("check '" + (folder / "b.toml").string() + "'" + format);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.out.find("\\u001b[31mred\\u009b0m") != std::string::npos);
+        CHECK(outcome.out.find('\x1B') == std::string::npos);
+        CHECK(outcome.out.find('\x9B') == std::string::npos);
+    }
 }
 
 TEST_CASE("Base64 as in RFC 4648, section 10", "[tools]") {

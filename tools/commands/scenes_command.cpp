@@ -8,6 +8,7 @@
 #include "tools/commands/commands.h"
 #include "tools/run/options.h"
 #include "tools/system/json.h"
+#include "tools/system/process.h"
 
 namespace tools {
 
@@ -24,7 +25,7 @@ void addScenesCommand(CLI::App& program) {
             if (*json)
                 printJson(Json{{"name", scene.name}, {"title", scene.title}, {"path", scene.path}});
             else
-                fmt::print("{:<{}}  {}\n", scene.name, width, scene.title);
+                printText(fmt::format("{:<{}}  {}\n", scene.name, width, scene.title));
         }
     });
 }

@@ -1,9 +1,10 @@
 // Prints JSON with nlohmann::json. Bytes that are not UTF-8 are replaced instead of throwing.
 #include "tools/system/json.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
+
+#include "tools/system/process.h"
+
 namespace tools {
 
 std::string compactText(const Json& json) {
@@ -15,7 +16,7 @@ std::string indentedText(const Json& json) {
 }
 
 void printJson(const Json& json) {
-    fmt::print("{}\n", compactText(json));
+    printText(compactText(json) + "\n");
     std::fflush(stdout);  // so that a program that reads along gets each line at once
 }
 

@@ -17,6 +17,8 @@
 #include <system_error>
 
 #include "render/picture/system_error.h"
+#include "scenes/text/input_error.h"
+#include "tools/system/text.h"
 
 namespace tools {
 namespace {
@@ -73,6 +75,17 @@ void recordSignal(int signal) {
     errno = previousError;
 }
 
+/// Writes text as it is, with the commands to the terminal in it.
+void writeToStderr(const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+[[noreturn]] void failToPrint(int error) {
+    if (error == EPIPE) throw ExitStatus(kReaderGoneCode, "");
+    throw render::SystemError("cannot write to standard output");
+}
+
 }  // namespace
 
 void prepareStandardStreams() {
@@ -94,22 +107,46 @@ void ensureTemporaryFolder() {
     ::setenv("TMPDIR", kFolder, 1);
 }
 
+void printText(const std::string& text) {
+    fmt::print("{}", printable(text));
+}
+
 void printToStderr(const std::string& text) {
-    std::fputs(text.c_str(), stderr);
-    std::fflush(stderr);
+    writeToStderr(printable(text));
+}
+
+void printOverLine(const std::string& text) {
+    writeToStderr("\r" + printable(text) + "\x1b[K");
 }
 
 void printWarning(const std::string& message) {
     // On a terminal the warning replaces the line of progress, which is drawn again below.
     const char* const start = isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
-    printToStderr(fmt::format("{}warning: {}\n", start, message));
+    writeToStderr(fmt::format("{}warning: {}\n", start, printable(message)));
+}
+
+std::string readStandardInput(std::size_t limit) {
+    std::string text;
+    std::array<char, 65536> block;
+    while (const std::size_t count = std::fread(block.data(), 1, block.size(), stdin)) {
+        text.append(block.data(), count);
+        if (text.size() > limit)
+            throw scenes::InputError("<stdin>", fmt::format("cannot be read: it is larger than {} MiB", limit >> 20U));
+    }
+    if (std::ferror(stdin) != 0)
+        throw scenes::InputError("<stdin>", fmt::format("cannot be read: {}", std::strerror(errno)));
+    return text;
+}
+
+void writeStandardOutput(std::span<const std::uint8_t> bytes) {
+    errno = 0;
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size()) failToPrint(errno);
+    flushStandardOutput();
 }
 
 void flushStandardOutput() {
     errno = 0;
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    if (errno == EPIPE) throw ExitStatus(kReaderGoneCode, "");
-    throw render::SystemError("cannot write to standard output");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) failToPrint(errno);
 }
 
 InterruptWatch::InterruptWatch(int recordedCount, const char* notice) {

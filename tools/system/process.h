@@ -4,6 +4,8 @@
 
 #include <array>
 #include <csignal>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -38,11 +40,27 @@ void prepareStandardStreams();
 /// TMPDIR to the system's folder, for this program and those that it starts.
 void ensureTemporaryFolder();
 
-/// Writes to standard error and ignores failures, because a lost message must not end a run.
+/// Prints printable() text to standard output.
+/// @throws std::system_error
+void printText(const std::string& text);
+
+/// Prints printable() text to standard error and ignores failures, because a lost message must not end a run.
 void printToStderr(const std::string& text);
+
+/// As printToStderr(), in place of the present line of the terminal.
+void printOverLine(const std::string& text);
 
 /// Writes "warning: ..." to standard error.
 void printWarning(const std::string& message);
+
+/// Everything on standard input, as text.
+/// @param limit  in bytes
+/// @throws scenes::InputError if there is more than the limit, or reading fails
+std::string readStandardInput(std::size_t limit);
+
+/// Writes bytes to standard output and flushes it.
+/// @throws as flushStandardOutput() does
+void writeStandardOutput(std::span<const std::uint8_t> bytes);
 
 /// Flushes standard output.
 /// @throws render::SystemError if anything printed so far could not be written

@@ -177,7 +177,7 @@ void Progress::show(bool isFrame) {
         total_ > 0 ? std::optional(static_cast<double>(done_.count) / total_) : std::nullopt;
     // "Erase to the end of the line" removes what a longer line has left there.
     if (isDrawn)
-        printToStderr("\r" + progressLine(title_, share, said, terminalColumns()) + "\x1b[K");
+        printOverLine(progressLine(title_, share, said, terminalColumns()));
     else if (verbosity_ == Verbosity::normal)
         printToStderr(fmt::format("{}: {}\n", title_, all));
     else

@@ -28,6 +28,24 @@ std::string quoted(const std::string& word) {
 
 }  // namespace
 
+std::string printable(std::string_view text) {
+    std::string result;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const auto byte = static_cast<unsigned char>(text[k]);
+        const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : 0);
+        const bool isControl = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
+        if (byte == 0xC2 && next >= 0x80 && next < 0xA0) {  // U+0080 to U+009F in UTF-8, among them another escape
+            result += fmt::format("\\u{:04x}", next);
+            ++k;
+        } else if (isControl) {
+            result += fmt::format("\\u{:04x}", byte);
+        } else {
+            result += text[k];
+        }
+    }
+    return result;
+}
+
 std::string shellLine(const std::vector<std::string>& words) {
     std::string line;
     for (const std::string& word : words) {

@@ -22,6 +22,10 @@ std::optional<Number> parseNumber(std::string_view text) {
     return number;
 }
 
+/// Text for a terminal: control characters other than line ends and tabs, which a name or a title may contain, are
+/// written as in JSON, such as \u001b. JSON stays the same JSON.
+std::string printable(std::string_view text);
+
 /// The words as one line for a POSIX shell, each quoted if it needs to be.
 std::string shellLine(const std::vector<std::string>& words);
 
