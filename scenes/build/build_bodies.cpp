@@ -119,6 +119,7 @@ void appendFileParticle(const Body& body, const ParticleFile& file, std::size_t 
 void appendFile(const Body& body, BuildContext& context, engine::Particles& particles) {
     Section& section = body.section;
     const std::string path = (std::filesystem::path(context.folder) / section.string("file")).string();
+    context.files.emplace_back(path);
     try {
         const std::vector<std::uint8_t> bytes = readFile(path, kMaxParticleFileBytes);
         context.contentHash = engine::fnv1a(asText(bytes), context.contentHash);

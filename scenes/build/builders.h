@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,7 +34,8 @@ struct BuildContext {
     std::uint64_t seed = 1;
     bool hasOmissions =
         false;  ///< a part of the scene file could not be read, so keys that seem to be missing may be in it
-    std::uint64_t contentHash;  ///< hash over the contents of the files that the scene refers to
+    std::uint64_t contentHash;                 ///< hash over the contents of the files that the scene refers to
+    std::vector<std::filesystem::path> files;  ///< these files
     Limits limits = {};
     double expectedParticles = 0.0;  ///< number of particles of the bodies and emitters built so far
 };

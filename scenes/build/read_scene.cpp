@@ -142,7 +142,8 @@ BuildContext contextOf(const Sections& sections, const std::string& fileName, Pr
     BuildContext context{.problems = problems,
                          .warnings = warnings,
                          .folder = std::filesystem::path(fileName).parent_path().string(),
-                         .contentHash = engine::fnv1a({})};
+                         .contentHash = engine::fnv1a({}),
+                         .files = {}};
     // Without a valid duration the scene is rejected in the end; the default serves to find the problems in the other
     // tables.
     if (sections.top.has("duration")) context.duration = sections.top.number("duration");
@@ -198,6 +199,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
     scene.size = {static_cast<int>(sections.look.numbers("size")[0]),
                   static_cast<int>(sections.look.numbers("size")[1])};
     scene.sourceName = fileName;
+    scene.files = std::move(context.files);
     scene.values = effectiveValues(sections);
     scene.sceneHash = hashOf(scene.values, context.contentHash);
     for (const Problem& warning : warnings.sorted()) scene.warnings.push_back(formatProblem(warning));
@@ -205,7 +207,9 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
 }
 
 Scene loadScene(const std::string& path, const Overrides& overrides, const Limits& limits) {
-    return readScene(asText(readFile(path, kMaxSceneFileBytes)), path, overrides, limits);
+    Scene scene = readScene(asText(readFile(path, kMaxSceneFileBytes)), path, overrides, limits);
+    scene.files.emplace_back(path);
+    return scene;
 }
 
 }  // namespace scenes

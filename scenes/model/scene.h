@@ -2,6 +2,7 @@
 // build/read_scene.h makes it from a file.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +42,8 @@ struct Scene {
     double stillTime = 0.5;          ///< s
     std::vector<double> stripTimes;  ///< s, increasing
     std::optional<Study> study;      ///< the [study] table, which only scenes of `globular study stability` have
-    std::string sourceName;          ///< the file it was read from
+    std::string sourceName;          ///< the file it was read from, as messages name it
+    std::vector<std::filesystem::path> files;  ///< all files that it was read from, those that it names included
     std::string sceneHash;  ///< 16 hexadecimal digits: hash over the values of all keys and the files that they name
     std::vector<EffectiveValue> values;
     SourceTables tables;

@@ -112,13 +112,14 @@ TEST_CASE("Failures of files and other programs exit with 1 and one line", "[too
     CHECK(noFfmpeg.err.find("ffmpeg") != std::string::npos);
 
     // This is noticed before anything is drawn and before old frames are removed.
-    const auto isFolder = run("render " + scene + output + " --video " + (folder / "").string());
+    std::filesystem::create_directory(folder / "film.mp4");
+    const auto isFolder = run("render " + scene + output + " --video " + (folder / "film.mp4").string());
     INFO(isFolder.err);
     CHECK(isFolder.code == 1);
     CHECK(isFolder.err.find("it is a folder") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(folder / "frames/frame-00000.png"));
     REQUIRE(run("render " + scene + output).code == 0);
-    CHECK(run("render " + scene + output + " --overwrite --video " + (folder / "").string()).code == 1);
+    CHECK(run("render " + scene + output + " --overwrite --video " + (folder / "film.mp4").string()).code == 1);
     CHECK(std::filesystem::exists(folder / "frames/frame-00000.png"));
 
     const auto noFrames = run("video " + (folder / "none").string() + " -o " + (folder / "b.mp4").string());

@@ -75,7 +75,9 @@ void addTo(CLI::App& command, RunOptions& options) {
 }
 
 void addTo(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, "a scene file, or the name of a built-in scene (see globular scenes)")
+    command
+        .add_option("SCENE", options.scene,
+                    "a scene file, - for standard input, or the name of a built-in scene (see globular scenes)")
         ->required();
     command.add_option("--set", options.changes, "change a key of the scene, e.g. --set physics.step=0.005")
         ->type_name("KEY=VALUE")
@@ -99,9 +101,8 @@ void addBackendFlag(CLI::App& command, DrawOptions& options) {
     command.add_option("--gl", options.backend, "OpenGL backend: osmesa or egl (default: osmesa)")->type_name("NAME");
 }
 
-void addTo(CLI::App& command, FolderOptions& options, const std::string& fallback) {
-    command.add_option("-o,--output", options.path, "folder for frames and run.json (default: " + fallback + ")")
-        ->type_name("DIR");
+void addTo(CLI::App& command, FolderOptions& options, const std::string& help) {
+    command.add_option("-o,--output", options.path, help)->type_name("DIR");
     CLI::Option* resume =
         command.add_flag("--resume", options.resume, "go on with a run that ended early: what is whole stays");
     command.add_flag("--overwrite", options.overwrite, "remove the frames of another run from the folder first")

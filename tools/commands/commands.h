@@ -29,8 +29,8 @@ void addGenerateCommand(CLI::App& program);
 void addTo(CLI::App& command, RunOptions& options);
 void addTo(CLI::App& command, SceneOptions& options);
 void addTo(CLI::App& command, DrawOptions& options);
-/// @param fallback  the folder that is used without -o, named in the help
-void addTo(CLI::App& command, FolderOptions& options, const std::string& fallback);
+/// @param help  of -o, with the folder that is used without it
+void addTo(CLI::App& command, FolderOptions& options, const std::string& help);
 /// Adds the flag --no-error-estimate, which makes `estimatesErrors` false.
 void addErrorFlag(CLI::App& command, bool& estimatesErrors);
 /// What the help of `render` and `simulate` says about error estimates.

@@ -14,7 +14,10 @@
 #include "tools/commands/commands.h"
 #include "tools/compare/approve.h"
 #include "tools/compare/compare_pictures.h"
+#include "tools/compare/picture_provenance.h"
+#include "tools/compare/picture_set.h"
 #include "tools/pages/compare_reports.h"
+#include "tools/system/command_files.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
@@ -116,7 +119,26 @@ bool canBeApproved(const PictureResult& result) {
     return result.status == PictureStatus::different || result.status == PictureStatus::extra;
 }
 
+/// Makes sure that the reports replace nothing that is compared or that says where a picture comes from.
+void checkOutputs(const CompareOptions& options) {
+    CommandFiles files{{options.mask}, {}, {}};
+    for (const std::string& side : {options.actual, options.expected}) {
+        files.inputs.emplace_back(side);
+        for (const auto& [name, picture] : picturesOf(side).pictures)
+            for (const fs::path& input : {picture, sidecarPath(picture), picture.parent_path() / "manifest.json",
+                                          picture.parent_path() / "run.json"})
+                files.inputs.push_back(input);
+    }
+    if (!options.junit.empty()) files.outputs.push_back({"--junit", options.junit});
+    if (!options.report.empty())
+        files.folders = {
+            {"--report", options.report, [](const fs::path& file) { return file.filename() == "index.html"; }},
+            {"--report", fs::path(options.report) / kReportPictures, [](const fs::path&) { return true; }}};
+    requireSeparate(files);
+}
+
 void compareAll(const CompareOptions& options) {
+    checkOutputs(options);
     const InterruptWatch watch;
     const auto endIfInterrupted = [&] {
         if (watch.signal() != 0) throw ExitStatus(kSignalExitBase + watch.signal(), "");

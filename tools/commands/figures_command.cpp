@@ -10,8 +10,10 @@
 #include "tools/pages/figures_page.h"
 #include "tools/run/render_loop.h"
 #include "tools/run/stills.h"
+#include "tools/system/command_files.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
@@ -79,6 +81,7 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
 }
 
 void makeFigures(const FiguresOptions& options) {
+    requireSeparate({{}, {}, {{"-o", options.folder, [](const fs::path&) { return false; }}}});
     createFolder(options.folder);
     std::vector<FigureEntry> entries;
     for (const int number : options.numbers) {
@@ -95,7 +98,7 @@ void makeFigures(const FiguresOptions& options) {
     }
     const fs::path page = fs::path(options.folder) / "index.html";
     writeFile(page, figuresPage(entries));
-    if (options.run.verbosity() == Verbosity::normal) fmt::print("all of it: {}\n", page.string());
+    if (options.run.verbosity() == Verbosity::normal) printText(fmt::format("all of it: {}\n", page.string()));
 }
 
 }  // namespace

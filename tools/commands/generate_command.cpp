@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/commands/commands.h"
+#include "tools/system/command_files.h"
 #include "tools/system/output_file.h"
 
 namespace tools {
@@ -97,7 +98,7 @@ std::string manSection(const CLI::App& app, const std::string& path) {
 
 constexpr std::string_view kManEnd = R"(.SH SCENES
 A scene is a TOML file. \fBglobular schema\fR lists every key, \fBglobular scenes\fR the built-in scenes. A
-\fISCENE\fR is the path of a file or the name of a built-in scene.
+\fISCENE\fR is the path of a file, \- for standard input, or the name of a built-in scene.
 .SH EXIT STATUS
 .TP
 0
@@ -214,6 +215,7 @@ void addGenerateCommand(CLI::App& program) {
         ->check(CLI::IsMember({"man", "completion"}));
     command.add_option("FILE", options->output, "the file to write")->required();
     command.callback([options, &program] {
+        requireSeparate({{}, {{"FILE", options->output}}, {}});
         writeFile(options->output, options->kind == "man" ? manPage(program) : bashCompletion(program));
     });
 }

@@ -5,9 +5,14 @@
 #include <memory>
 
 #include "engine/state/simulation.h"
+#include "render/output/video.h"
+#include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
+#include "tools/run/frame_folder.h"
 #include "tools/run/render_loop.h"
+#include "tools/system/command_files.h"
 #include "tools/system/output_file.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
@@ -24,30 +29,60 @@ struct RenderOptions {
     bool estimatesErrors = true;
 };
 
+bool pipesFrames(const RenderOptions& options) {
+    return options.folder.path == kStandardStream;
+}
+
 std::string summaryOf(const RenderOptions& options, const FinishedRun& run) {
     const StageSeconds& seconds = run.report.seconds;
     return fmt::format(
-        "{} frames in {}{}\n{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), "
+        "{} frames {}{}\n{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), "
         "state {}\n",
-        run.report.frames, options.folder.path, options.video.empty() ? "" : ", video " + options.video,
-        engine::largestCount(run.simulation), run.simulation.steps.count, seconds.all, seconds.simulating,
-        seconds.drawing, seconds.encoding, run.report.stateHash);
+        run.report.frames, pipesFrames(options) ? "to standard output" : "in " + options.folder.path,
+        options.video.empty() ? "" : ", video " + options.video, engine::largestCount(run.simulation),
+        run.simulation.steps.count, seconds.all, seconds.simulating, seconds.drawing, seconds.encoding,
+        run.report.stateHash);
+}
+
+/// Checks the outputs before anything is done.
+void checkOutputs(const RenderOptions& options, const scenes::Scene& scene) {
+    CommandFiles files{scene.files, {}, {}};
+    if (!options.video.empty()) {
+        requireVideoName("--video", options.video);
+        files.outputs.push_back({"--video", options.video});
+    }
+    if (pipesFrames(options)) {
+        requirePipedOutput(options.run);
+        if (options.folder.resume || options.folder.overwrite)
+            throw scenes::InputError("-o -", "--resume and --overwrite are for a folder of frames");
+    } else {
+        files.folders.push_back({"-o", options.folder.path, isRunFile});
+    }
+    requireSeparate(files);
 }
 
 void render(RenderOptions options) {
     const scenes::Scene scene = load(options.scene, overridesOf(options.draw));
     const std::string name = runName(options.scene);
     if (options.folder.path.empty()) options.folder.path = (fs::path("out") / name).string();
-    const RenderJob job{drawJob(scene, options.draw, options.run, name),
-                        frameList(options.frames, scenes::frameCount(scene)), options.folder, options.video,
-                        options.estimatesErrors};
+    RenderJob job{drawJob(scene, options.draw, options.run, name),
+                  frameList(options.frames, scenes::frameCount(scene)),
+                  options.folder,
+                  options.video,
+                  pipesFrames(options),
+                  options.estimatesErrors};
+    if (job.pipesFrames) job.folder.reset();
+    checkOutputs(options, scene);
 
     warnOfStart(scene, job.threads);
     if (!options.video.empty()) createFolderOf(options.video);
     const FinishedRun run = renderFrames(job);
     requireComplete(run.report, options.folder.path);
-    printResult(options.run, {{"event", "done"}, {"folder", options.folder.path}, {"run", run.json}},
-                summaryOf(options, run));
+    const std::string summary = summaryOf(options, run);
+    if (!job.pipesFrames)
+        printResult(options.run, {{"event", "done"}, {"folder", options.folder.path}, {"run", run.json}}, summary);
+    else if (!options.run.quiet)
+        printToStderr(summary);
 }
 
 }  // namespace
@@ -56,8 +91,12 @@ void addRenderCommand(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("render", "simulate and draw a scene: PNG frames, run.json, a video");
     const auto options = std::make_shared<RenderOptions>();
     addTo(command, options->scene);
-    addTo(command, options->folder, "out/NAME");
-    command.add_option("--video", options->video, "also write an MP4")->type_name("FILE.mp4");
+    addTo(command, options->folder,
+          "folder for frames and run.json, or - for frames as PNGs on standard output (default: out/NAME)");
+    command
+        .add_option("--video", options->video,
+                    fmt::format("also write a video; the name must end in {}", render::kVideoExtensions))
+        ->type_name("FILE");
     command.add_option("--frames", options->frames, std::string("draw only ") + kFrameListHelp)->type_name("FRAMES");
     addTo(command, options->draw);
     addErrorFlag(command, options->estimatesErrors);

@@ -3,11 +3,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
+#include "render/output/atomic_file.h"
 #include "scenes/model/particle_file.h"
 #include "tools/commands/commands.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/threads.h"
+#include "tools/system/command_files.h"
 
 namespace tools {
 namespace {
@@ -50,9 +53,12 @@ void simulate(SimulateOptions options) {
     const scenes::Scene scene = load(options.scene);
     const FrameList frames = frameList(options.frames, scenes::frameCount(scene));
     const std::string name = runName(options.scene);
+    constexpr std::string_view kSuffix = "-states";
     std::string& folder = options.folder.path;
-    if (folder.empty()) folder = (fs::path("out") / (name + "-states")).string();
+    if (folder.empty())
+        folder = (fs::path("out") / (render::shortenedName(name, kSuffix.size()) + std::string(kSuffix))).string();
 
+    requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
     warnOfStart(scene, threadCount(options.run));
     FinishedRun run;
     onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options, name); });
@@ -70,7 +76,7 @@ void addSimulateCommand(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("simulate", "particle states only: one PLY file a frame, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
     addTo(command, options->scene);
-    addTo(command, options->folder, "out/NAME-states");
+    addTo(command, options->folder, "folder for frames and run.json (default: out/NAME-states)");
     command.add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
     command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");
     addErrorFlag(command, options->estimatesErrors);

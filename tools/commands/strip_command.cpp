@@ -3,11 +3,17 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
+#include "render/output/atomic_file.h"
 #include "render/output/png.h"
+#include "render/output/video.h"
+#include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
 #include "tools/run/stills.h"
+#include "tools/system/command_files.h"
 #include "tools/system/output_file.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
@@ -30,14 +36,29 @@ scenes::Scene loadScene(const StripOptions& options) {
     return load(options.scene, overrides);
 }
 
+void checkOutput(const fs::path& path, const scenes::Scene& scene) {
+    if (render::videoKindOf(path.string()) != render::VideoKind::png)
+        throw scenes::InputError("-o " + path.string(), "a strip is a PNG, so its name must end in .png");
+    requireSeparate({scene.files, {{"-o", path}}, {}});
+}
+
 void drawStrip(const StripOptions& options) {
     const scenes::Scene scene = loadScene(options);
     const DrawJob job = drawJob(scene, options.draw, options.run, runName(options.scene));
+    constexpr std::string_view kSuffix = "-strip.png";
     const fs::path path =
-        options.output.empty() ? fs::path("out") / (job.title + "-strip.png") : fs::path(options.output);
+        options.output.empty()
+            ? fs::path("out") / (render::shortenedName(job.title, kSuffix.size()) + std::string(kSuffix))
+            : fs::path(options.output);
+    const bool isPiped = path == kStandardStream;
+    if (isPiped)
+        requirePipedOutput(options.run);
+    else
+        checkOutput(path, scene);
 
     const std::vector<int> frames = scenes::stripFrames(scene);
     const StillPictures pictures = drawStills(job, {std::nullopt, frames});
+    if (isPiped) return writeStandardOutput(render::encodePng(pictures.strip));
     createFolderOf(path);
     writeFile(path, render::encodePng(pictures.strip));
     Json json{{"event", "done"}, {"strip", path.string()}, {"times", Json::array()}};
@@ -54,7 +75,9 @@ void addStripCommand(CLI::App& program) {
     addTo(command, options->scene);
     command.add_option("--times", options->times, "times in seconds (default: the scene's still.strip)")
         ->type_name("T,T,...");
-    command.add_option("-o,--output", options->output, "the picture to write (default: out/NAME-strip.png)")
+    command
+        .add_option("-o,--output", options->output,
+                    "the picture to write, - for standard output (default: out/NAME-strip.png)")
         ->type_name("FILE.png");
     addTo(command, options->draw);
     addTo(command, options->run);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "engine/stepping/take_step.h"
+#include "render/output/atomic_file.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "studies/accuracy/accuracy.h"
@@ -74,7 +75,8 @@ Subject parseSubject(const std::string& text, const AccuracyOptions& options) {
         scene = text.substr(0, colon);
         suffix = "-" + seconds + "s";
     }
-    subject.name = (scene.ends_with(".toml") ? fs::path(scene).stem().string() : scene) + suffix;
+    constexpr std::size_t kRoom = 50;  // bytes of a file's name, for the window and what its plot shows
+    subject.name = render::shortenedName(runName({scene, {}, {}}), kRoom) + suffix;
     std::replace(subject.name.begin(), subject.name.end(), '/', '-');
     subject.scene = load({scene, options.overrides, {}});
     subject.from = options.from >= 0.0 ? options.from : kFromShare * subject.scene.stillTime;
@@ -142,7 +144,8 @@ studies::SceneAccuracy measure(const Subject& subject, const AccuracyOptions& op
 }
 
 std::string commandOf(const AccuracyOptions& options) {
-    std::vector<std::string> words = options.scenes;
+    std::vector<std::string> words;
+    for (const std::string& scene : options.scenes) words.push_back(operandOf(scene));
     for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
     if (options.from >= 0.0) words.insert(words.end(), {"--from", fmt::format("{:g}", options.from)});
     if (options.window > 0.0) words.insert(words.end(), {"--window", fmt::format("{:g}", options.window)});
@@ -187,7 +190,10 @@ std::string summaryOf(const studies::SceneAccuracy& accuracy) {
 void study(const AccuracyOptions& options) {
     const fs::path folder = options.folder;
     const std::vector<Subject> subjects = subjectsOf(options);
-    createFolder(folder);
+    std::vector<fs::path> inputs;
+    for (const Subject& subject : subjects)
+        inputs.insert(inputs.end(), subject.scene.files.begin(), subject.scene.files.end());
+    prepareFolder(options, inputs);
     std::vector<studies::SceneAccuracy> results;
     for (const Subject& subject : subjects) {
         results.push_back(measure(subject, options));

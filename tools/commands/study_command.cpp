@@ -7,6 +7,7 @@
 
 #include "render/output/child_process.h"
 #include "render/picture/system_error.h"
+#include "tools/system/command_files.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
 #include "tools/system/text.h"
@@ -31,6 +32,19 @@ void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& 
         ->type_name("DIR");
     command.add_flag("--quick", options.quick, quickHelp);
     addTo(command, options.run);
+}
+
+void prepareFolder(const StudyOptions& options, const std::vector<std::filesystem::path>& inputs) {
+    const auto isWritten = [](const std::filesystem::path& file) {
+        const std::string extension = file.extension().string();
+        return extension == ".csv" || extension == ".svg" || extension == ".html";
+    };
+    requireSeparate({inputs, {}, {{"-o", options.folder, isWritten}}});
+    createFolder(options.folder);
+}
+
+std::string operandOf(const std::string& scene) {
+    return scene.size() > 1 && scene.starts_with('-') ? "./" + scene : scene;
 }
 
 std::string commandLineOf(const StudyOptions& options, const std::vector<std::string>& words) {

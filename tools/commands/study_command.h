@@ -28,6 +28,13 @@ struct StudyOptions {
 /// @param quickHelp  what --quick leaves out
 void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& quickHelp);
 
+/// Creates the folder of the study, after making sure that no table, plot or page replaces a file that the study reads.
+/// @throws scenes::InputError
+void prepareFolder(const StudyOptions& options, const std::vector<std::filesystem::path>& inputs);
+
+/// The name of a scene as a word of a command line that is not taken for a flag.
+std::string operandOf(const std::string& scene);
+
 /// The command line that repeats a study.
 /// @param words  the arguments and flags that only this study has
 std::string commandLineOf(const StudyOptions& options, const std::vector<std::string>& words);

@@ -159,7 +159,7 @@ std::string summaryOf(const ScalingResults& results) {
 
 void study(const ScalingOptions& options) {
     const fs::path folder = options.folder;
-    createFolder(folder);
+    prepareFolder(options, {});
     ScalingResults results;
     onThreads(threadCount(options.run), [&] { results = measure(options); });
     std::vector<std::string> words;

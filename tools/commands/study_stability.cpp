@@ -71,16 +71,21 @@ void reportCase(const StabilityOptions& options, const studies::CaseResult& resu
 }
 
 void study(const StabilityOptions& options) {
-    createFolder(options.folder);
+    const std::vector<studies::CaseOptions> cases = chosenCases(options);
+    std::vector<fs::path> inputs;
+    for (const studies::CaseOptions& one : cases) inputs.emplace_back(one.path);
+    prepareFolder(options, inputs);
     std::vector<studies::CaseResult> results;
     double seconds = 0.0;
-    for (const studies::CaseOptions& one : chosenCases(options)) {
+    for (const studies::CaseOptions& one : cases) {
         onThreads(threadCount(options.run), [&] { results.push_back(studies::runCase(one)); });
         seconds += results.back().seconds;
         reportCase(options, results.back());
     }
     writeFile(fs::path(options.folder) / "stability.csv", studies::stabilityCsv(results));
-    finishStudy(options, stabilityPage(results, commandLineOf(options, options.cases)),
+    std::vector<std::string> words;
+    for (const std::string& name : options.cases) words.push_back(operandOf(name));
+    finishStudy(options, stabilityPage(results, commandLineOf(options, words)),
                 fmt::format("{}\n{} cases in {:.0f} s; ", textTable(stabilityTable(results)), results.size(), seconds));
     const std::string problems = studies::stabilityProblems(results);
     if (!problems.empty()) throw std::runtime_error(problems);

@@ -15,6 +15,7 @@
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
 #include "tools/run/frame_folder.h"
+#include "tools/system/command_files.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/progress.h"
@@ -74,7 +75,12 @@ render::FrameRate rateOf(const EncodeOptions& options) {
 void encode(const EncodeOptions& options) {
     const fs::path folder = options.folder;
     const render::FrameRate rate = rateOf(options);
+    requireVideoName("-o", options.output);
     const std::vector<int> numbers = frameNumbers(folder);
+    CommandFiles files{{}, {{"-o", options.output}}, {}};
+    for (const fs::path& file : filesIn(folder))
+        if (isRunFile(file)) files.inputs.push_back(file);
+    requireSeparate(files);
     createFolderOf(options.output);
 
     const auto read = [&](int number) {
@@ -111,7 +117,11 @@ void addVideoCommand(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("video", "frames that exist to a video; refuses gaps");
     const auto options = std::make_shared<EncodeOptions>();
     command.add_option("DIR", options->folder, "folder with frame-00000.png, ...")->required();
-    command.add_option("-o,--output", options->output, "the video to write")->required()->type_name("FILE.mp4");
+    command
+        .add_option("-o,--output", options->output,
+                    fmt::format("the video to write; the name must end in {}", render::kVideoExtensions))
+        ->required()
+        ->type_name("FILE");
     command
         .add_option("--fps", options->fps,
                     "frames per second, also as a fraction such as 30000/1001 (default: that of run.json, else 30)")

@@ -11,6 +11,7 @@
 #include "tools/compare/picture_provenance.h"
 #include "tools/compare/picture_set.h"
 #include "tools/run/manifest.h"
+#include "tools/system/command_files.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/text.h"
@@ -73,6 +74,18 @@ std::string refusal(const Candidate& candidate) {
                        now.empty() ? "an unknown GL renderer" : now, before);
 }
 
+/// Makes sure that no golden replaces a picture that is still to be read, or the golden of another picture. A picture
+/// may be its own golden, which then gets a sidecar.
+void checkOutputs(const ApproveJob& job, const std::vector<Candidate>& candidates) {
+    CommandFiles files{{}, {}, {{"EXPECTED", job.expected, [](const fs::path&) { return false; }}}};
+    for (const Candidate& candidate : candidates) {
+        std::error_code ignored;
+        files.inputs.push_back(candidate.from);
+        if (!fs::equivalent(candidate.from, candidate.to, ignored)) files.outputs.push_back({"EXPECTED", candidate.to});
+    }
+    requireSeparate(files);
+}
+
 bool hasContent(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     return fs::exists(path) && readFile(path) == bytes;
 }
@@ -83,6 +96,7 @@ std::vector<Approved> approvePictures(const ApproveJob& job) {
     if (!fs::exists(job.actual))
         throw render::SystemError(fmt::format("there is no file or folder {}", job.actual.string()));
     std::vector<Candidate> candidates = candidatesOf(job, picturesOf(job.actual));
+    checkOutputs(job, candidates);
     std::vector<scenes::Problem> refusals;
     for (Candidate& candidate : candidates) {
         const std::vector<std::uint8_t> bytes = readFile(candidate.from);

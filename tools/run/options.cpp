@@ -2,16 +2,19 @@
 #include "tools/run/options.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 
+#include "render/output/video.h"
 #include "render/overlay/text.h"
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/build/start_warnings.h"
 #include "scenes/text/input_error.h"
+#include "scenes/text/read_file.h"
 #include "scenes/text/value.h"
 #include "tools/run/threads.h"
 #include "tools/system/process.h"
@@ -64,7 +67,7 @@ void printResult(const RunOptions& options, const Json& json, const std::string&
     if (options.json)
         printJson(json);
     else if (!options.quiet)
-        fmt::print("{}", text);
+        printText(text);
 }
 
 int threadCount(const RunOptions& options) {
@@ -74,8 +77,11 @@ int threadCount(const RunOptions& options) {
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     scenes::Overrides overrides(options.changes.begin(), options.changes.end());
     overrides.insert(overrides.end(), more.begin(), more.end());
+    const scenes::Limits limits = limitsOf(options.limits);
     scenes::Scene scene =
-        scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limitsOf(options.limits));
+        options.scene == kStandardStream
+            ? scenes::readScene(readStandardInput(scenes::kMaxSceneFileBytes), "<stdin>", overrides, limits)
+            : scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limits);
     for (const std::string& warning : scene.warnings) printWarning(warning);
     if (const auto& colorBar = scene.look.common.overlay.colorBar) warnOfLabel(colorBar->title);
     return scene;
@@ -88,6 +94,7 @@ void warnOfStart(const scenes::Scene& scene, int threads) {
 }
 
 std::string runName(const SceneOptions& options) {
+    if (options.scene == kStandardStream) return "stdin";
     const bool isFile = scenes::resolveScene(options.scene, sceneFolder()) == options.scene;
     return isFile ? fs::path(options.scene).stem().string() : options.scene;
 }
@@ -100,6 +107,21 @@ scenes::Overrides overridesOf(const DrawOptions& options) {
     const render::PictureSize size = parseSize(options.size, flag);
     overrides.emplace_back(fmt::format("look.size=[{}, {}]", size.width, size.height), flag);
     return overrides;
+}
+
+void requirePipedOutput(const RunOptions& options) {
+    if (options.json) throw scenes::InputError("--json", "standard output is for the pictures, with -o -");
+    if (::isatty(STDOUT_FILENO) == 1)
+        throw scenes::InputError("-o -", "standard output is a terminal; send the pictures to a program or a file");
+}
+
+void requireVideoName(const std::string& flag, const std::string& path) {
+    if (render::videoKindOf(path)) return;
+    throw scenes::InputError(
+        fmt::format("{} {}", flag, path),
+        path == kStandardStream
+            ? "a video cannot go to standard output; `globular render SCENE -o -` writes its frames there, for ffmpeg"
+            : fmt::format("the name of a video says its kind: it must end in {}", render::kVideoExtensions));
 }
 
 render::Backend backendOf(const DrawOptions& options) {

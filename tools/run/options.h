@@ -22,9 +22,12 @@ struct RunOptions {
     Verbosity verbosity() const { return json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal; }
 };
 
+/// What a command line calls standard input, as a SCENE, and standard output, as the name of an output.
+inline constexpr const char* kStandardStream = "-";
+
 /// A scene and changes to it.
 struct SceneOptions {
-    std::string scene;                 ///< path of a scene file or name of a built-in scene
+    std::string scene;                 ///< path of a scene file, name of a built-in scene, or kStandardStream
     std::vector<std::string> changes;  ///< changes of keys, "key=value"
     std::vector<std::string> limits;   ///< raised limits on particles, frames or pixels, "name=number"
 };
@@ -72,13 +75,21 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = 
 void warnOfStart(const scenes::Scene& scene, int threads);
 
 /// What a run of the scene is called in the names of its files: a built-in scene as it was given, such as "hard/honey",
-/// and a scene file by its name without folder and extension.
+/// a scene file by its name without folder and extension, and standard input "stdin".
 /// @throws scenes::InputError if there is no such scene
 std::string runName(const SceneOptions& options);
 
 /// The size and the style that flags ask for, as changes to the scene.
 /// @throws scenes::InputError
 scenes::Overrides overridesOf(const DrawOptions& options);
+
+/// Makes sure that pictures can be written to standard output: nothing else is printed there, and no person reads it.
+/// @throws scenes::InputError
+void requirePipedOutput(const RunOptions& options);
+
+/// Makes sure that a file name has the extension of a kind of video, so that what the name says is what is written.
+/// @throws scenes::InputError naming the flag and the extensions that are possible
+void requireVideoName(const std::string& flag, const std::string& path);
 
 /// The OpenGL backend of the options.
 /// @throws scenes::InputError if there is no backend of that name

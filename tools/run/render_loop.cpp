@@ -20,6 +20,7 @@
 #include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
+#include "tools/system/process.h"
 
 namespace tools {
 namespace {
@@ -136,9 +137,10 @@ class RenderRun {
         const Stopwatch watch(report().seconds.encoding);
         const SequencedFrame& frame = flight.frame;
         std::vector<std::uint8_t> png;
-        if (flight.image && folder_) png = render::encodePng(*flight.image);
+        if (flight.image && (folder_ || job_.pipesFrames)) png = render::encodePng(*flight.image);
         if (folder_) frames_.store(frame, png);
         if (!frame.isWanted) return;
+        if (job_.pipesFrames) writeStandardOutput(png);
         if (video_) video_->add(flight.image ? *flight.image : readKept(frame.number));
         ++report().frames;
         progress_.frameDone(frame.number, frame.time);

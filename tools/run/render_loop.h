@@ -17,8 +17,9 @@ namespace tools {
 
 struct RenderJob : DrawJob {
     FrameList frames;
-    std::optional<FolderOptions> folder;  ///< folder of frames and checkpoints; none: only a video is made
-    std::string videoPath;                ///< path of the video; empty: no video is made
+    std::optional<FolderOptions> folder;  ///< folder of frames and checkpoints; none: no frame becomes a file
+    std::string videoPath;                ///< path of the video, with its kind; empty: no video is made
+    bool pipesFrames = false;             ///< whether frames go to standard output, one PNG after the other
     bool estimatesErrors = true;          ///< whether the error of a fixed step is estimated at some of the frames
 };
 
