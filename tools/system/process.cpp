@@ -116,6 +116,7 @@ void printToStderr(const std::string& text) {
 }
 
 void printOverLine(const std::string& text) {
+    // "Erase to the end of the line" removes what a longer line has left there.
     writeToStderr("\r" + printable(text) + "\x1b[K");
 }
 

@@ -149,7 +149,7 @@ void Progress::frameSkipped(int frame, double sceneTime, int wanted) {
 
 void Progress::hide() {
     const std::lock_guard lock(mutex_);
-    if (verbosity_ == Verbosity::normal && isTerminal_ && std::exchange(hasLine_, false)) printToStderr("\r\x1b[K");
+    if (verbosity_ == Verbosity::normal && isTerminal_ && std::exchange(hasLine_, false)) printOverLine("");
 }
 
 void Progress::stepBegins(double time) {
@@ -175,7 +175,6 @@ void Progress::show(bool isFrame) {
     const std::string all = fmt::format("{}", fmt::join(said, ", "));
     const std::optional<double> share =
         total_ > 0 ? std::optional(static_cast<double>(done_.count) / total_) : std::nullopt;
-    // "Erase to the end of the line" removes what a longer line has left there.
     if (isDrawn)
         printOverLine(progressLine(title_, share, said, terminalColumns()));
     else if (verbosity_ == Verbosity::normal)
