@@ -3,6 +3,7 @@
 // only those terms that the materials need. Used by every stepper (engine/stepping) through the step cache.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "engine/forces/force_field.h"
@@ -69,6 +70,10 @@ class ForceEvaluator {
     /// @param cutoff   cutoff that it was built for, m
     /// @param skin     its skin, m
     void restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double cutoff, double skin);
+
+    /// Groups of particles each of which may move as a whole without outdating the neighbor list; none at first.
+    const FarGroups& groups() const { return pairs_.groups; }
+    void setGroups(FarGroups groups) { pairs_.groups = std::move(groups); }
 
     /// Whether none of the listed neighbors of particle p is within a cutoff (m) of it, at the given positions (m). If
     /// the neighbor list covers these positions, then no other particle acts on p either. False for a particle that was

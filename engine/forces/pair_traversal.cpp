@@ -13,10 +13,12 @@ namespace {
 /// units, which a float holds exactly.
 constexpr double kUnits = 8388608.0;
 
-/// Upper bound on the speed (m/s) of any particle relative to the motion that all particles have in common. A common
-/// motion does not make a neighbor list outdated.
-double largestRelativeSpeed(const std::vector<Vec3>& velocities) {
-    const auto velocity = [&](std::size_t p) -> const Vec3& { return velocities[p]; };
+/// Upper bound on the speed (m/s) of any particle relative to the motion that all particles, or all of its group, have
+/// in common. A common motion does not make a neighbor list outdated.
+double largestRelativeSpeed(const std::vector<Vec3>& velocities, const FarGroups& groups) {
+    const auto velocity = [&](std::size_t p) -> Vec3 {
+        return groups.exist() ? Vec3(velocities[p] - velocities[groups.leaders[groups.of(p)]]) : velocities[p];
+    };
     return farthestFrom(boundingBoxOf(velocities.size(), velocity).middle(), velocities.size(), velocity);
 }
 
@@ -39,7 +41,7 @@ PairTraversal::PairTraversal(const ForceField& field, Precision wanted)
 void PairTraversal::renewList(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                               double step) {
     terms = termsFor(field, particles);
-    if (covers(list, particles.position, terms.cutoff)) return;
+    if (covers(list, particles.position, terms.cutoff, groups)) return;
     const std::span<const double> radii = terms.uniform ? std::span<const double>{} : particles.radius;
     // Where sizes differ much, the skin is chosen for the size of which there are most.
     const double relativeRadius = typicalRelativeRadius(radii);
@@ -47,7 +49,7 @@ void PairTraversal::renewList(const ForceField& field, const Particles& particle
     double skin = kDefaultSkin;
     if (step > 0.0 && list.count() > 0 && particles.count() > 0)
         skin = optimalSkin(neighborsWithin(cutoff, relativeRadius * list.cutoff + list.skin, list),
-                           step * largestRelativeSpeed(velocities) / cutoff);
+                           step * largestRelativeSpeed(velocities, groups) / cutoff);
     build(list, particles.position, radii, terms.cutoff, skin * cutoff);
     isPacked = false;  // the new list has the particles in another order
 }

@@ -27,7 +27,8 @@ struct PairTraversal {
     PairConstants<double> uniform = {};  ///< constants of every pair where terms.uniform
     double uniformRadius = 0.0;          ///< radius of every particle where terms.uniform, m
     NeighborList list;
-    Precision precision = Precision::doubles;               ///< precision of the pair forces where terms.uniform
+    FarGroups groups;                          ///< groups each of which may move as a whole without outdating the list
+    Precision precision = Precision::doubles;  ///< precision of the pair forces where terms.uniform
     Scratch<std::vector<PackedParticle>> packed;            ///< particles in double; valid while isPacked
     Scratch<std::vector<PackedParticleFloat>> packedFloat;  ///< particles in float; empty for a pass in double
     double unit = 1.0;                                      ///< length unit of the packed coordinates, m

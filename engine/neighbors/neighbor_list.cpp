@@ -271,6 +271,21 @@ double slackOf(const NeighborList& list, double cutoff) {
     return 0.5 * (list.reach() - cutoff);
 }
 
+/// Whether all particles have moved by at most the slack (m) relative to their group, and no two groups are within the
+/// cutoff (m). Pairs within a group are then listed, and no others act on each other.
+bool coversGroups(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, double slack,
+                  const FarGroups& groups) {
+    const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
+    std::vector<Vec3> common;  // displacement of each group
+    for (const std::uint32_t leader : groups.leaders) {
+        const Vec3 moved = displacement(leader);
+        common.push_back(squaredLength(moved) > slack * slack ? moved : Vec3(Vec3::Zero()));
+    }
+    const auto relative = [&](std::size_t p) -> Vec3 { return displacement(p) - common[groups.of(p)]; };
+    return areWithin(slack, Vec3::Zero(), positions.size(), relative) &&
+           stayApart(groups, positions, std::vector<Vec3>(groups.count(), Vec3::Zero()), cutoff);
+}
+
 /// Cost per particle and time step of building a neighbor list and of the passes over it, in the cost of one pair.
 /// Building costs as much as kPerParticle pairs for each particle, plus kPerEntry pairs for each entry of its row.
 /// Measured: rows "list" and "forces" of `globular bench` at 5 to 90 neighbors, between double and float.
@@ -315,13 +330,14 @@ std::size_t NeighborList::laneSlotOf(std::size_t p) const {
     return laneSlot;
 }
 
-bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff) {
+bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, const FarGroups& groups) {
     if (!isOf(list, positions.size(), cutoff)) return false;
     if (positions.empty()) return true;
     const double slack = slackOf(list, cutoff);
     const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
     // The usual case is that no particle has moved far.
     if (areWithin(slack, Vec3::Zero(), positions.size(), displacement)) return true;
+    if (groups.exist() && coversGroups(list, positions, cutoff, slack, groups)) return true;
     // If the displacements of two particles differ by more than 2 * slack, no common translation brings both within
     // slack. The newest particles are tested first, because they are often the fastest.
     const std::size_t some = std::min(positions.size(), kSumChunk);

@@ -9,6 +9,7 @@
 
 #include "engine/core/scratch.h"
 #include "engine/neighbors/cell_grid.h"
+#include "engine/neighbors/far_groups.h"
 #include "engine/neighbors/list_search.h"
 #include "engine/neighbors/neighbor_rows.h"
 #include "engine/neighbors/size_classes.h"
@@ -56,7 +57,8 @@ void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<con
 
 /// Whether a neighbor list certainly contains every pair of particles that act on each other at these positions (m).
 /// @param cutoff  of the largest particles, m
-bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff);
+/// @param groups  groups each of which may have moved as a whole, if they are farther apart than the cutoff
+bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, const FarGroups& groups = {});
 
 /// Skin, as a share of the cutoff, for use where the speed of the particles is not known. Chosen: about the best for a
 /// liquid.

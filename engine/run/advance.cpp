@@ -3,6 +3,7 @@
 
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/checked_steps.h"
+#include "engine/stepping/free_groups.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/symplectic_euler.h"
@@ -17,6 +18,7 @@ Simulation start(const Setup& setup) {
     simulation.particles = setup.initial;
     for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
     emitDue(simulation);
+    renewGroups(simulation);
     return simulation;
 }
 
@@ -29,6 +31,7 @@ void advance(Simulation& simulation, double time) {
         advanceAutomatically(simulation, time);
     else
         advanceChecked(simulation, time, simulation.setup.step, StepLimit::fixed);
+    renewGroups(simulation);
 }
 
 }  // namespace engine

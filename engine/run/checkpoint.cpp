@@ -10,6 +10,7 @@
 #include "engine/core/hash.h"
 #include "engine/run/advance.h"
 #include "engine/run/state_validation.h"
+#include "engine/stepping/free_groups.h"
 #include "engine/stepping/step_cache.h"
 
 namespace engine {
@@ -195,6 +196,7 @@ Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> by
     require(shape == shapeOf(simulation), "it is of another scene");
     exchange(reader, simulation);
     if (const char* const flaw = stateError(simulation)) throw CheckpointError(flaw);
+    renewGroups(simulation);
     std::vector<Vec3> builtAt;
     double cutoff = 0.0;
     double skin = 0.0;

@@ -51,8 +51,9 @@ void prepareDrift(Simulation& simulation) {
     cache.startCutoff = termsFor(cache.evaluator.forceField(), particles).cutoff;
     // A Verlet stepper has evaluated the forces at the start of the step, and with them has brought the neighbor list
     // up to date if the force method uses one.
-    cache.startIsListed = (isVerlet(simulation.stepper) && cache.evaluator.needsList()) ||
-                          covers(cache.evaluator.list(), cache.startPositions, cache.startCutoff);
+    cache.startIsListed =
+        (isVerlet(simulation.stepper) && cache.evaluator.needsList()) ||
+        covers(cache.evaluator.list(), cache.startPositions, cache.startCutoff, cache.evaluator.groups());
 }
 
 Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
@@ -75,6 +76,18 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     if (!contacts.needsSweep && !(pathLength > contacts.gap && hasNoNeighbor())) return contacts.force;
     cache.swept[p] = 1;
     return Vec3::Zero();
+}
+
+bool hadFreePath(const Simulation& simulation, std::size_t p, const Vec3& start) {
+    const Obstacles& obstacles = simulation.setup.obstacles;
+    if (obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return true;
+    if (simulation.cache->swept[p]) return false;  // swept contacts are those in a particle's way
+    BallisticState state = ballisticStateOf(simulation, p);
+    state.probe.position = start;
+    const double gap = contactsInStep(obstacles, state, 0.0, false).gap;
+    // A clearance is smaller by a whole margin, so that a particle which is clear of obstacles also passes this test.
+    const double margin = 0.5 * kMargin * state.probe.radius;
+    return std::sqrt(squaredLength(simulation.particles.position[p] - start)) <= gap - margin;
 }
 
 void driftSwept(Simulation& simulation, std::size_t p, double h) {

@@ -20,6 +20,10 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h);
 /// Whether a particle is known to touch no obstacle, without computing its distance from any.
 bool isClearOfObstacles(const Simulation& simulation, std::size_t p);
 
+/// Whether no obstacle was in a particle's way in a step: whether all of them were further from where it started (m)
+/// than it has moved. Depends on the step only, and not on what is known of the particle's clearance.
+bool hadFreePath(const Simulation& simulation, std::size_t p, const Vec3& start);
+
 /// Moves a particle with a swept contact for h seconds; its velocity changes where it meets an obstacle.
 void driftSwept(Simulation& simulation, std::size_t p, double h);
 

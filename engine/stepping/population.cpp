@@ -11,6 +11,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/random.h"
 #include "engine/neighbors/linked_cells.h"
+#include "engine/stepping/free_groups.h"
 #include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
@@ -161,6 +162,7 @@ void removeOutOfBounds(Simulation& simulation) {
     simulation.removedCount += countBefore - particles.count();
     simulation.largestCountBeforeRemoval = std::max<std::uint64_t>(simulation.largestCountBeforeRemoval, countBefore);
     simulation.cache->invalidate();
+    renewGroups(simulation);
 }
 
 }  // namespace engine

@@ -7,7 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/stepping/drift.h"
-#include "engine/stepping/step_cache.h"
+#include "engine/stepping/free_groups.h"
 
 namespace engine {
 namespace {
@@ -34,22 +34,60 @@ double energyWithEarlier(const Simulation& simulation, std::size_t p, const Link
     return energy;
 }
 
-/// Whether a step may move particles by more than their radius: only where there is a single particle that cannot have
-/// passed through an obstacle.
+/// Whether a step may move every particle by more than its radius: only where there is a single particle that cannot
+/// have passed through an obstacle.
 bool mayGoFar(const Simulation& simulation) {
     if (simulation.particles.count() > 1) return false;
     return simulation.particles.count() == 0 || simulation.setup.obstacles.shapes.empty() ||
            simulation.cache->swept[0] != 0 || isClearOfObstacles(simulation, 0);
 }
 
-bool movedTooFar(const Simulation& simulation, const SavedState& saved) {
+/// How far a particle has moved in a step.
+enum class Displacement : int {
+    near,       ///< by at most its radius
+    withGroup,  ///< further, but in free fall and by at most its radius relative to its group
+    tooFar
+};
+
+Displacement displacementOf(const Simulation& simulation, const SavedState& saved, std::size_t p) {
     const Particles& particles = simulation.particles;
+    const double radiusSq = particles.radius[p] * particles.radius[p];
+    const Vec3 moved = particles.position[p] - saved.position[p];
+    if (squaredLength(moved) <= radiusSq) return Displacement::near;
+    const FarGroups& groups = simulation.cache->evaluator.groups();
+    if (!groups.exist() || !hadFreePath(simulation, p, saved.position[p])) return Displacement::tooFar;
+    const std::size_t leader = groups.leaders[groups.of(p)];
+    const Vec3 common = particles.position[leader] - saved.position[leader];
+    // A NaN counts as too far.
+    return squaredLength(moved - common) <= radiusSq ? Displacement::withGroup : Displacement::tooFar;
+}
+
+bool movedTooFar(const Simulation& simulation, const SavedState& saved) {
     if (mayGoFar(simulation)) return false;
-    const double far = largestOver(particles.count(), [&](std::size_t p) {
-        const double distanceSq = squaredLength(particles.position[p] - saved.position[p]);
-        return distanceSq <= particles.radius[p] * particles.radius[p] ? 0.0 : 1.0;  // a NaN counts as too far
+    const double farthest = largestOver(simulation.particles.count(), [&](std::size_t p) {
+        return static_cast<double>(displacementOf(simulation, saved, p));
     });
-    return far > 0.0;
+    if (farthest != static_cast<double>(Displacement::withGroup))
+        return farthest > static_cast<double>(Displacement::withGroup);
+    return !haveStayedApart(simulation, saved.position);
+}
+
+/// Energy that the step from the saved state to the present one may have gained, J. Of the motion of groups in free
+/// fall, only the rounding errors count. An implicit step of h seconds from a state x, v knows the energy at the
+/// velocity v + h/2 g, but at the position x + h/2 v, which is h^2/8 g short of where a fall would be: m h^2 g^2 / 8
+/// too high.
+double allowanceFor(const Simulation& simulation, const SavedState& saved) {
+    double allowance = saved.allowance;
+    const std::vector<GroupMotion> motions = groupMotions(simulation);
+    const std::vector<bool> areFree = groupsInFreeFall(simulation, saved.position);
+    for (std::size_t group = 0; group < motions.size(); ++group) {
+        if (!areFree[group]) continue;
+        const auto& [mass, momentum] = saved.groupMotions[group];
+        allowance -= (kEnergyAllowance - kRounding) * 0.5 * squaredLength(momentum) / mass;
+        if (!isVerlet(simulation.stepper))
+            allowance += 0.125 * squaredLength(motions[group].momentum - momentum) / mass;
+    }
+    return allowance;
 }
 
 }  // namespace
@@ -67,6 +105,7 @@ double energyAllowance(const Simulation& simulation) {
 void recordEnergy(Simulation& simulation, const ParticleEnergy& own, double pairEnergy) {
     simulation.cache->kinetic = own.kinetic;
     simulation.cache->energy = own.kinetic + own.potential + pairEnergy;
+    simulation.cache->groupMotions = groupMotions(simulation);
 }
 
 void recordEnergy(Simulation& simulation, double pairEnergy) {
@@ -99,6 +138,7 @@ void save(const Simulation& simulation, SavedState& saved) {
     if (saved.forcesCurrent) copy(cache.forces, saved.forces);
     saved.energy = cache.energy;
     saved.kinetic = cache.kinetic;
+    saved.groupMotions = cache.groupMotions;
     saved.allowance = energyAllowance(simulation);
     saved.steps = simulation.steps;
 }
@@ -120,6 +160,7 @@ void restore(Simulation& simulation, const SavedState& saved) {
     }
     cache.energy = saved.energy;
     cache.kinetic = saved.kinetic;
+    cache.groupMotions = saved.groupMotions;
     const StepStatistics spent = simulation.steps;
     simulation.steps = saved.steps;
     simulation.steps.forceEvaluations = spent.forceEvaluations;
@@ -129,7 +170,8 @@ void restore(Simulation& simulation, const SavedState& saved) {
 
 std::optional<StepLimit> rejectionReason(const Simulation& simulation, const SavedState& saved) {
     if (movedTooFar(simulation, saved)) return StepLimit::displacement;
-    if (saved.energy && !(*simulation.cache->energy <= *saved.energy + saved.allowance)) return StepLimit::audit;
+    if (saved.energy && !(*simulation.cache->energy <= *saved.energy + allowanceFor(simulation, saved)))
+        return StepLimit::audit;
     return std::nullopt;
 }
 

@@ -9,6 +9,8 @@ void StepCache::invalidate() {
     clearance.clear();
     cachedNeighbors.clear();
     evaluator.forgetList();
+    evaluator.setGroups({});
+    groupMotions.clear();
 }
 
 StepCachePointer::StepCachePointer() : cache_(std::make_unique<StepCache>()) {}

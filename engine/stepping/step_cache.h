@@ -23,13 +23,20 @@ struct ImplicitScratch {
     std::vector<Vec3> change;         ///< half the change of velocities in a step, in the matrix's order, m/s
 };
 
+/// Mass and momentum of a group of particles that is far from all others; see free_groups.h.
+struct GroupMotion {
+    double mass = 0.0;             ///< kg
+    Vec3 momentum = Vec3::Zero();  ///< kg m/s
+};
+
 struct StepCache {
     ForceEvaluator evaluator;  ///< force evaluator, which has the neighbor list
 
     std::vector<Vec3> forces;  ///< forces of pairs and gravity, N; valid for the next step if forcesCurrent
     bool forcesCurrent = false;
-    std::optional<double> energy;  ///< total energy after the last step, J; see step_audit.h
-    double kinetic = 0.0;          ///< kinetic energy after the last step, J
+    std::optional<double> energy;           ///< total energy after the last step, J; see step_audit.h
+    double kinetic = 0.0;                   ///< kinetic energy after the last step, J
+    std::vector<GroupMotion> groupMotions;  ///< of the evaluator's groups, when the energy was recorded
 
     /// Lower bound on the distance from each particle's surface to the nearest obstacle, m. Valid as long as particles
     /// are moved by steps only; empty where nothing is known.

@@ -110,6 +110,18 @@ TEST_CASE("A run of two materials, with random emissions and friction, goes on w
     checkGoingOn(setup, 12);
 }
 
+TEST_CASE("A run with strays goes on with the same bits", "[checkpoint]") {
+    const StepperKind stepper =
+        GENERATE(StepperKind::velocityVerlet, StepperKind::linearlyImplicit, StepperKind::automatic);
+    Setup setup = busySetup(stepper);
+    setup.obstacles.shapes.front() = engine::Box{Vec3(-2, -1.6, -2), Vec3(2, -0.6, 2)};
+    append(setup.initial, {.position = Vec3(0, -300, 0), .velocity = Vec3(0, -200, 0), .radius = 0.15, .mass = 0.1});
+    append(setup.initial, {.position = Vec3(0, -300.25, 0), .velocity = Vec3(0, -200, 0), .radius = 0.15, .mass = 0.1});
+    setup.world = engine::BoundingBox::unbounded();
+    setup.world->low.x() = -0.4;  // crosses the block, so that particles are removed
+    checkGoingOn(setup, 12);
+}
+
 TEST_CASE("A run without particles goes on", "[checkpoint]") {
     Setup setup = busySetup(StepperKind::automatic);
     setup.initial = {};
