@@ -49,9 +49,10 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
     CHECK(textOf(folder / "c.mp4") == textOf(folder / "a.mp4"));
 
     const auto json = nlohmann::json::parse(textOf(folder / "a/run.json"));
-    for (const char* key : {"scene", "scene_hash", "version", "threads", "instruction_set", "gl_renderer", "particles",
-                            "births", "refused_births", "deaths", "frames", "stepper", "steps", "seconds",
-                            "error_estimate", "energy", "linear_momentum", "angular_momentum", "state_hash"})
+    for (const char* key :
+         {"scene",   "scene_hash",     "version", "threads",         "instruction_set",  "gl_renderer", "particles",
+          "births",  "refused_births", "deaths",  "strays",          "frames",           "stepper",     "steps",
+          "seconds", "error_estimate", "energy",  "linear_momentum", "angular_momentum", "state_hash"})
         CHECK(json.contains(key));
     CHECK(json["frames"] == 10);
     CHECK(json["steps"]["count"] >= 9);  // at least one between two frames
@@ -60,6 +61,28 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
     CHECK(single["threads"] == 1);
     CHECK(single["state_hash"] == json["state_hash"]);
     CHECK(single["scene_hash"] == json["scene_hash"]);
+}
+
+TEST_CASE("A run says that particles have left the scene", "[tools]") {
+    const program::Folder folder;
+    const std::string scene = (folder / "table.toml").string();
+    std::ofstream(scene) << "title = \"table\"\nduration = 3\nfps = 10\n[material]\npreset = \"solid\"\n"
+                            "[[body]]\nshape = \"points\"\npositions = [[0, 1, 0], [2, 1, 0], [2.3, 1, 0]]\n"
+                            "[[obstacle]]\nshape = \"box\"\ncenter = [0, 0, 0]\nsize = [1, 1, 1]\n";
+    const auto strays = [&](const std::string& name) {
+        return nlohmann::json::parse(textOf(folder / name / "run.json"))["strays"];
+    };
+    const std::string to = "simulate " + scene + " --quiet -o ";
+    const auto whole = run(to + (folder / "whole").string());
+    CHECK(whole.code == 0);
+    CHECK(whole.err ==
+          "warning: 2 particles have left the scene and will be computed until the run ends; a [world] with bounds "
+          "removes them\n");
+    CHECK(strays("whole") == 2);
+    const auto bounded = run(to + (folder / "bounded").string() + " --set 'world.minimum=[-9, -9, -9]'");
+    CHECK(bounded.code == 0);
+    CHECK(bounded.err.empty());
+    CHECK(strays("bounded") == 0);
 }
 
 TEST_CASE("A list of frames gives just these frames, and is resumed", "[tools]") {

@@ -12,6 +12,7 @@
 #include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
 #include "scenes/view/frame_view.h"
+#include "tools/run/stray_warning.h"
 #include "tools/system/json.h"
 
 namespace tools {
@@ -161,6 +162,7 @@ void FrameSequence::finish() {
 FinishedRun FrameSequence::take() {
     if (folder_ != nullptr) {
         run_.json = runJson(scene_, run_);
+        warnOfStrays(run_.simulation);
         folder_->writeReport(run_.json);
     }
     run_.simulation.beforeStep = nullptr;  // refers to this object

@@ -10,6 +10,7 @@
 #include "engine/error_control/long_error_estimate.h"
 #include "engine/forces/simd_forces.h"
 #include "engine/run/diagnostics.h"
+#include "engine/run/strays.h"
 #include "engine/stepping/take_step.h"
 #include "render/picture/system_error.h"
 #include "tools/system/json.h"
@@ -142,6 +143,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);
     json["deaths"] = simulation.removedCount;
+    json["strays"] = engine::strayCount(simulation);
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;

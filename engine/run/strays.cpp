@@ -1,0 +1,64 @@
+// Compares the particles with the box in which the scene takes place.
+#include "engine/run/strays.h"
+
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+#include "engine/core/bounding_box.h"
+#include "engine/core/parallel.h"
+
+namespace engine {
+namespace {
+
+/// Distance from the scene's place, in diagonals of its box, beyond which particles count as strays. Chosen: far
+/// outside any picture that shows the scene.
+constexpr double kFarDiagonals = 4.0;
+
+/// The box of a solid obstacle; none of a plane, which has no end.
+std::optional<BoundingBox> boxOf(const Obstacle& obstacle) {
+    if (const auto* box = std::get_if<Box>(&obstacle)) return BoundingBox{box->minimum, box->maximum};
+    if (const auto* walls = std::get_if<Container>(&obstacle)) return BoundingBox{walls->minimum, walls->maximum};
+    if (const auto* sphere = std::get_if<Sphere>(&obstacle)) {
+        const Vec3 half = Vec3::Constant(sphere->radius);
+        return BoundingBox{sphere->center - half, sphere->center + half};
+    }
+    return std::nullopt;
+}
+
+/// The box around everything that the scene begins with; none if that is nothing.
+std::optional<BoundingBox> placeOf(const Setup& setup) {
+    std::optional<BoundingBox> place;
+    const auto include = [&](const BoundingBox& box) {
+        if (!place) place = box;
+        place->include(box);
+    };
+    for (std::size_t p = 0; p < setup.initial.count(); ++p) {
+        const Vec3 half = Vec3::Constant(setup.initial.radius[p]);
+        include({setup.initial.position[p] - half, setup.initial.position[p] + half});
+    }
+    for (const Emitter& emitter : setup.emitters)
+        for (const Vec3& site : emitter.sites) include({site, site});
+    for (const Obstacle& obstacle : setup.obstacles.shapes)
+        if (const auto box = boxOf(obstacle)) include(*box);
+    return place;
+}
+
+}  // namespace
+
+std::uint64_t strayCount(const Simulation& simulation) {
+    const Particles& particles = simulation.particles;
+    const Setup& setup = simulation.setup;
+    const std::optional<BoundingBox> place = placeOf(setup);
+    if (!place) return 0;
+    const double far = kFarDiagonals * (place->high - place->low).norm();
+    return sumOver<std::uint64_t>(particles.count(), [&](std::size_t p) -> std::uint64_t {
+        const Vec3& x = particles.position[p];
+        const Vec3& v = particles.velocity[p];
+        const Vec3 away = x - x.cwiseMax(place->low).cwiseMin(place->high);
+        if (!(squaredLength(away) > far * far && dot(v, away) > 0.0 && dot(v, setup.gravity) >= 0.0)) return 0;
+        return sumContacts(setup.obstacles, {x, v, particles.radius[p]}).energy > 0.0 ? 0 : 1;
+    });
+}
+
+}  // namespace engine
