@@ -63,7 +63,7 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
     CHECK(single["scene_hash"] == json["scene_hash"]);
 }
 
-TEST_CASE("A run says that particles have left the scene", "[tools]") {
+TEST_CASE("A run and check say that particles have left the scene", "[tools]") {
     const program::Folder folder;
     const std::string scene = (folder / "table.toml").string();
     std::ofstream(scene) << "title = \"table\"\nduration = 3\nfps = 10\n[material]\npreset = \"solid\"\n"
@@ -79,6 +79,9 @@ TEST_CASE("A run says that particles have left the scene", "[tools]") {
           "warning: 2 particles have left the scene and will be computed until the run ends; a [world] with bounds "
           "removes them\n");
     CHECK(strays("whole") == 2);
+    const auto check = run("check " + scene);
+    CHECK(check.code == 0);
+    CHECK(check.out.find("\nwarning    2 particles have left the scene") != std::string::npos);
     const auto bounded = run(to + (folder / "bounded").string() + " --set 'world.minimum=[-9, -9, -9]'");
     CHECK(bounded.code == 0);
     CHECK(bounded.err.empty());

@@ -9,12 +9,14 @@
 #include <optional>
 
 #include "engine/neighbors/pair_estimate.h"
+#include "engine/run/strays.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
 #include "scenes/build/start_warnings.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
+#include "tools/run/stray_warning.h"
 #include "tools/run/threads.h"
 #include "tools/system/timed_child.h"
 
@@ -61,6 +63,7 @@ Json predictionJson(const scenes::Scene& scene, double meanParticles) {
                         : Json(nullptr);
     json["seconds_simulating"] =
         ifKnown(preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames));
+    json["strays"] = engine::strayCount(preview.simulation);
     json["bytes_per_particle"] = preview.bytesPerParticle;
     json["bytes_of_materials"] = preview.bytesOfMaterials;
     return json;
@@ -194,6 +197,8 @@ std::string predictedText(const Json& json) {
     if (!predicted["error"].is_null())
         text += fmt::format("error      {:.2g} radii a second wanted, {:.2g} measured so far\n",
                             json["wanted_error"].get<double>(), predicted["error"].get<double>());
+    if (const auto strays = predicted["strays"].get<std::uint64_t>(); strays > 0)
+        text += fmt::format("warning    {}\n", strayWarning(strays));
     if (json.contains("step_bound_at_start")) text += fmt::format("step bound {}\n", boundText(json));
     text += fmt::format("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
                         json["bytes_per_particle"].get<std::size_t>());
