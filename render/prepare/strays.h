@@ -13,11 +13,11 @@ namespace render {
 
 /// The view without its strays, or nothing if it has none.
 ///
-/// A particle matters if it may touch the picture, or if it lies so near that it may hide some of the sky from what is
-/// seen, or if its shadow may fall on something that is seen. A stray is a particle that does not matter and lies
-/// outside of the box around those that do, grown by half of its longest side on each side: what is nearer does no
-/// harm, and a film in which particles leave the picture shall not change with each of them. The same holds for sphere
-/// obstacles. A view in which no particle matters has no strays.
+/// A stray is a particle that does not touch the picture, nor lies so near that it may hide some of the sky from what
+/// is seen, nor casts a shadow on anything that is seen; and that lies outside of the box around the particles that are
+/// seen, grown by half of its longest side on each side. What is nearer does no harm, and a film in which particles
+/// leave the picture shall not change with each of them. The same holds for sphere obstacles. A view in which no
+/// particle is seen has no strays.
 ///
 /// The shadow of a ball does not count at a distance of more than 2048 of its radii, or where it is narrower than half
 /// a pixel. The radius of a metaball is that of its field.
