@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -14,6 +15,7 @@
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
+#include "tools/system/memory.h"
 #include "tools/system/process.h"
 #include "tools/system/text.h"
 
@@ -58,6 +60,8 @@ int run(CLI::App& program, int argc, char** argv) {
         // fmt::print throws std::system_error when it cannot write to standard output.
         const bool isReaderGone = error.code() == std::errc::broken_pipe;
         return isReaderGone ? tools::kReaderGoneCode : report(error.what(), kOutsideFailed);
+    } catch (const std::bad_alloc& error) {
+        return report(tools::memoryMessage(error, "", ""), kOutsideFailed);
     } catch (const std::logic_error& error) {
         report(fmt::format("internal error: {}", error.what()), 0);
         std::abort();  // an abort leaves a core dump for the debugger

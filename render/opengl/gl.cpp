@@ -61,6 +61,9 @@ Target::Target(const Gl& gl, int width, int height)
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, pixels_.get(), 0);
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
+        if (gl.GetError() == GL_OUT_OF_MEMORY)
+            throw SystemError(fmt::format("OpenGL has not got the {:.0f} MB of memory for {} x {} pixels; choose fewer",
+                                          4e-6 * width * height, width, height));
         throw SystemError(
             fmt::format("OpenGL cannot draw to {} x {} pixels: framebuffer status 0x{:04x}", width, height, status));
     }

@@ -18,6 +18,7 @@
 #include "tools/run/run_report.h"
 #include "tools/run/stray_warning.h"
 #include "tools/run/threads.h"
+#include "tools/system/memory.h"
 #include "tools/system/timed_child.h"
 
 namespace tools {
@@ -145,8 +146,10 @@ void examine(const scenes::Scene& scene, const Report& report) {
 /// so long.
 Json checkJson(const scenes::Scene& scene, int threads) {
     // The child comes first, because it must not be started after other threads.
-    const Json found =
-        runInChild(kMostSeconds, [&](const Report& report) { onThreads(threads, [&] { examine(scene, report); }); });
+    const Json found = runInChild(kMostSeconds, [&](const Report& report) {
+        withMemoryForParticles(scene.setup.initial.count(),
+                               [&] { onThreads(threads, [&] { examine(scene, report); }); });
+    });
     Json json;
     onThreads(threads, [&] { json = sceneJson(scene); });
     json.update(found);

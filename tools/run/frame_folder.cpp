@@ -192,6 +192,8 @@ std::optional<RestartPoint> FrameFolder::restartPoint(const engine::Setup& setup
             const auto bytes = readFile(path);
             if (checksumOf(bytes) != record.checksum) throw engine::CheckpointError("it is damaged or truncated");
             return RestartPoint{frame, engine::decodeCheckpoint(setup, bytes), record.report};
+        } catch (const std::bad_alloc&) {
+            throw;  // an earlier checkpoint would need as much
         } catch (const std::exception& error) {
             printWarning(fmt::format("cannot resume from {}: {}", path.string(), error.what()));
         }

@@ -14,6 +14,7 @@
 #include "scenes/view/frame_view.h"
 #include "tools/run/stray_warning.h"
 #include "tools/system/json.h"
+#include "tools/system/memory.h"
 
 namespace tools {
 namespace {
@@ -40,6 +41,10 @@ std::string hashOf(const FrameList& frames) {
     return engine::hexadecimal(hash);
 }
 
+std::vector<std::uint8_t> checkpointOf(const engine::Simulation& simulation) {
+    return withMemoryForParticles(simulation.particles.count(), [&] { return engine::encodeCheckpoint(simulation); });
+}
+
 }  // namespace
 
 FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const SequenceOptions& options,
@@ -54,7 +59,9 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const
                                : isatty(STDERR_FILENO) == 1              ? kNoticeOnTerminal
                                                                          : kNotice;
     if (folder_ != nullptr) interrupts_.emplace(2, notice);
-    if (folder_ == nullptr || !resume()) run_.simulation = engine::start(scene_.setup);
+    withMemoryForParticles(scene_.setup.initial.count(), [this] {
+        if (folder_ == nullptr || !resume()) run_.simulation = engine::start(scene_.setup);
+    });
     run_.simulation.beforeStep = [this](const engine::Simulation& simulation) {
         progress_.stepBegins(simulation.time);
         if (mustStop()) throw engine::Stopped();
@@ -90,7 +97,8 @@ std::optional<SequencedFrame> FrameSequence::next() {
     frame.isWanted = frames_.indexOf(frame.number).has_value();
     frame.isKept = frame.isWanted && folder_ != nullptr && folder_->isKept(frame.number);
     const bool isNew = frame.number > position_;
-    if (isNew && !advanceTo(frame.number)) return std::nullopt;
+    const auto advance = [&] { return advanceTo(frame.number); };
+    if (isNew && !withMemoryForParticles(run_.simulation.particles.count(), advance)) return std::nullopt;
     ++next_;
     if (!frame.isWanted)
         progress_.frameSkipped(frame.number, frame.time, *std::ranges::upper_bound(frames_.numbers, frame.number));
@@ -100,7 +108,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     if (frame.isWanted && !frame.isKept) frame.stateHash = run_.report.stateHash;
     const std::chrono::duration<double> sinceCheckpoint = std::chrono::steady_clock::now() - lastCheckpoint_;
     if (isNew && sinceCheckpoint.count() >= folder_->checkpointSeconds()) {
-        frame.checkpoint = engine::encodeCheckpoint(run_.simulation);
+        frame.checkpoint = checkpointOf(run_.simulation);
         frame.report = checkpointReport();
         lastCheckpoint_ = std::chrono::steady_clock::now();
     }
@@ -155,7 +163,7 @@ void FrameSequence::finish() {
     // before it to be written.
     if (!report.unstable.empty() || report.isCutShort) return;
     if (folder_ != nullptr && position_ >= 0)
-        folder_->writeCheckpoint(position_, engine::encodeCheckpoint(run_.simulation), checkpointReport());
+        folder_->writeCheckpoint(position_, checkpointOf(run_.simulation), checkpointReport());
     report.stateHash = engine::stateHash(run_.simulation.particles);
 }
 

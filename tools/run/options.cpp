@@ -17,6 +17,7 @@
 #include "scenes/text/read_file.h"
 #include "scenes/text/value.h"
 #include "tools/run/threads.h"
+#include "tools/system/memory.h"
 #include "tools/system/process.h"
 #include "tools/system/processors.h"
 #include "tools/system/text.h"
@@ -78,10 +79,13 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     scenes::Overrides overrides(options.changes.begin(), options.changes.end());
     overrides.insert(overrides.end(), more.begin(), more.end());
     const scenes::Limits limits = limitsOf(options.limits);
+    const auto read = [&] {
+        if (options.scene == kStandardStream)
+            return scenes::readScene(readStandardInput(scenes::kMaxSceneFileBytes), "<stdin>", overrides, limits);
+        return scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limits);
+    };
     scenes::Scene scene =
-        options.scene == kStandardStream
-            ? scenes::readScene(readStandardInput(scenes::kMaxSceneFileBytes), "<stdin>", overrides, limits)
-            : scenes::loadScene(scenes::resolveScene(options.scene, sceneFolder()), overrides, limits);
+        withMemoryFor([&] { return "reading the scene " + options.scene; }, "give the scene fewer particles", read);
     for (const std::string& warning : scene.warnings) printWarning(warning);
     if (const auto& colorBar = scene.look.common.overlay.colorBar) warnOfLabel(colorBar->title);
     return scene;

@@ -19,6 +19,7 @@
 #include "tools/run/frame_sequence.h"
 #include "tools/run/threads.h"
 #include "tools/system/json.h"
+#include "tools/system/memory.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
 
@@ -173,7 +174,8 @@ class RenderRun {
 }  // namespace
 
 FinishedRun renderFrames(const RenderJob& job) {
-    return RenderRun(job).all();
+    const render::PictureSize size = job.scene->size;
+    return withMemoryForPictures(size.width, size.height, [&] { return RenderRun(job).all(); });
 }
 
 }  // namespace tools

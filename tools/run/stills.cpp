@@ -13,6 +13,7 @@
 #include "scenes/text/input_error.h"
 #include "scenes/view/frame_view.h"
 #include "tools/run/threads.h"
+#include "tools/system/memory.h"
 
 namespace tools {
 namespace {
@@ -36,13 +37,14 @@ StillPictures drawAll(const DrawJob& job, const StillSelection& selection) {
     if (selection.stillFrame) frames.insert(*selection.stillFrame);
     render::Context context = openContext(job.backend, job.threads);
     render::Renderer renderer(context, scene.size, job.quality);
-    engine::Simulation simulation = engine::start(scene.setup);
+    const auto inMemory = [&](const auto& work) { return withMemoryForParticles(scene.setup.initial.count(), work); };
+    engine::Simulation simulation = inMemory([&] { return engine::start(scene.setup); });
     Progress progress(job.title, static_cast<int>(frames.size()), job.verbosity);
     StillPictures pictures;
     std::vector<render::Panel> panels;
     simulation.beforeStep = [&](const engine::Simulation& stepping) { progress.stepBegins(stepping.time); };
     for (const int frame : frames) {
-        advanceTo(scene, frame, simulation, progress);
+        inMemory([&] { advanceTo(scene, frame, simulation, progress); });
         const Progress::Work work(progress, fmt::format("drawing frame {}", frame));
         render::View view = scenes::frameView(scene, simulation);
         if (frame == selection.stillFrame) pictures.still = renderer.draw(view);
@@ -74,7 +76,9 @@ void requireStripSize(const scenes::Scene& scene, std::size_t panels) {
 StillPictures drawStills(const DrawJob& job, const StillSelection& selection) {
     requireStripSize(*job.scene, selection.stripFrames.size());
     StillPictures pictures;
-    onThreads(job.threads, [&] { pictures = drawAll(job, selection); });
+    const render::PictureSize size = job.scene->size;
+    withMemoryForPictures(size.width, size.height,
+                          [&] { onThreads(job.threads, [&] { pictures = drawAll(job, selection); }); });
     return pictures;
 }
 
