@@ -25,19 +25,24 @@ double interactionRange(const Simulation& simulation) {
 void renewGroups(Simulation& simulation) {
     StepCache& cache = *simulation.cache;
     cache.evaluator.setGroups(findFarGroups(simulation.particles.position, kFar * interactionRange(simulation)));
-    cache.groupMotions = groupMotions(simulation);
+    cache.groupEnergies = groupEnergies(simulation);
 }
 
-std::vector<GroupMotion> groupMotions(const Simulation& simulation) {
+std::vector<GroupEnergy> groupEnergies(const Simulation& simulation) {
     const FarGroups& groups = simulation.cache->evaluator.groups();
     const Particles& particles = simulation.particles;
-    std::vector<GroupMotion> motions(groups.count());
+    std::vector<GroupEnergy> energies(groups.count());
+    std::vector<double> mass(groups.count());
+    std::vector<Vec3> momentum(groups.count(), Vec3::Zero());
     for (std::size_t p = 0; p < groups.groupOf.size(); ++p) {
-        GroupMotion& motion = motions[groups.groupOf[p]];
-        motion.mass += particles.mass[p];
-        motion.momentum += particles.mass[p] * particles.velocity[p];
+        const std::uint32_t group = groups.groupOf[p];
+        mass[group] += particles.mass[p];
+        momentum[group] += particles.mass[p] * particles.velocity[p];
+        energies[group].potential -= particles.mass[p] * dot(simulation.setup.gravity, particles.position[p]);
     }
-    return motions;
+    for (std::size_t group = 0; group < groups.count(); ++group)
+        energies[group].kinetic = 0.5 * squaredLength(momentum[group]) / mass[group];
+    return energies;
 }
 
 std::vector<bool> groupsInFreeFall(const Simulation& simulation, const std::vector<Vec3>& before) {

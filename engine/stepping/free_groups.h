@@ -14,8 +14,8 @@ namespace engine {
 /// run and after every interval, so that the groups depend on the state alone and a resumed run has the same.
 void renewGroups(Simulation& simulation);
 
-/// Mass and momentum of each group in the present state.
-std::vector<GroupMotion> groupMotions(const Simulation& simulation);
+/// Energies of the common motion of each group in the present state.
+std::vector<GroupEnergy> groupEnergies(const Simulation& simulation);
 
 /// For each group, whether no obstacle was in the way of any of its particles in the last step.
 /// @param before  positions before the step, in meters

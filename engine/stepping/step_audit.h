@@ -66,7 +66,7 @@ struct SavedState {
     bool forcesCurrent = false;
     std::optional<double> energy;
     double kinetic = 0.0;
-    std::vector<GroupMotion> groupMotions;
+    std::vector<GroupEnergy> groupEnergies;
     double allowance = 0.0;  ///< energy that the next step may gain, J
     StepStatistics steps;
 };

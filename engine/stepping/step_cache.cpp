@@ -10,7 +10,7 @@ void StepCache::invalidate() {
     cachedNeighbors.clear();
     evaluator.forgetList();
     evaluator.setGroups({});
-    groupMotions.clear();
+    groupEnergies.clear();
 }
 
 StepCachePointer::StepCachePointer() : cache_(std::make_unique<StepCache>()) {}

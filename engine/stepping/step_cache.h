@@ -23,10 +23,10 @@ struct ImplicitScratch {
     std::vector<Vec3> change;         ///< half the change of velocities in a step, in the matrix's order, m/s
 };
 
-/// Mass and momentum of a group of particles that is far from all others; see free_groups.h.
-struct GroupMotion {
-    double mass = 0.0;             ///< kg
-    Vec3 momentum = Vec3::Zero();  ///< kg m/s
+/// Energy of the motion that the particles of a group have in common, far from all others; see free_groups.h.
+struct GroupEnergy {
+    double kinetic = 0.0;    ///< of the center of mass, J
+    double potential = 0.0;  ///< in gravity, J
 };
 
 struct StepCache {
@@ -34,9 +34,9 @@ struct StepCache {
 
     std::vector<Vec3> forces;  ///< forces of pairs and gravity, N; valid for the next step if forcesCurrent
     bool forcesCurrent = false;
-    std::optional<double> energy;           ///< total energy after the last step, J; see step_audit.h
-    double kinetic = 0.0;                   ///< kinetic energy after the last step, J
-    std::vector<GroupMotion> groupMotions;  ///< of the evaluator's groups, when the energy was recorded
+    std::optional<double> energy;            ///< total energy after the last step, J; see step_audit.h
+    double kinetic = 0.0;                    ///< kinetic energy after the last step, J
+    std::vector<GroupEnergy> groupEnergies;  ///< of the evaluator's groups, in the state of `energy`
 
     /// Lower bound on the distance from each particle's surface to the nearest obstacle, m. Valid as long as particles
     /// are moved by steps only; empty where nothing is known.

@@ -89,6 +89,19 @@ TEST_CASE("Strays cost no steps and follow their parabola", "[free-groups]") {
     }
 }
 
+TEST_CASE("Strays that drag slows down cost no steps either", "[free-groups]") {
+    Setup setup = block(StepperKind::automatic);
+    setup.drag = 0.5;
+    const auto stepsOf = [](const Setup& of) {
+        Simulation simulation = start(of);
+        runs::advanceFrames(simulation, 0, 90);
+        return static_cast<double>(simulation.steps.count);
+    };
+    const double without = stepsOf(setup);
+    addStrays(setup);
+    CHECK(stepsOf(setup) <= 1.2 * without);
+}
+
 TEST_CASE("A long step of strays that meet something is rejected", "[free-groups]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 1.0);
     append(setup.initial, {.position = Vec3(0, 0, 0)});
