@@ -1,5 +1,5 @@
-// Parts of the HTML pages that the program writes. Every page is one file with all pictures in it, to be opened from
-// disk or sent by mail.
+// Parts of the HTML pages that the program writes. Every page but the report of `compare` is one file with all pictures
+// in it, to be opened from disk or sent by mail.
 #pragma once
 
 #include <string>
