@@ -8,34 +8,32 @@
 #include "render/picture/system_error.h"
 #include "tests/catch.h"
 
-using tools::Json;
-using tools::Report;
-using tools::runInChild;
-
 TEST_CASE("What a child process reports arrives", "[tools]") {
-    const Json json = runInChild(60, [](const Report& report) {
+    const tools::Json json = tools::runInChild(60, [](const tools::Report& report) {
         report({{"a", 1}, {"b", "first"}});
         report({{"b", "\xff second\n"}});
     });
-    CHECK(json == Json{{"a", 1}, {"b", "\xef\xbf\xbd second\n"}});
+    CHECK(json == tools::Json{{"a", 1}, {"b", "\xef\xbf\xbd second\n"}});
 }
 
 TEST_CASE("A child process that never ends is ended, and what it has reported is kept", "[tools]") {
     const auto start = std::chrono::steady_clock::now();
-    const Json json = runInChild(1, [](const Report& report) {
+    const tools::Json json = tools::runInChild(1, [](const tools::Report& report) {
         report({{"a", 1}});
         for (volatile bool forever = true; forever;) {
         }
     });
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    CHECK(json == Json{{"a", 1}});
+    CHECK(json == tools::Json{{"a", 1}});
     CHECK(seconds > 0.9);   // the alarm counts whole seconds, from at most 0.1 s later
     CHECK(seconds < 10.0);  // on a machine with other work
 }
 
 TEST_CASE("Failures of a child process are failures of the caller", "[tools]") {
-    CHECK_THROWS_AS(runInChild(60, [](const Report&) { throw std::runtime_error("no luck"); }), render::SystemError);
-    CHECK_THROWS_WITH(runInChild(60, [](const Report&) { throw std::runtime_error("no luck"); }), "no luck");
-    CHECK_THROWS_WITH(runInChild(60, [](const Report&) { std::raise(SIGKILL); }),
+    CHECK_THROWS_AS(tools::runInChild(60, [](const tools::Report&) { throw std::runtime_error("no luck"); }),
+                    render::SystemError);
+    CHECK_THROWS_WITH(tools::runInChild(60, [](const tools::Report&) { throw std::runtime_error("no luck"); }),
+                      "no luck");
+    CHECK_THROWS_WITH(tools::runInChild(60, [](const tools::Report&) { std::raise(SIGKILL); }),
                       "the process that tries the scene was ended by signal 9 (Killed); is there enough memory?");
 }
