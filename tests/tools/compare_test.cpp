@@ -375,6 +375,8 @@ TEST_CASE("compare: frames of two videos", "[compare]") {
     };
     REQUIRE(video("actual", "a.mp4") == 0);
     REQUIRE(video("actual", "same.mp4") == 0);
+    REQUIRE(video("actual", "same.mkv") == 0);
+    CHECK(run("compare " + (sides / "same.mkv").string() + " " + (sides / "a.mp4").string() + " --quiet").code == 0);
     fs::create_directories(sides / "50%d");
     fs::copy(sides / "a.mp4", sides / "take:1.mp4");
     const std::string within = "cd " + (sides / "").string() + " && TMPDIR=" + (sides / "50%d").string();

@@ -221,7 +221,7 @@ void addCompareCommand(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "compare", "pictures against what they should be; exit code 0 same, 1 different, 2 trouble");
     const auto options = std::make_shared<CompareOptions>();
-    command.add_option("ACTUAL", options->actual, "a PNG, a folder of PNGs, or an MP4")->required();
+    command.add_option("ACTUAL", options->actual, "a PNG, a folder of PNGs, or a video")->required();
     command.add_option("EXPECTED", options->expected, "the golden one, or their folder")->required();
     addLimits(command, *options);
     command.add_option("--mask", options->mask, "a PNG whose black pixels do not count")->type_name("FILE.png");

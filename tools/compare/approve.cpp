@@ -125,7 +125,7 @@ std::vector<Approved> approvePictures(const ApproveJob& job) {
 }
 
 std::string approvalLine(const fs::path& actual, const fs::path& expected, const std::vector<std::string>& names) {
-    if (names.empty() || hasExtension(actual, ".mp4")) return {};
+    if (names.empty() || isVideoName(actual)) return {};
     std::vector<std::string> operands = {actual.string(), expected.string()};
     if (fs::is_directory(actual)) operands.insert(operands.end(), names.begin(), names.end());
     std::vector<std::string> words = {"globular", "approve"};

@@ -110,7 +110,7 @@ void evaluate(PictureResult& result, const CompareJob& job) {
 /// How messages name a picture of a folder or a frame of a video.
 std::string displayName(const fs::path& whole, const std::string& name) {
     if (hasExtension(whole, ".png")) return whole.string();
-    return hasExtension(whole, ".mp4") ? fmt::format("{} in {}", name, whole.string()) : (whole / name).string();
+    return isVideoName(whole) ? fmt::format("{} in {}", name, whole.string()) : (whole / name).string();
 }
 
 /// Says that a name of one side only has a twin on the other side that looks the same; empty if it has none.

@@ -89,6 +89,11 @@ bool hasExtension(const fs::path& path, std::string_view extension) {
                       [](unsigned char a, char b) { return std::tolower(a) == b; });
 }
 
+bool isVideoName(const fs::path& path) {
+    constexpr std::array kVideos = {".mp4", ".mkv", ".webm", ".gif"};
+    return std::any_of(kVideos.begin(), kVideos.end(), [&](const char* video) { return hasExtension(path, video); });
+}
+
 bool ByNumber::operator()(const std::string& a, const std::string& b) const {
     return ::strverscmp(a.c_str(), b.c_str()) < 0;
 }
@@ -100,7 +105,7 @@ PictureSet picturesOf(const fs::path& path) {
         set.isSingle = hasExtension(path, ".png");
     } else if (fs::is_directory(path)) {
         set.pictures = picturesBelow(path);
-    } else if (hasExtension(path, ".mp4")) {
+    } else if (isVideoName(path)) {
         set.isVideo = true;
     } else {
         set.isSingle = true;

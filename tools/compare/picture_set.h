@@ -13,6 +13,9 @@ namespace tools {
 /// @param extension  in lower case, such as ".png"
 bool hasExtension(const std::filesystem::path& path, std::string_view extension);
 
+/// Whether a path names a video that `render` writes and ffmpeg decodes, by its extension.
+bool isVideoName(const std::filesystem::path& path);
+
 /// Orders names by the numbers in them: frame-99999.png before frame-100000.png.
 struct ByNumber {
     bool operator()(const std::string& a, const std::string& b) const;
