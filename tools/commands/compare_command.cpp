@@ -121,7 +121,8 @@ bool canBeApproved(const PictureResult& result) {
 
 /// Makes sure that the reports replace nothing that is compared or that says where a picture comes from.
 void checkOutputs(const CompareOptions& options) {
-    CommandFiles files{{options.mask}, {}, {}};
+    CommandFiles files;
+    if (!options.mask.empty()) files.inputs.emplace_back(options.mask);
     for (const std::string& side : {options.actual, options.expected}) {
         files.inputs.emplace_back(side);
         for (const auto& [name, picture] : picturesOf(side).pictures)

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// The path without links and dots. The file need not exist.
 std::string realPath(const fs::path& path) {
     std::error_code error;
-    const fs::path real = fs::weakly_canonical(fs::absolute(path), error);
+    const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
     return (real.has_filename() ? real : real.parent_path()).string();
 }
 
