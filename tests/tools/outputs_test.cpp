@@ -1,7 +1,6 @@
 // Tests what the program may write: no output replaces a file that the same command reads or a file of another program,
 // names say what is written, and "-" is a standard stream.
 #include <cstring>
-#include <fstream>
 
 #include "render/output/png.h"
 #include "scenes/text/input_error.h"
@@ -27,11 +26,6 @@ program::Outcome runIn(const Folder& folder, const std::string& arguments) {
     return program::shell("cd '" + (folder / "").string() + "' && " GLOBULAR_PROGRAM " " + arguments);
 }
 
-void write(const fs::path& path, const std::string& text) {
-    fs::create_directories(path.parent_path());
-    std::ofstream(path, std::ios::binary) << text;
-}
-
 std::string messageOf(const tools::CommandFiles& files) {
     try {
         tools::requireSeparate(files);
@@ -45,8 +39,8 @@ std::string messageOf(const tools::CommandFiles& files) {
 
 TEST_CASE("An output is refused if any name of it leads to an input or to another output", "[outputs]") {
     const Folder folder;
-    write(folder / "scene.toml", "scene");
-    write(folder / "other.toml", "scene");
+    program::writeText(folder / "scene.toml", "scene");
+    program::writeText(folder / "other.toml", "scene");
     fs::create_symlink("scene.toml", folder / "link");
     fs::create_hard_link(folder / "scene.toml", folder / "twin");
     fs::create_directory_symlink(folder / "", folder / "here");
@@ -59,7 +53,7 @@ TEST_CASE("An output is refused if any name of it leads to an input or to anothe
 
     const auto isPage = [](const fs::path& file) { return file.extension() == ".html"; };
     const tools::OutputFolder pages{"-o", folder / "pages", isPage};
-    write(folder / "pages/read.html", "read");
+    program::writeText(folder / "pages/read.html", "read");
     fs::create_symlink("../scene.toml", folder / "pages/linked.html");
     CHECK(messageOf({{folder / "pages/read.html"}, {}, {pages}}).find("read.html in it is read") != std::string::npos);
     CHECK(messageOf({{folder / "scene.toml"}, {}, {pages}}).find("linked.html in it is read") != std::string::npos);
@@ -79,10 +73,10 @@ TEST_CASE("Commands refuse to write over what they read, before the run", "[outp
     const Folder folder;
     const std::string scene =
         std::string(kScene) + "[[body]]\nshape = \"file\"\nfile = \"states/particles-00001.ply\"\n";
-    write(folder / "points.toml", kScene);
+    program::writeText(folder / "points.toml", kScene);
     REQUIRE(runIn(folder, "simulate points.toml --frames 0-2 -o states --quiet").code == 0);
     REQUIRE(runIn(folder, "render points.toml --frames 0-2 -o frames --quiet").code == 0);
-    write(folder / "mine.toml", scene);
+    program::writeText(folder / "mine.toml", scene);
     fs::create_symlink("mine.toml", folder / "link.png");
     fs::create_symlink("frames/frame-00001.png", folder / "link.mp4");
     const std::string states = textOf(folder / "states/particles-00001.ply");
@@ -106,7 +100,7 @@ TEST_CASE("Commands refuse to write over what they read, before the run", "[outp
 
 TEST_CASE("A name that says something else than what is written is refused before the run", "[outputs]") {
     const Folder folder;
-    write(folder / "a.toml", kScene);
+    program::writeText(folder / "a.toml", kScene);
     REQUIRE(runIn(folder, "render a.toml --frames 0-1 -o frames --quiet").code == 0);
     for (const char* arguments : {"render a.toml --video film.avi", "render a.toml --video film",
                                   "video frames -o film.mov", "strip a.toml -o strip.jpg", "strip a.toml -o strip"}) {
@@ -124,7 +118,7 @@ TEST_CASE("A name that says something else than what is written is refused befor
 TEST_CASE("Names may have 255 bytes, and those that are made of them are shortened", "[outputs]") {
     const Folder folder;
     const std::string longest(250, 'n');
-    write(folder / (longest + ".toml"), kScene);
+    program::writeText(folder / (longest + ".toml"), kScene);
     CHECK(runIn(folder, "render " + longest + ".toml --frames 0 --quiet").code == 0);
     CHECK(runIn(folder, "simulate " + longest + ".toml --frames 0 --quiet").code == 0);
     CHECK(runIn(folder, "strip " + longest + ".toml --quiet").code == 0);
@@ -142,7 +136,7 @@ TEST_CASE("Names may have 255 bytes, and those that are made of them are shorten
 
 TEST_CASE("Names may begin with a dash", "[outputs]") {
     const Folder folder;
-    write(folder / "-a.toml", kScene);
+    program::writeText(folder / "-a.toml", kScene);
     CHECK(runIn(folder, "render --frames 0-1 --quiet -o -frames --video -film.gif -- -a.toml").code == 0);
     CHECK(fs::exists(folder / "-frames/frame-00001.png"));
     CHECK(textOf(folder / "-film.gif").starts_with("GIF89a"));
@@ -152,14 +146,14 @@ TEST_CASE("Names may begin with a dash", "[outputs]") {
 
 TEST_CASE("- reads a scene from standard input, and files that it names from the current folder", "[outputs]") {
     const Folder folder;
-    write(folder / "scenes/a.toml", kScene);
+    program::writeText(folder / "scenes/a.toml", kScene);
     REQUIRE(runIn(folder, "simulate scenes/a.toml --frames 0 -o states --quiet").code == 0);
-    write(folder / "b.toml",
+    program::writeText(folder / "b.toml",
           std::string(kScene) + "[[body]]\nshape = \"file\"\nfile = \"states/particles-00000.ply\"\n");
     REQUIRE(runIn(folder, "simulate b.toml --frames 1 -o file --quiet").code == 0);
     CHECK(runIn(folder, "simulate - --frames 1 --quiet <b.toml").code == 0);
     CHECK(textOf(folder / "out/stdin-states/particles-00001.ply") == textOf(folder / "file/particles-00001.ply"));
-    write(folder / "wrong.toml", std::string(kScene) + "fps = 0\n");
+    program::writeText(folder / "wrong.toml", std::string(kScene) + "fps = 0\n");
     const auto wrong = runIn(folder, "check - <wrong.toml");
     CHECK(wrong.code == 2);
     CHECK(wrong.err.find("error: <stdin>:8:1: ") == 0);
@@ -170,7 +164,7 @@ TEST_CASE("- reads a scene from standard input, and files that it names from the
 
 TEST_CASE("-o - writes pictures to standard output and everything else to standard error", "[outputs]") {
     const Folder folder;
-    write(folder / "a.toml", kScene);
+    program::writeText(folder / "a.toml", kScene);
     REQUIRE(runIn(folder, "render a.toml --frames 0-2 -o frames --quiet").code == 0);
     REQUIRE(runIn(folder, "strip a.toml -o strip.png --quiet").code == 0);
     std::string frames;

@@ -3,21 +3,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "tests/tools/program.h"
 #include "tools/system/processors.h"
 
 namespace fs = std::filesystem;
-
-namespace {
-
-void write(const fs::path& path, const std::string& text) {
-    fs::create_directories(path.parent_path());
-    std::ofstream(path) << text;
-}
-
-}  // namespace
 
 TEST_CASE("The quota of a control group and of the groups around it limits the processors", "[processors]") {
     const program::Folder folder;
@@ -27,28 +17,28 @@ TEST_CASE("The quota of a control group and of the groups around it limits the p
     CHECK(std::isinf(quota()));  // no such files: not Linux's control groups
 
     SECTION("version 2") {
-        write(self, "0::/outer/inner\n");
+        program::writeText(self, "0::/outer/inner\n");
         CHECK(std::isinf(quota()));
-        write(mounts / "outer/inner/cpu.max", "max 100000\n");
+        program::writeText(mounts / "outer/inner/cpu.max", "max 100000\n");
         CHECK(std::isinf(quota()));
-        write(mounts / "outer/inner/cpu.max", "250000 100000\n");
+        program::writeText(mounts / "outer/inner/cpu.max", "250000 100000\n");
         CHECK(quota() == 2.5);
-        write(mounts / "outer/cpu.max", "150000 100000\n");
+        program::writeText(mounts / "outer/cpu.max", "150000 100000\n");
         CHECK(quota() == 1.5);
-        write(mounts / "cpu.max", "50000 100000\n");  // as a container sees its own group
+        program::writeText(mounts / "cpu.max", "50000 100000\n");  // as a container sees its own group
         CHECK(quota() == 0.5);
     }
     SECTION("version 1") {
-        write(self, "7:memory:/job\n4:cpu,cpuacct:/job\n");
+        program::writeText(self, "7:memory:/job\n4:cpu,cpuacct:/job\n");
         for (const char* mount : {"cpu", "cpu,cpuacct"}) {
-            write(mounts / mount / "job/cpu.cfs_period_us", "100000\n");
-            write(mounts / mount / "job/cpu.cfs_quota_us", "-1\n");
+            program::writeText(mounts / mount / "job/cpu.cfs_period_us", "100000\n");
+            program::writeText(mounts / mount / "job/cpu.cfs_quota_us", "-1\n");
             CHECK(std::isinf(quota()));
-            write(mounts / mount / "job/cpu.cfs_quota_us", "300000\n");
+            program::writeText(mounts / mount / "job/cpu.cfs_quota_us", "300000\n");
             CHECK(quota() == 3.0);
             fs::remove_all(mounts / mount);
         }
-        write(mounts / "memory/job/cpu.max", "100000 100000\n");
+        program::writeText(mounts / "memory/job/cpu.max", "100000 100000\n");
         CHECK(std::isinf(quota()));
     }
 }

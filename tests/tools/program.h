@@ -21,6 +21,12 @@ struct Outcome {
     std::string err;
 };
 
+/// Writes a file, and makes its folder where there is none.
+inline void writeText(const fs::path& path, const std::string& text) {
+    fs::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << text;
+}
+
 inline std::string textOf(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
