@@ -149,7 +149,7 @@ TEST_CASE("- reads a scene from standard input, and files that it names from the
     program::writeText(folder / "scenes/a.toml", kScene);
     REQUIRE(runIn(folder, "simulate scenes/a.toml --frames 0 -o states --quiet").code == 0);
     program::writeText(folder / "b.toml",
-          std::string(kScene) + "[[body]]\nshape = \"file\"\nfile = \"states/particles-00000.ply\"\n");
+                       std::string(kScene) + "[[body]]\nshape = \"file\"\nfile = \"states/particles-00000.ply\"\n");
     REQUIRE(runIn(folder, "simulate b.toml --frames 1 -o file --quiet").code == 0);
     CHECK(runIn(folder, "simulate - --frames 1 --quiet <b.toml").code == 0);
     CHECK(textOf(folder / "out/stdin-states/particles-00001.ply") == textOf(folder / "file/particles-00001.ply"));
