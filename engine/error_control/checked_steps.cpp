@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "engine/error_control/step_cost.h"
+#include "engine/state/state_checks.h"
 #include "engine/stepping/population.h"
-#include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"

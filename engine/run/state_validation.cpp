@@ -6,8 +6,8 @@
 
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/checked_steps.h"
+#include "engine/state/state_checks.h"
 #include "engine/stepping/population.h"
-#include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_cache.h"
 
 namespace engine {

@@ -5,8 +5,8 @@
 
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
+#include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
-#include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
 

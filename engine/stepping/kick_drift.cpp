@@ -1,7 +1,7 @@
 // SIMD code, compiled once per instruction set, with one particle in each lane.
 #include "engine/stepping/kick_drift.h"
 
-#include "engine/stepping/state_checks.h"
+#include "engine/state/state_checks.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/stepping/kick_drift.cpp"

@@ -11,8 +11,8 @@
 #include "engine/core/parallel.h"
 #include "engine/core/random.h"
 #include "engine/neighbors/linked_cells.h"
+#include "engine/state/state_checks.h"
 #include "engine/stepping/free_groups.h"
-#include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
 

@@ -4,9 +4,9 @@
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
 #include "engine/forces/external_forces.h"
+#include "engine/state/state_checks.h"
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/population.h"
-#include "engine/stepping/state_checks.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/stepping/state_checks.h"
+#include "engine/state/state_checks.h"
 #include "scenes/build/builders.h"
 #include "scenes/text/edit_distance.h"
 

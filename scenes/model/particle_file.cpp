@@ -12,7 +12,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/stepping/state_checks.h"
+#include "engine/state/state_checks.h"
 #include "scenes/text/input_error.h"
 #include "scenes/text/ply.h"
 

@@ -2,7 +2,7 @@
 // files only.
 #pragma once
 
-#include "engine/stepping/state_checks.h"
+#include "engine/state/state_checks.h"
 #include "scenes/schema/schema.h"
 
 namespace scenes {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/stepping/state_checks.h"
+#include "engine/state/state_checks.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"

@@ -1,5 +1,5 @@
 // Vectorized checks of positions and velocities, and the error message that names an invalid particle.
-#include "engine/stepping/state_checks.h"
+#include "engine/state/state_checks.h"
 
 #include <cmath>
 #include <cstdint>
