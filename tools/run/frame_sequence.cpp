@@ -90,7 +90,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     // A signal is ignored while frames that exist already are passed on for a video. That takes little time, and a
     // video of some of them would be worth less than the earlier video that it replaces.
     if (interrupts_ && (next_ > position_ || mustStop())) run_.report.interruptedBy = interrupts_->signal();
-    if (run_.report.interruptedBy != 0) return std::nullopt;
+    if (run_.report.interruptedBy != 0 || mustStop()) return std::nullopt;
     SequencedFrame frame;
     frame.number = next_;
     frame.time = scenes::frameTime(scene_, frame.number);

@@ -2,6 +2,7 @@
 // and the ways to end early. Used by the loops of `render` and `simulate`.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -48,9 +49,12 @@ class FrameSequence {
     /// last frame, after a signal, and when the simulation has become unstable; report() tells which.
     std::optional<SequencedFrame> next();
 
-    /// Whether a signal asks the run to end at once: without the frames in flight, their video and a last checkpoint.
-    /// May be called by any stage of the pipeline; once true, it stays true.
-    bool mustStop() const { return interrupts_ && interrupts_->mustStop(); }
+    /// Makes mustStop() true, because the run has failed elsewhere. May be called by any stage of the pipeline.
+    void abort() { isAborted_ = true; }
+
+    /// Whether the run is to end at once, after abort() or because a signal asks for that: without the frames in
+    /// flight, their video and a last checkpoint. May be called by any stage of the pipeline; once true, it stays true.
+    bool mustStop() const { return isAborted_ || (interrupts_ && interrupts_->mustStop()); }
 
     /// Writes the file of a frame that next() returned, unless it is kept or not wanted, and then its checkpoint.
     void store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes);
@@ -77,7 +81,8 @@ class FrameSequence {
     Progress& progress_;
     FinishedRun run_;
     std::optional<InterruptWatch> interrupts_;  ///< watches for signals if the run can be resumed
-    int position_ = -1;                         ///< the frame that the simulation is at; -1 before the first
+    std::atomic<bool> isAborted_ = false;
+    int position_ = -1;  ///< the frame that the simulation is at; -1 before the first
     int next_ = 0;
     std::chrono::steady_clock::time_point lastCheckpoint_;
 };

@@ -6,8 +6,11 @@
 #include <tbb/task_arena.h>
 
 #include <array>
+#include <atomic>
+#include <exception>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -34,7 +37,7 @@ constexpr std::size_t kTokens = 4;
 struct FrameInFlight {
     SequencedFrame frame;
     std::optional<render::View> view;    ///< view to draw; empty once it is drawn, and for frames that are not drawn
-    bool isDropped = false;              ///< whether the run must stop before the frame is drawn
+    bool isDropped = false;              ///< whether the run stopped or failed before the frame was drawn
     std::optional<render::Image> image;  ///< the drawn picture
     render::Image oldImage;              ///< the picture of an earlier frame, whose memory the next one reuses
 };
@@ -95,23 +98,41 @@ class RenderRun {
 
     void runPipeline() {
         constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
-        const auto simulates = tbb::make_filter<void, FrameInFlight*>(
-            kInOrder, [this](tbb::flow_control& flow) { return simulate(flow); });
-        const auto draws = tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder, [this](FrameInFlight* frame) {
-            draw(*frame);
+        const auto simulates = tbb::make_filter<void, FrameInFlight*>(kInOrder, [this](tbb::flow_control& flow) {
+            FrameInFlight* frame = nullptr;
+            keepFailure([&] { frame = simulate(); });
+            if (frame == nullptr) flow.stop();
             return frame;
         });
-        const auto encodes =
-            tbb::make_filter<FrameInFlight*, void>(kInOrder, [this](FrameInFlight* frame) { encode(*frame); });
+        const auto draws = tbb::make_filter<FrameInFlight*, FrameInFlight*>(kInOrder, [this](FrameInFlight* frame) {
+            keepFailure([&] { draw(*frame); });
+            return frame;
+        });
+        const auto encodes = tbb::make_filter<FrameInFlight*, void>(
+            kInOrder, [this](FrameInFlight* frame) { keepFailure([&] { encode(*frame); }); });
         tbb::parallel_pipeline(kTokens, simulates & draws & encodes);
+        if (failure_) std::rethrow_exception(failure_);
     }
 
-    FrameInFlight* simulate(tbb::flow_control& flow) {
-        auto frame = frames_.next();
-        if (!frame) {
-            flow.stop();
-            return nullptr;
+    /// Runs a stage for one frame. If it throws, the run ends, and runPipeline() throws the first of such exceptions at
+    /// its end. The exception must not reach oneTBB, which would cancel the loops that the other stages are running:
+    /// they would go on with results of which parts were never computed.
+    template <class Stage>
+    void keepFailure(const Stage& stage) {
+        try {
+            stage();
+        } catch (...) {
+            const std::lock_guard lock(failureMutex_);
+            if (!failure_) failure_ = std::current_exception();
+            hasFailed_ = true;
+            frames_.abort();
         }
+    }
+
+    /// Returns nullptr after the last frame.
+    FrameInFlight* simulate() {
+        auto frame = frames_.next();
+        if (!frame) return nullptr;
         // The stages are in order, so the frame that used this slot before has left the pipeline.
         FrameInFlight& flight = flights_[startedCount_++ % kTokens];
         if (flight.image) flight.oldImage = std::move(*flight.image);
@@ -123,8 +144,13 @@ class RenderRun {
     }
 
     void draw(FrameInFlight& flight) {
-        flight.isDropped = frames_.mustStop();
-        if (!flight.view || flight.isDropped) return;
+        flight.isDropped = true;  // unless it gets to the end
+        if (frames_.mustStop()) return;
+        if (flight.view) drawView(flight);
+        flight.isDropped = false;
+    }
+
+    void drawView(FrameInFlight& flight) {
         const Stopwatch watch(report().seconds.drawing);
         const Progress::Work work(progress_, fmt::format("drawing frame {}", flight.frame.number));
         // Drawing is isolated, so that a thread that waits for others in it does not take up the simulation of another
@@ -134,7 +160,7 @@ class RenderRun {
     }
 
     void encode(FrameInFlight& flight) {
-        if (flight.isDropped) return;
+        if (flight.isDropped || hasFailed_) return;
         const Stopwatch watch(report().seconds.encoding);
         const SequencedFrame& frame = flight.frame;
         std::vector<std::uint8_t> png;
@@ -169,6 +195,9 @@ class RenderRun {
     std::array<FrameInFlight, kTokens> flights_;
     std::size_t startedCount_ = 0;
     std::unique_ptr<render::VideoWriter> video_;
+    std::mutex failureMutex_;
+    std::exception_ptr failure_;  ///< what the first stage that failed has thrown
+    std::atomic<bool> hasFailed_ = false;
 };
 
 }  // namespace
