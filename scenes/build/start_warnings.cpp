@@ -39,6 +39,10 @@ constexpr double kFacing = -0.5;
 /// neighbors in bodies side by side, or in a liquid under its own weight, are further apart.
 constexpr double kOverlapShare = 0.6;
 
+/// Particles of one body that are closer than their core and than this share of their rest length are packed too
+/// closely. Chosen: the published figures of repulsion alone start with particles at a third of it, on purpose.
+constexpr double kPackedShare = 0.3;
+
 /// A factor just below 1, with which a lattice whose spacing is a least distance is not too close by rounding.
 constexpr double kRounding = 1.0 - 1e-6;
 
@@ -259,7 +263,7 @@ double leastDistance(const Scene& scene, std::uint32_t p, std::uint32_t q, bool 
     const engine::Material& a = scene.setup.materials[scene.setup.initial.material[p]];
     const engine::Material& b = scene.setup.materials[scene.setup.initial.material[q]];
     const double core = &a == &b ? a.coreFraction : mixed(a, b).coreFraction;
-    return kRounding * (areOfOneBody ? core : std::max(core, kOverlapShare));
+    return kRounding * (areOfOneBody ? std::min(core, kPackedShare) : std::max(core, kOverlapShare));
 }
 
 /// The largest distance that may be too close, in rest lengths.

@@ -102,7 +102,7 @@ TEST_CASE("Bodies within each other are reported, bodies side by side are not") 
                 "(0, -0.1414, -0.4243)"});
     CHECK(warningsOf(ball("0, 0, 0") + ball("0, 1.1, 0")).empty());
     CHECK(warningsOf(ball("0, 0, 0") + ball("0, 0.9, 0")).size() == 1);
-    // The same particles as one body are a matter of its author, up to the core.
+    // The same particles as one body are a matter of its author, unless they are packed too closely.
     CHECK(warningsOf(particleAt("0, 0, 0], [0.1, 0, 0")).empty());
     const Lines coincident = warningsOf(particleAt("0, 0, 0], [0.04, 0, 0], [0, 0, 0"));
     CHECK(coincident == Lines{"pile.toml:5:1: body 1 starts with 3 pairs of particles closer than their core, the "
@@ -117,7 +117,7 @@ TEST_CASE("Pairs of particles of unequal radii are judged by their own rest leng
 }
 
 TEST_CASE("Very many close pairs are estimated, and messages of one kind are limited") {
-    // 200,000 particles within a core: 2e10 pairs.
+    // 200,000 particles within 0.3 rest lengths: 2e10 pairs.
     const Lines dense = warningsOf("[[body]]\nshape = \"grid\"\ncounts = [200, 100, 10]\nspacing = 0.0002\n");
     REQUIRE(dense.size() == 1);
     CHECK(contains(dense[0], "about "));
@@ -136,11 +136,8 @@ TEST_CASE("Very many close pairs are estimated, and messages of one kind are lim
 
 TEST_CASE("Scenes of the repository start with particles where they are meant to be") {
     namespace fs = std::filesystem;
-    // On purpose, 64 particles in one place, and the overlapping sheets of the paper's author.
-    const std::map<std::string, std::string> overlapping = {{"hard/coincident", "2016 pairs"},
-                                                            {"paper/repulsion-1", "712 pairs"},
-                                                            {"paper/repulsion-2", "712 pairs"},
-                                                            {"paper/repulsion-3", "712 pairs"}};
+    // On purpose, 64 particles are in one place.
+    const std::map<std::string, std::string> overlapping = {{"hard/coincident", "2016 pairs"}};
     int looked = 0;
     for (const scenes::LibraryEntry& entry : scenes::listScenes(GLOBULAR_SOURCE "/scenes/library")) {
         INFO(entry.name);
