@@ -98,6 +98,23 @@ TEST_CASE("Commands refuse to write over what they read, before the run", "[outp
     CHECK(textOf(folder / "frames/frame-00001.png") == frame);
 }
 
+TEST_CASE("Reports replace pages of globular and no others", "[outputs]") {
+    const Folder folder;
+    program::writeText(folder / "a.toml", kScene);
+    REQUIRE(runIn(folder, "render a.toml --frames 0 -o frames --quiet").code == 0);
+    CHECK(runIn(folder, "compare frames frames --report report --quiet").code == 0);
+    CHECK(runIn(folder, "compare frames frames --report report --quiet").code == 0);
+    program::writeText(folder / "site/index.html", "<!doctype html><title>mine</title>");
+    for (const char* arguments :
+         {"compare frames frames --report site", "study accuracy --quick -o site", "figures -o site"}) {
+        const program::Outcome outcome = runIn(folder, arguments);
+        INFO(arguments << ": " << outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("index.html in it was not written by globular") != std::string::npos);
+    }
+    CHECK(textOf(folder / "site/index.html") == "<!doctype html><title>mine</title>");
+}
+
 TEST_CASE("A name that says something else than what is written is refused before the run", "[outputs]") {
     const Folder folder;
     program::writeText(folder / "a.toml", kScene);

@@ -134,7 +134,8 @@ void checkOutputs(const CompareOptions& options) {
     if (!options.report.empty())
         files.folders = {
             {"--report", options.report, [](const fs::path& file) { return file.filename() == "index.html"; }},
-            {"--report", fs::path(options.report) / kReportPictures, [](const fs::path&) { return true; }}};
+            {"--report", fs::path(options.report) / kReportPictures,
+             [](const fs::path& file) { return hasExtension(file, ".png"); }}};
     requireSeparate(files);
 }
 

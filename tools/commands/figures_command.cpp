@@ -81,7 +81,8 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
 }
 
 void makeFigures(const FiguresOptions& options) {
-    requireSeparate({{}, {}, {{"-o", options.folder, [](const fs::path&) { return false; }}}});
+    requireSeparate(
+        {{}, {}, {{"-o", options.folder, [](const fs::path& file) { return file.filename() == "index.html"; }}}});
     createFolder(options.folder);
     std::vector<FigureEntry> entries;
     for (const int number : options.numbers) {

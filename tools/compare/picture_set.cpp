@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/picture/system_error.h"
+#include "tools/system/command_files.h"
 
 namespace tools {
 namespace {
@@ -34,8 +35,7 @@ bool isPicture(const fs::directory_entry& file) {
 
 /// Whether a folder has the pictures of a report, which may have been written among the pictures that it is about.
 bool isOfReport(const fs::path& folder) {
-    std::error_code ignored;
-    return folder.filename() == kReportPictures && fs::exists(folder.parent_path() / "index.html", ignored);
+    return folder.filename() == kReportPictures && isOwnPage(folder.parent_path() / "index.html");
 }
 
 /// The pictures below a folder by their path in it. Links to folders are followed, but no folder is entered again from

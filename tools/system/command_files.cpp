@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <fstream>
 #include <set>
 
 #include "scenes/text/input_error.h"
@@ -73,6 +74,9 @@ class OutputCheck {
         std::error_code ignored;
         if (!fs::is_directory(folder.path, ignored) && inputs_.count(identityOf(folder.path)) != 0)
             return add(folder, "this file is read by the same command, a folder is wanted");
+        const fs::path page = folder.path / "index.html";
+        if (folder.isWritten(page) && fs::exists(page, ignored) && !isOwnPage(page))
+            add(folder, "index.html in it was not written by globular; choose another folder or remove it");
         for (const fs::path& file : existingFiles(folder.path))
             if (folder.isWritten(file) && inputs_.count(identityOf(file)) != 0)
                 add(folder,
@@ -86,6 +90,13 @@ class OutputCheck {
 };
 
 }  // namespace
+
+bool isOwnPage(const fs::path& file) {
+    std::string head(1024, '\0');  // the mark is among the first lines
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    return head.find(kPageMark) != std::string::npos;
+}
 
 void requireSeparate(const CommandFiles& files) {
     const std::vector<scenes::Problem> problems = OutputCheck(files).problems();

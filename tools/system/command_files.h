@@ -29,8 +29,15 @@ struct CommandFiles {
     std::vector<OutputFolder> folders;
 };
 
-/// Makes sure that no output replaces an input or another output of the same command, and that none is "-", which is a
-/// name for standard output. Files are the same if they have the same inode, whatever names or links lead to them.
+/// A line in the head of every page that globular writes. A later run replaces only pages that have it.
+inline constexpr const char* kPageMark = R"(<meta name="generator" content="globular">)";
+
+/// Whether a file is a page that globular has written.
+bool isOwnPage(const std::filesystem::path& file);
+
+/// Makes sure that no output replaces an input or another output of the same command or the page of another program,
+/// and that none is "-", which is a name for standard output. Files are the same if they have the same inode, whatever
+/// names or links lead to them.
 /// @throws scenes::InputError naming every output that would
 void requireSeparate(const CommandFiles& files);
 
