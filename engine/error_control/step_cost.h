@@ -12,8 +12,8 @@ struct ImplicitCosts {
     double product = 0.0;
 };
 
-/// The costs of an implicit step for the materials of a setup. Friction makes a force evaluation more expensive but not
-/// a product, so both costs are lower with friction.
+/// The costs of an implicit step for the materials of a setup. They are lower for materials with friction, because
+/// friction makes the unit, a force evaluation, more expensive, but neither the matrix nor a product with it.
 ImplicitCosts implicitCosts(const Setup& setup);
 
 /// Cost of the simulation's steps so far, in force evaluations.

@@ -33,7 +33,7 @@ struct SequencedFrame {
 
 /// What a run over frames does besides simulating them.
 struct SequenceOptions {
-    FrameFolder* folder = nullptr;  ///< where the frames go; nullptr for a run that cannot be resumed
+    FrameFolder* folder = nullptr;  ///< writes the frames; nullptr if they are only passed on
     bool estimatesErrors = true;    ///< whether the error of a fixed step is estimated at some of the frames
 };
 

@@ -220,7 +220,7 @@ class RayVector {
     long firstSample_;  // index of the first sample that these rays take
     Ray ray_;
     NearBalls near_;
-    std::size_t firstAtHit_ = 0;  // near_.first() at the time when the first lane hit the surface
+    std::size_t firstAtHit_ = 0;  // first ball that may reach the hit of the nearest lane
     V maxField_;
 };
 
