@@ -60,8 +60,8 @@ FrameList frameList(const std::string& text, int count) {
             frames.numbers.push_back(static_cast<int>(frame));
     }
     std::ranges::sort(frames.numbers);
-    const auto repeated = std::ranges::unique(frames.numbers);
-    frames.numbers.erase(repeated.begin(), repeated.end());
+    const auto repeated = std::unique(frames.numbers.begin(), frames.numbers.end());
+    frames.numbers.erase(repeated, frames.numbers.end());
     return frames;
 }
 
