@@ -13,7 +13,6 @@
 #include "render/output/png.h"
 #include "tools/compare/picture_set.h"
 #include "tools/pages/html.h"
-#include "tools/system/command_files.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 
@@ -180,8 +179,7 @@ std::string ComparePage::html(const CompareJob& job, const PageHeading& heading)
     data["pictures"] = Json::array();
     for (Entry& entry : entries_) data["pictures"].push_back(std::move(entry.json));
     entries_.clear();
-    return fillTemplate(embeddedText("compare.html"), {{"GENERATOR", kPageMark},
-                                                       {"STYLE", std::string(embeddedText("compare.css"))},
+    return fillTemplate(embeddedText("compare.html"), {{"STYLE", std::string(embeddedText("compare.css"))},
                                                        {"SCRIPT", std::string(embeddedText("compare.js"))},
                                                        {"DATA", scriptJson(data)}});
 }

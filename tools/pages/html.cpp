@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "tools/system/command_files.h"
-
 namespace tools {
 std::string escaped(const std::string& text) {
     std::string html;
@@ -64,14 +62,13 @@ std::string svgImage(const std::string& alt, const std::string& svg) {
 std::string htmlPage(const std::string& title, const std::string& body) {
     return fmt::format(R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-{3}
 <title>{0}</title>
 <style>
 {1}</style></head><body>
 <h1>{0}</h1>
 {2}</body></html>
 )",
-                       title, embeddedText("page.css"), body, kPageMark);
+                       title, embeddedText("page.css"), body);
 }
 
 }  // namespace tools

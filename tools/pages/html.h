@@ -28,7 +28,8 @@ std::string htmlTable(const Table& table, const std::vector<bool>& isBad = {});
 std::string svgImage(const std::string& alt, const std::string& svg);
 
 /// A whole page with the program's style.
-/// @param title  title and heading, without characters that HTML would interpret
+/// @param title  title and heading, without characters that HTML would interpret; begins with the program's name, by
+/// which isOwnPage() knows the page
 /// @param body  HTML
 std::string htmlPage(const std::string& title, const std::string& body);
 

@@ -92,10 +92,10 @@ class OutputCheck {
 }  // namespace
 
 bool isOwnPage(const fs::path& file) {
-    std::string head(1024, '\0');  // the mark is among the first lines
+    std::string head(1024, '\0');  // the title is among the first lines
     std::ifstream stream(file, std::ios::binary);
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-    return head.find(kPageMark) != std::string::npos;
+    return head.find("<title>globular") != std::string::npos || head.find("<title>Globular") != std::string::npos;
 }
 
 void requireSeparate(const CommandFiles& files) {

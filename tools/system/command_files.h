@@ -29,10 +29,8 @@ struct CommandFiles {
     std::vector<OutputFolder> folders;
 };
 
-/// A line in the head of every page that globular writes. A later run replaces only pages that have it.
-inline constexpr const char* kPageMark = R"(<meta name="generator" content="globular">)";
-
-/// Whether a file is a page that globular has written.
+/// Whether a file is a page that globular has written: whether its title begins with the program's name, as those of
+/// all its pages do. A later run replaces no other page.
 bool isOwnPage(const std::filesystem::path& file);
 
 /// Makes sure that no output replaces an input or another output of the same command or the page of another program,
