@@ -1,9 +1,11 @@
 // Prints JSON with nlohmann::json. Bytes that are not UTF-8 are replaced instead of throwing.
 #include "tools/system/json.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 
-#include "tools/system/process.h"
+#include "tools/system/text.h"
 
 namespace tools {
 
@@ -16,7 +18,7 @@ std::string indentedText(const Json& json) {
 }
 
 void printJson(const Json& json) {
-    printText(compactText(json) + "\n");
+    fmt::print("{}\n", printable(compactText(json)));
     std::fflush(stdout);  // so that a program that reads along gets each line at once
 }
 
