@@ -134,7 +134,8 @@ struct FrameRate {
     double framesIn(double seconds) const { return seconds * numerator / denominator; }
     /// "30" or "30000/1001", as ffmpeg takes it.
     std::string text() const {
-        return std::to_string(numerator) + (denominator == 1 ? "" : "/" + std::to_string(denominator));
+        const std::string whole = std::to_string(numerator);
+        return denominator == 1 ? whole : whole + '/' + std::to_string(denominator);
     }
 };
 
