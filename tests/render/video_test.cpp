@@ -411,7 +411,7 @@ TEST_CASE("Two writers of one video both succeed, and the last to finish wins") 
 
 TEST_CASE("A video keeps the permissions of the file that it replaces, and may have a name of 250 bytes") {
     const Folder folder;
-    const std::string name = std::string(246, 'v') + ".mp4";
+    const std::string name = std::string(246, 'v').append(".mp4");
     writeVideo({folder.file(name), {64, 64}, {30}}, 1);
     fs::permissions(folder.file(name), fs::perms::owner_read);
     writeVideo({folder.file(name), {64, 64}, {30}}, 1);
