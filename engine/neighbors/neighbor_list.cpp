@@ -271,8 +271,9 @@ double slackOf(const NeighborList& list, double cutoff) {
     return 0.5 * (list.reach() - cutoff);
 }
 
-/// Whether all particles have moved by at most the slack (m) relative to their group, and no two groups are within the
-/// cutoff (m). Pairs within a group are then listed, and no others act on each other.
+/// Whether all particles have moved by at most the slack (m) relative to their group, no two groups are within the
+/// cutoff (m), and none were within the list's reach when it was built. Pairs within a group are then listed, no others
+/// act on each other, and no listed pair moves far apart with its groups.
 bool coversGroups(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, double slack,
                   const FarGroups& groups) {
     const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
@@ -282,8 +283,9 @@ bool coversGroups(const NeighborList& list, const std::vector<Vec3>& positions, 
         common.push_back(squaredLength(moved) > slack * slack ? moved : Vec3(Vec3::Zero()));
     }
     const auto relative = [&](std::size_t p) -> Vec3 { return displacement(p) - common[groups.of(p)]; };
+    const std::vector<Vec3> still(groups.count(), Vec3::Zero());
     return areWithin(slack, Vec3::Zero(), positions.size(), relative) &&
-           stayApart(groups, positions, std::vector<Vec3>(groups.count(), Vec3::Zero()), cutoff);
+           stayApart(groups, list.builtAt, still, list.reach()) && stayApart(groups, positions, still, cutoff);
 }
 
 /// Cost per particle and time step of building a neighbor list and of the passes over it, in the cost of one pair.

@@ -77,8 +77,13 @@ bool movedTooFar(const Simulation& simulation, const SavedState& saved) {
 /// step knows the energy between two positions, and loses by drag; either would hide what goes wrong elsewhere.
 double allowanceFor(const Simulation& simulation, const SavedState& saved) {
     double allowance = saved.allowance;
+    const FarGroups& groups = simulation.cache->evaluator.groups();
+    // Where groups have met, forces between them have changed their common motion.
+    if (!groups.exist() || !haveStayedApart(simulation, saved.position)) return allowance;
+    // Particles that were emitted since the groups were found act on group 0, but are not in its energy.
+    const bool hasEmitted = simulation.particles.count() > groups.groupOf.size();
     const std::vector<bool> areFree = groupsInFreeFall(simulation, saved.position);
-    for (std::size_t group = 0; group < areFree.size(); ++group) {
+    for (std::size_t group = hasEmitted ? 1 : 0; group < areFree.size(); ++group) {
         if (!areFree[group]) continue;
         const GroupEnergy& before = saved.groupEnergies[group];
         const GroupEnergy& now = simulation.cache->groupEnergies[group];

@@ -1,6 +1,6 @@
 // The audit of time steps, a check of every step that was taken. A step is rejected if it gains energy or moves a
-// particle by more than its radius; then the state before it is restored. Every step is audited, except those of the
-// paper's stepper.
+// particle by more than its radius, in free fall relative to its group (free_groups.h); then the state before it is
+// restored. Every step is audited, except those of the paper's stepper.
 #pragma once
 
 #include <optional>

@@ -102,6 +102,22 @@ TEST_CASE("Strays that drag slows down cost no steps either", "[free-groups]") {
     CHECK(stepsOf(setup) <= 1.2 * without);
 }
 
+TEST_CASE("Strays that meet something within an interval take the steps of any particles", "[free-groups]") {
+    Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 1e-3);
+    append(setup.initial, {.position = Vec3(0, 0, 0)});
+    append(setup.initial, {.position = Vec3(0, 100, 0), .velocity = Vec3(0, -110, 0)});
+    const auto run = [&](int intervals) {
+        Simulation simulation = start(setup);
+        for (int k = 1; k <= intervals; ++k) advance(simulation, static_cast<double>(k) / intervals);
+        return simulation;
+    };
+    const Simulation whole = run(1);
+    const Simulation parts = run(1000);  // whose groups are found anew just before the particles meet
+    CHECK(static_cast<double>(whole.steps.count) < 1.2 * static_cast<double>(parts.steps.count));
+    for (std::size_t p = 0; p < 2; ++p)
+        CHECK((whole.particles.position[p] - parts.particles.position[p]).norm() < 1e-3);
+}
+
 TEST_CASE("A long step of strays that meet something is rejected", "[free-groups]") {
     Setup setup = runs::freeSetup(*materialPreset("liquid"), StepperKind::velocityVerlet, 1.0);
     append(setup.initial, {.position = Vec3(0, 0, 0)});
