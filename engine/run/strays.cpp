@@ -26,7 +26,8 @@ std::optional<BoundingBox> boxOf(const Obstacle& obstacle) {
     return std::nullopt;
 }
 
-/// The box around everything that the scene begins with; none if that is nothing.
+/// The box around everything that the scene begins with, and the points of planes nearest to it; none if it begins with
+/// nothing.
 std::optional<BoundingBox> placeOf(const Setup& setup) {
     std::optional<BoundingBox> place;
     const auto include = [&](const BoundingBox& box) {
@@ -38,9 +39,20 @@ std::optional<BoundingBox> placeOf(const Setup& setup) {
         include({setup.initial.position[p] - half, setup.initial.position[p] + half});
     }
     for (const Emitter& emitter : setup.emitters)
-        for (const Vec3& site : emitter.sites) include({site, site});
+        for (const Vec3& site : emitter.sites) {
+            const Vec3 half = Vec3::Constant(setup.materials[emitter.material].radius);
+            include({site - half, site + half});
+        }
     for (const Obstacle& obstacle : setup.obstacles.shapes)
         if (const auto box = boxOf(obstacle)) include(*box);
+    if (!place) return place;
+    // A floor far below belongs to the place, too.
+    const Vec3 middle = place->middle();
+    for (const Obstacle& obstacle : setup.obstacles.shapes)
+        if (const auto* plane = std::get_if<Plane>(&obstacle)) {
+            const Vec3 foot = middle - dot(middle - plane->point, plane->normal) * plane->normal;
+            include({foot, foot});
+        }
     return place;
 }
 

@@ -29,4 +29,6 @@ TEST_CASE("A particle far outside has left the scene if it moves away and touche
     setup.obstacles.shapes = {Plane{Vec3(0, -1, 0), Vec3::UnitY()}};
     setup.initial = {};
     CHECK(strays(Vec3(20, 10, 0), Vec3(3, 0, 0)) == 0);  // a scene without a place
+    append(setup.initial, {.position = Vec3(0, 50, 0)});
+    CHECK(strays(Vec3(0, 40, 0), Vec3(0, -5, 0)) == 0);  // falls to the floor
 }
