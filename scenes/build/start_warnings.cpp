@@ -193,15 +193,18 @@ void findSitesInside(const Scene& scene, Messages& messages) {
         const engine::Emitter& emitter = scene.setup.emitters[e];
         const double radius = scene.setup.materials[emitter.material].radius;
         const double distances = static_cast<double>(emitter.sites.size() * obstacles.size());
-        const std::vector<std::uint32_t> sample =
-            engine::sampleOf(emitter.sites.size(), engine::strideFor(distances, kMostDistances));
+        const std::uint64_t stride = engine::strideFor(distances, kMostDistances);
+        const std::vector<std::uint32_t> sample = engine::sampleOf(emitter.sites.size(), stride);
         for (std::size_t k = 0; k < obstacles.size(); ++k) {
             const Finding finding =
                 findInside(obstacles[k], emitter.sites, sample, [&](std::size_t) { return radius; });
             if (finding.count == 0) continue;
             messages.add(scene.tables.emitters[e],
-                         fmt::format("{} of {} points of emission are {}{}", finding.count, sample.size(),
-                                     insideText(scene, k, finding, emitter.sites[finding.first]),
+                         fmt::format("{} of {} points of emission are {}{}",
+                                     stride > 1 ? fmt::format("about {:.2g}", static_cast<double>(finding.count) *
+                                                                                  static_cast<double>(stride))
+                                                : fmt::to_string(finding.count),
+                                     emitter.sites.size(), insideText(scene, k, finding, emitter.sites[finding.first]),
                                      hintFor(obstacles[k], 2 * finding.count > sample.size())));
         }
     }
