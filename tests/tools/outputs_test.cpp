@@ -98,6 +98,15 @@ TEST_CASE("Commands refuse to write over what they read, before the run", "[outp
     CHECK(textOf(folder / "frames/frame-00001.png") == frame);
 }
 
+TEST_CASE("Particle states among the frames of a run are not removed with them", "[outputs]") {
+    const Folder folder;
+    program::writeText(folder / "a.toml", kScene);
+    REQUIRE(runIn(folder, "render a.toml --frames 0-1 -o frames --quiet").code == 0);
+    program::writeText(folder / "frames/particles-00001.ply", "mine");
+    CHECK(runIn(folder, "render a.toml --frames 0-1 -o frames --quiet --overwrite").code == 2);
+    CHECK(textOf(folder / "frames/particles-00001.ply") == "mine");
+}
+
 TEST_CASE("Reports replace pages of globular and no others", "[outputs]") {
     const Folder folder;
     program::writeText(folder / "a.toml", kScene);

@@ -140,10 +140,12 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const F
 /// Makes sure that every file whose name the run may use was written by a run into this folder.
 /// @param isDamaged  whether the manifest can no longer tell which frames were
 void FrameFolder::requireOwnFiles(bool isDamaged) const {
+    // A manifest of `render` lists pictures, one of `simulate` particle states.
+    const FrameNames& listed = manifest_.identity.contains("size") ? kPictureNames : kStateNames;
     for (const fs::path& file : filesIn(folder_)) {
         std::optional<int> frame = kPictureNames.frameOf(file);
         if (!frame) frame = kStateNames.frameOf(file);
-        const bool isOwn = frame                            ? isDamaged || manifest_.lists(*frame)
+        const bool isOwn = frame ? isDamaged || (manifest_.lists(*frame) && listed.frameOf(file))
                            : kCheckpointNames.frameOf(file) ? isCheckpoint(file)
                            : file.filename() == "run.json"  ? isRunReport(file)
                                                             : true;
