@@ -159,6 +159,9 @@ void ComparePage::addPictures(const fs::path& folder, CompareJob job) {
 
 void ComparePage::write(const fs::path& folder, const CompareJob& job, const PageHeading& heading) {
     createFolder(folder);
+    // The pictures of an earlier report are replaced one by one. Its page must not outlive them.
+    std::error_code ignored;
+    fs::remove(folder / "index.html", ignored);
     addPictures(folder, job);
     writeFile(folder / "index.html", html(job, heading));
 }
