@@ -132,7 +132,8 @@ Image decodePng(std::span<const std::uint8_t> bytes, const std::string& name) {
     int channels = 0;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(bytes.data(), size, &image.width, &image.height, &channels, 4), stbi_image_free);
-    require(pixels != nullptr, stbi_failure_reason());
+    const char* const reason = stbi_failure_reason();  // null where there is no memory to inflate
+    require(pixels != nullptr, reason != nullptr ? reason : "outofmem");
     image.rgb.resize(image.byteCount());
     for (std::size_t pixel = 0; pixel < image.byteCount() / 3; ++pixel) {
         require(pixels.get()[4 * pixel + 3] == 255, "it is transparent, an opaque picture is expected");

@@ -19,6 +19,7 @@
 #include "tools/pages/compare_reports.h"
 #include "tools/system/command_files.h"
 #include "tools/system/json.h"
+#include "tools/system/memory.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
 #include "tools/system/progress.h"
@@ -194,6 +195,8 @@ void compareOrTrouble(const CompareOptions& options) {
         compareAll(options);
     } catch (const ExitStatus&) {
         throw;
+    } catch (const std::bad_alloc& error) {
+        throw ExitStatus(kTrouble, memoryMessage(error, "comparing pictures", "compare smaller pictures"));
     } catch (const std::exception& error) {
         throw ExitStatus(kTrouble, error.what());
     }
