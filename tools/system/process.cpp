@@ -92,6 +92,7 @@ void prepareStandardStreams() {
     for (const int descriptor : {0, 1, 2})
         if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);  // open() takes the lowest free descriptor
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+    std::signal(SIGCHLD, SIG_DFL);  // an ignored SIGCHLD is inherited, and then no exit status of a child can be read
 }
 
 void ensureTemporaryFolder() {
