@@ -84,19 +84,6 @@ HWY_EXPORT(findCellsHere);
 
 namespace {
 
-/// The index modulo size, 0 or more.
-std::int64_t wrapped(std::int64_t index, std::int64_t size) {
-    const std::int64_t rest = index % size;
-    return rest < 0 ? rest + size : rest;
-}
-
-/// The index modulo size, for an index that is outside by at most one size. A division would take as long as everything
-/// else that finds the cell of a position.
-std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
-    if (index < 0) return index + size;
-    return index < size ? index : index - size;
-}
-
 /// Largest number of cells: about two for each particle, so that the size of the grid is linear in the number of
 /// particles even if they are far apart.
 std::int64_t cellLimit(std::size_t particleCount) {
@@ -133,28 +120,6 @@ std::array<std::int64_t, 3> indicesOf(const CellGrid& grid, std::uint32_t cell) 
 }
 
 }  // namespace
-
-std::int64_t cellNumber(double coordinate, double width) {
-    constexpr double kLargest = 1e15;  // an integer that double represents exactly
-    const double cells = std::max(-kLargest, std::min(kLargest, coordinate / width));
-    const auto towardZero = static_cast<std::int64_t>(cells);  // one instruction, where std::floor is a call
-    return static_cast<double>(towardZero) > cells ? towardZero - 1 : towardZero;
-}
-
-CellAxis::CellAxis(double cellWidth, std::int64_t cells, double lowest)
-    : width(cellWidth), size(cells), first(cellNumber(lowest, width)), stored(wrapped(first, size)) {}
-
-std::int64_t CellAxis::cellOf(double coordinate) const {
-    const std::int64_t number = cellNumber(coordinate, width);
-    const std::int64_t steps = number - first;
-    if (steps < 0 || steps >= size) return wrapped(number, size);
-    return wrappedStep(stored + steps, size);  // the usual case needs no division
-}
-
-std::uint32_t cellAt(const CellAxes& axes, const Vec3& position) {
-    const std::int64_t row = axes[2].cellOf(position.z()) * axes[1].size + axes[1].cellOf(position.y());
-    return static_cast<std::uint32_t>(row * axes[0].size + axes[0].cellOf(position.x()));
-}
 
 void findCells(const CellAxes& axes, const Vec3* positions, std::size_t count, std::uint32_t* cells) {
     HWY_DYNAMIC_DISPATCH(findCellsHere)(axes, positions, count, cells);

@@ -5,6 +5,7 @@
 // cell numbers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +21,27 @@ namespace engine {
 inline constexpr double kRoundingMargin = 1.0 + 1e-6;
 
 /// Number of the cell that contains a coordinate along an axis: coordinate / width (both in m) rounded down. Clamped to
-/// +-1e15, which is far outside any world; a NaN also gives one of these two numbers.
-std::int64_t cellNumber(double coordinate, double width);
+/// +-1e15, which is far outside any world; a NaN also gives one of these two numbers. This and what follows is inline,
+/// because it also runs inside of loops that are compiled for an instruction set of their own.
+inline std::int64_t cellNumber(double coordinate, double width) {
+    constexpr double kLargest = 1e15;  // an integer that double represents exactly
+    const double cells = std::max(-kLargest, std::min(kLargest, coordinate / width));
+    const auto towardZero = static_cast<std::int64_t>(cells);  // one instruction, where std::floor is a call
+    return static_cast<double>(towardZero) > cells ? towardZero - 1 : towardZero;
+}
+
+/// The index modulo size, 0 or more.
+inline std::int64_t wrapped(std::int64_t index, std::int64_t size) {
+    const std::int64_t rest = index % size;
+    return rest < 0 ? rest + size : rest;
+}
+
+/// The index modulo size, for an index that is outside by at most one size. A division would take as long as everything
+/// else that finds the cell of a position.
+inline std::int64_t wrappedStep(std::int64_t index, std::int64_t size) {
+    if (index < 0) return index + size;
+    return index < size ? index : index - size;
+}
 
 /// The cells along one axis of a periodic cell grid.
 struct CellAxis {
@@ -30,16 +50,25 @@ struct CellAxis {
     std::int64_t first;   ///< number of the lowest cell that contains a particle
     std::int64_t stored;  ///< storage index of the lowest cell
 
-    CellAxis(double cellWidth, std::int64_t cells, double lowest);
+    CellAxis(double cellWidth, std::int64_t cells, double lowest)
+        : width(cellWidth), size(cells), first(cellNumber(lowest, width)), stored(wrapped(first, size)) {}
 
     /// Storage index of the cell that contains a coordinate (m), 0 ... size - 1.
-    std::int64_t cellOf(double coordinate) const;
+    std::int64_t cellOf(double coordinate) const {
+        const std::int64_t number = cellNumber(coordinate, width);
+        const std::int64_t steps = number - first;
+        if (steps < 0 || steps >= size) return wrapped(number, size);
+        return wrappedStep(stored + steps, size);  // the usual case needs no division
+    }
 };
 
 using CellAxes = std::array<CellAxis, 3>;
 
 /// Storage index of the cell that contains a position, x fastest.
-std::uint32_t cellAt(const CellAxes& axes, const Vec3& position);
+inline std::uint32_t cellAt(const CellAxes& axes, const Vec3& position) {
+    const std::int64_t row = axes[2].cellOf(position.z()) * axes[1].size + axes[1].cellOf(position.y());
+    return static_cast<std::uint32_t>(row * axes[0].size + axes[0].cellOf(position.x()));
+}
 
 /// Finds the storage indices of the cells of many positions (m) at once, with the same result on any instruction set.
 void findCells(const CellAxes& axes, const Vec3* positions, std::size_t count, std::uint32_t* cells);
