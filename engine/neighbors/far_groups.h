@@ -12,8 +12,8 @@
 
 namespace engine {
 
-/// A division of particles into groups. It is a guess of which particles move together: whoever relies on it checks
-/// that the groups are still apart.
+/// A division of particles into groups that were apart when they were found. They may have met since, so code that
+/// relies on them calls stayApart() first.
 struct FarGroups {
     std::vector<std::uint32_t> groupOf;  ///< group of each particle index; empty if there are not at least two groups
     std::vector<std::uint32_t> leaders;  ///< lowest particle index of each group

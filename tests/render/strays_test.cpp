@@ -1,4 +1,4 @@
-// What nobody sees and what cannot shade what is seen does not change a picture, however far away it is.
+// Particles that are not in the picture and cannot shade what is in it do not change it, however far away they are.
 #include "tests/catch.h"
 
 #include <string>

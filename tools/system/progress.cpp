@@ -105,7 +105,7 @@ void Progress::showInTurn() {
         try {
             show(false);
         } catch (const std::exception&) {
-            // Nobody reads any more, which the next print of another thread reports.
+            // The reader of standard output is gone. The next print of another thread fails for the same reason.
             return;
         }
     }

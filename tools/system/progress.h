@@ -44,8 +44,8 @@ class Progress {
     /// @param sceneTime  its time, in seconds
     void frameDone(int frame, double sceneTime);
 
-    /// Tells that a frame was simulated that nobody asked for.
-    /// @param wanted  the next frame that was asked for
+    /// Tells that a frame was simulated that --frames does not list.
+    /// @param wanted  the next frame that it lists
     void frameSkipped(int frame, double sceneTime, int wanted);
 
     /// Tells that a step of the simulation begins, at a time in seconds. Costs no more than a few stores.
