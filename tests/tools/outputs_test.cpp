@@ -98,6 +98,16 @@ TEST_CASE("Commands refuse to write over what they read, before the run", "[outp
     CHECK(textOf(folder / "frames/frame-00001.png") == frame);
 }
 
+TEST_CASE("A command whose reader goes away ends as if by SIGPIPE, with --json, too", "[outputs]") {
+    for (const char* arguments : {"scenes", "scenes --json"}) {
+        // The reader is gone before the program starts.
+        const program::Outcome outcome =
+            program::shell(std::string("( sleep 0.3; " GLOBULAR_PROGRAM " ") + arguments + "; echo $? >&2 ) | true");
+        INFO(arguments << ": " << outcome.err);
+        CHECK(outcome.err == "141\n");
+    }
+}
+
 TEST_CASE("Particle states among the frames of a run are not removed with them", "[outputs]") {
     const Folder folder;
     program::writeText(folder / "a.toml", kScene);

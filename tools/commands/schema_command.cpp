@@ -6,6 +6,7 @@
 #include "scenes/schema/schema_export.h"
 #include "tools/commands/commands.h"
 #include "tools/system/json.h"
+#include "tools/system/process.h"
 
 namespace tools {
 

@@ -15,7 +15,4 @@ std::string compactText(const Json& json);
 /// U+FFFD.
 std::string indentedText(const Json& json);
 
-/// Prints JSON on a line of its own to standard output, as --json promises.
-void printJson(const Json& json);
-
 }  // namespace tools

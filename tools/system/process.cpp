@@ -112,6 +112,11 @@ void printText(const std::string& text) {
     fmt::print("{}", printable(text));
 }
 
+void printJson(const Json& json) {
+    printText(compactText(json) + "\n");
+    flushStandardOutput();
+}
+
 void printToStderr(const std::string& text) {
     writeToStderr(printable(text));
 }

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/system/json.h"
+
 namespace tools {
 
 /// The exit code of the program if the scene or the command line is wrong.
@@ -43,6 +45,11 @@ void ensureTemporaryFolder();
 /// Prints printable() text to standard output.
 /// @throws std::system_error
 void printText(const std::string& text);
+
+/// Prints JSON on a line of its own to standard output, as --json promises, and flushes it, so that a program that
+/// reads along gets each line at once.
+/// @throws as flushStandardOutput() does
+void printJson(const Json& json);
 
 /// Prints printable() text to standard error and ignores failures, because a lost message must not end a run.
 void printToStderr(const std::string& text);
