@@ -1,24 +1,23 @@
-// The renderer: a view in, pixels out. The CPU computes every pixel (render/cpu); OpenGL only carries the finished
-// pixels into a texture and reads them back.
+// The renderer: a view in, pixels out. There are two, which draw the same picture: one on the CPU's vector units
+// (render/cpu), whose pictures are the same bits on every machine, and one in OpenGL's shaders (render/opengl).
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "render/cpu/draw_times.h"
 #include "render/opengl/context.h"
+#include "render/picture/draw_times.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"
 
 namespace render {
 
 /// Draws views of one size and quality. It may be called from different threads, one at a time. The same view gives the
-/// same bytes in every run, with any number of threads and with either backend of the context.
+/// same bytes in every run and with any number of threads.
 class Renderer {
  public:
-    /// @param context  must outlive the renderer
-    /// @throws SystemError if the size is beyond OpenGL's largest texture
-    Renderer(Context& context, PictureSize size, Quality quality);
+    /// The renderer on the CPU.
+    Renderer(PictureSize size, Quality quality);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

@@ -1,4 +1,4 @@
-// The colors of a picture's pixels, and the surface points that they show, tile by tile. Called by the picture pass.
+// The colors of a picture's pixels, and the surface points that they show, tile by tile. Called by cpu_renderer.cpp.
 #pragma once
 
 #include <cstddef>

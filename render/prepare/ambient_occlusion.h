@@ -1,5 +1,5 @@
 // How much of the sky each point of a scene sees (ambient occlusion), from the density of particles on a grid: section
-// 3 of shading_model.h defines it. Called by the picture pass when a term of the shading model needs it.
+// 3 of shading_model.h defines it. Called by the preparation of a view when a term of the shading model needs it.
 #pragma once
 
 #include <array>

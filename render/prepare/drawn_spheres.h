@@ -1,4 +1,5 @@
-// The spheres that are drawn as such, and the packed attributes that shading needs of them. Made by the picture pass.
+// The spheres that are drawn as such, and the packed attributes that shading needs of them. Made by the preparation of
+// a view.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Light space: coordinates u and v on a plane across the direction of the light, and a height toward the light. Spheres
 // that cast shadows are binned into a grid on that plane, so that a shaded point tests only those between it and the
-// light. All positions are relative to the eye. Called by the picture pass; the basis also serves the metaballs' depth
-// map.
+// light. All positions are relative to the eye. Called by the preparation of a view; the basis also serves the
+// metaballs' depth map.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The balls whose field is the surface of metaballs: the particles themselves, or for a smooth skin what view.h
-// (MetaballField) makes of them. Called by the picture pass once per frame.
+// (MetaballField) makes of them. Called by the preparation of a view.
 #pragma once
 
 #include <vector>

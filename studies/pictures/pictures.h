@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "render/cpu/draw_times.h"
+#include "render/picture/draw_times.h"
 #include "render/opengl/context.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"

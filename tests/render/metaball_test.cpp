@@ -10,7 +10,7 @@
 
 #include "render/cpu/lighting/depth_map.h"
 #include "render/cpu/metaballs/metaball_frame.h"
-#include "render/cpu/metaballs/metaball_scene.h"
+#include "render/prepare/metaball_scene.h"
 #include "render/cpu/metaballs/ray_layout.h"
 #include "tests/render/pictures.h"
 

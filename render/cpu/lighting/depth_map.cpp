@@ -10,32 +10,12 @@
 #include <tbb/parallel_for.h>
 
 #include "render/cpu/metaballs/metaball_cast.h"
-#include "render/cpu/metaballs/metaball_scene.h"
 #include "render/cpu/metaballs/ray_layout.h"
-#include "render/prepare/drawn_spheres.h"
+#include "render/prepare/metaball_scene.h"
 
 namespace render {
 
 namespace {
-
-CameraFrame lightFrame(const LightBasis& basis, const DepthMap& map, float top) {
-    CameraFrame frame;
-    frame.perspective = false;
-    frame.right = basis.u;
-    frame.up = -basis.v;  // the rows of the map run along +v, from top to bottom
-    frame.forward = -basis.toLight;
-    frame.width = map.columns;
-    frame.height = map.rows;
-    frame.halfWidth = 0.5F * static_cast<float>(map.columns) * map.texelSize;
-    frame.halfHeight = 0.5F * static_cast<float>(map.rows) * map.texelSize;
-    frame.eye =
-        (map.origin.x + frame.halfWidth) * basis.u + (map.origin.y + frame.halfHeight) * basis.v + top * basis.toLight;
-    return frame;
-}
-
-// Texels per radius of the smallest particle in a map for sharp shadows. Chosen by eye: the edge of a shadow, which is
-// filtered over three texels, is then a quarter of a radius wide.
-constexpr float kTexelsPerRadius = 12.0F;
 
 // Neighboring texels have an outline between them if their heights differ by more than this many texel sizes. With half
 // as many, pictures come no nearer to the exact ones (measured).
@@ -44,21 +24,10 @@ constexpr float kJump = 4.0F;
 constexpr std::size_t kReadAtOnce = 8;  // number of heights that light_visibility.cpp loads at once
 constexpr float kMaxSteps = 65535.0F;   // largest height that can be stored, in steps of the map
 
-/// A depth map without heights. Texels lie at multiples of their size in the world, so that they do not move when the
-/// map grows by a row or the camera moves.
-/// @param eye  position of the camera in light space, m
-DepthMap emptyMap(const Bounds<glm::vec3>& bounds, glm::vec3 eye, float texelSize, int maxTexels) {
-    DepthMap map;
-    const glm::vec3 extent = bounds.high - bounds.low;
-    map.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(maxTexels - 7), texelSize);
-    // The map has a margin of three texels, because the filter reads neighbors of a texel.
-    map.columns = static_cast<int>(extent.x / map.texelSize) + 8;
-    map.rows = static_cast<int>(extent.y / map.texelSize) + 8;
-    const glm::vec2 low = glm::vec2(bounds.low) + glm::vec2(eye);
-    map.origin = (glm::floor(low / map.texelSize) - 3.0F) * map.texelSize - glm::vec2(eye);
+DepthMap emptyMap(const DepthMapGrid& grid) {
+    DepthMap map{grid};
     const auto texels = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
-    map.bottom = bounds.low.z;
-    map.step = std::max(extent.z / (kMaxSteps - 1.0F), std::numeric_limits<float>::min());
+    map.step = std::max((map.top - map.bottom) / (kMaxSteps - 1.0F), std::numeric_limits<float>::min());
     map.heights.assign(4 * texels + kReadAtOnce, 0);
     map.lowest.assign(texels, 0.0F);
     map.highest.assign(texels, 0.0F);
@@ -68,10 +37,8 @@ DepthMap emptyMap(const Bounds<glm::vec3>& bounds, glm::vec3 eye, float texelSiz
 /// Casts the heights of an empty depth map and finds their bounds.
 class HeightCast {
  public:
-    /// @param top  height of the plane where the light's rays start, m
-    HeightCast(const MetaballScene& scene, float top, DepthMap& map)
+    HeightCast(const MetaballScene& scene, DepthMap& map)
         : scene_(scene),
-          top_(top),
           map_(map),
           columns_(static_cast<std::size_t>(map.columns)),
           rows_(static_cast<std::size_t>(map.rows)),
@@ -141,7 +108,7 @@ class HeightCast {
         block.x[block.count] = 0.5F * static_cast<float>(column) + 0.25F;
         block.y[block.count] = 0.5F * static_cast<float>(row) + 0.25F;
         // The search begins one radius before the nearest surface around the ray.
-        block.minDepth[block.count] = top_ - *highest - scene_.smallestRadius;
+        block.minDepth[block.count] = map_.top - *highest - scene_.smallestRadius;
         block.maxDepth[block.count] = kNoDepthLimit;
         ++block.count;
     }
@@ -207,11 +174,10 @@ class HeightCast {
     }
 
     float heightOf(const RayBlock& block, std::size_t k) const {
-        return block.depth[k] < 0.0F ? kNoHeight : top_ - block.depth[k];
+        return block.depth[k] < 0.0F ? kNoHeight : map_.top - block.depth[k];
     }
 
     const MetaballScene& scene_;
-    float top_;
     DepthMap& map_;
     std::size_t columns_, rows_;
     std::vector<float> first_;  // first of the four heights of each texel, m
@@ -219,27 +185,9 @@ class HeightCast {
 
 }  // namespace
 
-DepthMap castDepthMap(const LightBasis& basis, const View& view, std::span<const SkinBall> balls,
-                      const DepthMapSampling& sampling) {
-    Bounds<glm::vec3> bounds;  // bounds of the balls' kernels in light space, m
-    float smallest = std::numeric_limits<float>::max();
-    for (std::size_t k = 0; k < balls.size(); ++k) {
-        const float radius = view.particles[k].radius;
-        if (radius <= 0.0F) continue;
-        const glm::vec3 center = basis.toLightSpace(balls[k].center - view.camera.eye);
-        bounds.add(center - balls[k].reach, center + balls[k].reach);
-        smallest = std::min(smallest, radius);
-    }
-    if (bounds.low.x > bounds.high.x) return {};
-    // A soft edge is filtered over three texels, each half as wide as the softness (shading_model.h).
-    const auto mean = static_cast<float>(meanRadius(view.particles));
-    const float softness = view.light.softness;
-    const float texelSize = softness > 0.0F ? 0.5F * softness * mean : smallest / kTexelsPerRadius;
-    DepthMap map = emptyMap(bounds, basis.toLightSpace(view.camera.eye), texelSize, sampling.maxTexels);
-    map.origin += sampling.shift * map.texelSize;
-    CameraFrame frame = lightFrame(basis, map, bounds.high.z);
-    frame.eye += view.camera.eye;
-    HeightCast(metaballScene(frame, view, balls), bounds.high.z, map).run();
+DepthMap castDepthMap(const DepthMapGrid& grid, const MetaballScene& scene) {
+    DepthMap map = emptyMap(grid);
+    HeightCast(scene, map).run();
     return map;
 }
 

@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/prepare/simd_loads-inl.h"
+#include "render/cpu/lighting/simd_loads-inl.h"
 #include "render/prepare/simd_occlusion-inl.h"
 #include "render/prepare/simd_rays-inl.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "render/cpu/metaballs/metaball_scene.h"
+#include "render/prepare/metaball_scene.h"
 #include "render/prepare/tiles.h"
 
 namespace render {

@@ -1,10 +1,10 @@
-// Casts the metaballs of one picture: the hits of every pixel's ray. Called by the picture pass.
+// Casts the metaballs of one picture: the hits of every pixel's ray. Called by cpu_renderer.cpp.
 #pragma once
 
 #include <glm/glm.hpp>
 
 #include "render/cpu/metaballs/metaball_hits.h"
-#include "render/cpu/metaballs/metaball_scene.h"
+#include "render/prepare/metaball_scene.h"
 
 namespace render {
 

@@ -23,7 +23,7 @@
 #include <hwy/highway.h>
 #include <tbb/cache_aligned_allocator.h>
 
-#include "render/cpu/metaballs/metaball_scene.h"
+#include "render/prepare/metaball_scene.h"
 #include "render/prepare/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/cpu/metaballs/metaball_hits.h"
-#include "render/cpu/metaballs/metaball_scene.h"
+#include "render/prepare/metaball_scene.h"
 
 namespace render {
 

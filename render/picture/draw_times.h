@@ -1,4 +1,4 @@
-// Where the time of a picture goes, stage by stage. Filled in by the Renderer and the picture pass, read by the
+// Where the time of a picture goes, stage by stage. Filled in by the Renderer and its stages, read by the
 // studies.
 #pragma once
 
@@ -15,8 +15,8 @@ struct DrawTimes {
     double shadow = 0.0;     ///< building the light's grid of spheres and the depth map of the metaballs
     double cast = 0.0;       ///< ray casting of metaballs
     double color = 0.0;      ///< primary hits and shading
-    double openGl = 0.0;     ///< uploading the pixels
-    double readBack = 0.0;
+    double upload = 0.0;     ///< handing the prepared view over to OpenGL
+    double readBack = 0.0;   ///< making the image of the pixels
 };
 
 /// Adds the seconds that work() takes to the time of a stage.

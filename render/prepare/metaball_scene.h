@@ -1,5 +1,5 @@
 // The metaballs of one view as a camera, or the light, sees them: the balls of view.h's field in its coordinates,
-// listed for each tile that their kernels reach. Built by the picture pass and the depth map, read by everything that
+// listed for each tile that their kernels reach. Made by the preparation of a view, read by everything that
 // casts rays.
 #pragma once
 

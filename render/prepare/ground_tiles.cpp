@@ -1,6 +1,6 @@
 // The horizon is a straight line of the picture, and the ground that a tile shows is the convex hull of the points
 // where rays through the tile's corners meet it.
-#include "render/cpu/shading/ground_tiles.h"
+#include "render/prepare/ground_tiles.h"
 
 #include <algorithm>
 #include <array>
@@ -19,19 +19,19 @@ bool overlap(const Rectangle& a, const Rectangle& b, float slack) {
 }
 
 /// Bounds of all shadows on the light's plane, soft edges included.
-Rectangle shadowBounds(const Occluders& occluders) {
+Rectangle shadowBounds(const GroundOccluders& occluders) {
     Rectangle bounds;
     if (const LightGrid* grid = occluders.spheres)
         bounds.add(grid->origin, grid->origin + grid->cellSize * glm::vec2(grid->columns, grid->rows));
     // The depth map may be shifted by less than a texel: one more is added on each side.
-    if (const DepthMap* map = occluders.metaballs)
+    if (const DepthMapGrid* map = occluders.metaballs)
         bounds.add(map->origin - map->texelSize,
                    map->origin + map->texelSize * glm::vec2(map->columns + 1, map->rows + 1));
     for (const BoxObstacle& box : occluders.boxes) {
         // More than half the width of the shadow's edge, which is soft or as wide as a pixel. Half the box's diagonal
         // is enough for a pixel, because a box far away that is smaller than a pixel has no visible shadow.
         const glm::vec3 size = box.maximum - box.minimum;
-        const float edge = occluders.softness * occluders.meanRadius + 0.5F * length(size);
+        const float edge = occluders.softEdge + 0.5F * length(size);
         for (int corner = 0; corner < 8; ++corner) {
             const glm::vec3 at = box.minimum + size * glm::vec3(corner & 1, (corner >> 1) & 1, corner >> 2);
             const glm::vec2 onPlane(occluders.light.toLightSpace(at - occluders.eye));
@@ -42,9 +42,9 @@ Rectangle shadowBounds(const Occluders& occluders) {
 }
 
 /// Bounds of the map of the ground's sky visibility, x and z relative to the eye.
-Rectangle skyBounds(const Occluders& occluders) {
+Rectangle skyBounds(const GroundOccluders& occluders) {
     Rectangle bounds;
-    if (const SkyVisibilityMap* map = occluders.groundSky) {
+    if (const SkyVisibilityMap* map = occluders.sky) {
         const glm::vec2 low = map->origin - glm::vec2(occluders.eye.x, occluders.eye.z);
         bounds.add(low, low + map->side * glm::vec2(map->columns, map->rows));
     }
@@ -88,7 +88,7 @@ TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, c
 
 }  // namespace
 
-std::vector<TileKind> groundTiles(const CameraFrame& frame, float height, const Occluders& occluders) {
+std::vector<TileKind> groundTiles(const CameraFrame& frame, float height, const GroundOccluders& occluders) {
     const Rectangle shadows = shadowBounds(occluders);
     const Rectangle sky = skyBounds(occluders);
     const int columns = tilesAlong(frame.width);

@@ -1,5 +1,5 @@
 // Makes balls of particles and lists them for the tiles that they reach.
-#include "render/cpu/metaballs/metaball_scene.h"
+#include "render/prepare/metaball_scene.h"
 
 #include <algorithm>
 #include <cmath>

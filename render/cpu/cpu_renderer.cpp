@@ -1,0 +1,145 @@
+// The stages of a picture and what each hands to the next.
+#include "render/cpu/cpu_renderer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "render/cpu/metaballs/metaball_frame.h"
+
+namespace render {
+
+namespace {
+
+/// The samples of a pixel, one pass over the picture for each element. In final quality a regular grid of 3 x 3
+/// samples, each clamped, whose mean is taken in linear light.
+std::vector<Sampling> samplingsOf(Quality quality) {
+    if (quality == Quality::draft) return {{.isSparse = true}};
+    if (quality == Quality::normal) return {{.samples = 4, .isSparse = true}};
+    std::vector<Sampling> samplings;
+    for (int row = -1; row <= 1; ++row)
+        for (int column = -1; column <= 1; ++column)
+            samplings.push_back({.offset = glm::vec2(column, row) / 3.0F, .index = samplings.size(), .count = 9});
+    return samplings;
+}
+
+std::size_t pixelCount(PictureSize size) {
+    return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+}
+
+}  // namespace
+
+CpuRenderer::CpuRenderer(PictureSize size, Quality quality)
+    : size_(size),
+      padded_{kTileSize * tilesAlong(size.width), kTileSize * tilesAlong(size.height)},
+      quality_(quality),
+      pixels_(pixelCount(padded_)) {}
+
+Image CpuRenderer::draw(const PreparedView& view, Image image, DrawTimes& times) {
+    shading_ = shadingOf(*view.view);
+    for (const Sampling& sampling : samplingsOf(quality_)) {
+        cast(view, sampling, times);
+        timed(times.color, [&] {
+            colorPixels(pictureJob(view, sampling), {sampling.index, sampling.count, sums_}, background_, pixels_);
+        });
+    }
+    timed(times.readBack, [&] {
+        image.width = size_.width;
+        image.height = size_.height;
+        image.rgb.resize(image.byteCount());
+        tbb::parallel_for(tbb::blocked_range<int>(0, size_.height, 64),
+                          [&](const auto& rows) { packRows(rows.begin(), rows.end(), image); });
+    });
+    return image;
+}
+
+std::vector<VisiblePoint> CpuRenderer::visiblePoints(const PreparedView& view) {
+    const Sampling sampling{.isSparse = quality_ != Quality::final};
+    shading_ = shadingOf(*view.view);
+    DrawTimes times;
+    cast(view, sampling, times);
+    return render::visiblePoints(pictureJob(view, sampling));
+}
+
+// In final quality the rays of a sampling are moved by a third of a pixel. The texels of the depth map are moved by a
+// third of a texel with them, so that the mean of the samplings shows the mean of nine depth maps.
+void CpuRenderer::castDepthMap(const PreparedView& view, glm::vec2 offset) {
+    if (view.depthMap.empty()) {
+        depthMap_ = {};
+        return;
+    }
+    if (offset == glm::vec2(0.0F)) {
+        depthMap_ = render::castDepthMap(view.depthMap, view.lightMetaballs);
+        return;
+    }
+    const DepthMapGrid grid = view.depthMap.shifted(offset);
+    depthMap_ = render::castDepthMap(
+        grid, metaballScene(lightFrame(view.light, grid, view.frame.eye, 1), *view.view, view.skin));
+}
+
+void CpuRenderer::cast(const PreparedView& view, const Sampling& sampling, DrawTimes& times) {
+    timed(times.shadow, [&] { castDepthMap(view, sampling.offset); });
+    if (!view.hasMetaballs) return;
+    timed(times.cast, [&] {
+        castMetaballs(view.metaballs, {sampling.offset, sampling.samples > 1, sampling.isSparse}, metaballHits_);
+    });
+}
+
+Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
+    Occluders occluders;
+    occluders.light = view.light;
+    occluders.eye = view.frame.eye;
+    if (!view.lightGrid.empty()) occluders.spheres = &view.lightGrid;
+    if (!depthMap_.empty()) occluders.metaballs = &depthMap_;
+    if (view.view->light.shadows) occluders.boxes = view.view->boxObstacles;
+    occluders.softness = view.view->light.softness;
+    occluders.meanRadius = view.meanRadius;
+    if (view.hasOcclusion()) {
+        occluders.sky = &view.skyGrid;
+        occluders.groundSky = &view.groundSky;
+    }
+    return occluders;
+}
+
+/// The job points into the prepared view, the sampling and this object, which have to outlive it.
+PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sampling) const {
+    const std::vector<BoxObstacle>& boxes = view.view->boxObstacles;
+    const SolidGeometry solids{view.frame, view.viewSpheres,   view.spherePixels, &view.sphereTiles,
+                               boxes,      view.groundHeight()};
+    const ShadingGeometry geometry{view.frame,
+                                   view.drawn.spheres,
+                                   view.sphereAttributes,
+                                   view.drawn.firstObstacle,
+                                   boxes,
+                                   solids.ground,
+                                   view.view->ground.value_or(Ground{}).color,
+                                   metaballHits_.hits,
+                                   view.light.toLight,
+                                   view.needsSkyVisibility};
+    const Occluders occluders = occludersOf(view);
+    return {{solids, view.hasMetaballs ? &metaballHits_ : nullptr, view.lines, view.boxTiles, view.groundTiles},
+            sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
+            geometry,
+            occluders.isEmpty() ? std::nullopt : std::optional(occluders),
+            shading_};
+}
+
+/// Packs rows of pixels from four bytes per pixel to three.
+void CpuRenderer::packRows(int first, int last, Image& image) const {
+    const auto width = static_cast<std::size_t>(size_.width);
+    for (int row = first; row < last; ++row) {
+        const PixelColor* from = &pixels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(padded_.width)];
+        std::uint8_t* to = &image.rgb[3 * width * static_cast<std::size_t>(row)];
+        // Copies four bytes for each pixel but the last: the fourth byte is overwritten by the next pixel.
+        static_assert(std::endian::native == std::endian::little);
+        for (std::size_t k = 0; k + 1 < width; ++k) std::memcpy(to + 3 * k, &from[k], sizeof(PixelColor));
+        std::memcpy(to + 3 * (width - 1), &from[width - 1], 3);
+    }
+}
+
+}  // namespace render

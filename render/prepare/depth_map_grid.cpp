@@ -1,0 +1,63 @@
+// The size of a texel comes from the softness of the light or from the smallest particle.
+#include "render/prepare/depth_map_grid.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "render/prepare/drawn_spheres.h"
+
+namespace render {
+
+namespace {
+
+// Texels per radius of the smallest particle in a map for sharp shadows. Chosen by eye: the edge of a shadow, which is
+// filtered over three texels, is then a quarter of a radius wide.
+constexpr float kTexelsPerRadius = 12.0F;
+
+}  // namespace
+
+DepthMapGrid depthMapGrid(const LightBasis& basis, const View& view, std::span<const SkinBall> balls, int maxTexels) {
+    Bounds<glm::vec3> bounds;  // bounds of the balls' kernels in light space, m
+    float smallest = std::numeric_limits<float>::max();
+    for (std::size_t k = 0; k < balls.size(); ++k) {
+        const float radius = view.particles[k].radius;
+        if (radius <= 0.0F) continue;
+        const glm::vec3 center = basis.toLightSpace(balls[k].center - view.camera.eye);
+        bounds.add(center - balls[k].reach, center + balls[k].reach);
+        smallest = std::min(smallest, radius);
+    }
+    if (bounds.low.x > bounds.high.x) return {};
+    // A soft edge is filtered over three texels, each half as wide as the softness (shading_model.h).
+    const auto mean = static_cast<float>(meanRadius(view.particles));
+    const float softness = view.light.softness;
+    const float wanted = softness > 0.0F ? 0.5F * softness * mean : smallest / kTexelsPerRadius;
+    const glm::vec3 extent = bounds.high - bounds.low;
+    DepthMapGrid grid;
+    grid.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(maxTexels - 7), wanted);
+    grid.columns = static_cast<int>(extent.x / grid.texelSize) + 8;
+    grid.rows = static_cast<int>(extent.y / grid.texelSize) + 8;
+    const glm::vec2 eye(basis.toLightSpace(view.camera.eye));
+    const glm::vec2 low = glm::vec2(bounds.low) + eye;
+    grid.origin = (glm::floor(low / grid.texelSize) - 3.0F) * grid.texelSize - eye;
+    grid.bottom = bounds.low.z;
+    grid.top = bounds.high.z;
+    return grid;
+}
+
+CameraFrame lightFrame(const LightBasis& basis, const DepthMapGrid& grid, glm::vec3 eye, int pixelsPerTexel) {
+    CameraFrame frame;
+    frame.perspective = false;
+    frame.right = basis.u;
+    frame.up = -basis.v;  // the rows of the map run along +v, from top to bottom
+    frame.forward = -basis.toLight;
+    frame.width = grid.columns * pixelsPerTexel;
+    frame.height = grid.rows * pixelsPerTexel;
+    frame.halfWidth = 0.5F * static_cast<float>(grid.columns) * grid.texelSize;
+    frame.halfHeight = 0.5F * static_cast<float>(grid.rows) * grid.texelSize;
+    frame.eye = (grid.origin.x + frame.halfWidth) * basis.u + (grid.origin.y + frame.halfHeight) * basis.v +
+                grid.top * basis.toLight;
+    frame.eye += eye;
+    return frame;
+}
+
+}  // namespace render

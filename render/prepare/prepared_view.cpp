@@ -1,0 +1,106 @@
+// Sky visibility, tiles and shadow casters are found side by side: none needs the others' results, and each has parts
+// that keep only one thread busy.
+#include "render/prepare/prepared_view.h"
+
+#include <utility>
+
+#include <tbb/parallel_invoke.h>
+
+#include "render/prepare/strays.h"
+
+namespace render {
+
+namespace {
+
+bool needsSkyVisibility(const View& view) {
+    const Surface& surface = view.surface;
+    return !view.particles.empty() && (view.ambient.occlusion > 0.0F || surface.reflection > 0.0F ||
+                                       surface.translucency > 0.0F || surface.absorption > 0.0F);
+}
+
+void findSkyVisibility(PreparedView& to) {
+    const View& view = *to.view;
+    to.needsSkyVisibility = needsSkyVisibility(view);
+    to.skyGrid = to.needsSkyVisibility ? skyVisibilityGrid(view.particles, std::move(to.skyGrid)) : SkyVisibilityGrid{};
+    to.particleSky =
+        to.needsSkyVisibility ? particleSkyVisibility(view.particles, to.skyGrid) : std::vector<SkyVisibility>{};
+    to.groundSky = to.needsSkyVisibility && view.ground ? skyVisibilityAtHeight(to.skyGrid, view.ground->height)
+                                                        : SkyVisibilityMap{};
+}
+
+void binForCamera(PreparedView& to) {
+    const View& view = *to.view;
+    to.viewSpheres.resize(to.drawn.spheres.size());
+    for (std::size_t k = 0; k < to.viewSpheres.size(); ++k)
+        to.viewSpheres[k] = {to.frame.toView(to.drawn.spheres[k].center + to.frame.eye), to.drawn.spheres[k].radius};
+    to.spherePixels = pixelBounds(to.frame, to.viewSpheres);
+    to.sphereTiles = binToTiles(to.frame, to.viewSpheres, to.spherePixels);
+    to.lines = projectEdges(to.frame, view.edges);
+    if (to.hasMetaballs) to.metaballs = metaballScene(to.frame, view, to.skin);
+}
+
+void binForLight(PreparedView& to) {
+    const View& view = *to.view;
+    const bool castsShadows = view.light.shadows;
+    to.lightGrid = castsShadows ? lightGrid(to.light, to.drawn.spheres, view.light.softness) : LightGrid{};
+    to.depthMap = castsShadows && to.hasMetaballs ? depthMapGrid(to.light, view, to.skin, to.settings.depthMapTexels)
+                                                  : DepthMapGrid{};
+    if (to.depthMap.empty()) return;
+    to.lightMetaballs = metaballScene(
+        lightFrame(to.light, to.depthMap, view.camera.eye, to.settings.depthMapRaysPerTexel), view, to.skin);
+}
+
+void findBoxTiles(PreparedView& to) {
+    to.boxTiles.assign(to.sphereTiles.cellCount(), 0);
+    for (const BoxObstacle& box : to.view->boxObstacles) {
+        const auto pixels = pixelsTouchedByBox(to.frame, box.minimum, box.maximum);
+        if (!pixels) continue;
+        for (int row = pixels->y0 / kTileSize; row <= pixels->y1 / kTileSize; ++row)
+            for (int column = pixels->x0 / kTileSize; column <= pixels->x1 / kTileSize; ++column)
+                to.boxTiles[to.sphereTiles.cellIndex(column, row)] = 1;
+    }
+}
+
+void findGroundTiles(PreparedView& to) {
+    to.groundTiles.assign(to.sphereTiles.cellCount(), TileKind::background);
+    if (!to.view->ground) return;
+    GroundOccluders occluders;
+    occluders.light = to.light;
+    occluders.eye = to.frame.eye;
+    if (!to.lightGrid.empty()) occluders.spheres = &to.lightGrid;
+    if (!to.depthMap.empty()) occluders.metaballs = &to.depthMap;
+    if (to.view->light.shadows) occluders.boxes = to.view->boxObstacles;
+    occluders.softEdge = to.view->light.softness * to.meanRadius;
+    if (to.hasOcclusion()) occluders.sky = &to.groundSky;
+    to.groundTiles = groundTiles(to.frame, *to.groundHeight(), occluders);
+}
+
+}  // namespace
+
+void prepareView(const View& view, const PrepareSettings& settings, PreparedView& to, DrawTimes& times) {
+    to.settings = settings;
+    to.frame = cameraFrame(view.camera, settings.size);
+    timed(times.bin, [&] { to.withoutStrays = withoutStrays(view, to.frame); });
+    to.view = to.withoutStrays ? &*to.withoutStrays : &view;
+    const View& drawn = *to.view;
+    to.light = lightBasis(drawn.light.toLight);
+    to.hasMetaballs = drawn.style == Style::metaballs && !drawn.particles.empty();
+    to.meanRadius = static_cast<float>(meanRadius(drawn.particles));
+    const auto placeBalls = [&] {
+        timed(times.bin, [&] {
+            to.drawn = drawnSpheres(drawn);
+            to.skin = to.hasMetaballs ? skinOf(drawn) : std::vector<SkinBall>{};
+        });
+        tbb::parallel_invoke([&] { timed(times.bin, [&] { binForCamera(to); }); },
+                             [&] { timed(times.shadow, [&] { binForLight(to); }); });
+    };
+    tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findSkyVisibility(to); }); }, placeBalls);
+    timed(times.bin, [&] {
+        to.sphereAttributes = sphereAttributes(drawn, to.drawn, to.particleSky);
+        if (to.hasMetaballs) setAttributes(drawn, to.particleSky, to.metaballs);
+        findBoxTiles(to);
+        findGroundTiles(to);
+    });
+}
+
+}  // namespace render

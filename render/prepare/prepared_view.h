@@ -1,0 +1,75 @@
+// A view as both renderers take it: what is seen and what shades it, sorted into tiles of the picture and cells of the
+// light's plane. Made by the Renderer for each picture. Positions are relative to the eye where nothing else is said.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "render/picture/camera_frame.h"
+#include "render/picture/draw_times.h"
+#include "render/picture/view.h"
+#include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/depth_map_grid.h"
+#include "render/prepare/drawn_spheres.h"
+#include "render/prepare/ground_tiles.h"
+#include "render/prepare/light_space.h"
+#include "render/prepare/metaball_scene.h"
+#include "render/prepare/screen_lines.h"
+#include "render/prepare/skin.h"
+#include "render/prepare/tiles.h"
+
+namespace render {
+
+/// What a renderer wants to be prepared.
+struct PrepareSettings {
+    PictureSize size;
+    int depthMapTexels = 1024;     ///< number of texels along the longer side of the metaballs' depth map
+    int depthMapRaysPerTexel = 1;  ///< rays along each side of a texel: pixels of the picture that the light sees
+};
+
+struct PreparedView {
+    const View* view = nullptr;  ///< the view without its strays
+    PrepareSettings settings;
+    CameraFrame frame;
+    float meanRadius = 0.0F;  ///< mean radius of the particles, m
+
+    DrawnSpheres drawn;
+    std::vector<SphereAttributes> sphereAttributes;
+    std::vector<ViewSphere> viewSpheres;  ///< the drawn spheres in view coordinates
+    std::vector<Rect> spherePixels;       ///< bounds of the pixels that each drawn sphere may touch
+    CellLists sphereTiles;                ///< drawn spheres of each tile, front to back
+
+    bool hasMetaballs = false;
+    std::vector<SkinBall> skin;  ///< in world coordinates; only with metaballs, as the next three
+    MetaballScene metaballs;
+    DepthMapGrid depthMap;         ///< empty unless metaballs cast shadows
+    MetaballScene lightMetaballs;  ///< the metaballs as the light sees them, for the depth map; without attributes
+
+    LineList lines;
+    std::vector<std::uint8_t> boxTiles;  ///< per tile: 1 where a box may be seen
+    std::vector<TileKind> groundTiles;   ///< per tile: what it shows as long as nothing stands before the ground
+
+    LightBasis light;
+    LightGrid lightGrid;              ///< empty unless spheres cast shadows
+    bool needsSkyVisibility = false;  ///< whether some term of the shading model needs it
+    SkyVisibilityGrid skyGrid;
+    SkyVisibilityMap groundSky;
+    std::vector<SkyVisibility> particleSky;
+
+    std::optional<View> withoutStrays;  ///< what `view` points to if strays were removed
+
+    /// Height of the ground over the eye, m.
+    std::optional<float> groundHeight() const {
+        return view->ground ? std::optional(view->ground->height - frame.eye.y) : std::nullopt;
+    }
+    /// Whether ambient light is occluded.
+    bool hasOcclusion() const { return needsSkyVisibility && view->ambient.occlusion > 0.0F; }
+};
+
+/// Prepares a view, which must outlive what is prepared.
+/// @param prepared  overwritten; its memory is reused
+/// @param times     the times of the stages are added to it
+void prepareView(const View& view, const PrepareSettings& settings, PreparedView& prepared, DrawTimes& times);
+
+}  // namespace render
