@@ -17,9 +17,9 @@ struct DepthMap : DepthMapGrid {
     float step = 1.0F;  ///< difference of height between two steps, m
     /// The heights, in steps from `bottom`. A row of texels has two rows of heights, of which each texel has two in
     /// each. Unused entries follow, because loads of several heights may read beyond the last one.
-    std::vector<std::uint16_t> heights;
+    std::vector<std::uint16_t> heights{};
     /// Per texel: the lowest and the highest of the stored heights within two texels of it.
-    std::vector<float> lowest, highest;
+    std::vector<float> lowest{}, highest{};
 };
 
 /// Casts the depth map of the metaballs of a view.
