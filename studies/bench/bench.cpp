@@ -8,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -213,23 +212,20 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
     return rows;
 }
 
-std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& scene, render::Context* context,
+std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& scene, render::Renderer* renderer,
                                   int rounds) {
     engine::Simulation simulation = engine::start(scene.setup);
     int frame = scenes::stillFrame(scene);
     scenes::advanceToFrame(scene, simulation, frame);
-    std::optional<render::Renderer> renderer;
-    if (context != nullptr) {
-        renderer.emplace(*context, scene.size, render::Quality::normal);
-        renderer->draw(scenes::frameView(scene, simulation));  // drawing the first frame allocates memory
-    }
+    // Drawing the first frame allocates memory.
+    if (renderer != nullptr) renderer->draw(scenes::frameView(scene, simulation));
     const std::uint64_t stepsBefore = simulation.steps.count;
     std::vector<double> simulated;
     std::vector<double> drawn;
     for (int round = 0; round < rounds; ++round) {
         ++frame;
         simulated.push_back(secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); }));
-        if (!renderer) continue;
+        if (renderer == nullptr) continue;
         const render::View view = scenes::frameView(scene, simulation);
         drawn.push_back(secondsOf([&] { renderer->draw(view); }));
     }
@@ -242,7 +238,7 @@ std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& 
     row.seconds = median(simulated);
     row.steps = static_cast<double>(simulation.steps.count - stepsBefore) / rounds;
     row.stateHash = engine::stateHash(simulation.particles);
-    if (!renderer) return {row};
+    if (renderer == nullptr) return {row};
     BenchRow drawing = row;
     drawing.name = kDrawFrame;
     drawing.neighbors = 0.0;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/run/advance.h"
-#include "render/opengl/context.h"
+#include "render/renderer.h"
 #include "scenes/model/scene.h"
 
 namespace studies {
@@ -58,11 +58,10 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
 std::string benchRowsText();
 
 /// Measures simulating and drawing whole frames of a scene (kSimulateFrame and kDrawFrame): medians over the `rounds`
-/// frames that follow the scene's still, drawn in the scene's own appearance and size at normal quality. The hash is
-/// that of the last state.
-/// @param context  OpenGL context to draw with; null: frames are simulated only
+/// frames that follow the scene's still, drawn in the scene's own appearance. The hash is that of the last state.
+/// @param renderer  draws pictures of the scene's size; null: frames are simulated only
 /// @throws engine::InstabilityError, render::SystemError
-std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& scene, render::Context* context,
+std::vector<BenchRow> benchFrames(const std::string& name, const scenes::Scene& scene, render::Renderer* renderer,
                                   int rounds);
 
 /// Runs fused multiply-adds in registers, on vectors as wide as the machine's and on the given number of threads.

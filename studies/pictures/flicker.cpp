@@ -43,12 +43,11 @@ FlickerRow flickerOf(const PictureSubject& subject, const std::vector<render::Im
 }  // namespace
 
 std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const RowsListener<FlickerRow>& listener) {
-    render::Context context(render::Backend::osmesa);
     std::vector<FlickerRow> rows;
     for (const render::Style style : kStyles) {
         const render::View view = damBreakView(settings.particles, style);
         for (const render::Quality quality : kQualities) {
-            render::Renderer renderer(context, settings.size, quality);
+            render::Renderer renderer(settings.size, quality);
             std::vector<render::Image> frames;
             for (int frame = 0; frame < settings.frames; ++frame)
                 frames.push_back(renderer.draw(shifted(view, settings, frame)));

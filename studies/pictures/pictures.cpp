@@ -40,7 +40,7 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
         return median(values);
     };
     return {medianOf(&DrawTimes::bin),     medianOf(&DrawTimes::occlusion), medianOf(&DrawTimes::shadow),
-            medianOf(&DrawTimes::cast),    medianOf(&DrawTimes::color),     medianOf(&DrawTimes::openGl),
+            medianOf(&DrawTimes::cast),    medianOf(&DrawTimes::color),     medianOf(&DrawTimes::upload),
             medianOf(&DrawTimes::readBack)};
 }
 
@@ -145,7 +145,7 @@ struct TimedViews {
 
 /// Measures all times of a picture. The row says which picture, and receives the times.
 void measureTimes(const PictureSettings& settings, render::Context& context, const TimedViews& views, PictureRow& row) {
-    render::Renderer renderer(context, row.size, row.quality);
+    render::Renderer renderer(row.size, row.quality);
     {
         QuadBaseline quads(context, row.size);
         row.moving = measureDrawing(quads, renderer, views.frames, &views.fewest);
@@ -169,7 +169,7 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, const R
                 for (const render::Quality quality : kQualities) {
                     PictureRow row{{style, particles, size, quality}};
                     measureTimes(settings, context, views, row);
-                    render::Renderer renderer(context, size, quality);
+                    render::Renderer renderer(size, quality);
                     row.error = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
                     rows.push_back(row);
                     listener(rows);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "render/picture/draw_times.h"
-#include "render/opengl/context.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"
 #include "render/renderer.h"

@@ -56,7 +56,7 @@ const char* nameOf(render::Skin skin) {
 
 std::string picturesCsv(const std::vector<PictureRow>& rows) {
     std::string csv =
-        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,color_ms,opengl_ms,read_back_ms,"
+        "style,particles,width,height,quality,bin_ms,occlusion_ms,shadow_ms,cast_ms,color_ms,upload_ms,read_back_ms,"
         "png_ms,mp4_ms,mp4_once_ms,draw_ms,draw_at_rest_ms,with_png_ms,with_mp4_ms,baseline_ms,baseline_at_rest_ms,"
         "fewest_baseline_ms,ratio,ratio_at_rest,ratio_to_fewest,rmse,ssim,wrong_hits,depth_error_radii,"
         "normal_error_degrees\n";
@@ -64,7 +64,7 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
         csv += subjectFields(row);
         const render::DrawTimes& stages = row.moving.stages;
         for (const double seconds :
-             {stages.bin, stages.occlusion, stages.shadow, stages.cast, stages.color, stages.openGl, stages.readBack,
+             {stages.bin, stages.occlusion, stages.shadow, stages.cast, stages.color, stages.upload, stages.readBack,
               row.png, row.mp4, row.mp4Once, row.moving.draw, row.atRest.draw, row.withPng, row.withMp4,
               row.moving.baseline, row.atRest.baseline, row.moving.fewestBaseline})
             csv += fmt::format(",{:.4g}", 1e3 * seconds);

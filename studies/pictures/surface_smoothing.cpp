@@ -85,7 +85,7 @@ double bumpsOf(render::Renderer& renderer, const render::View& pool) {
 }
 
 /// Measures the shape of the metaball surface, which does not depend on the number of particles.
-SmoothingRow shapeOf(const SmoothingSettings& settings, render::Context& context, render::Skin skin) {
+SmoothingRow shapeOf(const SmoothingSettings& settings, render::Skin skin) {
     SmoothingRow row;
     row.skin = skin;
     render::View view = damBreakView(1000, render::Style::metaballs);
@@ -95,17 +95,16 @@ SmoothingRow shapeOf(const SmoothingSettings& settings, render::Context& context
     view.particles = {{glm::vec3(0.0F), 1.0F, glm::vec3(0.8F)}};  // a single particle with a radius of 1 m
     row.lone = fieldVolume(view, 0.2 * settings.spacing) / (4.0 / 3.0 * std::numbers::pi);
     // At final quality a ray is cast for every pixel; at lower qualities some normals are interpolated.
-    render::Renderer renderer(context, settings.size, render::Quality::final);
+    render::Renderer renderer(settings.size, render::Quality::final);
     row.bumps = bumpsOf(renderer, pool);
     return row;
 }
 
 /// Median time to draw a frame of the dam break at normal quality, s.
-double secondsAFrame(const SmoothingSettings& settings, render::Context& context, std::size_t particles,
-                     render::Skin skin) {
+double secondsAFrame(const SmoothingSettings& settings, std::size_t particles, render::Skin skin) {
     render::View view = damBreakView(particles, render::Style::metaballs);
     view.field.skin = skin;
-    render::Renderer renderer(context, settings.size, render::Quality::normal);
+    render::Renderer renderer(settings.size, render::Quality::normal);
     renderer.draw(view);  // drawing the first frame allocates memory
     std::vector<double> seconds;
     for (const render::View& frame : framesOf(view, settings.frames))
@@ -133,13 +132,12 @@ double fieldVolume(const render::View& view, double spacing) {
 
 std::vector<SmoothingRow> measureSmoothing(const SmoothingSettings& settings,
                                            const RowsListener<SmoothingRow>& listener) {
-    render::Context context(render::Backend::osmesa);
     std::vector<SmoothingRow> rows;
     for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
-        SmoothingRow row = shapeOf(settings, context, skin);
+        SmoothingRow row = shapeOf(settings, skin);
         for (const std::size_t particles : settings.particles) {
             row.particles = particles;
-            row.draw = secondsAFrame(settings, context, particles, skin);
+            row.draw = secondsAFrame(settings, particles, skin);
             rows.push_back(row);
             listener(rows);
         }

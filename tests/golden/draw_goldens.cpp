@@ -1,4 +1,4 @@
-// All pictures have the same size, so that one context and one renderer draw them all.
+// All pictures have the same size, so that one renderer draws them all.
 #include "tests/golden/draw_goldens.h"
 
 #include <fmt/format.h>
@@ -32,8 +32,7 @@ scenes::Scene sceneIn(const GoldenScene& golden, const std::string& style) {
 
 class GoldenRenderer {
  public:
-    explicit GoldenRenderer(const fs::path& folder)
-        : folder_(folder), context_(render::Backend::osmesa), renderer_(context_, kSize, render::Quality::normal) {}
+    explicit GoldenRenderer(const fs::path& folder) : folder_(folder), renderer_(kSize, render::Quality::normal) {}
 
     void draw(const GoldenScene& golden, std::size_t timeCount) {
         const std::array scenes = {sceneIn(golden, kStyles[0]), sceneIn(golden, kStyles[1])};
@@ -55,7 +54,6 @@ class GoldenRenderer {
         provenance.sceneHash = scene.sceneHash;
         provenance.stateHash = engine::stateHash(simulation.particles);
         provenance.version = GLOBULAR_VERSION;
-        provenance.glRenderer = context_.rendererName();
         provenance.quality = "normal";
         tools::createFolder(path.parent_path());
         tools::writeFile(path, png);
@@ -64,7 +62,6 @@ class GoldenRenderer {
     }
 
     fs::path folder_;
-    render::Context context_;
     render::Renderer renderer_;
 };
 

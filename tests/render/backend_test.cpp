@@ -1,11 +1,12 @@
-// The same view gives the same bytes with either backend, any number of threads, from any thread and in every run.
+// The same view gives the same bytes with any number of threads, from any thread and in every run; and OpenGL contexts
+// are made by name.
 #include "tests/catch.h"
 
 #include <thread>
 
 #include <tbb/global_control.h>
 
-#include "render/picture/system_error.h"
+#include "render/opengl/context.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -49,14 +50,6 @@ TEST_CASE("The renderer's name is Mesa's software renderer") {
     }
 }
 
-TEST_CASE("Both backends give identical pixels") {
-    for (const render::View& view : views()) {
-        for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
-            CHECK(drawn(view, kSize, quality).rgb == drawn(view, kSize, quality, Backend::egl).rgb);
-        }
-    }
-}
-
 TEST_CASE("One and two threads, and run after run, give identical pixels") {
     for (const render::View& view : views()) {
         const render::Image first = drawn(view, kSize, Quality::normal);
@@ -70,15 +63,12 @@ TEST_CASE("One and two threads, and run after run, give identical pixels") {
 
 TEST_CASE("Frames may be drawn by one thread after another and do not affect each other") {
     const std::vector<render::View> both = views();
-    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
-        render::Context context(backend);
-        render::Renderer renderer(context, kSize, Quality::normal);
-        const render::Image spheres = renderer.draw(both[0]);
-        render::Image balls;
-        render::Image again;
-        std::thread([&] { balls = renderer.draw(both[1]); }).join();
-        std::thread([&] { again = renderer.draw(both[0]); }).join();
-        CHECK(spheres.rgb == again.rgb);
-        CHECK(balls.rgb == drawn(both[1], kSize, Quality::normal).rgb);
-    }
+    render::Renderer renderer(kSize, Quality::normal);
+    const render::Image spheres = renderer.draw(both[0]);
+    render::Image balls;
+    render::Image again;
+    std::thread([&] { balls = renderer.draw(both[1]); }).join();
+    std::thread([&] { again = renderer.draw(both[0]); }).join();
+    CHECK(spheres.rgb == again.rgb);
+    CHECK(balls.rgb == drawn(both[1], kSize, Quality::normal).rgb);
 }

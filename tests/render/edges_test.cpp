@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/picture/system_error.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -114,9 +113,4 @@ TEST_CASE("Numbers that are not finite are refused by name") {
     render::View view = cloud(3);
     view.particles[1].center.y = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_WITH(drawn(view, kSize, Quality::draft), Catch::Contains("particle 1 of 3"));
-}
-
-TEST_CASE("A picture beyond OpenGL's limit is a SystemError") {
-    CHECK_THROWS_AS(drawn(cloud(0), {200000, 10}, Quality::draft), render::SystemError);
-    CHECK_THROWS_WITH(drawn(cloud(0), {200000, 10}, Quality::draft), Catch::Contains("200000 x 16"));
 }

@@ -40,8 +40,7 @@ render::View viewOf(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a scene looks the same far from the origin") {
-    render::Context context(render::Backend::osmesa);
-    render::Renderer renderer(context, kSize, render::Quality::normal);
+    render::Renderer renderer(kSize, render::Quality::normal);
     for (const std::string style : {"spheres", "metaballs"}) {
         const std::string look = fmt::format("style = \"{}\"\n", style);
         const render::Image expected = renderer.draw(viewOf(movedScene({0.0, 0.0, 0.0}, look)));
@@ -59,8 +58,7 @@ TEST_CASE("a scene looks the same far from the origin") {
 
 // These offsets are multiples of the distances by which the origin of the view moves, and round nothing.
 TEST_CASE("a scene moved by a power of two far away gives the same bytes") {
-    render::Context context(render::Backend::osmesa);
-    render::Renderer renderer(context, kSize, render::Quality::normal);
+    render::Renderer renderer(kSize, render::Quality::normal);
     for (const std::string style : {"spheres", "metaballs"}) {
         const std::string look = fmt::format("style = \"{}\"\nocclusion = 0.8\n", style);
         const render::Image expected = renderer.draw(viewOf(movedScene({0.0, 0.0, 0.0}, look)));

@@ -10,8 +10,9 @@
 
 #include "render/cpu/lighting/depth_map.h"
 #include "render/cpu/metaballs/metaball_frame.h"
-#include "render/prepare/metaball_scene.h"
 #include "render/cpu/metaballs/ray_layout.h"
+#include "render/prepare/depth_map_grid.h"
+#include "render/prepare/metaball_scene.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -368,7 +369,10 @@ TEST_CASE("Every instruction set gives the same bits") {
             bits.insert(bits.end(), {hit.depthBits, hit.normal, hit.color, hit.sky});
         for (const render::SilhouetteHits& silhouettes : found.silhouettes)
             for (const render::SilhouetteSample& s : silhouettes.samples) bits.insert(bits.end(), {s.pixel, s.sample});
-        const std::vector<std::uint16_t> heights = render::castDepthMap(light, view, skin, {256, {}}).heights;
+        const render::DepthMapGrid grid = render::depthMapGrid(light, view, skin, 256);
+        const render::CameraFrame seenByLight = render::lightFrame(light, grid, view.camera.eye, 1);
+        const std::vector<std::uint16_t> heights =
+            render::castDepthMap(grid, render::metaballScene(seenByLight, view, skin)).heights;
         CAPTURE(hwy::TargetName(target));
         if (sets++ == 0) first = bits;
         if (sets == 1) firstHeights = heights;

@@ -7,7 +7,6 @@
 #include <ostream>
 #include <random>
 
-#include "render/opengl/context.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"
 #include "render/renderer.h"
@@ -65,11 +64,8 @@ inline render::Image fromOracle(const render::View& view, render::PictureSize si
     return {picture.width, picture.height, std::move(picture.rgb)};
 }
 
-inline render::Image drawn(const render::View& view, render::PictureSize size, render::Quality quality,
-                           render::Backend backend = render::Backend::osmesa) {
-    render::Context context(backend);
-    render::Renderer renderer(context, size, quality);
-    return renderer.draw(view);
+inline render::Image drawn(const render::View& view, render::PictureSize size, render::Quality quality) {
+    return render::Renderer(size, quality).draw(view);
 }
 
 /// Particles of different sizes in a box of 3 x 2 x 3 m above the ground, with light and sky of different colors.

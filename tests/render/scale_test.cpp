@@ -52,8 +52,7 @@ std::vector<render::View> views() {
 
 // A multiplication by a power of two rounds nothing.
 TEST_CASE("a view scaled by a power of two gives the same bytes") {
-    render::Context context(render::Backend::osmesa);
-    render::Renderer renderer(context, kSize, render::Quality::normal);
+    render::Renderer renderer(kSize, render::Quality::normal);
     for (render::View& view : views()) {
         view.ambient.occlusion = 0.8F;
         view.surface.translucency = 0.5F;
@@ -68,8 +67,7 @@ TEST_CASE("a view scaled by a power of two gives the same bytes") {
 }
 
 TEST_CASE("a view at any scale gives the same picture") {
-    render::Context context(render::Backend::osmesa);
-    render::Renderer renderer(context, kSize, render::Quality::normal);
+    render::Renderer renderer(kSize, render::Quality::normal);
     for (render::View& view : views()) {
         for (const float occlusion : {0.0F, 0.8F}) {
             view.ambient.occlusion = occlusion;

@@ -311,8 +311,7 @@ TEST_CASE("In a smooth skin a lone ball keeps its place and radius, and a flat p
     view.camera.eye = {0.0F, 6.0F, 0.01F};
     view.camera.target = {0.0F, 0.0F, 0.0F};
     view.camera.verticalFov = 0.25F;
-    render::Context context(render::Backend::osmesa);
-    render::Renderer renderer(context, kSize, Quality::draft);
+    render::Renderer renderer(kSize, Quality::draft);
     const auto meanSlant = [&] {
         double sum = 0.0;
         for (const render::VisiblePoint& point : renderer.visiblePoints(view)) {

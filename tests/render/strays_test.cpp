@@ -41,9 +41,8 @@ TEST_CASE("a particle that nobody sees does not change the picture") {
     // Behind the camera, beside it, above the picture, far below the ground, and over the horizon at the side.
     const std::vector<glm::vec3> directions = {
         {0.3F, 0.2F, 0.9F}, {1.0F, 0.0F, 0.0F}, {-0.3F, 0.9F, -0.3F}, {0.0F, -1.0F, 0.1F}, {-0.9F, 0.0F, -0.4F}};
-    render::Context context(render::Backend::osmesa);
     for (const auto quality : {render::Quality::draft, render::Quality::final}) {
-        render::Renderer renderer(context, kSize, quality);
+        render::Renderer renderer(kSize, quality);
         for (const auto style : {render::Style::spheres, render::Style::metaballs}) {
             for (const auto skin : {render::Skin::plain, render::Skin::smooth}) {
                 render::View view = shadedCloud(style);

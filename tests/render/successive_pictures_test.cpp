@@ -100,11 +100,10 @@ bool same(const std::vector<render::VisiblePoint>& a, const std::vector<render::
 }  // namespace
 
 TEST_CASE("Pictures drawn one after another are those drawn alone") {
-    render::Context context(render::Backend::osmesa);
     for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
         render::View view = pictures::cloud(60);
         view.light.shadows = true;
-        render::Renderer renderer(context, kSize, quality);
+        render::Renderer renderer(kSize, quality);
         renderer.draw(view);
         for (const Change& change : changes()) {
             INFO(change.name << ", quality " << static_cast<int>(quality));
@@ -114,8 +113,7 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
             CHECK((renderer.draw(view).rgb == alone.rgb));
             // The visible points of another view leave its tiles and its frame in the picture pass.
             const std::vector<render::VisiblePoint> points = renderer.visiblePoints(before);
-            if (quality == Quality::draft)
-                CHECK(same(points, render::Renderer(context, kSize, quality).visiblePoints(before)));
+            if (quality == Quality::draft) CHECK(same(points, render::Renderer(kSize, quality).visiblePoints(before)));
             CHECK((renderer.draw(view).rgb == alone.rgb));
         }
     }
@@ -123,8 +121,7 @@ TEST_CASE("Pictures drawn one after another are those drawn alone") {
 
 TEST_CASE("A picture is the same in another's memory") {
     const render::View view = pictures::cloud(60);
-    render::Context context(render::Backend::osmesa);
-    render::Renderer renderer(context, kSize, Quality::normal);
+    render::Renderer renderer(kSize, Quality::normal);
     const render::Image alone = renderer.draw(view);
     for (const int side : {1, 500}) {
         render::Image old{side, side, {}};

@@ -1,6 +1,7 @@
 // The benchmark: the rows that were asked for, numbers that are consistent, hashes that do not depend on the number of
 // threads.
 #include "studies/bench/bench.h"
+#include "render/renderer.h"
 #include "scenes/build/read_scene.h"
 
 #include <tbb/global_control.h>
@@ -79,8 +80,8 @@ shape = "plane"
         tbb::task_arena arena(threads);
         std::vector<BenchRow> rows;
         arena.execute([&] {
-            render::Context context(render::Backend::osmesa);
-            rows = studies::benchFrames("drop", drop, &context, 2);
+            render::Renderer renderer(drop.size, render::Quality::normal);
+            rows = studies::benchFrames("drop", drop, &renderer, 2);
         });
         REQUIRE(rows.size() == 2);
         CHECK(rows[0].name == studies::kSimulateFrame);

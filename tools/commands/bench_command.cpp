@@ -67,17 +67,16 @@ void print(const studies::BenchRow& row) {
 /// The scenes whose frames are measured: one for each kind of material, and honey, which needs the implicit steppers.
 constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
 
-void benchFrames(const BenchOptions& options, int threads,
-                 const std::function<void(const studies::BenchRow&)>& listener) {
+void benchFrames(const BenchOptions& options, const std::function<void(const studies::BenchRow&)>& listener) {
     const studies::BenchSettings& settings = options.settings;
-    std::optional<render::Context> context;
     for (const char* name : kFrameScenes) {
         const bool draws = settings.wants(studies::kDrawFrame, name);
         if (!draws && !settings.wants(studies::kSimulateFrame, name)) continue;
-        if (draws && !context) context.emplace(openContext(backendOf(options.draw), threads));
         const scenes::Scene scene = scenes::loadScene(scenes::resolveScene(name, sceneFolder()), {});
+        std::optional<render::Renderer> renderer;
+        if (draws) renderer.emplace(scene.size, render::Quality::normal);
         for (const studies::BenchRow& row :
-             studies::benchFrames(name, scene, draws ? &*context : nullptr, settings.rounds))
+             studies::benchFrames(name, scene, renderer ? &*renderer : nullptr, settings.rounds))
             if (settings.wants(row.name, name)) listener(row);
     }
 }
@@ -104,7 +103,7 @@ void bench(const BenchOptions& options) {
     };
     onThreads(threads, [&] {
         runBench(options.settings, report);
-        benchFrames(options, threads, report);
+        benchFrames(options, report);
     });
     if (!hasRows)
         throw scenes::InputError(

@@ -43,12 +43,12 @@ struct FrameInFlight {
 };
 
 /// Everything that determines the bytes of the frames of a run.
-Json identityOf(const RenderJob& job, const std::string& glRenderer) {
+Json identityOf(const RenderJob& job) {
     constexpr std::array kNames = {"draft", "normal", "final"};
     Json identity = sceneIdentity(*job.scene);
     identity["size"] = {job.scene->size.width, job.scene->size.height};
     identity["quality"] = kNames[static_cast<std::size_t>(job.quality)];
-    identity["gl_renderer"] = glRenderer;
+    identity["gl_renderer"] = nullptr;
     return identity;
 }
 
@@ -57,13 +57,11 @@ class RenderRun {
  public:
     explicit RenderRun(const RenderJob& job)
         : job_(job),
-          context_(openContext(job.backend, job.threads)),
           progress_(job.title, job.frames.count(), job.verbosity),
-          folder_(openFolder(job, context_.rendererName())),
-          renderer_(context_, job.scene->size, job.quality),
+          folder_(openFolder(job)),
+          renderer_(job.scene->size, job.quality),
           frames_(*job.scene, job.frames, {folder_.get(), job.estimatesErrors}, progress_) {
         report().threads = job.threads;
-        report().glRenderer = context_.rendererName();
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
     }
 
@@ -78,14 +76,14 @@ class RenderRun {
     }
 
  private:
-    static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const std::string& glRenderer) {
+    static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job) {
         if (!job.folder) return nullptr;
         // The encoder is checked first, so that no frames of another run are removed for a video that cannot be made.
         if (!job.videoPath.empty() && job.folder->overwrite) {
             render::requireEncoder(videoOptions(job));
             const render::AtomicFile canBeCreated(job.videoPath);
         }
-        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, job.frames, identityOf(job, glRenderer));
+        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, job.frames, identityOf(job));
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
@@ -187,7 +185,6 @@ class RenderRun {
     RunReport& report() { return frames_.report(); }
 
     const RenderJob& job_;
-    render::Context context_;
     Progress progress_;
     std::unique_ptr<FrameFolder> folder_;
     render::Renderer renderer_;

@@ -35,8 +35,7 @@ StillPictures drawAll(const DrawJob& job, const StillSelection& selection) {
     const scenes::Scene& scene = *job.scene;
     std::set<int> frames(selection.stripFrames.begin(), selection.stripFrames.end());
     if (selection.stillFrame) frames.insert(*selection.stillFrame);
-    render::Context context = openContext(job.backend, job.threads);
-    render::Renderer renderer(context, scene.size, job.quality);
+    render::Renderer renderer(scene.size, job.quality);
     const auto inMemory = [&](const auto& work) { return withMemoryForParticles(scene.setup.initial.count(), work); };
     engine::Simulation simulation = inMemory([&] { return engine::start(scene.setup); });
     Progress progress(job.title, static_cast<int>(frames.size()), job.verbosity);
