@@ -9,6 +9,7 @@
 
 #include "render/cpu/cpu_renderer.h"
 #include "render/overlay/draw_overlay.h"
+#include "render/picture/system_error.h"
 #include "render/prepare/view_renderer.h"
 
 namespace render {
@@ -65,6 +66,10 @@ struct Renderer::Parts {
 Renderer::Renderer(PictureSize size, Quality quality) : parts_(std::make_unique<Parts>()) {
     parts_->settings = {checkedSize(size), depthMapTexels(quality), 1};
     parts_->renderer = std::make_unique<CpuRenderer>(size, quality);
+}
+
+Renderer::Renderer(Context&, PictureSize, Quality) {
+    throw SystemError("not built yet");
 }
 
 Renderer::~Renderer() = default;

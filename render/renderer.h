@@ -18,6 +18,10 @@ class Renderer {
  public:
     /// The renderer on the CPU.
     Renderer(PictureSize size, Quality quality);
+    /// The renderer in OpenGL's shaders.
+    /// @param context  must outlive the renderer
+    /// @throws SystemError if OpenGL cannot draw pictures of this size
+    Renderer(Context& context, PictureSize size, Quality quality);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

@@ -93,6 +93,7 @@ int main(int argc, char** argv) {
     tools::addApproveCommand(program);
     tools::addCheckCommand(program);
     tools::addScenesCommand(program);
+    tools::addDevicesCommand(program);
     tools::addSchemaCommand(program);
     tools::addStudyCommand(program);
     tools::addBenchCommand(program);

@@ -1,9 +1,11 @@
-// What both backends share: creating the context, loading the functions, and refusing renderers that may not give the
-// same pixels on every machine.
+// What contexts of both libraries share: loading the functions, the required version, and the names.
 #include "render/opengl/context.h"
+
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "render/opengl/context_native.h"
 #include "render/picture/system_error.h"
 
 namespace render {
@@ -15,36 +17,58 @@ std::string stringOf(const Gl& gl, GLenum name) {
     return text == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(text));
 }
 
-/// The driver of a GPU may change the bits of pixels that it stores. Besides, the studies compare drawing times on the
-/// CPU.
-void requireSoftware(const std::string& rendererName) {
-    for (const char* known : {"llvmpipe", "softpipe"}) {
-        if (rendererName.find(known) != std::string::npos) return;
-    }
-    throw SystemError(fmt::format(
-        "OpenGL is drawn by '{}', not by Mesa's software renderer; set LIBGL_ALWAYS_SOFTWARE=1", rendererName));
+int integerOf(const Gl& gl, GLenum name) {
+    GLint value = 0;
+    gl.GetIntegerv(name, &value);
+    return value;
+}
+
+std::unique_ptr<NativeContext> makeNative(const Device& device) {
+    return device.backend == Backend::osmesa ? makeOsmesaContext() : makeEglContext(device.index);
 }
 
 }  // namespace
 
-std::optional<Backend> backendNamed(std::string_view name) {
-    if (name == "osmesa") return Backend::osmesa;
-    if (name == "egl") return Backend::egl;
-    return std::nullopt;
+struct Context::Parts {
+    std::unique_ptr<NativeContext> native;
+    Gl gl;
+    std::string renderer;
+    std::string version;
+};
+
+Context::Context(const Device& device) : parts_(std::make_unique<Parts>()) {
+    parts_->native = makeNative(device);
+    const CurrentContext current(*this);
+    parts_->gl = loadGl([this](const char* name) { return parts_->native->address(name); });
+    parts_->renderer = stringOf(parts_->gl, GL_RENDERER);
+    parts_->version = stringOf(parts_->gl, GL_VERSION);
+    const int major = integerOf(parts_->gl, GL_MAJOR_VERSION);
+    const int minor = integerOf(parts_->gl, GL_MINOR_VERSION);
+    if (major * 10 + minor < 33)
+        throw SystemError(fmt::format("OpenGL 3.3 is needed, '{}' offers {}.{}", parts_->renderer, major, minor));
 }
 
-Context::Context(Backend backend) : native_(backend == Backend::osmesa ? makeOsmesaContext() : makeEglContext()) {
-    const CurrentContext current(*this);
-    gl_ = loadGl([this](const char* name) { return native_->address(name); });
-    GLint major = 0;
-    GLint minor = 0;
-    gl_.GetIntegerv(GL_MAJOR_VERSION, &major);
-    gl_.GetIntegerv(GL_MINOR_VERSION, &minor);
-    rendererName_ = stringOf(gl_, GL_RENDERER);
-    if (major * 10 + minor < 33) {
-        throw SystemError(fmt::format("OpenGL 3.3 is needed, '{}' offers {}.{}", rendererName_, major, minor));
-    }
-    requireSoftware(rendererName_);
+Context::Context(Context&&) noexcept = default;
+Context::~Context() = default;
+
+void Context::makeCurrent() {
+    parts_->native->makeCurrent();
+}
+
+void Context::release() {
+    parts_->native->release();
+}
+
+const std::string& Context::rendererName() const {
+    return parts_->renderer;
+}
+
+const std::string& Context::versionName() const {
+    return parts_->version;
+}
+
+const Gl& Context::gl() const {
+    return parts_->gl;
 }
 
 CurrentContext::~CurrentContext() {
@@ -53,6 +77,41 @@ CurrentContext::~CurrentContext() {
     } catch (const SystemError&) {
         // A destructor must not throw. The context stays bound, and the next makeCurrent() reports the error.
     }
+}
+
+bool isSoftwareRenderer(const std::string& name) {
+    for (const char* known : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"})
+        if (name.find(known) != std::string::npos) return true;
+    return false;
+}
+
+DeviceInfo deviceInfo(const Device& device) {
+    DeviceInfo info;
+    info.device = device;
+    try {
+        Context context(device);
+        const CurrentContext current(context);
+        const Gl& gl = context.gl();
+        info.renderer = context.rendererName();
+        info.version = context.versionName();
+        info.vendor = stringOf(gl, GL_VENDOR);
+        info.isSoftware = isSoftwareRenderer(info.renderer);
+        info.largestTexture = integerOf(gl, GL_MAX_TEXTURE_SIZE);
+        info.largestTextureBuffer = integerOf(gl, GL_MAX_TEXTURE_BUFFER_SIZE);
+        GLint points[2] = {0, 0};
+        gl.GetIntegerv(GL_POINT_SIZE_RANGE, points);
+        info.smallestPoint = points[0];
+        info.largestPoint = points[1];
+    } catch (const SystemError& error) {
+        info.problem = error.what();
+    }
+    return info;
+}
+
+std::vector<DeviceInfo> eglDevices() {
+    std::vector<DeviceInfo> devices;
+    for (int index = 0; index < eglDeviceCount(); ++index) devices.push_back(deviceInfo({Backend::egl, index}));
+    return devices;
 }
 
 }  // namespace render

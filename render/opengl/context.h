@@ -1,61 +1,39 @@
-// An off-screen OpenGL context of Mesa's software renderer, for machines without a display. Created by tools/ once per
-// run and given to the Renderer. There are two backends, which give the same pixels, because Mesa 25.1 removed OSMesa.
+// An off-screen OpenGL context, for machines with or without a display or a GPU. Opened by tools/ for the renderer that
+// draws with OpenGL, and given to it.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 
-#include "render/opengl/gl.h"
+#include "render/opengl/device.h"
 
 namespace render {
 
-enum class Backend { osmesa, egl };
-
-/// The backend named "osmesa" or "egl"; nothing for any other name.
-std::optional<Backend> backendNamed(std::string_view name);
-
-/// The names that backendNamed() knows, for messages.
-inline constexpr std::string_view kBackendNames = "osmesa, egl";
-
-/// What a backend provides. The implementations are in context_osmesa.cpp and context_egl.cpp.
-class NativeContext {
- public:
-    NativeContext() = default;
-    NativeContext(const NativeContext&) = delete;
-    NativeContext& operator=(const NativeContext&) = delete;
-    virtual ~NativeContext() = default;
-    virtual void makeCurrent() = 0;
-    virtual void release() = 0;
-    virtual GlFunction address(const char* name) = 0;
-};
-
-/// @throws SystemError when the build or the machine lacks the backend
-std::unique_ptr<NativeContext> makeOsmesaContext();
-std::unique_ptr<NativeContext> makeEglContext();
+struct Gl;
 
 /// A context of OpenGL 3.3 core or later. After construction it is current on no thread. Frames may be drawn from
 /// different threads as long as each releases it before the next makes it current.
 class Context {
  public:
-    /// @throws SystemError without the library, without OpenGL 3.3, or for a renderer other than Mesa's software
-    /// renderer
-    explicit Context(Backend backend);
+    /// @throws SystemError if the build or the machine lacks the library, the device or OpenGL 3.3
+    explicit Context(const Device& device);
+    Context(Context&&) noexcept;
+    ~Context();
 
     /// Binds the context to the calling thread.
-    void makeCurrent() { native_->makeCurrent(); }
+    void makeCurrent();
     /// Unbinds the context from the calling thread.
-    void release() { native_->release(); }
+    void release();
 
-    /// OpenGL's name of the renderer, for example "llvmpipe (LLVM 15.0.6, 256 bits)".
-    const std::string& rendererName() const { return rendererName_; }
-    const Gl& gl() const { return gl_; }
+    /// OpenGL's name of the renderer (GL_RENDERER), for example "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& rendererName() const;
+    /// The version of OpenGL and of the driver (GL_VERSION), for example "4.5 (Core Profile) Mesa 22.3.6".
+    const std::string& versionName() const;
+    const Gl& gl() const;
 
  private:
-    std::unique_ptr<NativeContext> native_;
-    Gl gl_;
-    std::string rendererName_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 /// Keeps a context current on the calling thread during the life of the object.

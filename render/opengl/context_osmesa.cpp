@@ -1,5 +1,5 @@
 // OSMesa: Mesa's software renderer as a plain library, which needs neither a display server nor device files.
-#include "render/opengl/context.h"
+#include "render/opengl/context_native.h"
 #include "render/picture/system_error.h"
 
 #ifdef RENDER_HAS_OSMESA
@@ -65,7 +65,7 @@ std::unique_ptr<NativeContext> makeOsmesaContext() {
 #else
 
 std::unique_ptr<render::NativeContext> render::makeOsmesaContext() {
-    throw SystemError("this globular was built without OSMesa (libosmesa6-dev); use the egl backend");
+    throw SystemError("this globular was built without OSMesa (libosmesa6-dev)");
 }
 
 #endif

@@ -157,7 +157,7 @@ void measureTimes(const PictureSettings& settings, render::Context& context, con
 }  // namespace
 
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, const RowsListener<PictureRow>& listener) {
-    render::Context context(render::Backend::osmesa);
+    render::Context context(render::Device{render::Backend::osmesa});
     std::vector<PictureRow> rows;
     for (const render::Style style : kStyles) {
         const render::View fewest = damBreakView(std::ranges::min(settings.particles), style);

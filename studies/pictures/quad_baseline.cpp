@@ -1,6 +1,8 @@
 // Draws spheres with OpenGL by one instanced draw call with four vertices for each particle. See quad_baseline.h.
 #include "studies/pictures/quad_baseline.h"
 
+#ifdef RENDER_HAS_OPENGL
+
 #include <fmt/format.h>
 
 #include <array>
@@ -228,3 +230,20 @@ render::Image QuadBaseline::draw(const render::View& view, render::Image old) {
 }
 
 }  // namespace studies
+
+#else
+
+namespace studies {
+
+struct QuadBaseline::Resources {};
+
+// Never called: there is no context to call it with.
+QuadBaseline::QuadBaseline(render::Context&, render::PictureSize) {}
+QuadBaseline::~QuadBaseline() = default;
+render::Image QuadBaseline::draw(const render::View&, render::Image old) {
+    return old;
+}
+
+}  // namespace studies
+
+#endif

@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 
 #include "engine/core/instruction_sets.h"
 #include "engine/forces/simd_forces.h"
@@ -13,6 +12,7 @@
 #include "scenes/text/input_error.h"
 #include "studies/bench/bench.h"
 #include "tools/commands/commands.h"
+#include "tools/run/open_renderer.h"
 #include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"
@@ -22,7 +22,7 @@ namespace {
 
 struct BenchOptions {
     RunOptions run;
-    DrawOptions draw;            ///< drawing options, of which only the OpenGL backend is used
+    DrawOptions draw;            ///< drawing options, of which only those of the renderer are used
     std::string instructionSet;  ///< name of the SIMD instruction set; empty: the widest that the machine has
     studies::BenchSettings settings;
 };
@@ -67,22 +67,23 @@ void print(const studies::BenchRow& row) {
 /// The scenes whose frames are measured: one for each kind of material, and honey, which needs the implicit steppers.
 constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
 
-void benchFrames(const BenchOptions& options, const std::function<void(const studies::BenchRow&)>& listener) {
+void benchFrames(const BenchOptions& options, const RendererChoice& choice, int threads,
+                 const std::function<void(const studies::BenchRow&)>& listener) {
     const studies::BenchSettings& settings = options.settings;
     for (const char* name : kFrameScenes) {
         const bool draws = settings.wants(studies::kDrawFrame, name);
         if (!draws && !settings.wants(studies::kSimulateFrame, name)) continue;
         const scenes::Scene scene = scenes::loadScene(scenes::resolveScene(name, sceneFolder()), {});
-        std::optional<render::Renderer> renderer;
-        if (draws) renderer.emplace(scene.size, render::Quality::normal);
-        for (const studies::BenchRow& row :
-             studies::benchFrames(name, scene, renderer ? &*renderer : nullptr, settings.rounds))
+        const OpenedRenderer opened =
+            draws ? openRenderer(choice, scene.size, render::Quality::normal, threads) : OpenedRenderer{};
+        for (const studies::BenchRow& row : studies::benchFrames(name, scene, opened.renderer.get(), settings.rounds))
             if (settings.wants(row.name, name)) listener(row);
     }
 }
 
 void bench(const BenchOptions& options) {
     const int threads = threadCount(options.run);
+    const RendererChoice choice = rendererOf(options.draw);
     const bool isText = !options.run.json;
     if (!options.instructionSet.empty()) engine::useInstructionSet(options.instructionSet);
     bool hasRows = false;
@@ -103,7 +104,7 @@ void bench(const BenchOptions& options) {
     };
     onThreads(threads, [&] {
         runBench(options.settings, report);
-        benchFrames(options, report);
+        benchFrames(options, choice, threads, report);
     });
     if (!hasRows)
         throw scenes::InputError(
@@ -126,7 +127,7 @@ void addBenchCommand(CLI::App& program) {
         ->check(numberAboveZero());
     command.add_option("--isa", options->instructionSet, "the vectors to run on (default: the widest of the machine)")
         ->check(CLI::IsMember(engine::instructionSets()));
-    addBackendFlag(command, options->draw);
+    addRendererFlags(command, options->draw);
     addTo(command, options->run);
     command.footer("Example: globular bench --filter \"forces solid\" --particles 1000 32000 --threads 1");
     command.callback([options] { bench(*options); });

@@ -94,11 +94,18 @@ void addTo(CLI::App& command, DrawOptions& options) {
         ->check(CLI::IsMember({"spheres", "metaballs"}));
     command.add_option("--quality", options.quality, "draft, normal or final (default: normal)")
         ->check(CLI::IsMember({"draft", "normal", "final"}));
-    addBackendFlag(command, options);
+    addRendererFlags(command, options);
 }
 
-void addBackendFlag(CLI::App& command, DrawOptions& options) {
-    command.add_option("--gl", options.backend, "OpenGL backend: osmesa or egl (default: osmesa)")->type_name("NAME");
+void addRendererFlags(CLI::App& command, DrawOptions& options) {
+    command
+        .add_option("--renderer", options.renderer,
+                    fmt::format("cpu or opengl: what draws (default: {})", options.renderer))
+        ->check(CLI::IsMember(kRendererNames));
+    command
+        .add_option("--gl", options.device,
+                    "where OpenGL draws: osmesa, egl or egl:N, see globular devices (default: osmesa)")
+        ->type_name("DEVICE");
 }
 
 void addTo(CLI::App& command, FolderOptions& options, const std::string& help) {

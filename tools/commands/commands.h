@@ -19,6 +19,7 @@ void addVideoCommand(CLI::App& program);
 void addCompareCommand(CLI::App& program);
 void addApproveCommand(CLI::App& program);
 void addCheckCommand(CLI::App& program);
+void addDevicesCommand(CLI::App& program);
 void addScenesCommand(CLI::App& program);
 void addSchemaCommand(CLI::App& program);
 void addStudyCommand(CLI::App& program);
@@ -39,9 +40,9 @@ inline constexpr const char* kErrorSampleNotes =
     "estimate takes about as long as simulating three frames; run.json has the cost of all of them as\n"
     "error_estimate.force_evaluations_spent.\n";
 
-/// Adds only the flag --gl, the OpenGL backend, for commands that choose the size, style and quality of pictures
-/// themselves.
-void addBackendFlag(CLI::App& command, DrawOptions& options);
+/// Adds only the flags --renderer and --gl, for commands that choose the size, style and quality of pictures
+/// themselves. The default of --renderer is the value that the options have.
+void addRendererFlags(CLI::App& command, DrawOptions& options);
 
 /// Checks that the value of a flag is a finite number: from least to most, both included, at least 0, or above 0.
 /// CLI11's own checks accept NaN and infinity, and their messages name the largest double as the upper bound.

@@ -20,9 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The renderer that draws the figures without --renderer.
+constexpr const char* kFiguresRenderer = "cpu";
+
 struct FiguresOptions {
     RunOptions run;
-    DrawOptions draw;  ///< drawing options, of which only the OpenGL backend is used
+    DrawOptions draw;  ///< drawing options, of which only those of the renderer are used
     std::string folder = "out/figures";
     std::vector<int> numbers;
 };
@@ -110,7 +113,8 @@ void addFiguresCommand(CLI::App& program) {
     const auto options = std::make_shared<FiguresOptions>();
     command.add_option("FIGURE", options->numbers, "which figures (default: all four)")->check(CLI::Range(1, 4));
     command.add_option("-o,--output", options->folder, "folder to write to (default: out/figures)")->type_name("DIR");
-    addBackendFlag(command, options->draw);
+    options->draw.renderer = kFiguresRenderer;
+    addRendererFlags(command, options->draw);
     addTo(command, options->run);
     command.footer("Example: globular figures 1 3 -o out/figures");
     command.callback([options] {

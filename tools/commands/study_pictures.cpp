@@ -132,7 +132,7 @@ std::string commandOf(const PicturesOptions& options) {
 
 void study(const PicturesOptions& options) {
     const int threads = threadCount(options.run);
-    setRasterizerThreads(threads);
+    prepareMesa(threads);
     prepareFolder(options, {});
     const studies::PictureSettings settings = settingsFor(options);
     PictureResults results;

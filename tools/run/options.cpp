@@ -128,20 +128,31 @@ void requireVideoName(const std::string& flag, const std::string& path) {
             : fmt::format("the name of a video says its kind: it must end in {}", render::kVideoExtensions));
 }
 
-render::Backend backendOf(const DrawOptions& options) {
-    const auto backend = render::backendNamed(options.backend);
-    if (!backend)
+RendererChoice rendererOf(const DrawOptions& options) {
+    const auto name = std::find(kRendererNames.begin(), kRendererNames.end(), options.renderer);
+    if (name == kRendererNames.end())
         throw scenes::InputError(
-            "--gl " + options.backend,
-            fmt::format("there is no such OpenGL backend; choose one of: {}", render::kBackendNames));
-    return *backend;
+            "--renderer " + options.renderer,
+            fmt::format("there is no such renderer; choose one of: {}", fmt::join(kRendererNames, ", ")));
+    RendererChoice choice;
+    choice.isOpenGl = name != kRendererNames.begin();
+    if (options.device.empty()) return choice;
+    const std::string flag = "--gl " + options.device;
+    const auto device = render::deviceNamed(options.device);
+    if (!device)
+        throw scenes::InputError(flag,
+                                 fmt::format("there is no such OpenGL device; choose one of: {} (see globular devices)",
+                                             render::kDeviceNames));
+    if (!choice.isOpenGl) throw scenes::InputError(flag, "the CPU draws; --gl is for --renderer opengl");
+    choice.device = *device;
+    return choice;
 }
 
 DrawJob drawJob(const scenes::Scene& scene, const DrawOptions& draw, const RunOptions& run, const std::string& title) {
     const render::Quality quality = draw.quality == "draft"   ? render::Quality::draft
                                     : draw.quality == "final" ? render::Quality::final
                                                               : render::Quality::normal;
-    return {&scene, quality, backendOf(draw), threadCount(run), run.verbosity(), title};
+    return {&scene, quality, rendererOf(draw), threadCount(run), run.verbosity(), title};
 }
 
 render::PictureSize parseSize(const std::string& text, const std::string& flag) {

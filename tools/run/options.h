@@ -2,10 +2,11 @@
 // (tools/commands/command_line.cpp).
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
-#include "render/opengl/context.h"
+#include "render/opengl/device.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
 #include "tools/system/json.h"
@@ -37,7 +38,17 @@ struct DrawOptions {
     std::string size;   ///< picture size, "WIDTHxHEIGHT" in pixels; empty: the scene's
     std::string style;  ///< style, "spheres" or "metaballs"; empty: the scene's
     std::string quality = "normal";
-    std::string backend = "osmesa";
+    std::string renderer = "cpu";  ///< one of kRendererNames
+    std::string device;            ///< name of the OpenGL renderer's device; empty: osmesa
+};
+
+/// The names of the renderers: on the CPU's vector units, and in OpenGL's shaders.
+inline constexpr std::array kRendererNames = {"cpu", "opengl"};
+
+/// Which renderer draws.
+struct RendererChoice {
+    bool isOpenGl = false;
+    render::Device device;  ///< where OpenGL draws; unused by the other renderer
 };
 
 /// The folder that the frames of a run go to, and what happens to frames that are already in it. Without `resume` and
@@ -53,7 +64,7 @@ struct FolderOptions {
 struct DrawJob {
     const scenes::Scene* scene = nullptr;
     render::Quality quality = render::Quality::normal;
-    render::Backend backend = render::Backend::osmesa;
+    RendererChoice renderer;
     int threads = 1;
     Verbosity verbosity = Verbosity::normal;
     std::string title;  ///< name of the work in messages about its progress
@@ -91,12 +102,12 @@ void requirePipedOutput(const RunOptions& options);
 /// @throws scenes::InputError naming the flag and the extensions that are possible
 void requireVideoName(const std::string& flag, const std::string& path);
 
-/// The OpenGL backend of the options.
-/// @throws scenes::InputError if there is no backend of that name
-render::Backend backendOf(const DrawOptions& options);
+/// The renderer of the options.
+/// @throws scenes::InputError if there is no renderer or device of that name, or a device without the OpenGL renderer
+RendererChoice rendererOf(const DrawOptions& options);
 
 /// How to draw a scene with these options.
-/// @throws scenes::InputError if there is no backend of that name
+/// @throws scenes::InputError as rendererOf()
 DrawJob drawJob(const scenes::Scene& scene, const DrawOptions& draw, const RunOptions& run, const std::string& title);
 
 /// Width and height of a text such as "1280x720".

@@ -17,9 +17,9 @@
 #include "render/output/atomic_file.h"
 #include "render/output/png.h"
 #include "render/output/video.h"
-#include "render/renderer.h"
 #include "scenes/view/frame_view.h"
 #include "tools/run/frame_sequence.h"
+#include "tools/run/open_renderer.h"
 #include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/memory.h"
@@ -43,12 +43,12 @@ struct FrameInFlight {
 };
 
 /// Everything that determines the bytes of the frames of a run.
-Json identityOf(const RenderJob& job) {
+Json identityOf(const RenderJob& job, const RendererRecord& renderer) {
     constexpr std::array kNames = {"draft", "normal", "final"};
     Json identity = sceneIdentity(*job.scene);
     identity["size"] = {job.scene->size.width, job.scene->size.height};
     identity["quality"] = kNames[static_cast<std::size_t>(job.quality)];
-    identity["gl_renderer"] = nullptr;
+    addTo(identity, renderer);
     return identity;
 }
 
@@ -57,11 +57,12 @@ class RenderRun {
  public:
     explicit RenderRun(const RenderJob& job)
         : job_(job),
+          opened_(openRenderer(job)),
           progress_(job.title, job.frames.count(), job.verbosity),
-          folder_(openFolder(job)),
-          renderer_(job.scene->size, job.quality),
+          folder_(openFolder(job, opened_.record)),
           frames_(*job.scene, job.frames, {folder_.get(), job.estimatesErrors}, progress_) {
         report().threads = job.threads;
+        report().renderer = opened_.record;
         if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
     }
 
@@ -76,14 +77,14 @@ class RenderRun {
     }
 
  private:
-    static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job) {
+    static std::unique_ptr<FrameFolder> openFolder(const RenderJob& job, const RendererRecord& renderer) {
         if (!job.folder) return nullptr;
         // The encoder is checked first, so that no frames of another run are removed for a video that cannot be made.
         if (!job.videoPath.empty() && job.folder->overwrite) {
             render::requireEncoder(videoOptions(job));
             const render::AtomicFile canBeCreated(job.videoPath);
         }
-        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, job.frames, identityOf(job));
+        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, job.frames, identityOf(job, renderer));
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
@@ -153,7 +154,8 @@ class RenderRun {
         const Progress::Work work(progress_, fmt::format("drawing frame {}", flight.frame.number));
         // Drawing is isolated, so that a thread that waits for others in it does not take up the simulation of another
         // frame while it holds the OpenGL context.
-        tbb::this_task_arena::isolate([&] { flight.image = renderer_.draw(*flight.view, std::move(flight.oldImage)); });
+        tbb::this_task_arena::isolate(
+            [&] { flight.image = opened_.renderer->draw(*flight.view, std::move(flight.oldImage)); });
         flight.view.reset();
     }
 
@@ -185,9 +187,9 @@ class RenderRun {
     RunReport& report() { return frames_.report(); }
 
     const RenderJob& job_;
+    OpenedRenderer opened_;
     Progress progress_;
     std::unique_ptr<FrameFolder> folder_;
-    render::Renderer renderer_;
     FrameSequence frames_;
     std::array<FrameInFlight, kTokens> flights_;
     std::size_t startedCount_ = 0;

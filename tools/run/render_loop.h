@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "render/opengl/context.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
 #include "tools/run/frame_list.h"

@@ -119,6 +119,13 @@ void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::
     }
 }
 
+void addTo(Json& json, const RendererRecord& renderer) {
+    const auto textOrNull = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
+    json["renderer"] = textOrNull(renderer.name);
+    json["gl_renderer"] = textOrNull(renderer.glRenderer);
+    json["gl_version"] = textOrNull(renderer.glVersion);
+}
+
 Json frameRateJson(const render::FrameRate& rate) {
     return rate.denominator == 1 ? Json(rate.numerator) : Json(rate.text());
 }
@@ -138,7 +145,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["source"] = scene.sourceName;
     json["threads"] = report.threads;
     json["instruction_set"] = engine::simdInstructionSet();
-    json["gl_renderer"] = report.glRenderer.empty() ? Json(nullptr) : Json(report.glRenderer);
+    addTo(json, report.renderer);
     json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);

@@ -49,12 +49,24 @@ ErrorSamples decodeErrors(const Json& json);
 /// automatic stepper, which estimates its own error, and for a run that becomes unstable within that frame.
 void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation);
 
+/// What run.json, manifests and sidecars record of the renderer. A text is empty if there is nothing to record.
+struct RendererRecord {
+    std::string name;        ///< "cpu" or "opengl"
+    std::string glRenderer;  ///< OpenGL's name of its renderer (GL_RENDERER)
+    std::string glVersion;   ///< the version of OpenGL and of the driver (GL_VERSION)
+
+    friend bool operator==(const RendererRecord&, const RendererRecord&) = default;
+};
+
+/// Adds the keys `renderer`, `gl_renderer` and `gl_version` to a JSON object, null where the text is empty.
+void addTo(Json& json, const RendererRecord& renderer);
+
 struct RunReport {
     StageSeconds seconds;
     ErrorSamples errors;
     int frames = 0;  ///< number of frames asked for that were written or kept
     int threads = 1;
-    std::string glRenderer;   ///< name of the OpenGL renderer; empty if nothing was drawn
+    RendererRecord renderer;  ///< what drew; empty if nothing was drawn
     std::string stateHash;    ///< hash of the particles at the last frame; empty if there is none
     std::string unstable;     ///< why the simulation became unstable; empty if it did not
     int interruptedBy = 0;    ///< the signal that ended the run early, or 0

@@ -8,10 +8,10 @@
 
 #include "engine/run/diagnostics.h"
 #include "render/overlay/panel_strip.h"
-#include "render/renderer.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "scenes/view/frame_view.h"
+#include "tools/run/open_renderer.h"
 #include "tools/run/threads.h"
 #include "tools/system/memory.h"
 
@@ -35,7 +35,8 @@ StillPictures drawAll(const DrawJob& job, const StillSelection& selection) {
     const scenes::Scene& scene = *job.scene;
     std::set<int> frames(selection.stripFrames.begin(), selection.stripFrames.end());
     if (selection.stillFrame) frames.insert(*selection.stillFrame);
-    render::Renderer renderer(scene.size, job.quality);
+    const OpenedRenderer opened = openRenderer(job);
+    render::Renderer& renderer = *opened.renderer;
     const auto inMemory = [&](const auto& work) { return withMemoryForParticles(scene.setup.initial.count(), work); };
     engine::Simulation simulation = inMemory([&] { return engine::start(scene.setup); });
     Progress progress(job.title, static_cast<int>(frames.size()), job.verbosity);

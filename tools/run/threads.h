@@ -1,4 +1,4 @@
-// The number of threads of a run, applied to everything that starts threads: oneTBB and Mesa's rasterizer.
+// The number of threads of a run, applied to everything that starts threads: oneTBB and Mesa's software renderer.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <string>
-
-#include "render/opengl/context.h"
 
 namespace tools {
 
@@ -20,17 +18,12 @@ void onThreads(int threads, const Work& work) {
     arena.execute(work);
 }
 
-/// Tells llvmpipe, Mesa's software rasterizer, how many threads to use. A value that the user has set in the
-/// environment stays. Must be called before a context is created.
-inline void setRasterizerThreads(int threads) {
+/// Tells Mesa how many threads its software renderer, llvmpipe, is to use, and not to print warnings of devices that it
+/// cannot open: where no other device can be used, the error says so. Values that the user has set in the environment
+/// stay. Must be called before a context is created.
+inline void prepareMesa(int threads) {
     ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
-}
-
-/// The OpenGL context of a run.
-/// @throws render::SystemError
-inline render::Context openContext(render::Backend backend, int threads) {
-    setRasterizerThreads(threads);
-    return render::Context(backend);
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);
 }
 
 }  // namespace tools

@@ -1,16 +1,13 @@
-// The same view gives the same bytes with any number of threads, from any thread and in every run; and OpenGL contexts
-// are made by name.
+// The same view gives the same bytes with any number of threads, from any thread and in every run.
 #include "tests/catch.h"
 
 #include <thread>
 
 #include <tbb/global_control.h>
 
-#include "render/opengl/context.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
-using render::Backend;
 using render::Quality;
 
 namespace {
@@ -35,20 +32,6 @@ std::vector<render::View> views() {
 }
 
 }  // namespace
-
-TEST_CASE("Backends are known by name") {
-    CHECK(render::backendNamed("osmesa") == Backend::osmesa);
-    CHECK(render::backendNamed("egl") == Backend::egl);
-    CHECK_FALSE(render::backendNamed("vulkan").has_value());
-    CHECK_FALSE(render::backendNamed("").has_value());
-}
-
-TEST_CASE("The renderer's name is Mesa's software renderer") {
-    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
-        const render::Context context(backend);
-        CHECK(context.rendererName().find("pipe") != std::string::npos);
-    }
-}
 
 TEST_CASE("One and two threads, and run after run, give identical pixels") {
     for (const render::View& view : views()) {
