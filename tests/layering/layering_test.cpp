@@ -112,6 +112,24 @@ std::string roomVerdict(const Include& include) {
     return roomOf(include.file) + " must not include " + roomOf(include.target) + ", which is above it";
 }
 
+/// The one room that includes the headers of OpenGL and EGL. A build without OpenGL leaves it out but for these files,
+/// of which the headers are for the other rooms.
+const std::string kOpenGlRoom = "render/opengl";
+const std::set<std::string> kWithoutOpenGl = {"render/opengl/context.h", "render/opengl/context_none.cpp",
+                                              "render/opengl/device.cpp", "render/opengl/device.h"};
+
+/// How an include needs OpenGL where it may be missing; empty if it does not.
+std::string openGlVerdict(const Include& include) {
+    static const std::set<std::string> kOpenGlFolders = {"GL", "EGL", "KHR"};
+    const bool isOpenGls = kOpenGlFolders.count(include.target.substr(0, include.target.find('/'))) == 1;
+    if (isOpenGls && roomOf(include.file) != kOpenGlRoom)
+        return roomOf(include.file) + " must not include OpenGL's headers";
+    const bool isOfRoom = roomOf(include.target) == kOpenGlRoom && kWithoutOpenGl.count(include.target) == 0;
+    if (kWithoutOpenGl.count(include.file) == 1 && (isOpenGls || isOfRoom))
+        return include.file + " is compiled without OpenGL, too";
+    return "";
+}
+
 /// Why an include is wrong; empty if it is not.
 std::string verdict(const Include& include) {
     const std::string target = include.target.substr(0, include.target.find('/'));
@@ -120,6 +138,7 @@ std::string verdict(const Include& include) {
         return include.folder + "/ must not include " + target + "/";
     if (include.target.find("..") != std::string::npos) return "paths start at the root, not at ..";
     if (const std::string wrongRoom = roomVerdict(include); !wrongRoom.empty()) return wrongRoom;
+    if (const std::string needsOpenGl = openGlVerdict(include); !needsOpenGl.empty()) return needsOpenGl;
     const std::string refusal = include.folder + "/ must not include <" + include.target + ">";
     if (const auto libraries = kLibraries.find(include.folder); libraries != kLibraries.end()) {
         // Without a slash and with .h: the system's C headers.
@@ -166,6 +185,25 @@ TEST_CASE("A wrong arrow between rooms is noticed", "[layering]") {
     CHECK(verdict({"render", "render/renderer.cpp", 1, "render/cpu/shading/shade.h"}) == "");
     CHECK(verdict({"tools", "tools/run/x.cpp", 1, "tools/commands/commands.h"}) != "");
     CHECK(verdict({"tools", "tools/commands/x.cpp", 1, "tools/run/render_loop.h"}) == "");
+}
+
+TEST_CASE("OpenGL outside its room is noticed", "[layering]") {
+    for (const char* room : {"render/cpu", "render/cpu/metaballs", "render/prepare", "render/picture"}) {
+        const std::string file = std::string(room) + "/x.cpp";
+        for (const char* target : {"GL/glcorearb.h", "GL/osmesa.h", "EGL/egl.h", "render/opengl/gl.h",
+                                   "render/opengl/context.h", "render/opengl/device.h"}) {
+            INFO(file << ": " << target);
+            CHECK(verdict({"render", file, 1, target}) != "");
+        }
+    }
+    CHECK(verdict({"render", "render/renderer.cpp", 1, "render/opengl/context.h"}) == "");
+    CHECK(verdict({"render", "render/renderer.h", 1, "GL/glcorearb.h"}) != "");
+    CHECK(verdict({"tools", "tools/run/x.cpp", 1, "EGL/egl.h"}) != "");
+    CHECK(verdict({"render", "render/opengl/gl.h", 1, "GL/glcorearb.h"}) == "");
+    CHECK(verdict({"render", "render/opengl/context.h", 1, "GL/glcorearb.h"}) != "");
+    CHECK(verdict({"render", "render/opengl/context.h", 1, "render/opengl/gl.h"}) != "");
+    CHECK(verdict({"render", "render/opengl/context.h", 1, "render/opengl/device.h"}) == "");
+    CHECK(verdict({"render", "render/opengl/context_none.cpp", 1, "render/opengl/context_native.h"}) != "");
 }
 
 TEST_CASE("A wrong arrow is noticed", "[layering]") {
