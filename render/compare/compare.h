@@ -20,7 +20,9 @@ struct CompareLimits {
 };
 
 /// The limits of a profile. strict: the same pixels. vendor: roundings of another OpenGL driver, up to 3/255, with
-/// larger differences on at most 0.5 % of the pixels and none above 16/255. loose: the same picture at a glance, for
+/// larger differences on at most 0.5 % of the pixels and none above 16/255. renderer: the same view by the renderer on
+/// the CPU and by that in OpenGL, up to 6/255, with larger differences on at most 1 % of the pixels and none above
+/// 64/255. loose: the same picture at a glance, for
 /// example with other antialiasing.
 /// @throws std::invalid_argument for another name
 CompareLimits limitsOf(std::string_view profile);

@@ -20,28 +20,31 @@ std::string ruleOf(const Image& actual, const Image& expected, const char* profi
     return render::nameOf(comparison.rule);
 }
 
-/// The deciding rules for the profiles strict, vendor and loose.
+/// The deciding rules for the profiles strict, vendor, renderer and loose.
 using Verdicts = std::vector<std::string>;
 
 Verdicts verdicts(const Image& actual, const Image& expected) {
-    return {ruleOf(actual, expected, "strict"), ruleOf(actual, expected, "vendor"), ruleOf(actual, expected, "loose")};
+    return {ruleOf(actual, expected, "strict"), ruleOf(actual, expected, "vendor"),
+            ruleOf(actual, expected, "renderer"), ruleOf(actual, expected, "loose")};
 }
 
 }  // namespace
 
 TEST_CASE("Each profile's verdict on pictures with known defects", "[compare]") {
     const Image good = balls();
-    CHECK(verdicts(good, good) == Verdicts{"identical", "identical", "identical"});
-    CHECK(verdicts(onePixel(good, 30, 40, 60), good) == Verdicts{"largest", "largest", "within-limits"});
-    CHECK(verdicts(onePixel(good, 30, 40, 16), good) == Verdicts{"largest", "within-limits", "within-limits"});
-    CHECK(verdicts(onePixel(good, 30, 40, 65), good) == Verdicts{"largest", "largest", "largest"});
-    CHECK(verdicts(shifted(good), good) == Verdicts{"largest", "largest", "largest"});
-    CHECK(verdicts(darker(good, 0.98), good) == Verdicts{"largest", "share", "within-limits"});
-    CHECK(verdicts(darker(good, 0.9), good) == Verdicts{"largest", "largest", "share"});
-    CHECK(verdicts(gray(good), good) == Verdicts{"largest", "largest", "largest"});
-    CHECK(verdicts(blank(good), good) == Verdicts{"largest", "largest", "largest"});
-    CHECK(verdicts(noisy(good, 1), good) == Verdicts{"largest", "mean", "within-limits"});
-    CHECK(verdicts(noisy(good, 16), good) == Verdicts{"largest", "share", "mean"});
+    CHECK(verdicts(good, good) == Verdicts{"identical", "identical", "identical", "identical"});
+    CHECK(verdicts(onePixel(good, 30, 40, 60), good) ==
+          Verdicts{"largest", "largest", "within-limits", "within-limits"});
+    CHECK(verdicts(onePixel(good, 30, 40, 16), good) ==
+          Verdicts{"largest", "within-limits", "within-limits", "within-limits"});
+    CHECK(verdicts(onePixel(good, 30, 40, 65), good) == Verdicts{"largest", "largest", "largest", "largest"});
+    CHECK(verdicts(shifted(good), good) == Verdicts{"largest", "largest", "largest", "largest"});
+    CHECK(verdicts(darker(good, 0.98), good) == Verdicts{"largest", "share", "mean", "within-limits"});
+    CHECK(verdicts(darker(good, 0.9), good) == Verdicts{"largest", "largest", "share", "share"});
+    CHECK(verdicts(gray(good), good) == Verdicts{"largest", "largest", "largest", "largest"});
+    CHECK(verdicts(blank(good), good) == Verdicts{"largest", "largest", "largest", "largest"});
+    CHECK(verdicts(noisy(good, 1), good) == Verdicts{"largest", "mean", "mean", "within-limits"});
+    CHECK(verdicts(noisy(good, 16), good) == Verdicts{"largest", "share", "share", "mean"});
 }
 
 TEST_CASE("The gray picture is as light as the colored one, and a shift breaks several limits", "[compare]") {
