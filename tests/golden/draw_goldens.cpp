@@ -13,6 +13,7 @@
 #include "scenes/view/frame_view.h"
 #include "tools/compare/picture_provenance.h"
 #include "tools/run/manifest.h"
+#include "tools/run/options.h"
 #include "tools/system/output_file.h"
 
 namespace golden {
@@ -54,6 +55,7 @@ class GoldenRenderer {
         provenance.sceneHash = scene.sceneHash;
         provenance.stateHash = engine::stateHash(simulation.particles);
         provenance.version = GLOBULAR_VERSION;
+        provenance.renderer.name = tools::kRendererNames[0];
         provenance.quality = "normal";
         tools::createFolder(path.parent_path());
         tools::writeFile(path, png);

@@ -39,7 +39,9 @@ TEST_CASE("approve: a picture that differs becomes the golden, with a sidecar", 
     CHECK(sidecar["scene_hash"] == "5ce4e00000000000");
     CHECK(sidecar["state_hash"] == "00000000000000aa");
     CHECK(sidecar["version"] == "0.2.0");
+    CHECK(sidecar["renderer"] == "opengl");
     CHECK(sidecar["gl_renderer"] == "llvmpipe (test)");
+    CHECK(sidecar["gl_version"] == "4.5 Mesa (test)");
     CHECK(sidecar["quality"] == "normal");
     CHECK(sidecar["size"] == nlohmann::json({160, 90}));
     CHECK(sidecar["png"] == tools::checksumOf(tools::readFile(folder / "actual/liquid/frame-00009.png")));
@@ -54,7 +56,7 @@ TEST_CASE("approve: a picture that differs becomes the golden, with a sidecar", 
           std::string::npos);
 }
 
-TEST_CASE("approve: refuses another GL renderer without --force, and then writes nothing", "[approve]") {
+TEST_CASE("approve: refuses another renderer or driver without --force, and then writes nothing", "[approve]") {
     const program::Folder folder;
     const std::string approve = "approve " + (folder / "actual").string() + " " + (folder / "golden").string();
     writePicture(folder / "actual/frame-00001.png", balls());
@@ -67,16 +69,22 @@ TEST_CASE("approve: refuses another GL renderer without --force, and then writes
     writeManifest(folder / "actual", "00000000000000aa", {.renderer = "another GPU"});
     const auto refused = run(approve);
     CHECK(refused.code == 2);
-    CHECK(refused.err.find("frame-00001.png: drawn by another GPU, the golden by llvmpipe (test); --force") !=
-          std::string::npos);
+    CHECK(refused.err.find(
+              "frame-00001.png: drawn by OpenGL (another GPU, 4.5 Mesa (test)), the golden by OpenGL (llvmpipe "
+              "(test), 4.5 Mesa (test)); --force") != std::string::npos);
     CHECK(textOf(folder / "golden/frame-00001.png") == before);
     CHECK_FALSE(fs::exists(folder / "golden/frame-00000.png"));
     fs::remove(folder / "actual/manifest.json");
-    CHECK(run(approve).err.find("drawn by an unknown GL renderer") != std::string::npos);
+    CHECK(run(approve).err.find("drawn by an unknown renderer") != std::string::npos);
     CHECK(run(approve + " frame-00000.png").code == 0);  // there is no golden that another renderer drew
     writeManifest(folder / "actual", "00000000000000aa", {.renderer = "another GPU"});
     CHECK(run(approve + " --force").code == 0);
     CHECK(jsonOf(folder / "golden/frame-00001.json")["gl_renderer"] == "another GPU");
+    for (const auto& other : {golden_files::RunFacts{.drawnBy = "cpu", .renderer = "", .driver = ""},
+                              golden_files::RunFacts{.renderer = "another GPU", .driver = "4.6 Mesa (test)"}}) {
+        writeManifest(folder / "actual", "00000000000000aa", other);
+        CHECK(run(approve).code == 2);
+    }
     CHECK(textOf(folder / "golden/frame-00001.png") != before);
 }
 
@@ -87,7 +95,7 @@ TEST_CASE("approve: single files, names that do not exist, files that are not si
     CHECK(run(one).code == 0);
     CHECK(textOf(folder / "golden/b.png") == textOf(folder / "actual/a.png"));
     const auto sidecar = jsonOf(folder / "golden/b.json");
-    CHECK(sidecar["gl_renderer"].is_null());
+    for (const char* key : {"renderer", "gl_renderer", "gl_version"}) CHECK(sidecar.at(key).is_null());
 
     for (const char* into : {"golden", "more/"})
         CHECK(run("approve " + (folder / "actual/a.png").string() + " " + (folder / into).string()).code == 0);

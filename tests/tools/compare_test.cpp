@@ -311,11 +311,44 @@ TEST_CASE("compare: the state's hash tells whether the simulation or the rendere
     CHECK(said.out.find("the simulation changed: state 1111111111111111 instead of 2222222222222222") !=
           std::string::npos);
 
+    // Pictures of versions that copied what the CPU drew through OpenGL.
+    tools::writeFile(sides / "actual/frame-00007.json",
+                     "{\"png\": \"" + tools::checksumOf(tools::readFile(sides / "actual/frame-00007.png")) +
+                         "\", \"gl_renderer\": \"llvmpipe\"}");
+    CHECK(result()["actual"]["renderer"] == "cpu");
+    CHECK_FALSE(result()["actual"].contains("gl_renderer"));
+    fs::remove(sides / "actual/frame-00007.json");
+
     tools::writeFile(sides / "actual/manifest.json", std::string("{\"frames\": {\"00007\": 3}"));
     tools::writeFile(sides / "actual/run.json",
                      std::string("{\"scene_hash\": \"abc\", \"gl_renderer\": null, \"version\": 3}"));
     CHECK(result()["actual"]["scene_hash"] == "abc");
     CHECK_FALSE(result()["actual"].contains("gl_renderer"));
+}
+
+TEST_CASE("compare: pictures that one OpenGL driver drew must be the same bytes", "[compare]") {
+    Sides sides;
+    sides.actual("frame-00007.png", onePixel(balls(), 30, 40, 2));  // within the limits of vendor
+    sides.expected("frame-00007.png", balls());
+    const auto status = [&] { return sides.results()["frame-00007.png"]["status"]; };
+    CHECK(status() == "within-limits");
+    writeManifest(sides / "actual", "1111111111111111");
+    CHECK(status() == "within-limits");
+    writeManifest(sides / "expected", "1111111111111111");
+    CHECK(status() == "different");
+    CHECK(sides.compare().out.find("one driver drew both: OpenGL (llvmpipe (test), 4.5 Mesa (test))") !=
+          std::string::npos);
+    for (const char* own : {"--profile vendor", "--profile renderer", "--max-difference 3 --max-share 1 --max-mean 1"})
+        CHECK(sides.compare(own).code == 0);
+    CHECK(sides.compare("--max-difference 1").code == 1);
+    using golden_files::RunFacts;
+    for (const RunFacts& other : {RunFacts{.renderer = "another"}, RunFacts{.driver = "4.6"}, RunFacts{.driver = ""},
+                                  RunFacts{.drawnBy = "cpu", .renderer = "", .driver = ""}}) {
+        writeManifest(sides / "expected", "1111111111111111", other);
+        CHECK(status() == "within-limits");
+    }
+    writeManifest(sides / "actual", "1111111111111111", {.drawnBy = "cpu", .renderer = "", .driver = ""});
+    CHECK(status() == "within-limits");
 }
 
 TEST_CASE("compare: JUnit's XML counts failures and errors, and stays XML", "[compare]") {

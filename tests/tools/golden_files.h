@@ -23,7 +23,9 @@ inline void writePicture(const fs::path& path, const render::Image& image) {
 /// What a manifest records about the run itself.
 struct RunFacts {
     std::string scene = "5ce4e00000000000";
+    std::string drawnBy = "opengl";
     std::string renderer = "llvmpipe (test)";
+    std::string driver = "4.5 Mesa (test)";
     std::string version = "0.2.0";
 };
 
@@ -32,7 +34,9 @@ inline void writeManifest(const fs::path& folder, const std::string& state, cons
     tools::Manifest manifest;
     manifest.identity = {{"scene_hash", run.scene},
                          {"version", run.version},
+                         {"renderer", run.drawnBy},
                          {"gl_renderer", run.renderer},
+                         {"gl_version", run.driver},
                          {"quality", "normal"},
                          {"size", {160, 90}},
                          {"seed", 1},

@@ -32,7 +32,7 @@ void addApproveCommand(CLI::App& program) {
     command.add_option("ACTUAL", options->job.actual, "a PNG or a folder of PNGs")->required();
     command.add_option("EXPECTED", options->job.expected, "the golden one, or their folder")->required();
     command.add_option("NAME", options->job.names, "which, as compare prints them (default: all of ACTUAL)");
-    command.add_flag("--force", options->job.force, "also where another GL renderer drew the golden");
+    command.add_flag("--force", options->job.force, "also where another renderer or OpenGL driver drew the golden");
     command.add_flag("--json", options->run.json, "one JSON object a line");
     command.add_flag("--quiet", options->run.quiet, "print nothing");
     command.footer("Example: globular approve out/liquid golden/liquid frame-00030.png");

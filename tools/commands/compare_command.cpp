@@ -37,6 +37,7 @@ struct CompareOptions {
     std::string profile = "vendor";
     std::optional<int> threshold, largest;
     std::optional<double> sharePercent, mean, ssim;
+    std::vector<const CLI::Option*> limitFlags;  ///< --profile and the flags of single limits
     std::string mask, junit, report;
     RunOptions run;  ///< --json and --quiet; the number of threads is not used
 };
@@ -49,6 +50,12 @@ render::CompareLimits limitsOf(const CompareOptions& options) {
     limits.mean = options.mean.value_or(limits.mean);
     limits.ssim = options.ssim.value_or(limits.ssim);
     return limits;
+}
+
+/// Whether the command line says how far pictures may differ.
+bool hasOwnLimits(const CompareOptions& options) {
+    return std::any_of(options.limitFlags.begin(), options.limitFlags.end(),
+                       [](const CLI::Option* flag) { return flag->count() > 0; });
 }
 
 render::Image readMask(const std::string& path) {
@@ -69,12 +76,12 @@ std::string numbers(const render::PictureMetrics& metrics, int threshold) {
     return text;
 }
 
-std::string pictureText(const PictureResult& result, const render::CompareLimits& limits) {
+std::string pictureText(const PictureResult& result) {
     const std::string rule = result.comparison ? fmt::format(" ({})", result.rule()) : "";
     std::string text = fmt::format("{}: {}{}\n", result.name, nameOf(result.status), rule);
     for (const std::string& reason : result.reasons) text += fmt::format("  {}\n", reason);
     if (result.comparison && result.comparison->metrics.differing > 0)
-        text += fmt::format("  {}\n", numbers(result.comparison->metrics, limits.threshold));
+        text += fmt::format("  {}\n", numbers(result.comparison->metrics, result.limits.threshold));
     if (result.explanation) text += fmt::format("  {}\n", result.explanation->text);
     return text;
 }
@@ -85,10 +92,10 @@ bool isWorthPrinting(const PictureResult& result) {
 }
 
 /// Prints the result of one picture.
-void printPicture(const CompareOptions& options, const PictureResult& result, const render::CompareLimits& limits) {
+void printPicture(const CompareOptions& options, const PictureResult& result) {
     Json json = {{"event", "picture"}};
     json.update(resultJson(result));
-    printResult(options.run, json, isWorthPrinting(result) ? pictureText(result, limits) : "");
+    printResult(options.run, json, isWorthPrinting(result) ? pictureText(result) : "");
 }
 
 void printSummary(const CompareOptions& options, const CompareCounts& counts, const std::string& approval) {
@@ -150,7 +157,8 @@ void compareAll(const CompareOptions& options) {
                          .expected = options.expected,
                          .limits = limitsOf(options),
                          .mask = readMask(options.mask),
-                         .whileWaiting = endIfInterrupted};
+                         .whileWaiting = endIfInterrupted,
+                         .isStrictForSameDriver = !hasOwnLimits(options)};
     // Opened first, so that a report that cannot be written is known before the pictures are compared.
     std::optional<render::AtomicFile> junitFile;
     if (!options.junit.empty()) {
@@ -166,7 +174,7 @@ void compareAll(const CompareOptions& options) {
     const CompareCounts counts = comparePictures(job, [&](const PictureResult& result) {
         if (isWorthPrinting(result)) progress->hide();
         if (canBeApproved(result)) failed.push_back(result.name);
-        printPicture(options, result, job.limits);
+        printPicture(options, result);
         if (junitFile) junit.add(result);
         if (!options.report.empty())
             page.add(result, canBeApproved(result) ? approvalLine(options.actual, options.expected, {result.name})
@@ -206,8 +214,9 @@ void addLimits(CLI::App& command, CompareOptions& options) {
     command
         .add_option(
             "--profile", options.profile,
-            "strict: the same bytes; vendor: the last bits of another OpenGL driver; loose: the same at a glance")
-        ->check(CLI::IsMember({"strict", "vendor", "loose"}))
+            "strict: the same bytes; vendor: the last bits of another OpenGL driver; renderer: what OpenGL draws "
+            "otherwise than the CPU; loose: the same at a glance")
+        ->check(CLI::IsMember({"strict", "vendor", "renderer", "loose"}))
         ->capture_default_str();
     command.add_option("--threshold", options.threshold, "a pixel is noticeable when a channel is off by more")
         ->check(CLI::Range(0, 255));
@@ -218,6 +227,8 @@ void addLimits(CLI::App& command, CompareOptions& options) {
     command.add_option("--max-mean", options.mean, "mean difference over all channels, at most")
         ->check(numberFrom(0.0, 255.0));
     command.add_option("--min-ssim", options.ssim, "structural similarity, at least")->check(numberFrom(-1.0, 1.0));
+    for (const char* flag : {"--profile", "--threshold", "--max-share", "--max-difference", "--max-mean", "--min-ssim"})
+        options.limitFlags.push_back(command.get_option(flag));
 }
 
 }  // namespace
@@ -235,7 +246,9 @@ void addCompareCommand(CLI::App& program) {
     command.add_option("--junit", options->junit, "also write the results for CI systems")->type_name("FILE.xml");
     command.add_flag("--json", options->run.json, "results as JSON, one object a line");
     command.add_flag("--quiet", options->run.quiet, "only the exit code");
-    command.footer("Example: globular compare out/liquid golden/liquid --report out/report");
+    command.footer(
+        "Without --profile and limits, pictures that the same OpenGL driver drew must be the same bytes.\n"
+        "Example: globular compare out/liquid golden/liquid --report out/report");
     command.callback([options] { compareOrTrouble(*options); });
 }
 

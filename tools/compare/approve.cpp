@@ -66,12 +66,11 @@ std::string refusal(const Candidate& candidate) {
     if (!sidecar.is_object() || !sidecar.contains("png"))
         return fmt::format("its sidecar would replace {}, which is not a sidecar; --force replaces it", path.string());
     // The renderer that the sidecar names counts even if the golden was changed without its sidecar.
-    if (!sidecar.contains("gl_renderer") || !sidecar["gl_renderer"].is_string()) return {};
-    const std::string before = sidecar["gl_renderer"].get<std::string>();
-    const std::string now = provenanceOf(candidate.from, readFile(candidate.from)).glRenderer;
+    const RendererRecord before = rendererIn(sidecar);
+    if (before.name.empty()) return {};
+    const RendererRecord now = provenanceOf(candidate.from, readFile(candidate.from)).renderer;
     if (now == before) return {};
-    return fmt::format("drawn by {}, the golden by {}; --force approves it all the same",
-                       now.empty() ? "an unknown GL renderer" : now, before);
+    return fmt::format("drawn by {}, the golden by {}; --force approves it all the same", textOf(now), textOf(before));
 }
 
 /// Makes sure that no golden replaces a picture that is still to be read, or the golden of another picture. A picture

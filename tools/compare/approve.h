@@ -11,7 +11,7 @@ struct ApproveJob {
     std::filesystem::path actual;
     std::filesystem::path expected;  ///< for a single picture, the golden or a folder, into which the picture goes
     std::vector<std::string> names;  ///< names of the pictures to approve, as `compare` prints them; empty: all
-    bool force = false;              ///< also replaces goldens that another OpenGL renderer drew
+    bool force = false;              ///< also replaces goldens that another renderer or driver drew
 };
 
 struct Approved {
@@ -22,7 +22,7 @@ struct Approved {
 /// Copies each picture over its golden and writes the sidecar, the JSON file beside the golden that records its
 /// provenance. Pictures whose golden and sidecar would stay the same are skipped and not returned. Nothing is written
 /// unless all pictures are accepted.
-/// @throws scenes::InputError naming every picture that does not exist or was drawn by another OpenGL renderer than its
+/// @throws scenes::InputError naming every picture that does not exist or was drawn by another renderer than its
 /// golden
 /// @throws render::SystemError for files that cannot be read or written
 std::vector<Approved> approvePictures(const ApproveJob& job);

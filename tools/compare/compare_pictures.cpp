@@ -95,8 +95,14 @@ void evaluate(PictureResult& result, const CompareJob& job) {
     if (!job.mask.rgb.empty() && (job.mask.width != expected.width || job.mask.height != expected.height))
         throw render::SystemError(fmt::format("the mask is {}x{}, {} is {}x{}", job.mask.width, job.mask.height,
                                               result.expected.path.string(), expected.width, expected.height));
-    result.comparison = render::compare(*result.actual.image, expected, job.limits, job.mask);
+    const bool isStrict =
+        job.isStrictForSameDriver && haveSameDriver(result.actual.provenance, result.expected.provenance);
+    result.limits = isStrict ? render::limitsOf("strict") : job.limits;
+    result.comparison = render::compare(*result.actual.image, expected, result.limits, job.mask);
     result.reasons = result.comparison->reasons;
+    if (isStrict && !result.comparison->passed())
+        result.reasons.push_back(fmt::format("equal pixels are wanted, because one driver drew both: {}",
+                                             textOf(result.expected.provenance.renderer)));
     const bool identical = result.comparison->rule == render::CompareRule::identical;
     result.status = !result.comparison->passed() ? PictureStatus::different
                     : identical                  ? PictureStatus::identical
@@ -172,7 +178,9 @@ Json sideJson(const PictureSide& side) {
     for (const auto& [key, value] : {std::pair<const char*, const std::string&>{"scene_hash", provenance.sceneHash},
                                      {"state_hash", provenance.stateHash},
                                      {"version", provenance.version},
-                                     {"gl_renderer", provenance.glRenderer},
+                                     {"renderer", provenance.renderer.name},
+                                     {"gl_renderer", provenance.renderer.glRenderer},
+                                     {"gl_version", provenance.renderer.glVersion},
                                      {"quality", provenance.quality},
                                      {"facts_from", provenance.source},
                                      {"note", provenance.note}})

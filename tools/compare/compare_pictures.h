@@ -38,6 +38,7 @@ struct PictureResult {
     PictureSide actual;
     PictureSide expected;
     std::vector<std::string> reasons;              ///< why the comparison fails; empty if it passed
+    render::CompareLimits limits;                  ///< limits that the comparison was held to
     std::optional<render::Comparison> comparison;  ///< metrics and verdict; none if a picture cannot be read
     std::optional<Explanation> explanation;        ///< what changed; none if pictures and particle states are the same
 
@@ -53,6 +54,7 @@ struct CompareJob {
     render::Image mask;                          ///< picture whose black pixels do not count; empty: every pixel counts
     std::set<std::string> only = {};             ///< names of the pictures to compare; empty: all
     std::function<void()> whileWaiting = [] {};  ///< called many times a second; ends the comparison by throwing
+    bool isStrictForSameDriver = true;           ///< whether pictures of one OpenGL driver must have equal pixels
 };
 
 /// Counts the pairs of pictures by outcome.

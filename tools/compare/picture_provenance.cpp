@@ -8,6 +8,7 @@
 #include "render/output/atomic_file.h"
 #include "render/picture/system_error.h"
 #include "tools/run/manifest.h"
+#include "tools/run/options.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 
@@ -27,7 +28,7 @@ PictureProvenance commonProvenance(const nlohmann::json& json, const fs::path& s
     provenance.source = source.string();
     provenance.sceneHash = textIn(json, "scene_hash");
     provenance.version = textIn(json, "version");
-    provenance.glRenderer = textIn(json, "gl_renderer");
+    provenance.renderer = rendererIn(json);
     provenance.quality = textIn(json, "quality");
     return provenance;
 }
@@ -92,6 +93,27 @@ std::string whyUnknown(const char* side, const PictureProvenance& provenance) {
 
 }  // namespace
 
+RendererRecord rendererIn(const nlohmann::json& json) {
+    const std::string name = textIn(json, "renderer");
+    const std::string glRenderer = textIn(json, "gl_renderer");
+    if (name.empty()) return {glRenderer.empty() ? "" : kRendererNames[0], "", ""};
+    return {name, glRenderer, textIn(json, "gl_version")};
+}
+
+std::string textOf(const RendererRecord& renderer) {
+    if (renderer.name.empty()) return "an unknown renderer";
+    if (renderer.name == kRendererNames[0]) return "the CPU";
+    if (renderer.name != kRendererNames[1]) return fmt::format("the renderer {}", renderer.name);
+    return fmt::format("OpenGL ({}, {})", renderer.glRenderer.empty() ? "unknown" : renderer.glRenderer,
+                       renderer.glVersion.empty() ? "unknown version" : renderer.glVersion);
+}
+
+bool haveSameDriver(const PictureProvenance& one, const PictureProvenance& other) {
+    const RendererRecord& renderer = one.renderer;
+    return renderer.name == kRendererNames[1] && !renderer.glRenderer.empty() && !renderer.glVersion.empty() &&
+           renderer == other.renderer;
+}
+
 fs::path sidecarPath(const fs::path& picture) {
     constexpr std::string_view kExtension = ".json";
     const std::string stem = render::shortenedName(picture.stem().string(), kExtension.size());
@@ -125,19 +147,22 @@ PictureProvenance provenanceOf(const fs::path& picture, std::span<const std::uin
 }
 
 Json sidecarJson(const PictureProvenance& provenance, const std::string& checksum, int width, int height) {
-    return {{"format", 1},
-            {"png", checksum},
-            {"scene_hash", textOrNull(provenance.sceneHash)},
-            {"state_hash", textOrNull(provenance.stateHash)},
-            {"version", textOrNull(provenance.version)},
-            {"gl_renderer", textOrNull(provenance.glRenderer)},
-            {"quality", textOrNull(provenance.quality)},
-            {"size", {width, height}}};
+    Json json = {{"format", 1},
+                 {"png", checksum},
+                 {"scene_hash", textOrNull(provenance.sceneHash)},
+                 {"state_hash", textOrNull(provenance.stateHash)},
+                 {"version", textOrNull(provenance.version)}};
+    addTo(json, provenance.renderer);
+    json["quality"] = textOrNull(provenance.quality);
+    json["size"] = {width, height};
+    return json;
 }
 
 Explanation explain(const PictureProvenance& actual, const PictureProvenance& expected) {
     const std::string others = changeOf("scene", actual.sceneHash, expected.sceneHash) +
-                               changeOf("GL renderer", actual.glRenderer, expected.glRenderer) +
+                               changeOf("renderer", actual.renderer.name, expected.renderer.name) +
+                               changeOf("GL renderer", actual.renderer.glRenderer, expected.renderer.glRenderer) +
+                               changeOf("GL version", actual.renderer.glVersion, expected.renderer.glVersion) +
                                changeOf("quality", actual.quality, expected.quality) +
                                changeOf("version", actual.version, expected.version);
     if (actual.stateHash.empty() || expected.stateHash.empty())

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "tools/run/run_report.h"
 #include "tools/system/json.h"
 
 namespace tools {
@@ -18,7 +19,7 @@ struct PictureProvenance {
     std::string sceneHash;
     std::string stateHash;  ///< hash of the particles that the picture shows
     std::string version;
-    std::string glRenderer;
+    RendererRecord renderer;
     std::string quality;
     std::string note;  ///< why a file that should have the record does not have it
 };
@@ -31,6 +32,17 @@ std::filesystem::path sidecarPath(const std::filesystem::path& picture);
 /// because of what these files contain.
 /// @param bytes  the content of the picture's file
 PictureProvenance provenanceOf(const std::filesystem::path& picture, std::span<const std::uint8_t> bytes);
+
+/// What the JSON of a sidecar, manifest or run.json records of the renderer. Where it names OpenGL's renderer and no
+/// other, a version up to 0.4.0 has drawn the picture on the CPU and copied it through OpenGL.
+RendererRecord rendererIn(const nlohmann::json& json);
+
+/// What drew a picture in words, such as "OpenGL (llvmpipe, 4.5 Mesa 22.3.6)".
+std::string textOf(const RendererRecord& renderer);
+
+/// Whether OpenGL drew both pictures on the same renderer and version of the driver. Then the same particles and scene
+/// are the same bytes; other drivers round differently.
+bool haveSameDriver(const PictureProvenance& one, const PictureProvenance& other);
 
 /// The content of the sidecar of a picture; values that are not known are null.
 /// @param checksum  checksum of the picture's file

@@ -181,7 +181,7 @@ function worstRows(metrics) {
 function factRows(picture) {
   const expected = picture.expected || {}, actual = picture.actual || {};
   const names = {path: "file", size: "size", scene_hash: "scene", state_hash: "state of the frame", version: "version",
-                 gl_renderer: "GL renderer", quality: "quality", facts_from: "according to", note: "note"};
+                 renderer: "renderer", gl_renderer: "GL renderer", gl_version: "GL version", quality: "quality", facts_from: "according to", note: "note"};
   const rows = [row("", "expected", "actual")];
   for (const [key, label] of Object.entries(names)) {
     if (!(key in expected) && !(key in actual)) continue;
