@@ -35,8 +35,8 @@ TEST_CASE("The man page names every command and flag, and roff finds nothing wro
     const std::string page = (folder / "globular.1").string();
     REQUIRE(run("generate man " + page).code == 0);
     const std::string text = textOf(page);
-    for (const char* words : {".SS render", ".SS study accuracy", "\\fB\\-o, \\-\\-output\\fR \\fIDIR\\fR",
-                              "\\fB\\-\\-licenses\\fR", ".SH EXIT STATUS"}) {
+    for (const char* words : {".SS render", ".SS devices", "\\fB\\-\\-renderer\\fR \\fI", ".SS study accuracy",
+                              "\\fB\\-o, \\-\\-output\\fR \\fIDIR\\fR", "\\fB\\-\\-licenses\\fR", ".SH EXIT STATUS"}) {
         INFO(words);
         CHECK(text.find(words) != std::string::npos);
     }
@@ -58,6 +58,10 @@ TEST_CASE("bash completes commands, flags, values and scenes", "[docs]") {
     CHECK(completed(folder, "gen") == "\n");
     CHECK(completed(folder, "render --qual") == "--quality\n");
     CHECK(completed(folder, "render --quality ''") == "draft normal final\n");
+    CHECK(completed(folder, "render --renderer ''") == "cpu opengl\n");
+    CHECK(completed(folder, "compare --profile ''") == "strict vendor renderer loose\n");
+    CHECK(completed(folder, "dev") == "devices\n");
+    CHECK(completed(folder, "devices --") == "--help --json\n");
     CHECK(completed(folder, "render hon") == "honey\n");
     CHECK(completed(folder, "render hard/hon") == "hard/honey hard/honey-5000\n");
     CHECK(completed(folder, "render liquid --video ''") == "\n");  // bash then completes file names
