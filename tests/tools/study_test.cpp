@@ -97,6 +97,8 @@ TEST_CASE("The study of scaling writes tables, a plot and a page, and says when 
     CHECK(run("study scaling --peer gromacs").code == 2);
 }
 
+#ifdef RENDER_HAS_OPENGL  // the study compares its times with a baseline in OpenGL
+
 TEST_CASE("A study of pictures that is interrupted leaves the rows that it has reported", "[tools]") {
     const program::Folder folder;
     const std::string table = (folder / "pictures" / "pictures.csv").string();
@@ -128,3 +130,5 @@ TEST_CASE("The study of pictures writes its table, plots and a page, and leaves 
     CHECK(run("study pictures --size 100x100 -o /nonexistent/pictures").code == 2);
     CHECK(run("study pictures --particles 3 -o /nonexistent/pictures").code == 2);
 }
+
+#endif
