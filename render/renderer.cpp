@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "render/cpu/cpu_renderer.h"
+#include "render/opengl/opengl_renderer.h"
 #include "render/overlay/draw_overlay.h"
-#include "render/picture/system_error.h"
 #include "render/prepare/view_renderer.h"
 
 namespace render {
@@ -68,8 +68,9 @@ Renderer::Renderer(PictureSize size, Quality quality) : parts_(std::make_unique<
     parts_->renderer = std::make_unique<CpuRenderer>(size, quality);
 }
 
-Renderer::Renderer(Context&, PictureSize, Quality) {
-    throw SystemError("not built yet");
+Renderer::Renderer(Context& context, PictureSize size, Quality quality) : parts_(std::make_unique<Parts>()) {
+    parts_->settings = {checkedSize(size), depthMapTexels(quality), 2};
+    parts_->renderer = makeOpenGlRenderer(context, size, quality);
 }
 
 Renderer::~Renderer() = default;

@@ -1,14 +1,8 @@
 // The stages of a picture and what each hands to the next.
 #include "render/cpu/cpu_renderer.h"
 
-#include <algorithm>
-#include <bit>
-#include <cstring>
 #include <optional>
 #include <utility>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "render/cpu/metaballs/metaball_frame.h"
 
@@ -48,13 +42,7 @@ Image CpuRenderer::draw(const PreparedView& view, Image image, DrawTimes& times)
             colorPixels(pictureJob(view, sampling), {sampling.index, sampling.count, sums_}, background_, pixels_);
         });
     }
-    timed(times.readBack, [&] {
-        image.width = size_.width;
-        image.height = size_.height;
-        image.rgb.resize(image.byteCount());
-        tbb::parallel_for(tbb::blocked_range<int>(0, size_.height, 64),
-                          [&](const auto& rows) { packRows(rows.begin(), rows.end(), image); });
-    });
+    timed(times.readBack, [&] { image = packedImage(size_, pixels_, padded_.width, std::move(image)); });
     return image;
 }
 
@@ -127,19 +115,6 @@ PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sam
             geometry,
             occluders.isEmpty() ? std::nullopt : std::optional(occluders),
             shading_};
-}
-
-/// Packs rows of pixels from four bytes per pixel to three.
-void CpuRenderer::packRows(int first, int last, Image& image) const {
-    const auto width = static_cast<std::size_t>(size_.width);
-    for (int row = first; row < last; ++row) {
-        const PixelColor* from = &pixels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(padded_.width)];
-        std::uint8_t* to = &image.rgb[3 * width * static_cast<std::size_t>(row)];
-        // Copies four bytes for each pixel but the last: the fourth byte is overwritten by the next pixel.
-        static_assert(std::endian::native == std::endian::little);
-        for (std::size_t k = 0; k + 1 < width; ++k) std::memcpy(to + 3 * k, &from[k], sizeof(PixelColor));
-        std::memcpy(to + 3 * (width - 1), &from[width - 1], 3);
-    }
 }
 
 }  // namespace render

@@ -35,7 +35,6 @@ class CpuRenderer final : public ViewRenderer {
     void cast(const PreparedView& view, const Sampling& sampling, DrawTimes& times);
     PictureJob pictureJob(const PreparedView& view, const Sampling& sampling) const;
     Occluders occludersOf(const PreparedView& view) const;
-    void packRows(int first, int last, Image& image) const;
 
     PictureSize size_;
     PictureSize padded_;  // size of whole tiles

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "render/opengl/context.h"
+#include "render/opengl/opengl_renderer.h"
 #include "render/picture/system_error.h"
 
 namespace render {
@@ -46,6 +47,10 @@ const Gl& Context::gl() const {
 }
 
 CurrentContext::~CurrentContext() = default;
+
+std::unique_ptr<ViewRenderer> makeOpenGlRenderer(Context&, PictureSize, Quality) {
+    failWithoutContext();
+}
 
 DeviceInfo deviceInfo(const Device& device) {
     DeviceInfo info;

@@ -4,9 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "render/picture/view.h"
 
 namespace render {
 
@@ -20,6 +23,11 @@ struct Image {
         return std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     }
 };
+
+/// Packs pixels of four bytes, of which the lowest is red, into an image.
+/// @param rowLength  number of pixels from one row to the next
+/// @param old  an image that is no longer needed, whose memory is reused
+Image packedImage(PictureSize size, std::span<const std::uint32_t> pixels, int rowLength, Image old);
 
 /// Where the ray through a pixel's center first meets a surface. On metaballs in draft and normal quality, the point is
 /// interpolated where the renderer casts no ray through the pixel.

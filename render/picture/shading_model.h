@@ -6,8 +6,8 @@
 //
 // n is the unit normal, v the unit vector to the eye, l the one to the light. Products of colors are taken channel by
 // channel. The fields of Surface describe the particles; on obstacles and the ground, which are matt, they count as 0.
-// A term whose strength is 0 is not computed. Particles are all but the strays of render/prepare/strays.h, which neither
-// are seen nor change what is seen.
+// A term whose strength is 0 is not computed. Particles are all but the strays of render/prepare/strays.h, which
+// neither are seen nor change what is seen.
 //
 //   h               = normalize(l + v), halfway between the two
 //   r               = 2 (n.v) n - v, the direction in which the eye's ray is mirrored

@@ -119,6 +119,8 @@ struct View {
 struct PictureSize {
     int width = 1280;
     int height = 720;
+
+    bool operator==(const PictureSize&) const = default;
 };
 
 /// Frames per second as a fraction in lowest terms, such as 30000/1001, with which frames are never rounded to others.

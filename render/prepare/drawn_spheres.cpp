@@ -24,11 +24,11 @@ std::uint32_t packedSky(float x, float y, float z) {
     return quantized(x, 1023.0F) | quantized(y, 1023.0F) << 10 | quantized(z, 1023.0F) << 20;
 }
 
+}  // namespace
+
 SphereAttributes particleAttributes(glm::vec3 color, const SkyVisibility& sky) {
     return {packedColor(color), packedSky(sky[0], sky[2], sky[4]), packedSky(sky[1], sky[3], sky[5])};
 }
-
-}  // namespace
 
 double meanRadius(std::span<const Sphere> particles) {
     double sum = 0.0;

@@ -20,6 +20,9 @@ struct SphereAttributes {
     std::uint32_t unused = 0;    ///< pads the struct to 16 bytes, which are loaded at once
 };
 
+/// Packs what shading needs of a particle.
+SphereAttributes particleAttributes(glm::vec3 color, const SkyVisibility& sky);
+
 /// The spheres of a view that are drawn as spheres.
 struct DrawnSpheres {
     std::vector<ViewSphere> spheres;     ///< particles, then obstacles; relative to the eye, in world axes

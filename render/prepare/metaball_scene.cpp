@@ -61,4 +61,18 @@ void setAttributes(const View& view, std::span<const SkyVisibility> particleSky,
     });
 }
 
+SmoothnessLimits smoothnessLimits(const MetaballScene& scene) {
+    // Within a pixel the field rises by less than kSteepest times the width of the pixel over the smallest radius. (The
+    // field of a single ball rises by half as much, and the nearest cast ray may be a diagonal of the pixel away.)
+    constexpr float kSteepest = 2.0F;
+    float farthest = 0.0F;
+    for (const Metaball& ball : scene.balls) farthest = std::max(farthest, ball.center.z + ball.reach);
+    const float pixel = scene.frame.pixelWidth() * (scene.frame.perspective ? farthest : 1.0F);
+    // The greatest sample on a ray is at most a quarter of a radius away from the maximum of the field, where the field
+    // of a single ball at the threshold has the second derivative -4 sqrt(threshold) / reach^2 per square radius.
+    const float root = std::sqrt(scene.threshold);  // equals 1 - 1 / reach^2, hence 1 - root = 1 / reach^2
+    const float missed = 0.125F * root * (1.0F - root);
+    return {0.02F * scene.smallestRadius, scene.threshold - missed - kSteepest * pixel / scene.smallestRadius};
+}
+
 }  // namespace render

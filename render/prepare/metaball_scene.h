@@ -52,4 +52,16 @@ MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::spa
 /// @param particleSky  sky visibility of each particle; empty if no term of the shading model needs it
 void setAttributes(const View& view, std::span<const SkyVisibility> particleSky, MetaballScene& scene);
 
+/// Limits within which the surface counts as smooth.
+struct SmoothnessLimits {
+    /// For a pixel between two hits: largest difference of its depths on the two tangent planes, and of the mean of
+    /// these from its depth on the chord, m.
+    float depth = 0.0F;
+    /// A ray that misses the surface has no surface within a pixel of it if the field on it stays below this value.
+    float maxField = 0.0F;
+};
+
+/// The limits for the balls of a scene.
+SmoothnessLimits smoothnessLimits(const MetaballScene& scene);
+
 }  // namespace render

@@ -35,15 +35,6 @@ struct CoarseHits {
                    std::size_t otherRow);
 };
 
-/// Limits within which the surface counts as smooth.
-struct SmoothnessLimits {
-    /// For a pixel between two hits: largest difference of its depths on the two tangent planes, and of the mean of
-    /// these from its depth on the chord, m.
-    float depth = 0.0F;
-    /// A ray that misses the surface has no surface within a pixel of it if the field on it stays below this value.
-    float maxField = 0.0F;
-};
-
 /// The pixels of a tile that are cast (column + 16 row), one quarter of the tile after the other, so that the rays of a
 /// vector are close together.
 extern const std::array<std::uint8_t, kCoarseSide * kCoarseSide> kCoarsePixels;

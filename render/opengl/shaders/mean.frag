@@ -1,0 +1,11 @@
+// The mean of a picture's samplings, encoded.
+uniform sampler2D sums;  // linear colors and, in w, the number of samplings
+
+out vec4 pixel;
+
+#include "srgb.glsl"
+
+void main() {
+    vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
+    pixel = vec4(encode(sum.rgb / sum.w), 1.0);
+}

@@ -1,0 +1,24 @@
+// Tiles that show nothing but the background or nothing but ground.
+#include "frame.glsl"
+
+uniform samplerBuffer boxes;
+uniform samplerBuffer casters;
+uniform isamplerBuffer casterBegins;
+uniform samplerBuffer groundSky;
+
+#include "packing.glsl"
+#include "light.glsl"
+#include "shading.glsl"
+#include "points.glsl"
+#include "output.glsl"
+
+void main() {
+    loadFrame();
+    vec2 at = gl_FragCoord.xy + sampleOffset.xy;
+#ifdef GROUND
+    vec3 color = colorOf(kHitGround, at);
+#else
+    vec3 color = background(at.y);
+#endif
+    writeColor(color);
+}

@@ -1,0 +1,112 @@
+// The point of a surface that a ray through the picture shows, given what it hits.
+
+vec3 mirroredRay(vec3 direction, vec3 normal) {
+    return direction - 2.0 * dot(direction, normal) * normal;
+}
+
+#ifdef GROUND
+void setGround(Ray ray, inout Point at) {
+    at.depth = (forward.w - ray.origin.y) / ray.direction.y;
+    at.normal = vec3(0.0, 1.0, 0.0);
+    at.albedo = groundColor.rgb;
+}
+#endif
+
+#ifdef SPHERES
+void setSphere(Ray ray, int index, inout Point at) {
+    vec4 sphere = texelFetch(spheres, index);
+    uvec4 attributes = texelFetch(sphereAttributes, index);
+    vec3 center = right.xyz * sphere.x + up.xyz * sphere.y + forward.xyz * sphere.z;
+    float inverseSquare = 1.0 / dot(ray.direction, ray.direction);
+    vec3 toCenter = center - ray.origin;
+    float closest = dot(toCenter, ray.direction) * inverseSquare;
+    vec3 off = ray.direction * closest - toCenter;
+    float inside = max(sphere.w * sphere.w - dot(off, off), 0.0);
+    at.depth = max(closest - sqrt(inside * inverseSquare), 0.0);
+    at.normal = normalize(off + ray.direction * (at.depth - closest));
+    at.albedo = unpackColor(attributes.x);
+    at.isParticle = index < int(counts.x) ? 1.0 : 0.0;
+#ifdef PARTICLE_SKY
+    vec3 plus = unpackSky(attributes.y);
+    vec3 minus = unpackSky(attributes.z);
+    vec3 reflected = mirroredRay(ray.direction * sqrt(inverseSquare), at.normal);
+    vec3 visible = vec3(skyVisibilityToward(at.normal, plus, minus), skyVisibilityToward(at.normal, minus, plus),
+                        skyVisibilityToward(reflected, plus, minus));
+    at.sky = index < int(counts.x) ? visible : at.sky;
+#endif
+}
+#endif
+
+#ifdef BOXES
+void setBox(Ray ray, int id, inout Point at) {
+    int box = 3 * (id >> 4);
+    int axis = (id & 7) >> 1;
+    bool isPlus = (id & 1) == 0;
+    vec3 corner = isPlus ? texelFetch(boxes, box + 1).xyz : texelFetch(boxes, box).xyz;
+    vec3 axes = vec3(axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
+    // In a pixel at an outline the ray through the mean of the samples may run parallel to the face.
+    float slope = dot(ray.direction, axes);
+    slope = abs(slope) > 1.0e-20 ? slope : 1.0e-20;
+    float reached = clamp(dot(corner - ray.origin, axes) / slope, 0.0, 1.0e30);
+    at.depth = (id & 8) == 0 ? reached : 0.0;
+    at.normal = isPlus ? axes : -axes;
+    at.albedo = texelFetch(boxes, box + 2).rgb;
+}
+#endif
+
+#ifdef METABALLS
+void setMetaball(int index, inout Point at) {
+    Surface found = surfaceOf(index);
+    at.depth = found.depth;
+    at.normal = found.normal;
+    at.albedo = found.albedo;
+    at.sky = found.sky;
+    at.isParticle = 1.0;
+}
+#endif
+
+// @param id  not kHitBackground
+Point pointOf(int id, Ray ray) {
+    Point at;
+    at.toEye = -normalize(ray.direction);
+    at.depth = 0.0;
+    at.normal = -toLight.xyz;
+    at.albedo = vec3(1.0);
+    at.isParticle = 0.0;
+    at.light = 1.0;
+    at.sky = vec3(1.0);
+#ifdef GROUND
+    if (id == kHitGround) setGround(ray, at);
+#endif
+#ifdef SPHERES
+    if (id >= 0 && id < kHitBox) setSphere(ray, id, at);
+#endif
+#ifdef BOXES
+    if (id >= kHitBox && id < kHitMetaballs) setBox(ray, id - kHitBox, at);
+#endif
+#ifdef METABALLS
+    if (id >= kHitMetaballs) setMetaball(id - kHitMetaballs, at);
+#endif
+    at.position = ray.origin + ray.direction * at.depth;
+    return at;
+}
+
+// Linear color of what the ray through a point of the picture shows, given what it hits.
+vec3 colorOf(int id, vec2 pixel) {
+    Ray ray = worldRay(imagePoint(pixel));
+    Point at = pointOf(id, ray);
+#ifdef SHADOWS
+    at.light = lightVisibility(at.position, at.normal, at.depth);
+#endif
+#ifdef GROUND_OCCLUSION
+    if (id == kHitGround) at.sky.x = groundSkyVisibility(at.position);
+#endif
+#ifdef OBSTACLE_OCCLUSION
+    if (id >= int(counts.x) && id < kHitMetaballs) at.sky.x = obstacleSkyVisibility(at.position, at.normal);
+#endif
+    vec3 color = surfaceColor(at);
+#ifdef GROUND
+    if (id == kHitGround) color = fadedGround(color, at.position, pixel.y);
+#endif
+    return id == kHitBackground ? background(pixel.y) : color;
+}

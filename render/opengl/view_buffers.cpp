@@ -1,0 +1,130 @@
+// Lists go up as they are prepared; what the CPU keeps component by component is interleaved to four numbers a texel.
+#include "render/opengl/view_buffers.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+#include <glm/glm.hpp>
+
+namespace render {
+
+namespace {
+
+TileClass classOf(const PreparedView& view, std::size_t tile) {
+    if (view.boxTiles[tile] != 0 || !view.lines.tiles.itemsOf(tile).empty()) return TileClass::flats;
+    const bool hasBalls =
+        !view.sphereTiles.itemsOf(tile).empty() || (view.hasMetaballs && !view.metaballs.tiles.itemsOf(tile).empty());
+    if (hasBalls) return TileClass::objects;
+    switch (view.groundTiles[tile]) {
+        case TileKind::background:
+            return TileClass::background;
+        case TileKind::openGround:
+            return TileClass::openGround;
+        case TileKind::occludedGround:
+            return TileClass::occludedGround;
+        case TileKind::mixed:
+            return TileClass::objects;
+    }
+    return TileClass::objects;
+}
+
+}  // namespace
+
+bool occludesObstacles(const PreparedView& view) {
+    return view.hasOcclusion() && (!view.view->boxObstacles.empty() || !view.view->sphereObstacles.empty());
+}
+
+ViewBuffers::ViewBuffers(const Gl& gl)
+    : spheres_(gl, GL_RGBA32F),
+      sphereAttributes_(gl, GL_RGBA32UI),
+      sphereBegins_(gl, GL_R32I),
+      sphereItems_(gl, GL_R32I),
+      boxes_(gl, GL_RGBA32F),
+      lines_(gl, GL_RGBA32F),
+      lineBegins_(gl, GL_R32I),
+      lineItems_(gl, GL_R32I),
+      casters_(gl, GL_RGBA32F),
+      casterBegins_(gl, GL_R32I),
+      groundSky_(gl, GL_R32F),
+      skyGrid_(gl, GL_R32F),
+      tiles_{TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I),
+             TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I)} {}
+
+void ViewBuffers::upload(const PreparedView& view) {
+    uploadList(spheres_, view.viewSpheres, "the spheres");
+    uploadList(sphereAttributes_, view.sphereAttributes, "the spheres' colors");
+    uploadList(sphereBegins_, view.sphereTiles.begin, "the tiles");
+    uploadList(sphereItems_, view.sphereTiles.items, "the tiles' lists of spheres");
+    uploadTiles(view);
+    uploadCasters(view);
+    uploadFlats(view);
+    uploadSky(view);
+}
+
+void ViewBuffers::uploadTiles(const PreparedView& view) {
+    std::array<std::vector<std::int32_t>, kTileClassCount> tiles;
+    for (std::size_t tile = 0; tile < view.sphereTiles.cellCount(); ++tile)
+        tiles[static_cast<std::size_t>(classOf(view, tile))].push_back(static_cast<std::int32_t>(tile));
+    for (std::size_t kind = 0; kind < kTileClassCount; ++kind) {
+        tileCounts_[kind] = static_cast<int>(tiles[kind].size());
+        uploadList(tiles_[kind], tiles[kind], "the tiles");
+    }
+}
+
+void ViewBuffers::uploadCasters(const PreparedView& view) {
+    uploadList(casterBegins_, view.lightGrid.begin, "the cells of the light's grid");
+    const LightSpheres& from = view.lightGrid.spheres;
+    std::vector<glm::vec4> casters(from.u.size());
+    tbb::parallel_for(std::size_t{0}, casters.size(), [&](std::size_t k) {
+        casters[k] = {from.u[k], from.v[k], from.height[k], from.radius[k]};
+    });
+    uploadList(casters_, casters, "the lists of spheres that cast shadows");
+}
+
+void ViewBuffers::uploadFlats(const PreparedView& view) {
+    std::vector<glm::vec4> boxes;
+    for (const BoxObstacle& box : view.view->boxObstacles) {
+        boxes.emplace_back(box.minimum - view.frame.eye, 0.0F);
+        boxes.emplace_back(box.maximum - view.frame.eye, 0.0F);
+        boxes.emplace_back(box.color, 0.0F);
+    }
+    uploadList(boxes_, boxes, "the boxes");
+    std::vector<glm::vec4> lines;
+    for (const ScreenLine& line : view.lines.lines) {
+        lines.emplace_back(line.from, line.to);
+        lines.emplace_back(line.fromDepth, line.toDepth, line.width, 0.0F);
+        lines.emplace_back(line.color, 0.0F);
+    }
+    uploadList(lines_, lines, "the lines");
+    uploadList(lineBegins_, view.lines.tiles.begin, "the tiles");
+    uploadList(lineItems_, view.lines.tiles.items, "the tiles' lists of lines");
+}
+
+void ViewBuffers::uploadSky(const PreparedView& view) {
+    uploadList(groundSky_, view.hasOcclusion() ? view.groundSky.values : std::vector<float>{}, "the ground's sky");
+    std::vector<float> values;
+    if (occludesObstacles(view))
+        for (const std::vector<float>& side : view.skyGrid.values)
+            values.insert(values.end(), side.begin(), side.end());
+    uploadList(skyGrid_, values, "the grid of the sky visibility");
+}
+
+std::vector<TextureBinding> ViewBuffers::bindings() const {
+    const auto of = [](const char* name, const TextureBuffer& buffer) {
+        return TextureBinding{name, GL_TEXTURE_BUFFER, buffer.texture()};
+    };
+    return {of("spheres", spheres_),
+            of("sphereAttributes", sphereAttributes_),
+            of("sphereBegins", sphereBegins_),
+            of("sphereItems", sphereItems_),
+            of("boxes", boxes_),
+            of("lines", lines_),
+            of("lineBegins", lineBegins_),
+            of("lineItems", lineItems_),
+            of("casters", casters_),
+            of("casterBegins", casterBegins_),
+            of("groundSky", groundSky_),
+            of("skyGrid", skyGrid_)};
+}
+
+}  // namespace render

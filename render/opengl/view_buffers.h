@@ -1,0 +1,56 @@
+// A prepared view in OpenGL's memory, uploaded once for each picture.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/opengl/gl_objects.h"
+#include "render/opengl/shader_program.h"
+#include "render/prepare/prepared_view.h"
+
+namespace render {
+
+/// What a pass over the picture draws: tiles of one kind.
+enum class TileClass : std::uint8_t {
+    background,      ///< nothing but the background
+    openGround,      ///< nothing but ground that nothing occludes
+    occludedGround,  ///< nothing but ground
+    objects,         ///< spheres and metaballs, and what is behind them
+    flats            ///< boxes and lines as well
+};
+inline constexpr std::size_t kTileClassCount = 5;
+
+class ViewBuffers {
+ public:
+    explicit ViewBuffers(const Gl& gl);
+
+    /// @throws SystemError if a list is too long for OpenGL, or memory runs out
+    void upload(const PreparedView& view);
+
+    /// The samplers of the shaders and their textures.
+    std::vector<TextureBinding> bindings() const;
+
+    int tileCount(TileClass kind) const { return tileCounts_[static_cast<std::size_t>(kind)]; }
+    TextureBinding tiles(TileClass kind) const {
+        return {"tiles", GL_TEXTURE_BUFFER, tiles_[static_cast<std::size_t>(kind)].texture()};
+    }
+
+ private:
+    void uploadTiles(const PreparedView& view);
+    void uploadCasters(const PreparedView& view);
+    void uploadFlats(const PreparedView& view);
+    void uploadSky(const PreparedView& view);
+
+    TextureBuffer spheres_, sphereAttributes_, sphereBegins_, sphereItems_;
+    TextureBuffer boxes_, lines_, lineBegins_, lineItems_;
+    TextureBuffer casters_, casterBegins_;
+    TextureBuffer groundSky_, skyGrid_;
+    std::array<TextureBuffer, kTileClassCount> tiles_;
+    std::array<int, kTileClassCount> tileCounts_{};
+};
+
+/// Whether a view has box or sphere obstacles that ambient occlusion darkens.
+bool occludesObstacles(const PreparedView& view);
+
+}  // namespace render
