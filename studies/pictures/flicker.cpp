@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "render/renderer.h"
 #include "studies/pictures/dam_break_view.h"
 #include "studies/pictures/pictures.h"
+#include "studies/pictures/renderers.h"
 
 namespace studies {
 namespace {
@@ -42,18 +42,19 @@ FlickerRow flickerOf(const PictureSubject& subject, const std::vector<render::Im
 
 }  // namespace
 
-std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const RowsListener<FlickerRow>& listener) {
+std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, render::Context* context,
+                                       const RowsListener<FlickerRow>& listener) {
     std::vector<FlickerRow> rows;
     for (const render::Style style : kStyles) {
         const render::View view = damBreakView(settings.particles, style);
-        for (const render::Quality quality : kQualities) {
-            render::Renderer renderer(settings.size, quality);
-            std::vector<render::Image> frames;
-            for (int frame = 0; frame < settings.frames; ++frame)
-                frames.push_back(renderer.draw(shifted(view, settings, frame)));
-            rows.push_back(flickerOf({style, settings.particles, settings.size, quality}, frames));
-            listener(rows);
-        }
+        for (const render::Quality quality : kQualities)
+            for (const auto& [kind, renderer] : makeRenderers(context, settings.size, quality)) {
+                std::vector<render::Image> frames;
+                for (int frame = 0; frame < settings.frames; ++frame)
+                    frames.push_back(renderer->draw(shifted(view, settings, frame)));
+                rows.push_back(flickerOf({style, settings.particles, settings.size, quality, kind}, frames));
+                listener(rows);
+            }
     }
     return rows;
 }

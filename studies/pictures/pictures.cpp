@@ -1,5 +1,5 @@
-// The main table of the study of pictures: times drawing a dam break and encoding it as PNG and video, and compares
-// windows of the picture with the oracle's. See pictures.h.
+// The main table of the study of pictures: times drawing a dam break with each renderer and encoding it as PNG and
+// video, and compares windows of the pictures with the oracle's. See pictures.h.
 #include "studies/pictures/pictures.h"
 
 #include <algorithm>
@@ -13,10 +13,9 @@
 
 #include "render/output/png.h"
 #include "render/output/video.h"
-#include "render/renderer.h"
 #include "studies/common/timing.h"
 #include "studies/pictures/dam_break_view.h"
-#include "studies/pictures/quad_baseline.h"
+#include "studies/pictures/renderers.h"
 
 namespace studies {
 namespace {
@@ -78,26 +77,30 @@ double secondsOfVideo(const render::VideoOptions& options, const std::vector<ren
 
 /// Measures the times of PNG and video encoding, alone and together with drawing. What a video costs besides its frames
 /// is the time of a video of one frame minus the time per frame, which is measured with a video of many more frames.
-void measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
-                     render::Renderer& renderer, PictureRow& row) {
+/// @param secondsAFrame  about how long a frame takes to draw
+EncodingTimes measureEncoding(const PictureSettings& settings, const std::vector<render::View>& frames,
+                              render::Renderer& renderer, double secondsAFrame) {
     // Drawing the frames takes at most about a second and a half. Chosen: slow frames take about the same time each.
-    const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / row.moving.draw)));
+    const int count = std::min(settings.encodedFrames, std::max(3, static_cast<int>(1.5 / secondsAFrame)));
     const render::Image image = renderer.draw(frames.front());
-    row.png = secondsOf([&] { render::encodePng(image); }, 3);
-    row.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); }) / count;
+    EncodingTimes times;
+    times.png = secondsOf([&] { render::encodePng(image); }, 3);
+    times.withPng = overlapped(renderer, frames, count, [](const render::Image& i) { render::encodePng(i); }) / count;
     std::vector<render::Image> images;
     for (int k = 0; k < count; ++k)
         images.push_back(renderer.draw(frames[static_cast<std::size_t>(k) % frames.size()]));
     render::VideoOptions options;
     options.path = settings.videoPath;
-    options.size = row.size;
+    options.size = {image.width, image.height};
     const double one = secondsOfVideo(options, images, 1);
-    row.mp4 = std::max(0.0, secondsOfVideo(options, images, 1 + settings.encodedFrames) - one) / settings.encodedFrames;
-    row.mp4Once = std::max(0.0, one - row.mp4);
+    const double many = secondsOfVideo(options, images, 1 + settings.encodedFrames);
+    times.mp4 = std::max(0.0, many - one) / settings.encodedFrames;
+    times.mp4Once = std::max(0.0, one - times.mp4);
     render::VideoWriter video(options);
     double seconds = overlapped(renderer, frames, count, [&](const render::Image& i) { video.add(i); });
     seconds += secondsOf([&] { video.finish(); });
-    row.withMp4 = std::max(0.0, seconds - row.mp4Once) / count;
+    times.withMp4 = std::max(0.0, seconds - times.mp4Once) / count;
+    return times;
 }
 
 /// The exact picture of a view, in windows that are spread evenly over the picture.
@@ -117,65 +120,75 @@ std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const ren
     return windows;
 }
 
-/// Times drawing with the baseline and with the renderer. They draw every frame by turns, so that changes of the
-/// machine's speed affect both alike.
-/// @param fewest  another view for the baseline to draw by turns with the frames; null: none
-DrawingTimes measureDrawing(QuadBaseline& quads, render::Renderer& renderer, const std::vector<render::View>& frames,
-                            const render::View* fewest = nullptr) {
-    std::vector<DrawTimes> times;
-    std::vector<double> baseline, fewestBaseline, draw;
+/// Times drawing with each of the renderers. They draw every frame by turns, so that changes of the machine's speed
+/// affect all alike.
+std::vector<DrawingTimes> measureDrawing(const std::vector<ComparedRenderer>& renderers,
+                                         const std::vector<render::View>& frames) {
+    struct Samples {
+        std::vector<double> draw;
+        std::vector<DrawTimes> stages;
+        render::Image image;
+    };
+    std::vector<Samples> samples(renderers.size());
     // Drawing a first frame compiles shaders and allocates memory.
-    render::Image quadImage = quads.draw(frames.front());
-    render::Image ours = renderer.draw(frames.front());
-    for (const render::View& view : frames) {
-        if (fewest != nullptr)
-            fewestBaseline.push_back(secondsOf([&] { quadImage = quads.draw(*fewest, std::move(quadImage)); }));
-        baseline.push_back(secondsOf([&] { quadImage = quads.draw(view, std::move(quadImage)); }));
-        draw.push_back(secondsOf([&] { ours = renderer.draw(view, std::move(ours)); }));
-        times.push_back(renderer.times());
-    }
-    return {median(draw), medianStages(times), median(baseline), fewest == nullptr ? 0.0 : median(fewestBaseline)};
+    for (std::size_t k = 0; k < renderers.size(); ++k) samples[k].image = renderers[k].renderer->draw(frames.front());
+    for (const render::View& view : frames)
+        for (std::size_t k = 0; k < renderers.size(); ++k) {
+            render::Image& image = samples[k].image;
+            const auto draw = [&] { image = renderers[k].renderer->draw(view, std::move(image)); };
+            samples[k].draw.push_back(secondsOf(draw));
+            samples[k].stages.push_back(renderers[k].renderer->times());
+        }
+    std::vector<DrawingTimes> times;
+    for (const Samples& each : samples) times.push_back({median(each.draw), medianStages(each.stages)});
+    return times;
 }
 
-/// The views that are drawn to measure the times of pictures of one style and one number of particles.
-struct TimedViews {
-    std::vector<render::View> frames;  ///< the view in frames between which the camera moves
-    const render::View& fewest;        ///< the view with the smallest number of particles in the study
+/// A view in frames between which the camera moves, and the exact picture of the first.
+struct DrawnView {
+    std::vector<render::View> frames;
+    std::vector<ExactWindow> exact;
 };
 
-/// Measures all times of a picture. The row says which picture, and receives the times.
-void measureTimes(const PictureSettings& settings, render::Context& context, const TimedViews& views, PictureRow& row) {
-    render::Renderer renderer(row.size, row.quality);
-    {
-        QuadBaseline quads(context, row.size);
-        row.moving = measureDrawing(quads, renderer, views.frames, &views.fewest);
-        row.atRest = measureDrawing(quads, renderer, framesAtRest(views.frames.front(), settings.frames));
+/// Measures a picture by every renderer, that on the CPU first.
+/// @param subject  the picture; its renderer is ignored
+std::vector<PictureRow> measurePicture(const PictureSettings& settings, render::Context* context,
+                                       const PictureSubject& subject, const DrawnView& drawn) {
+    const std::vector<ComparedRenderer> renderers = makeRenderers(context, subject.size, subject.quality);
+    const render::View& view = drawn.frames.front();
+    const std::vector<DrawingTimes> moving = measureDrawing(renderers, drawn.frames);
+    const std::vector<DrawingTimes> atRest = measureDrawing(renderers, framesAtRest(view, settings.frames));
+    std::vector<PictureRow> rows;
+    for (std::size_t k = 0; k < renderers.size(); ++k) {
+        render::Renderer& renderer = *renderers[k].renderer;
+        PictureRow& row = rows.emplace_back(PictureRow{subject, moving[k], atRest[k]});
+        row.renderer = renderers[k].kind;
+        row.error = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, drawn.exact);
+        row.timeRatio = row.moving.draw / rows.front().moving.draw;
+        row.rmseRatio = row.error.rmse / rows.front().error.rmse;
+        if (row.renderer == RendererKind::cpu)
+            row.encoding = measureEncoding(settings, drawn.frames, renderer, row.moving.draw);
     }
-    measureEncoding(settings, views.frames, renderer, row);
+    return rows;
 }
 
 }  // namespace
 
-std::vector<PictureRow> measurePictures(const PictureSettings& settings, const RowsListener<PictureRow>& listener) {
-    render::Context context(render::Device{render::Backend::osmesa});
+std::vector<PictureRow> measurePictures(const PictureSettings& settings, render::Context* context,
+                                        const RowsListener<PictureRow>& listener) {
     std::vector<PictureRow> rows;
-    for (const render::Style style : kStyles) {
-        const render::View fewest = damBreakView(std::ranges::min(settings.particles), style);
+    for (const render::Style style : kStyles)
         for (const render::PictureSize size : settings.sizes)
             for (const std::size_t particles : settings.particles) {
-                const render::View view = damBreakView(particles, style);
-                const TimedViews views{framesOf(view, settings.frames), fewest};
-                const std::vector<ExactWindow> exact = exactWindows(settings, view, size);
-                for (const render::Quality quality : kQualities) {
-                    PictureRow row{{style, particles, size, quality}};
-                    measureTimes(settings, context, views, row);
-                    render::Renderer renderer(size, quality);
-                    row.error = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
-                    rows.push_back(row);
-                    listener(rows);
-                }
+                DrawnView drawn{framesOf(damBreakView(particles, style), settings.frames), {}};
+                drawn.exact = exactWindows(settings, drawn.frames.front(), size);
+                for (const render::Quality quality : kQualities)
+                    for (const PictureRow& row :
+                         measurePicture(settings, context, {style, particles, size, quality}, drawn)) {
+                        rows.push_back(row);
+                        listener(rows);
+                    }
             }
-    }
     return rows;
 }
 

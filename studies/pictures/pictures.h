@@ -1,22 +1,28 @@
-// What pictures cost and how exact they are: times of the renderer's stages and of whole frames with their encoding,
-// the error against the oracle, flicker under a moving camera, and what the smoothing of metaball surfaces costs and
-// changes. Called by `globular study pictures`, which writes the results.
+// What pictures cost and how exact they are, drawn on the CPU and with OpenGL: times of the renderers' stages and of
+// whole frames, the error against the oracle, and flicker under a moving camera. On the CPU alone: times of encoding,
+// and what the smoothing of metaball surfaces costs and changes. Called by `globular study pictures`, which writes the
+// results.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "render/opengl/context.h"
 #include "render/picture/draw_times.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"
-#include "render/renderer.h"
 #include "studies/oracle/oracle.h"
 
 namespace studies {
 
+/// The two renderers of render/renderer.h.
+enum class RendererKind { cpu, opengl };
+
+const char* nameOf(RendererKind renderer);
 const char* nameOf(render::Style style);
 const char* nameOf(render::Quality quality);
 const char* nameOf(render::Skin smoothing);
@@ -46,37 +52,40 @@ PictureError errorOf(const render::Image& image, std::span<const render::Visible
 inline constexpr render::Style kStyles[] = {render::Style::spheres, render::Style::metaballs};
 inline constexpr render::Quality kQualities[] = {render::Quality::draft, render::Quality::normal,
                                                  render::Quality::final};
+inline constexpr RendererKind kRendererKinds[] = {RendererKind::cpu, RendererKind::opengl};
 
-/// Which picture of the dam break is measured.
+/// Which picture of the dam break is measured, and what draws it.
 struct PictureSubject {
     render::Style style = render::Style::spheres;
     std::size_t particles = 0;
     render::PictureSize size{0, 0};
     render::Quality quality = render::Quality::normal;
+    RendererKind renderer = RendererKind::cpu;
 };
 
 /// Median times over some frames, s.
 struct DrawingTimes {
     double draw = 0.0;              ///< time to draw a frame and read it back
     render::DrawTimes stages = {};  ///< times of the stages of the renderer
-    double baseline = 0.0;          ///< time to draw the frame with the baseline
-    double fewestBaseline = 0.0;    ///< time of the baseline for the smallest number of particles in the study
 };
 
-/// What the study measures of one picture. All times are in seconds.
-struct PictureRow : PictureSubject {
-    DrawingTimes moving = {};  ///< times of drawing while the camera moves
-    DrawingTimes atRest = {};  ///< times of drawing while the particles move before a still camera
-    double png = 0.0;          ///< time to encode a frame as PNG
-    double mp4 = 0.0;          ///< time to encode a frame of a video
-    double mp4Once = 0.0;      ///< time that a video takes besides its frames
-    double withPng = 0.0;      ///< time per frame if one is encoded as PNG while the next is drawn
-    double withMp4 = 0.0;      ///< time per frame if one is encoded for a video while the next is drawn
-    PictureError error = {};
+/// Times of encoding, s.
+struct EncodingTimes {
+    double png = 0.0;      ///< time to encode a frame as PNG
+    double mp4 = 0.0;      ///< time to encode a frame of a video
+    double mp4Once = 0.0;  ///< time that a video takes besides its frames
+    double withPng = 0.0;  ///< time per frame if one is encoded as PNG while the next is drawn
+    double withMp4 = 0.0;  ///< time per frame if one is encoded for a video while the next is drawn
+};
 
-    double ratio() const { return moving.draw / moving.baseline; }
-    double ratioToFewest() const { return moving.draw / moving.fewestBaseline; }
-    double ratioAtRest() const { return atRest.draw / atRest.baseline; }
+/// What the study measures of one picture by one renderer.
+struct PictureRow : PictureSubject {
+    DrawingTimes moving = {};                    ///< times of drawing while the camera moves
+    DrawingTimes atRest = {};                    ///< times of drawing while the particles move before a still camera
+    std::optional<EncodingTimes> encoding = {};  ///< measured with the pictures of the CPU's renderer alone
+    PictureError error = {};
+    double timeRatio = 1.0;  ///< moving.draw over that of the same picture on the CPU
+    double rmseRatio = 1.0;  ///< error.rmse over that of the same picture on the CPU
 };
 
 struct PictureSettings {
@@ -95,9 +104,11 @@ struct PictureSettings {
 template <typename Row>
 using RowsListener = std::function<void(const std::vector<Row>&)>;
 
-/// Measures a picture of every style, size, number of particles and quality.
+/// Measures a picture of every style, size, number of particles and quality, by every renderer.
+/// @param context  where OpenGL draws; null: the renderer on the CPU is measured alone
 /// @throws render::SystemError
-std::vector<PictureRow> measurePictures(const PictureSettings& settings, const RowsListener<PictureRow>& listener);
+std::vector<PictureRow> measurePictures(const PictureSettings& settings, render::Context* context,
+                                        const RowsListener<PictureRow>& listener);
 
 /// How steady pictures of a still scene are while the camera moves slowly. I_k is picture k, in 8-bit steps.
 struct FlickerRow : PictureSubject {
@@ -112,11 +123,13 @@ struct FlickerSettings {
     double pixelsPerFrame = 0.125;  ///< motion of the center of the picture, pixels per frame
 };
 
-/// Measures the flicker of pictures of every style and quality.
+/// Measures the flicker of pictures of every style and quality, by every renderer.
+/// @param context  as for measurePictures()
 /// @throws render::SystemError
-std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, const RowsListener<FlickerRow>& listener);
+std::vector<FlickerRow> measureFlicker(const FlickerSettings& settings, render::Context* context,
+                                       const RowsListener<FlickerRow>& listener);
 
-/// Quality and cost of the metaball surface with or without smoothing.
+/// Quality and cost of the metaball surface with or without smoothing, on the CPU.
 struct SmoothingRow {
     render::Skin skin = render::Skin::plain;
     std::size_t particles = 0;

@@ -97,21 +97,19 @@ TEST_CASE("The study of scaling writes tables, a plot and a page, and says when 
     CHECK(run("study scaling --peer gromacs").code == 2);
 }
 
-#ifdef RENDER_HAS_OPENGL  // the study compares its times with a baseline in OpenGL
-
 TEST_CASE("A study of pictures that is interrupted leaves the rows that it has reported", "[tools]") {
     const program::Folder folder;
     const std::string table = (folder / "pictures" / "pictures.csv").string();
     const std::string study = "exec " GLOBULAR_PROGRAM
                               " study pictures --quick --particles 100 200 --size 256x144 --threads 1 -o " +
                               (folder / "pictures").string() + " 2>&1 >/dev/null";
-    const auto outcome =
-        program::shell("sh -c 'echo $$; " + study + "' | (read study; read row; cat " + table + "; kill $study)");
+    const auto outcome = program::shell("sh -c 'echo $$; " + study + "' | (read study; grep -q -m1 spheres; cat " +
+                                        table + "; kill $study)");
     INFO(outcome.out);
     REQUIRE(outcome.code == 0);
     CHECK(program::lineCount(outcome.out) >= 2);  // the head and the row that was reported
     CHECK(program::lineCount(outcome.out) < 1 + 2 * 2 * 3);
-    CHECK(outcome.out.find("spheres,100,256,144,draft,") != std::string::npos);
+    CHECK(outcome.out.find("spheres,100,256,144,draft,cpu,") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "pictures" / "index.html"));
 }
 
@@ -121,14 +119,24 @@ TEST_CASE("The study of pictures writes its table, plots and a page, and leaves 
     const auto outcome = run(command + " -o " + (folder / "pictures").string());
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
+#ifdef RENDER_HAS_OPENGL
+    constexpr int kRenderers = 2;
+    CHECK(outcome.out.find("\nOpenGL is ") != std::string::npos);
+#else
+    constexpr int kRenderers = 1;
+    CHECK(program::lineCount(outcome.err) == 1 + 12);  // the warning and the rows
+    CHECK(outcome.err.find("built without OpenGL; the renderer on the CPU is measured alone\n") != std::string::npos);
+#endif
     CHECK(program::lineCount(program::textOf(folder / "pictures" / "pictures.csv")) ==
-          1 + 2 * 2 * 3);  // the head; two styles, two numbers of particles, three qualities
+          1 + 2 * 2 * 3 * kRenderers);  // the head; two styles, two numbers of particles, three qualities
     for (const char* name : {"times.svg", "errors.svg"})
         CHECK(program::textOf(folder / "pictures" / name).rfind("<?xml", 0) == 0);
     CHECK(program::textOf(folder / "pictures" / "index.html").find(command) != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "pictures" / ".timing.mp4"));
     CHECK(run("study pictures --size 100x100 -o /nonexistent/pictures").code == 2);
     CHECK(run("study pictures --particles 3 -o /nonexistent/pictures").code == 2);
+    CHECK(run("study pictures --gl vulkan -o /nonexistent/pictures").code == 2);
+    const auto elsewhere = run("study pictures --gl egl:4711 -o /nonexistent/pictures");
+    CHECK(elsewhere.code == 1);
+    CHECK(elsewhere.err.find("error: OpenGL on egl:4711 cannot be used: ") == 0);
 }
-
-#endif

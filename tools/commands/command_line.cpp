@@ -102,6 +102,10 @@ void addRendererFlags(CLI::App& command, DrawOptions& options) {
         .add_option("--renderer", options.renderer,
                     fmt::format("cpu or opengl: what draws (default: {})", options.renderer))
         ->check(CLI::IsMember(kRendererNames));
+    addDeviceFlag(command, options);
+}
+
+void addDeviceFlag(CLI::App& command, DrawOptions& options) {
     command
         .add_option("--gl", options.device,
                     "where OpenGL draws: osmesa, egl or egl:N, see globular devices (default: osmesa)")

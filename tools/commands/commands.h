@@ -43,6 +43,8 @@ inline constexpr const char* kErrorSampleNotes =
 /// Adds only the flags --renderer and --gl, for commands that choose the size, style and quality of pictures
 /// themselves. The default of --renderer is the value that the options have.
 void addRendererFlags(CLI::App& command, DrawOptions& options);
+/// Adds only the flag --gl.
+void addDeviceFlag(CLI::App& command, DrawOptions& options);
 
 /// Checks that the value of a flag is a finite number: from least to most, both included, at least 0, or above 0.
 /// CLI11's own checks accept NaN and infinity, and their messages name the largest double as the upper bound.

@@ -102,16 +102,16 @@ std::string accuracyPage(const std::vector<AccuracySection>& sections, const Acc
 
 std::string picturesPage(const PictureResults& results, const std::string& command) {
     std::string body = fmt::format(
-        "<p>Made by <code>{}</code>. A dam that splashes, as many particles as the table says, in its full look. "
-        "<em>Frame</em> is drawing and reading back; <em>quads</em> is the simplest way to draw spheres with OpenGL, a "
-        "quad facing the eye for each sphere, with its depth written by the fragment shader, lit and nothing else, "
-        "drawn in the same run. The camera moves from frame to frame, but <em>at rest</em> only the particles do, and "
-        "the parts of the picture without particles are kept. Bin, occlusion and shadow run side by side, so that "
-        "together they may take longer than the frame. <em>With PNG</em> and <em>with MP4</em> are milliseconds a "
-        "frame of a run in which one frame is encoded while the next is drawn. <em>MP4, once</em> is what a video "
-        "takes besides its frames, for the encoder to start and to end; it is in no other column. Stages, frames and "
-        "quads are medians, PNG is a mean of three, MP4 and what is drawn with encoding are means over a run.</p>\n",
-        escaped(command));
+        "<p>Made by <code>{}</code>. {}. A dam that splashes, as many particles as the table says, in its full look. "
+        "Both renderers draw every frame by turns. <em>Draw</em> is drawing and reading back. The camera moves from "
+        "frame to frame, but <em>at rest</em> only the particles do. Bin, occlusion and shadow run side by side, so "
+        "that together they may take longer than the frame. <em>Time ratio</em> and <em>RMSE ratio</em> are over the "
+        "same picture on the CPU. <em>With PNG</em> and <em>with MP4</em> are milliseconds a frame of a run in which "
+        "one frame is encoded while the next is drawn; encoding is measured with the pictures of the CPU's renderer "
+        "alone. <em>MP4, once</em> is what a video takes besides its frames, for the encoder to start and to end; it "
+        "is in no other column. Stages and frames are medians, PNG is a mean of three, MP4 and what is drawn with "
+        "encoding are means over a run.</p>\n",
+        escaped(command), escaped(results.openGl));
     body += svgImage("milliseconds a frame against particles", results.timesPlot);
     body +=
         "<h2>Error</h2>\n<p>Against a ray caster in double precision, in windows spread evenly over the picture; depth "
@@ -123,9 +123,10 @@ std::string picturesPage(const PictureResults& results, const std::string& comma
         "(<em>jerk</em>: what flickers rather than moves).</p>\n" +
         csvHtml(studies::flickerCsv(results.flicker));
     body +=
-        "<h2>Skins of metaballs</h2>\n<p>Frames of normal quality; the volume within the surface of a level pool over "
-        "its particles' cells, and within that of a particle alone over its sphere; the tilt of the pool's normals, "
-        "RMS.</p>\n" +
+        "<h2>Skins of metaballs</h2>\n<p>Frames of normal quality, drawn on the CPU; the volume within the surface of "
+        "a "
+        "level pool over its particles' cells, and within that of a particle alone over its sphere; the tilt of the "
+        "pool's normals, RMS.</p>\n" +
         csvHtml(studies::smoothingCsv(results.smoothing));
     return htmlPage("globular: what pictures cost and how exact they are", body);
 }

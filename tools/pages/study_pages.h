@@ -30,6 +30,7 @@ struct PictureResults {
     std::vector<studies::PictureRow> rows;
     std::vector<studies::FlickerRow> flicker;
     std::vector<studies::SmoothingRow> smoothing;
+    std::string openGl;      ///< which OpenGL was measured, or why none was
     std::string timesPlot;   ///< SVG of milliseconds a frame against particles
     std::string errorsPlot;  ///< SVG of error against milliseconds a frame
 };
