@@ -120,6 +120,20 @@ TEST_CASE("OpenGL draws a run, repeats it byte for byte, and records the device"
     CHECK(fs::exists(strip));
 }
 
+TEST_CASE("bench names the renderer of the frames that it has drawn, and only of these", "[opengl]") {
+    const std::string command = "bench --filter \"frame honey\" --rounds 1 --renderer opengl";
+    std::istringstream lines(run(command + " --json").out);
+    std::string line;
+    REQUIRE(std::getline(lines, line));
+    CHECK_FALSE(nlohmann::json::parse(line).contains("renderer"));
+    REQUIRE(std::getline(lines, line));
+    const auto drawn = nlohmann::json::parse(line);
+    CHECK(drawn["name"] == "draw frame");
+    CHECK(drawn["renderer"] == "opengl");
+    CHECK(drawn["gl_renderer"] == devices()[0]["renderer"]);
+    CHECK(run(command).out.find("\ndraw frame, opengl      honey ") != std::string::npos);
+}
+
 TEST_CASE("Frames of another renderer or device are another run's", "[opengl]") {
     const program::Folder folder;
     const std::string into = kSmall + (folder / "a").string();

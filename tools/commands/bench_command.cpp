@@ -31,7 +31,8 @@ std::string_view nameOf(engine::Precision precision) {
     return precision == engine::Precision::doubles ? "double" : "float";
 }
 
-Json jsonOf(const studies::BenchRow& row, int threads) {
+/// @param renderer  what drew; without a name if nothing was drawn
+Json jsonOf(const studies::BenchRow& row, const RendererRecord& renderer, int threads) {
     Json json = {{"name", row.name},
                  {"material", row.material},
                  {"particles", row.particles},
@@ -49,17 +50,19 @@ Json jsonOf(const studies::BenchRow& row, int threads) {
     } else {
         json["rate_per_s"] = row.rate;
     }
+    if (!renderer.name.empty()) addTo(json, renderer);
     json["state_hash"] = row.stateHash;
     return json;
 }
 
-void print(const studies::BenchRow& row) {
+void print(const studies::BenchRow& row, const RendererRecord& renderer) {
     if (row.particles == 0) {
         fmt::print("{:23} {:13} {:.4g} G{}/s\n", row.name, "", 1e-9 * row.rate, row.name == "copy" ? "B" : "FLOP");
         return;
     }
-    fmt::print("{:23} {:13} {:>9} {:10.1f} {:9} {:12.3f} {:10.2f} {:8.1f} {:8.2f} {:8.0f}  {}\n", row.name,
-               row.material, row.particles, row.neighbors, nameOf(row.precision), 1e3 * row.seconds,
+    const std::string name = renderer.name.empty() ? row.name : row.name + ", " + renderer.name;
+    fmt::print("{:23} {:13} {:>9} {:10.1f} {:9} {:12.3f} {:10.2f} {:8.1f} {:8.2f} {:8.0f}  {}\n", name, row.material,
+               row.particles, row.neighbors, nameOf(row.precision), 1e3 * row.seconds,
                1e-6 * row.particleStepsPerSecond(), 1e-6 * row.pairsPerSecond(), row.nanosecondsPerPair(),
                row.bytesPerParticle, row.stateHash);
 }
@@ -67,8 +70,9 @@ void print(const studies::BenchRow& row) {
 /// The scenes whose frames are measured: one for each kind of material, and honey, which needs the implicit steppers.
 constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
 
-void benchFrames(const BenchOptions& options, const RendererChoice& choice, int threads,
-                 const std::function<void(const studies::BenchRow&)>& listener) {
+using RowListener = std::function<void(const studies::BenchRow&, const RendererRecord&)>;
+
+void benchFrames(const BenchOptions& options, const RendererChoice& choice, int threads, const RowListener& listener) {
     const studies::BenchSettings& settings = options.settings;
     for (const char* name : kFrameScenes) {
         const bool draws = settings.wants(studies::kDrawFrame, name);
@@ -77,7 +81,8 @@ void benchFrames(const BenchOptions& options, const RendererChoice& choice, int 
         const OpenedRenderer opened =
             draws ? openRenderer(choice, scene.size, render::Quality::normal, threads) : OpenedRenderer{};
         for (const studies::BenchRow& row : studies::benchFrames(name, scene, opened.renderer.get(), settings.rounds))
-            if (settings.wants(row.name, name)) listener(row);
+            if (settings.wants(row.name, name))
+                listener(row, row.name == studies::kDrawFrame ? opened.record : RendererRecord{});
     }
 }
 
@@ -93,17 +98,17 @@ void bench(const BenchOptions& options) {
         fmt::print("{:23} {:13} {:>9} {:>10} {:9} {:>12} {:>10} {:>8} {:>8} {:>8}  {}\n", "name", "material",
                    "particles", "neighbors", "precision", "ms", "M steps/s", "M pairs", "ns/pair", "bytes", "hash");
     };
-    const auto report = [&](const studies::BenchRow& row) {
+    const auto report = [&](const studies::BenchRow& row, const RendererRecord& renderer) {
         if (isText && !hasRows) printHead();
         hasRows = true;
         if (isText)
-            print(row);
+            print(row, renderer);
         else
-            printJson(jsonOf(row, threads));
+            printJson(jsonOf(row, renderer, threads));
         flushStandardOutput();
     };
     onThreads(threads, [&] {
-        runBench(options.settings, report);
+        runBench(options.settings, [&](const studies::BenchRow& row) { report(row, {}); });
         benchFrames(options, choice, threads, report);
     });
     if (!hasRows)
