@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/opengl/context.h"
+#include "render/opengl/context/context.h"
 #include "render/picture/draw_times.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/opengl/gl.h"
+#include "render/opengl/context/gl.h"
 #include "render/picture/view.h"
 
 namespace render {

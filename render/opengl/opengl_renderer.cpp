@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "render/opengl/frame_uniforms.h"
-#include "render/opengl/gl.h"
+#include "render/opengl/context/gl.h"
 #include "render/opengl/gl_objects.h"
 #include "render/opengl/look_defines.h"
 #include "render/opengl/metaball_passes.h"

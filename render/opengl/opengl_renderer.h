@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "render/opengl/context.h"
+#include "render/opengl/context/context.h"
 #include "render/prepare/view_renderer.h"
 
 namespace render {

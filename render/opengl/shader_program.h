@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/opengl/gl.h"
+#include "render/opengl/context/gl.h"
 
 namespace render {
 

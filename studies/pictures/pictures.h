@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "render/opengl/context.h"
+#include "render/opengl/context/context.h"
 #include "render/picture/draw_times.h"
 #include "render/picture/image.h"
 #include "render/picture/view.h"

@@ -49,8 +49,9 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
      {"engine/run", "engine/error_control", "engine/stepping", "engine/forces", "engine/neighbors", "engine/state",
       "engine/force_law", "engine/core"}},
     {"render",
-     {"render", "render/opengl", "render/cpu", "render/cpu/shading", "render/cpu/lighting", "render/cpu/metaballs",
-      "render/cpu/raster", "render/prepare", "render/overlay", "render/output", "render/compare", "render/picture"}},
+     {"render", "render/opengl", "render/opengl/context", "render/cpu", "render/cpu/shading", "render/cpu/lighting",
+      "render/cpu/metaballs", "render/cpu/raster", "render/prepare", "render/overlay", "render/output",
+      "render/compare", "render/picture"}},
     {"scenes", {"scenes/view", "scenes/build", "scenes/schema", "scenes/model", "scenes/text"}},
     {"studies",
      {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/pictures", "studies/oracle",
@@ -112,19 +113,24 @@ std::string roomVerdict(const Include& include) {
     return roomOf(include.file) + " must not include " + roomOf(include.target) + ", which is above it";
 }
 
-/// The one room that includes the headers of OpenGL and EGL. A build without OpenGL leaves it out but for these files,
-/// of which the headers are for the other rooms.
-const std::string kOpenGlRoom = "render/opengl";
-const std::set<std::string> kWithoutOpenGl = {"render/opengl/context.h", "render/opengl/context_none.cpp",
-                                              "render/opengl/device.cpp", "render/opengl/device.h"};
+/// Whether a room includes the headers of OpenGL and EGL.
+bool isOpenGlRoom(const std::string& room) {
+    return room == "render/opengl" || room == "render/opengl/context";
+}
+
+/// The files of these rooms that a build without OpenGL has, too, of which the headers are for the other rooms.
+const std::set<std::string> kWithoutOpenGl = {
+    "render/opengl/context/context.h",  "render/opengl/context/context_none.cpp",
+    "render/opengl/context/device.cpp", "render/opengl/context/device.h",
+    "render/opengl/opengl_renderer.h",  "render/opengl/opengl_renderer_none.cpp"};
 
 /// How an include needs OpenGL where it may be missing; empty if it does not.
 std::string openGlVerdict(const Include& include) {
     static const std::set<std::string> kOpenGlFolders = {"GL", "EGL", "KHR"};
     const bool isOpenGls = kOpenGlFolders.count(include.target.substr(0, include.target.find('/'))) == 1;
-    if (isOpenGls && roomOf(include.file) != kOpenGlRoom)
+    if (isOpenGls && !isOpenGlRoom(roomOf(include.file)))
         return roomOf(include.file) + " must not include OpenGL's headers";
-    const bool isOfRoom = roomOf(include.target) == kOpenGlRoom && kWithoutOpenGl.count(include.target) == 0;
+    const bool isOfRoom = isOpenGlRoom(roomOf(include.target)) && kWithoutOpenGl.count(include.target) == 0;
     if (kWithoutOpenGl.count(include.file) == 1 && (isOpenGls || isOfRoom))
         return include.file + " is compiled without OpenGL, too";
     return "";
@@ -190,26 +196,27 @@ TEST_CASE("A wrong arrow between rooms is noticed", "[layering]") {
 TEST_CASE("OpenGL outside its room is noticed", "[layering]") {
     for (const char* room : {"render/cpu", "render/cpu/metaballs", "render/prepare", "render/picture"}) {
         const std::string file = std::string(room) + "/x.cpp";
-        for (const char* target : {"GL/glcorearb.h", "GL/osmesa.h", "EGL/egl.h", "render/opengl/gl.h",
-                                   "render/opengl/context.h", "render/opengl/device.h"}) {
+        for (const char* target : {"GL/glcorearb.h", "GL/osmesa.h", "EGL/egl.h", "render/opengl/context/gl.h",
+                                   "render/opengl/context/context.h", "render/opengl/context/device.h"}) {
             INFO(file << ": " << target);
             CHECK(verdict({"render", file, 1, target}) != "");
         }
     }
-    CHECK(verdict({"render", "render/renderer.cpp", 1, "render/opengl/context.h"}) == "");
+    CHECK(verdict({"render", "render/renderer.cpp", 1, "render/opengl/context/context.h"}) == "");
     CHECK(verdict({"render", "render/renderer.h", 1, "GL/glcorearb.h"}) != "");
     CHECK(verdict({"tools", "tools/run/x.cpp", 1, "EGL/egl.h"}) != "");
-    CHECK(verdict({"render", "render/opengl/gl.h", 1, "GL/glcorearb.h"}) == "");
-    CHECK(verdict({"render", "render/opengl/context.h", 1, "GL/glcorearb.h"}) != "");
-    CHECK(verdict({"render", "render/opengl/context.h", 1, "render/opengl/gl.h"}) != "");
-    CHECK(verdict({"render", "render/opengl/context.h", 1, "render/opengl/device.h"}) == "");
-    CHECK(verdict({"render", "render/opengl/context_none.cpp", 1, "render/opengl/context_native.h"}) != "");
+    CHECK(verdict({"render", "render/opengl/context/gl.h", 1, "GL/glcorearb.h"}) == "");
+    CHECK(verdict({"render", "render/opengl/context/context.h", 1, "GL/glcorearb.h"}) != "");
+    CHECK(verdict({"render", "render/opengl/context/context.h", 1, "render/opengl/context/gl.h"}) != "");
+    CHECK(verdict({"render", "render/opengl/context/context.h", 1, "render/opengl/context/device.h"}) == "");
+    CHECK(verdict({"render", "render/opengl/context/context_none.cpp", 1, "render/opengl/context/context_native.h"}) !=
+          "");
 }
 
 TEST_CASE("A wrong arrow is noticed", "[layering]") {
     CHECK(verdict({"engine", "engine/core/x.cpp", 1, "scenes/model/scene.h"}) != "");
     CHECK(verdict({"render", "render/picture/x.cpp", 1, "engine/core/vec3.h"}) != "");
-    CHECK(verdict({"scenes", "scenes/text/x.cpp", 1, "render/opengl/context.h"}) != "");
+    CHECK(verdict({"scenes", "scenes/text/x.cpp", 1, "render/opengl/context/context.h"}) != "");
     CHECK(verdict({"scenes", "scenes/text/x.cpp", 1, "render/picture/view.h"}) == "");
     CHECK(verdict({"engine", "engine/core/x.cpp", 1, "chrono"}) != "");
     CHECK(verdict({"engine", "engine/core/x.cpp", 1, "unistd.h"}) != "");

@@ -3,7 +3,7 @@
 
 #include <thread>
 
-#include "render/opengl/context.h"
+#include "render/opengl/context/context.h"
 #include "render/picture/system_error.h"
 
 using render::Backend;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/opengl/device.h"
+#include "render/opengl/context/device.h"
 #include "tools/commands/commands.h"
 #include "tools/run/threads.h"
 #include "tools/system/json.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/opengl/context.h"
+#include "render/opengl/context/context.h"
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
 #include "studies/pictures/pictures.h"

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "render/opengl/context.h"
+#include "render/opengl/context/context.h"
 #include "render/renderer.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/opengl/device.h"
+#include "render/opengl/context/device.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
 #include "tools/system/json.h"

@@ -1,5 +1,5 @@
 // EGL without a surface: contexts on GPUs, and on Mesa's software renderer where Mesa no longer includes OSMesa.
-#include "render/opengl/context_native.h"
+#include "render/opengl/context/context_native.h"
 #include "render/picture/system_error.h"
 
 #ifdef RENDER_HAS_EGL

@@ -1,11 +1,11 @@
 // What contexts of both libraries share: loading the functions, the required version, and the names.
-#include "render/opengl/context.h"
+#include "render/opengl/context/context.h"
 
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "render/opengl/context_native.h"
+#include "render/opengl/context/context_native.h"
 #include "render/picture/system_error.h"
 
 namespace render {

@@ -1,5 +1,5 @@
 // OSMesa: Mesa's software renderer as a plain library, which needs neither a display server nor device files.
-#include "render/opengl/context_native.h"
+#include "render/opengl/context/context_native.h"
 #include "render/picture/system_error.h"
 
 #ifdef RENDER_HAS_OSMESA

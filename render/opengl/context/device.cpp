@@ -1,5 +1,5 @@
 // Names of devices.
-#include "render/opengl/device.h"
+#include "render/opengl/context/device.h"
 
 #include <charconv>
 

@@ -1,5 +1,5 @@
 // Loads the table of functions and reports OpenGL's errors.
-#include "render/opengl/gl.h"
+#include "render/opengl/context/gl.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "render/opengl/device.h"
+#include "render/opengl/context/device.h"
 
 namespace render {
 

@@ -1,8 +1,7 @@
 // Contexts in a build without OpenGL: there are none. Compiled instead of the other files that need OpenGL's headers.
 #include <stdexcept>
 
-#include "render/opengl/context.h"
-#include "render/opengl/opengl_renderer.h"
+#include "render/opengl/context/context.h"
 #include "render/picture/system_error.h"
 
 namespace render {
@@ -47,10 +46,6 @@ const Gl& Context::gl() const {
 }
 
 CurrentContext::~CurrentContext() = default;
-
-std::unique_ptr<ViewRenderer> makeOpenGlRenderer(Context&, PictureSize, Quality) {
-    failWithoutContext();
-}
 
 DeviceInfo deviceInfo(const Device& device) {
     DeviceInfo info;

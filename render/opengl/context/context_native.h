@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "render/opengl/gl.h"
+#include "render/opengl/context/gl.h"
 
 namespace render {
 
