@@ -109,13 +109,14 @@ Target::Target(const Gl& gl, PictureSize size, std::initializer_list<GLenum> for
     requireComplete(gl, size, bytes);
 }
 
-void Target::bind() const {
+void Target::bind(PictureSize viewport) const {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    gl_->Viewport(0, 0, size_.width, size_.height);
+    gl_->Viewport(0, 0, viewport.width, viewport.height);
 }
 
 LayeredTarget::LayeredTarget(const Gl& gl, PictureSize size, bool hasDepth)
     : gl_(&gl),
+      size_(size),
       texture_(generate<TextureName>(gl, gl.GenTextures)),
       framebuffer_(generate<FramebufferName>(gl, gl.GenFramebuffers)) {
     requireSize(gl, size);
@@ -142,6 +143,8 @@ LayeredTarget::LayeredTarget(const Gl& gl, PictureSize size, bool hasDepth)
 void LayeredTarget::clear() const {
     const std::array<GLuint, 4> nothing{};
     for (GLint layer = 0; layer < kLayers; ++layer) gl_->ClearBufferuiv(GL_COLOR, layer, nothing.data());
+    const float nearest = 0.0F;
+    if (depth_.get() != 0) gl_->ClearBufferfv(GL_DEPTH, 0, &nearest);
 }
 
 void LayeredTarget::bind(PictureSize viewport) const {

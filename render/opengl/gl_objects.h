@@ -100,7 +100,9 @@ class Target {
     Target(const Gl& gl, PictureSize size, std::initializer_list<GLenum> formats);
 
     /// Binds the textures to be drawn to, and sets the viewport.
-    void bind() const;
+    void bind() const { bind(size_); }
+    /// @param viewport  the part of the textures that is drawn to, from their corner
+    void bind(PictureSize viewport) const;
 
     /// The texture of the format with this index.
     GLuint texture(std::size_t index) const { return textures_[index].get(); }
@@ -123,13 +125,15 @@ class LayeredTarget {
     /// Binds the layers to be drawn to.
     /// @param viewport  the part of the texture that is drawn to, from its corner
     void bind(PictureSize viewport) const;
-    /// Sets all texels to 0. The target must be bound.
+    /// Sets all texels, and the depths, to 0. The target must be bound.
     void clear() const;
 
     GLuint texture() const { return texture_.get(); }
+    PictureSize size() const { return size_; }
 
  private:
     const Gl* gl_;
+    PictureSize size_;
     TextureName texture_;
     TextureName depth_;
     FramebufferName framebuffer_;

@@ -49,15 +49,14 @@ void BallBuffers::upload(const MetaballScene& scene) {
     tbb::parallel_for(std::size_t{0}, attributes.size(), [&](std::size_t k) {
         attributes[k] = particleAttributes(scene.attributes[k].color, scene.attributes[k].sky);
     });
-    std::vector<std::int32_t> tiles;
+    tileIndices_.clear();
     for (std::size_t tile = 0; tile < scene.tiles.cellCount(); ++tile)
-        if (!scene.tiles.itemsOf(tile).empty()) tiles.push_back(static_cast<std::int32_t>(tile));
+        if (!scene.tiles.itemsOf(tile).empty()) tileIndices_.push_back(static_cast<std::int32_t>(tile));
     uploadList(balls_, balls, "the metaballs");
     uploadList(attributes_, attributes, "the metaballs' colors");
     uploadList(begins_, scene.tiles.begin, "the tiles");
     uploadList(items_, scene.tiles.items, "the tiles' lists of metaballs");
-    uploadList(tiles_, tiles, "the tiles");
-    tileCount_ = static_cast<int>(tiles.size());
+    uploadList(tiles_, tileIndices_, "the tiles");
 }
 
 void BallBuffers::addBindings(std::vector<TextureBinding>& to) const {
@@ -74,7 +73,9 @@ MetaballPasses::MetaballPasses(const Gl& gl, ShaderPrograms& programs, PictureSi
       camera_(gl),
       light_(gl),
       coarse_(gl, {size.width / 4 + 1, size.height / 4 + 1}, false),
-      pixels_(gl, {size.width / 2, size.height / 2}, true) {}
+      pixels_(gl, {size.width / 2, size.height / 2}, true),
+      markedCells_(gl),
+      pixelsOfCells_(gl, GL_R32I) {}
 
 void MetaballPasses::upload(const PreparedView& view) {
     camera_.upload(view.metaballs);
@@ -113,7 +114,7 @@ void MetaballPasses::castDepthMap(const PreparedView& view, const Defines& defin
     program.set("tilesInTarget", static_cast<float>(tiles.width), static_cast<float>(tiles.height));
     program.set("lightImage", {2.0F / static_cast<float>(frame.width), 2.0F / static_cast<float>(frame.height),
                                frame.halfWidth, frame.halfHeight});
-    gl_.DrawArrays(GL_POINTS, 0, light_.tileCount());
+    gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(light_.tileIndices().size()));
 
     const PictureSize size{2 * grid.columns, 2 * grid.rows};
     if (!map_ || map_->size() != size) {
@@ -134,12 +135,16 @@ void MetaballPasses::castDepthMap(const PreparedView& view, const Defines& defin
 /// @param shader  name of the fragment shader
 void MetaballPasses::drawBallTiles(const PreparedView& view, const char* shader, const Defines& defines) const {
     const CellLists& tiles = view.metaballs.tiles;
-    std::vector<TextureBinding> textures{camera_.tiles(), {"coarseRays", GL_TEXTURE_2D_ARRAY, coarse_.texture()}};
+    std::vector<TextureBinding> textures{camera_.tiles(),
+                                         {"coarseRays", GL_TEXTURE_2D_ARRAY, coarse_.texture()},
+                                         {"pixelsOfCells", GL_TEXTURE_BUFFER, pixelsOfCells_.texture()}};
+    if (markedHits_) textures.push_back({"markedHits", GL_TEXTURE_2D_ARRAY, markedHits_->texture()});
     camera_.addBindings(textures);
     const ShaderProgram& program = programs_.get("tile.vert", shader, defines);
     program.use(textures);
     program.set("tilesInTarget", static_cast<float>(tiles.columns), static_cast<float>(tiles.rows));
-    gl_.DrawArrays(GL_POINTS, 0, camera_.tileCount());
+    program.set("markedGrid", markedCells_.grid());
+    gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(camera_.tileIndices().size()));
 }
 
 void MetaballPasses::castCoarseRays(const PreparedView& view, const Defines& defines) const {
@@ -158,20 +163,54 @@ void MetaballPasses::castAllPixels(const PreparedView& view, const Defines& defi
     drawBallTiles(view, "cast_cells.frag", cells);
 }
 
-void MetaballPasses::findPixelHits(const PreparedView& view, const Defines& defines) const {
+void MetaballPasses::findPixelHits(const PreparedView& view, const Defines& defines) {
     const CellLists& tiles = view.metaballs.tiles;
-    pixels_.bind({tiles.columns * kCellTile, tiles.rows * kCellTile});
+    const PictureSize size{tiles.columns * kCellTile, tiles.rows * kCellTile};
+    pixels_.bind(size);
     pixels_.clear();
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_ALWAYS);
     gl_.DepthMask(GL_TRUE);
-    Defines cells = withPointSize(defines, kCellTile);
-    drawBallTiles(view, "interpolate.frag", cells);
-    // Cells that are not smooth lie behind the points that are drawn now.
+    drawBallTiles(view, "interpolate.frag", withPointSize(defines, kCellTile));
+    gl_.Disable(GL_DEPTH_TEST);
+    std::vector<float> marks(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+    gl_.ReadPixels(0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT, marks.data());
+    markedCells_.list([&](std::size_t cell) { return marks[cell] > 0.0F; }, size, kCellTile, camera_.tileIndices());
+    if (markedCells_.empty()) return;
+    castMarkedCells(defines);
+    returnMarkedCells(view, defines);
+}
+
+/// Casts rays for the marked cells, side by side in a target of their own.
+void MetaballPasses::castMarkedCells(const Defines& defines) {
+    const PictureSize size = markedCells_.size();
+    if (!markedHits_ || markedHits_->size().height < size.height) markedHits_.emplace(gl_, size, false);
+    markedHits_->bind(size);
+    Defines marked = defines;
+    marked.insert(marked.end(), {"MARKED", "SEARCHED"});
+    std::vector<TextureBinding> textures{markedCells_.binding(),
+                                         {"coarseRays", GL_TEXTURE_2D_ARRAY, coarse_.texture()}};
+    camera_.addBindings(textures);
+    const ShaderProgram& program = programs_.get("marked.vert", "cast_cells.frag", marked);
+    program.use(textures);
+    program.set("markedGrid", markedCells_.grid());
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// Copies what was found for the marked cells to where they lie.
+void MetaballPasses::returnMarkedCells(const PreparedView& view, const Defines& defines) {
+    const CellLists& tiles = view.metaballs.tiles;
+    const PictureSize size{tiles.columns * kCellTile, tiles.rows * kCellTile};
+    std::vector<std::int32_t> pixels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+    const std::span<const std::int32_t> places = markedCells_.placesOfPixels();
+    for (std::size_t k = 0; k < places.size(); ++k)
+        pixels[static_cast<std::size_t>(places[k])] = static_cast<std::int32_t>(k);
+    uploadList(pixelsOfCells_, pixels, "the marked pixels");
+    pixels_.bind(size);
+    gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_LESS);
     gl_.DepthMask(GL_FALSE);
-    cells.emplace_back("SEARCHED");
-    drawBallTiles(view, "cast_cells.frag", cells);
+    drawBallTiles(view, "return_cells.frag", withPointSize(defines, kCellTile));
     gl_.Disable(GL_DEPTH_TEST);
 }
 

@@ -3,10 +3,13 @@
 // opengl_renderer.cpp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/opengl/gl_objects.h"
+#include "render/opengl/marked_fragments.h"
 #include "render/opengl/shader_program.h"
 #include "render/prepare/prepared_view.h"
 
@@ -27,11 +30,11 @@ class BallBuffers {
 
     /// The tiles that balls reach.
     TextureBinding tiles() const { return {"tiles", GL_TEXTURE_BUFFER, tiles_.texture()}; }
-    int tileCount() const { return tileCount_; }
+    std::span<const std::int32_t> tileIndices() const { return tileIndices_; }
 
  private:
     TextureBuffer balls_, attributes_, begins_, items_, tiles_;
-    int tileCount_ = 0;
+    std::vector<std::int32_t> tileIndices_;
 };
 
 class MetaballPasses {
@@ -53,15 +56,20 @@ class MetaballPasses {
     void castDepthMap(const PreparedView& view, const Defines& defines, glm::vec2 offset);
     void castCoarseRays(const PreparedView& view, const Defines& defines) const;
     void castAllPixels(const PreparedView& view, const Defines& defines) const;
-    void findPixelHits(const PreparedView& view, const Defines& defines) const;
+    void findPixelHits(const PreparedView& view, const Defines& defines);
+    void castMarkedCells(const Defines& defines);
+    void returnMarkedCells(const PreparedView& view, const Defines& defines);
     void drawBallTiles(const PreparedView& view, const char* shader, const Defines& defines) const;
 
     const Gl& gl_;
     ShaderPrograms& programs_;
     BallBuffers camera_;
     BallBuffers light_;
-    LayeredTarget coarse_;          // of every 4 x 4 pixels, a layer for each of four rays
-    LayeredTarget pixels_;          // of every 2 x 2 pixels, a layer for each
+    LayeredTarget coarse_;         // of every 4 x 4 pixels, a layer for each of four rays
+    LayeredTarget pixels_;         // of every 2 x 2 pixels, a layer for each
+    MarkedFragments markedCells_;  // cells that are not smooth
+    std::optional<LayeredTarget> markedHits_;
+    TextureBuffer pixelsOfCells_;
     std::optional<Target> depths_;  // four depths for each texel of the map
     std::optional<Target> map_;     // the depth texture, a texel for each depth
 };

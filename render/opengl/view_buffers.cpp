@@ -39,6 +39,7 @@ ViewBuffers::ViewBuffers(const Gl& gl)
       sphereAttributes_(gl, GL_RGBA32UI),
       sphereBegins_(gl, GL_R32I),
       sphereItems_(gl, GL_R32I),
+      tileSpheres_(gl, GL_RGBA32F),
       boxes_(gl, GL_RGBA32F),
       lines_(gl, GL_RGBA32F),
       lineBegins_(gl, GL_R32I),
@@ -55,6 +56,11 @@ void ViewBuffers::upload(const PreparedView& view) {
     uploadList(sphereAttributes_, view.sphereAttributes, "the spheres' colors");
     uploadList(sphereBegins_, view.sphereTiles.begin, "the tiles");
     uploadList(sphereItems_, view.sphereTiles.items, "the tiles' lists of spheres");
+    // Shaders read a sphere of a list at once, without its index.
+    std::vector<ViewSphere> spheres(view.sphereTiles.items.size());
+    tbb::parallel_for(std::size_t{0}, spheres.size(),
+                      [&](std::size_t k) { spheres[k] = view.viewSpheres[view.sphereTiles.items[k]]; });
+    uploadList(tileSpheres_, spheres, "the tiles' lists of spheres");
     uploadTiles(view);
     uploadCasters(view);
     uploadFlats(view);
@@ -62,13 +68,11 @@ void ViewBuffers::upload(const PreparedView& view) {
 }
 
 void ViewBuffers::uploadTiles(const PreparedView& view) {
-    std::array<std::vector<std::int32_t>, kTileClassCount> tiles;
+    for (std::vector<std::int32_t>& tiles : tileIndices_) tiles.clear();
     for (std::size_t tile = 0; tile < view.sphereTiles.cellCount(); ++tile)
-        tiles[static_cast<std::size_t>(classOf(view, tile))].push_back(static_cast<std::int32_t>(tile));
-    for (std::size_t kind = 0; kind < kTileClassCount; ++kind) {
-        tileCounts_[kind] = static_cast<int>(tiles[kind].size());
-        uploadList(tiles_[kind], tiles[kind], "the tiles");
-    }
+        tileIndices_[static_cast<std::size_t>(classOf(view, tile))].push_back(static_cast<std::int32_t>(tile));
+    for (std::size_t kind = 0; kind < kTileClassCount; ++kind)
+        uploadList(tiles_[kind], tileIndices_[kind], "the tiles");
 }
 
 void ViewBuffers::uploadCasters(const PreparedView& view) {
@@ -117,6 +121,7 @@ std::vector<TextureBinding> ViewBuffers::bindings() const {
             of("sphereAttributes", sphereAttributes_),
             of("sphereBegins", sphereBegins_),
             of("sphereItems", sphereItems_),
+            of("tileSpheres", tileSpheres_),
             of("boxes", boxes_),
             of("lines", lines_),
             of("lineBegins", lineBegins_),

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/opengl/gl_objects.h"
@@ -31,7 +32,10 @@ class ViewBuffers {
     /// The samplers of the shaders and their textures.
     std::vector<TextureBinding> bindings() const;
 
-    int tileCount(TileClass kind) const { return tileCounts_[static_cast<std::size_t>(kind)]; }
+    /// Indices of the tiles of a class.
+    std::span<const std::int32_t> tileIndices(TileClass kind) const {
+        return tileIndices_[static_cast<std::size_t>(kind)];
+    }
     TextureBinding tiles(TileClass kind) const {
         return {"tiles", GL_TEXTURE_BUFFER, tiles_[static_cast<std::size_t>(kind)].texture()};
     }
@@ -42,12 +46,12 @@ class ViewBuffers {
     void uploadFlats(const PreparedView& view);
     void uploadSky(const PreparedView& view);
 
-    TextureBuffer spheres_, sphereAttributes_, sphereBegins_, sphereItems_;
+    TextureBuffer spheres_, sphereAttributes_, sphereBegins_, sphereItems_, tileSpheres_;
     TextureBuffer boxes_, lines_, lineBegins_, lineItems_;
     TextureBuffer casters_, casterBegins_;
     TextureBuffer groundSky_, skyGrid_;
     std::array<TextureBuffer, kTileClassCount> tiles_;
-    std::array<int, kTileClassCount> tileCounts_{};
+    std::array<std::vector<std::int32_t>, kTileClassCount> tileIndices_;
 };
 
 /// Whether a view has box or sphere obstacles that ambient occlusion darkens.

@@ -1,19 +1,20 @@
-// Casts a ray through the middle of each pixel of a cell: with CASTS_ALL of every cell, else of those where the surface of
-// the metaballs is not smooth, which the depth test lets through.
+// Casts a ray through the middle of each pixel of a cell: with CASTS_ALL of every cell, else of those that are marked
+// because the surface of the metaballs is not smooth there.
 #include "frame.glsl"
 #include "packing.glsl"
 #include "cast.glsl"
+#include "hit_surface.glsl"
 #include "cells.glsl"
 
-flat in int tile;
+#include "place.glsl"
 
 #ifdef CASTS_ALL
-#define REFINEMENTS 4
+#define REFINEMENTS 3
 float searchBegin(ivec2 cell) {
     return 0.0;
 }
 #else
-#define REFINEMENTS 2
+#define REFINEMENTS 1
 uniform usampler2DArray coarseRays;
 
 // Where the rays of a cell begin to be searched for the surface: a radius before the nearest hit of the coarse rays
@@ -34,7 +35,8 @@ float searchBegin(ivec2 cell) {
 
 void main() {
     loadFrame();
-    ivec2 cell = ivec2(gl_FragCoord.xy);
+    locate();
+    ivec2 cell = place;
     vec2 corner = 2.0 * vec2(cell) + 0.5 + sampleOffset.xy;
     vec4 x = ((corner.x + vec4(0.0, 1.0, 0.0, 1.0)) * image.x - 1.0) * image.z;
     vec4 y = (1.0 - (corner.y + vec4(0.0, 0.0, 1.0, 1.0)) * image.y) * image.w;

@@ -3,6 +3,7 @@
 #include "frame.glsl"
 #include "packing.glsl"
 #include "cast.glsl"
+#include "hit_surface.glsl"
 
 flat in int tile;
 
@@ -20,7 +21,6 @@ void main() {
     vec4 y = (1.0 - (corner.y + vec4(0.0, 0.0, 2.0, 2.0)) * image.y) * image.w;
     FourRays rays = fourRays(x, y);
     castRays(tile, nearestBall(tile), kFarDepth, rays);
-    refineHits(tile, 1, rays);
     FourHits hits = surfaceAt(tile, rays);
     uvec4 depth = floatBitsToUint(hits.depth);
     uvec4 normal = packNormal(hits.normalX, hits.normalY, hits.normalZ);

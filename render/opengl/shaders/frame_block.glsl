@@ -22,12 +22,12 @@
 //   skyCells:            center of the first cube of the sky visibility (m), 1 / side of a cube (1/m)
 //   depthMapGrid:        origin of the metaballs' depth map on the light's plane (m), side of a texel (m), its top (m)
 //   depthMapSize:        columns and rows of its texels, 1 / its height (1/m); w: greatest reach of a metaball (m)
-//   sampleOffset:        of a single sample from the middle of the pixel (pixels); z: depth by which neighboring points of
-//                        smooth metaballs differ at most (m); w: field beside which there is no surface
+//   sampleOffset:        of a single sample from the middle of the pixel (pixels); z: depth by which neighboring
+//                        points of smooth metaballs differ at most (m); w: field beside which there is no surface
 //   lightCellCount:      columns and rows of that grid
 //   skyCellCount:        number of cubes along each axis
-//   metaballs:           threshold of the field, spacing of its samples on a ray (m), smallest radius (m), by how much the
-//                        field may exceed the samples between them
+//   metaballs:           threshold of the field, spacing of its samples on a ray (m), smallest radius (m), and how near
+//                        the field may come to the threshold between samples before it is sampled more densely
 //   counts:              index of the first sphere that is no particle, boxes, squarings of the highlight
 #define FRAME_FIELDS(X) \
     X(image) X(right) X(up) X(forward) X(toLight) X(lightU) X(lightV) X(lightColor) X(sky) X(skyBelow) \

@@ -92,9 +92,9 @@ void addSpheres(inout HITS hits, REAL x, REAL y) {
 #ifdef PERSPECTIVE
     REAL inverseSquare = 1.0 / (x * x + y * y + 1.0);
 #endif
+    INTEGER entry = INTEGER(-1);  // of the list, that is hit
     for (; k < end; ++k) {
-        int index = texelFetch(sphereItems, k).x;
-        vec4 sphere = texelFetch(spheres, index);
+        vec4 sphere = texelFetch(tileSpheres, k);
         if (sphere.z - sphere.w > largest(hits.depth)) break;
         // The intersection is measured from the point of the ray that is closest to the center, so that nothing
         // cancels, however far away the sphere is.
@@ -113,8 +113,16 @@ void addSpheres(inout HITS hits, REAL x, REAL y) {
         REAL halfChord = sqrt(max(inside, REAL(0.0)));
 #endif
         BOOLEAN isHit = both(less(REAL(0.0), inside), lessEqual(REAL(0.0), closest + halfChord));
-        REAL depth = max(closest - halfChord, REAL(0.0));
-        addHit(hits, choose(isHit, depth, REAL(kFarDepth)), INTEGER(index));
+        REAL depth = choose(isHit, max(closest - halfChord, REAL(0.0)), REAL(kFarDepth));
+        BOOLEAN isNearer = less(depth, hits.depth);
+        hits.depth = choose(isNearer, depth, hits.depth);
+        entry = choose(isNearer, INTEGER(k), entry);
     }
+#if SAMPLES == 1
+    hits.id = entry >= 0 ? texelFetch(sphereItems, max(entry, 0)).x : hits.id;
+#else
+    for (int s = 0; s < SAMPLES; ++s)
+        hits.id[s] = entry[s] >= 0 ? texelFetch(sphereItems, max(entry[s], 0)).x : hits.id[s];
+#endif
 }
 #endif

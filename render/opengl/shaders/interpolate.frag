@@ -1,6 +1,6 @@
 // Interpolates the surface of the metaballs between coarse rays, for cells of 2 x 2 pixels of which the first has a
 // coarse ray, as in render/cpu/metaballs/ray_interpolation.cpp. Cells with a pixel where the surface is not smooth are
-// marked in the depth buffer, and cast after that.
+// marked in the depth buffer by 1, and cast after that.
 #include "frame.glsl"
 #include "packing.glsl"
 #include "cells.glsl"
@@ -81,13 +81,13 @@ void main() {
     CoarseRay beside = coarseRay(cell + ivec2(1, 0));
     CoarseRay below = coarseRay(cell + ivec2(0, 1));
     CoarseRay across = coarseRay(cell + ivec2(1, 1));
-    vec2 right2 = betweenTwo(cell, vec2(1.0, 0.0), own, beside);
-    vec2 lower = betweenTwo(cell, vec2(0.0, 1.0), own, below);
-    vec2 falling = betweenTwo(cell, vec2(1.0), own, across);
-    vec2 rising = betweenTwo(cell, vec2(1.0), beside, below);
-    vec4 depth = vec4(own.depth, right2.x, lower.x, 0.5 * (falling.x + rising.x));
-    bool isSmooth = right2.y * lower.y * falling.y * rising.y > 0.0;
-    gl_FragDepth = isSmooth ? 0.25 : 0.75;
+    vec2 besideDepth = betweenTwo(cell, vec2(1.0, 0.0), own, beside);
+    vec2 belowDepth = betweenTwo(cell, vec2(0.0, 1.0), own, below);
+    vec2 fallingDepth = betweenTwo(cell, vec2(1.0), own, across);
+    vec2 risingDepth = betweenTwo(cell, vec2(1.0), beside, below);
+    vec4 depth = vec4(own.depth, besideDepth.x, belowDepth.x, 0.5 * (fallingDepth.x + risingDepth.x));
+    bool isSmooth = besideDepth.y * belowDepth.y * fallingDepth.y * risingDepth.y > 0.0;
+    gl_FragDepth = isSmooth ? 0.0 : 1.0;
 
     // Means of the rays around each of the four pixels. Directions need not have unit length to be packed.
     vec3 n1 = own.normal + beside.normal;

@@ -2,12 +2,13 @@
 // the mean position of its samples.
 #include "frame.glsl"
 
-flat in int tile;
+#include "place.glsl"
 
 uniform samplerBuffer spheres;           // in view coordinates: center and radius (m)
 uniform usamplerBuffer sphereAttributes; // color, sky visibility along +x +y +z, along -x -y -z, packed
 uniform isamplerBuffer sphereBegins;     // tile t lists the entries begins[t] ... begins[t + 1] - 1 of the items
 uniform isamplerBuffer sphereItems;
+uniform samplerBuffer tileSpheres;       // the sphere of each entry of the items
 uniform samplerBuffer boxes;             // three texels a box: low corner, high corner, color
 uniform samplerBuffer lines;             // three texels a line: both ends (pixels), their depths and the width, color
 uniform isamplerBuffer lineBegins;
@@ -38,6 +39,7 @@ uniform samplerBuffer skyGrid;
 #ifdef METABALLS
 #ifdef CAST_SAMPLES
 #include "cast.glsl"
+#include "hit_surface.glsl"
 #else
 #define smallestRadius metaballs.z
 #endif
@@ -57,11 +59,10 @@ REAL hitDepth(vec4 depth) {
 
 #ifdef CAST_SAMPLES
 // @param x, y  of the samples' rays on the image plane
-void addMetaballs(inout SampleHits hits, REAL x, REAL y, vec2 middle) {
+void addMetaballs(inout SampleHits hits, REAL x, REAL y) {
     FourRays rays = fourRays(vec4(x), vec4(y));
-    vec2 range = searchRange(ivec2(middle));
+    vec2 range = searchRange(place);
     castRays(tile, range.x, range.y, rays);
-    refineHits(tile, 1, rays);
     samples = surfaceAt(tile, rays);
 #if SAMPLES == 1
     addHit(hits, hitDepth(samples.depth), kHitMetaballs);
@@ -70,14 +71,9 @@ void addMetaballs(inout SampleHits hits, REAL x, REAL y, vec2 middle) {
 #endif
 }
 #else
-void addMetaballs(inout SampleHits hits, REAL x, REAL y, vec2 middle) {
-    ivec2 place = ivec2(middle);
+void addMetaballs(inout SampleHits hits, REAL x, REAL y) {
     pixelSurface = surfaceInMiddle(place);
     addHit(hits, hitDepth(vec4(pixelSurface.depth)), INTEGER(kHitMetaballs));
-#if SAMPLES == 4
-    // The depth test of the next pass lets only those pixels through that a silhouette crosses.
-    gl_FragDepth = isAtSilhouette(place, pixelSurface.depth) ? 0.75 : 0.25;
-#endif
 }
 #endif
 #endif
@@ -87,7 +83,7 @@ SampleHits hitsOf(vec2 middle) {
     vec2 at = imagePoint(middle + sampleOffset.xy);
     SampleHits hits = flatHits(at.x, at.y);
 #ifdef METABALLS
-    addMetaballs(hits, at.x, at.y, middle);
+    addMetaballs(hits, at.x, at.y);
 #endif
 #ifdef SPHERES
     addSpheres(hits, at.x, at.y);
@@ -108,7 +104,7 @@ SampleHits hitsOf(vec2 middle) {
     vec4 y = (1.0 - (middle.y + kOffsetY) * image.y) * image.w;
     SampleHits hits = flatHits(x, y);
 #ifdef METABALLS
-    addMetaballs(hits, x, y, middle);
+    addMetaballs(hits, x, y);
 #endif
 #ifdef SPHERES
     addSpheres(hits, x, y);
@@ -151,7 +147,8 @@ vec3 colorOfSamples(SampleHits hits, vec2 middle) {
 // Writes the normal and the view depth of the point that the ray through the middle of the pixel shows.
 void main() {
     loadFrame();
-    vec2 middle = gl_FragCoord.xy;
+    locate();
+    vec2 middle = vec2(place) + 0.5;
     SampleHits hits = hitsOf(middle);
     Point at = pointOf(hits.id, worldRay(imagePoint(middle)));
     pixel = vec4(at.normal, hits.id == kHitBackground ? -1.0 : at.depth);
@@ -159,7 +156,8 @@ void main() {
 #else
 void main() {
     loadFrame();
-    vec2 middle = gl_FragCoord.xy;
+    locate();
+    vec2 middle = vec2(place) + 0.5;
     SampleHits hits = hitsOf(middle);
     vec3 color = colorOfSamples(hits, middle);
 #ifdef LINES
@@ -167,5 +165,9 @@ void main() {
     color = min(color * (1.0 - over.w) + over.rgb, 1.0);
 #endif
     writeColor(color);
+#if defined(METABALLS) && SAMPLES == 4 && !defined(CAST_SAMPLES)
+    // Pixels that a silhouette crosses are marked by alpha 0, to be drawn again.
+    if (isAtSilhouette(place, pixelSurface.depth)) pixel.a = 0.0;
+#endif
 }
 #endif

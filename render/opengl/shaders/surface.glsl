@@ -62,9 +62,9 @@ Surface surfaceOf(int index) {
                    vec3(dot(samples.skyAlong, weights), dot(samples.skyAgainst, weights),
                         dot(samples.skyMirrored, weights)));
 }
-// The depths between which the rays of the samples are searched for the surface: from a radius before the nearest hit of
-// the pixel and of those beside it. Where one of these shows no surface, to two radii behind the farthest: the samples
-// are to see no more than the pixels around them.
+// The depths between which the rays of the samples are searched for the surface: from a radius before the nearest hit
+// of the pixel and of those beside it. Where one of these shows no surface, to two radii behind the farthest: the
+// samples are to see no more than the pixels around them.
 vec2 searchRange(ivec2 pixel) {
     float own = hitDepthAt(pixel);
     vec4 around = depthsAround(pixel);
