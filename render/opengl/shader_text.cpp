@@ -43,14 +43,14 @@ ShaderSource shaderSource(std::string_view name, const std::vector<std::string>&
 }
 
 std::string withFileNames(std::string_view log, const ShaderSource& source) {
-    static const std::regex place(R"(\b(\d+)([:(])(\d+))");
+    static const std::regex place(R"(\b(\d+)(?::(\d+)|\((\d+)\)))");
     std::string result;
     auto rest = log.begin();
     for (std::cregex_iterator match(log.data(), log.data() + log.size(), place), end; match != end; ++match) {
         const std::size_t file = std::stoul((*match)[1].str());
         result.append(rest, log.begin() + match->position());
-        result += (file < source.files.size() ? source.files[file] : (*match)[1].str()) + ":" + (*match)[3].str();
-        if ((*match)[2].str() == "(") result += "(";
+        const std::string line = (*match)[2].matched ? (*match)[2].str() : (*match)[3].str();
+        result += file < source.files.size() ? source.files[file] + ":" + line : (*match)[0].str();
         rest = log.begin() + match->position() + match->length();
     }
     result.append(rest, log.end());
