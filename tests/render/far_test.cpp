@@ -40,13 +40,15 @@ render::View viewOf(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a scene looks the same far from the origin") {
-    render::Renderer renderer(kSize, render::Quality::normal);
+    const pictures::By by = GENERATE(from_range(pictures::renderers()));
+    CAPTURE(by);
+    const auto renderer = makeRenderer(by, kSize, render::Quality::normal);
     for (const std::string style : {"spheres", "metaballs"}) {
         const std::string look = fmt::format("style = \"{}\"\n", style);
-        const render::Image expected = renderer.draw(viewOf(movedScene({0.0, 0.0, 0.0}, look)));
+        const render::Image expected = renderer->draw(viewOf(movedScene({0.0, 0.0, 0.0}, look)));
         for (const double distance : {1e3, 1e5, 1e6, 9e7}) {
             const engine::Vec3 offset(distance, -0.3 * distance, 0.7 * distance);
-            const auto found = pictures::compare(renderer.draw(viewOf(movedScene(offset, look))), expected, 2);
+            const auto found = pictures::compare(renderer->draw(viewOf(movedScene(offset, look))), expected, 2);
             INFO(style << ", " << distance << " m from the origin: " << found);
             // Of spheres only the rounding differs. The texels of the metaballs' depth map lie elsewhere in the scene,
             // which shows at the edges of shadows: 1.5 times what was measured at all four distances alike.
@@ -58,12 +60,14 @@ TEST_CASE("a scene looks the same far from the origin") {
 
 // These offsets are multiples of the distances by which the origin of the view moves, and round nothing.
 TEST_CASE("a scene moved by a power of two far away gives the same bytes") {
-    render::Renderer renderer(kSize, render::Quality::normal);
+    const pictures::By by = GENERATE(from_range(pictures::renderers()));
+    CAPTURE(by);
+    const auto renderer = makeRenderer(by, kSize, render::Quality::normal);
     for (const std::string style : {"spheres", "metaballs"}) {
         const std::string look = fmt::format("style = \"{}\"\nocclusion = 0.8\n", style);
-        const render::Image expected = renderer.draw(viewOf(movedScene({0.0, 0.0, 0.0}, look)));
+        const render::Image expected = renderer->draw(viewOf(movedScene({0.0, 0.0, 0.0}, look)));
         for (const double distance : {1048576.0, 67108864.0}) {
-            const render::Image image = renderer.draw(viewOf(movedScene({distance, 0.0, -distance}, look)));
+            const render::Image image = renderer->draw(viewOf(movedScene({distance, 0.0, -distance}, look)));
             INFO(style << ", " << distance << " m from the origin: " << pictures::compare(image, expected, 0));
             // A double rounds a position at 2^26 m by 2^-27 m, which a float shows in positions below 1/8 m only.
             CHECK(pictures::compare(image, expected, 0).largest <= (distance < 1e7 ? 0 : 1));

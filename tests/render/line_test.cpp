@@ -31,10 +31,12 @@ double lightInColumn(const render::Image& image, int x) {
 }  // namespace
 
 TEST_CASE("A line is as wide as it says, at any quality") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
         for (const float width : {0.5F, 1.0F, 1.5F, 3.0F}) {
             CAPTURE(width);
-            const double light = lightInColumn(drawn(lineView(width), kSize, quality), 30);
+            const double light = lightInColumn(drawn(by, lineView(width), kSize, quality), 30);
             CHECK(light ==
                   Approx(double(width)).margin(0.03));  // bytes: 0.01 of linear light in each of two gray pixels
         }
@@ -42,13 +44,15 @@ TEST_CASE("A line is as wide as it says, at any quality") {
 }
 
 TEST_CASE("A line is hidden by what is nearer only") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = lineView(2.0F);
     view.particles.push_back({{-1.0F, 0.0F, 2.0F}, 0.6F, {0.0F, 0.0F, 0.0F}});
     view.particles.push_back({{1.5F, 0.0F, -2.0F}, 0.6F, {0.0F, 0.0F, 0.0F}});
     view.light.color = glm::vec3(0.0F);
     for (const render::Style style : {render::Style::spheres, render::Style::metaballs}) {
         view.style = style;
-        const render::Image image = drawn(view, kSize, Quality::normal);
+        const render::Image image = drawn(by, view, kSize, Quality::normal);
         // The particles are in the columns 32 - 1.0 * 48 / (8 * 0.73) and 32 + 1.5 * 48 / (12 * 0.73): 48 rows see 0.73
         // m of height per meter of depth, and the particles are 8 m and 12 m away.
         CHECK(lightInColumn(image, 24) < 0.01);
@@ -58,15 +62,18 @@ TEST_CASE("A line is hidden by what is nearer only") {
 }
 
 TEST_CASE("The edges of a box show on its near side and not on its far side") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view;
     view.camera.eye = {3.0F, 2.5F, 6.0F};
     view.boxObstacles.push_back({glm::vec3(-1.0F), glm::vec3(1.0F), glm::vec3(0.0F)});
     view.light.color = glm::vec3(0.0F);
     view.edges.push_back({{-1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}, glm::vec3(1.0F), 2.0F});
-    const render::Image near = drawn(view, kSize, Quality::normal);
+    const render::Image near = drawn(by, view, kSize, Quality::normal);
     view.edges[0] = {{-1.0F, -1.0F, -1.0F}, {-1.0F, 0.5F, -1.0F}, glm::vec3(1.0F), 2.0F};
-    const render::Image far = drawn(view, kSize, Quality::normal);
+    const render::Image far = drawn(by, view, kSize, Quality::normal);
     const render::Image none = drawn(
+        by,
         [&] {
             render::View v = view;
             v.edges.clear();
@@ -78,12 +85,14 @@ TEST_CASE("The edges of a box show on its near side and not on its far side") {
 }
 
 TEST_CASE("Lines through the eye's plane and off the picture do no harm") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = lineView(1.5F);
-    const render::Image plain = drawn(view, kSize, Quality::normal);
+    const render::Image plain = drawn(by, view, kSize, Quality::normal);
     view.edges.push_back({{0.0F, 5.0F, 30.0F}, {0.0F, 5.0F, 20.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
     view.edges.push_back({{500.0F, 5.0F, 0.0F}, {600.0F, 5.0F, 0.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
-    CHECK(drawn(view, kSize, Quality::normal).rgb == plain.rgb);
+    CHECK(drawn(by, view, kSize, Quality::normal).rgb == plain.rgb);
     view.edges.push_back({{0.0F, -1.0F, 30.0F}, {0.0F, -1.0F, -30.0F}, glm::vec3(1.0F, 0.0F, 0.0F), 2.0F});
-    CHECK(compare(drawn(view, kSize, Quality::normal), plain, 8).share >
+    CHECK(compare(drawn(by, view, kSize, Quality::normal), plain, 8).share >
           0.01);  // the line crosses the lower half of the picture
 }

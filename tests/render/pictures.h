@@ -1,11 +1,13 @@
-// Shared by the tests of the renderer: views to draw, and the comparison of two pictures.
+// Shared by the tests of the renderers: views to draw, what draws them, and the comparison of two pictures.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <ostream>
 #include <random>
+#include <vector>
 
 #include "render/picture/image.h"
 #include "render/picture/view.h"
@@ -66,6 +68,55 @@ inline render::Image fromOracle(const render::View& view, render::PictureSize si
 
 inline render::Image drawn(const render::View& view, render::PictureSize size, render::Quality quality) {
     return render::Renderer(size, quality).draw(view);
+}
+
+/// What draws a picture.
+enum class By { cpu, openGl };
+
+inline std::ostream& operator<<(std::ostream& out, By by) {
+    return out << (by == By::cpu ? "by the CPU" : "by OpenGL");
+}
+
+/// The renderers of this build. A test that both are to pass begins with
+///     const By by = GENERATE(from_range(renderers()));
+inline std::vector<By> renderers() {
+#ifdef RENDER_HAS_OPENGL
+    return {By::cpu, By::openGl};
+#else
+    return {By::cpu};
+#endif
+}
+
+/// The context that all renderers of the tests share.
+inline render::Context& openGlContext() {
+    static render::Context context(render::Device{});
+    return context;
+}
+
+/// A renderer that has drawn nothing yet.
+inline std::unique_ptr<render::Renderer> makeRenderer(By by, render::PictureSize size, render::Quality quality) {
+    if (by == By::cpu) return std::make_unique<render::Renderer>(size, quality);
+    return std::make_unique<render::Renderer>(openGlContext(), size, quality);
+}
+
+/// The renderer in OpenGL of a size and quality. It is kept to the end, because it takes about a second to compile the
+/// shaders of a look.
+inline render::Renderer& openGlRenderer(render::PictureSize size, render::Quality quality) {
+    struct Kept {
+        render::PictureSize size;
+        render::Quality quality;
+        std::unique_ptr<render::Renderer> renderer;
+    };
+    openGlContext();  // so that it outlives the renderers
+    static std::vector<Kept> kept;
+    for (const Kept& one : kept)
+        if (one.size == size && one.quality == quality) return *one.renderer;
+    kept.push_back({size, quality, makeRenderer(By::openGl, size, quality)});
+    return *kept.back().renderer;
+}
+
+inline render::Image drawn(By by, const render::View& view, render::PictureSize size, render::Quality quality) {
+    return by == By::cpu ? drawn(view, size, quality) : openGlRenderer(size, quality).draw(view);
 }
 
 /// Particles of different sizes in a box of 3 x 2 x 3 m above the ground, with light and sky of different colors.

@@ -13,8 +13,8 @@ constexpr render::PictureSize kSize{121, 75};  // not a multiple of the tile siz
 // Channels may differ by one step of 1/255: bytes are rounded, and single precision adds far less than a step.
 constexpr int kStep = 1;
 
-void requireAlike(const render::View& view, double share) {
-    const Difference difference = compare(drawn(view, kSize, Quality::draft), fromOracle(view, kSize, 1), kStep);
+void requireAlike(By by, const render::View& view, double share) {
+    const Difference difference = compare(drawn(by, view, kSize, Quality::draft), fromOracle(view, kSize, 1), kStep);
     INFO(difference);
     REQUIRE(difference.sameSize);
     CHECK(difference.share <= share);
@@ -39,65 +39,79 @@ TEST_CASE("The comparison finds a wrong picture") {
 }
 
 TEST_CASE("Spheres, perspective and orthographic, are those of the oracle") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = cloud(200);
-    // 2 pixels of 9075: of some 3000 pixels on outlines, those whose ray passes an outline so closely that single precision
-    // decides otherwise.
-    requireAlike(view, 2.0 / 9075.0);
+    // 2 pixels of 9075: of some 3000 pixels on outlines, those whose ray passes an outline so closely that single
+    // precision decides otherwise.
+    requireAlike(by, view, 2.0 / 9075.0);
     view.camera.projection = render::Projection::orthographic;
     view.camera.halfHeight = 2.0F;
-    requireAlike(view, 2.0 / 9075.0);  // pixels on outlines, as above
+    requireAlike(by, view, 2.0 / 9075.0);  // pixels on outlines, as above
 }
 
 TEST_CASE("Obstacles, ground and background are those of the oracle") {
-    requireAlike(cloudWithObstacles(60), 2.0 / 9075.0);  // pixels on outlines, as in the first test
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
+    requireAlike(by, cloudWithObstacles(60), 2.0 / 9075.0);  // pixels on outlines, as in the first test
     render::View view = cloudWithObstacles(0);
     view.surface.specular = 0.0F;
-    requireAlike(view, 2.0 / 9075.0);
+    requireAlike(by, view, 2.0 / 9075.0);
     view.ground.reset();
-    requireAlike(view, 2.0 / 9075.0);
-    requireAlike(render::View{}, 0.0);  // a black picture
+    requireAlike(by, view, 2.0 / 9075.0);
+    requireAlike(by, render::View{}, 0.0);  // a black picture
 }
 
 TEST_CASE("Seen from below the ground hides what is above it") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = cloudWithObstacles(40);
     view.camera.eye.y = -1.0F;
-    requireAlike(view, 2.0 / 9075.0);  // pixels on outlines, as in the first test
+    requireAlike(by, view, 2.0 / 9075.0);  // pixels on outlines, as in the first test
 }
 
 TEST_CASE("Spheres far off the axis stay exact") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = cloud(40);
     view.camera.verticalFov = 2.2F;
     view.camera.eye = {0.3F, 1.5F, 2.0F};
-    requireAlike(view, 2.0 / 9075.0);  // pixels on outlines, as in the first test
+    requireAlike(by, view, 2.0 / 9075.0);  // pixels on outlines, as in the first test
 }
 
 TEST_CASE("Shadows are the oracle's up to their softened edge") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = cloudWithObstacles(120);
     view.light.shadows = true;
     // A shadow's edge is a pixel wide here and sharp in the oracle, so only pixels on shadows' outlines differ (counted
     // once: 0.02). Without any shadow 0.075 of the pixels differ (next test), so 0.03 tells the two apart.
-    requireAlike(view, 0.03);
+    requireAlike(by, view, 0.03);
     view.camera.projection = render::Projection::orthographic;
     view.camera.halfHeight = 2.0F;
-    requireAlike(view, 0.03);
+    requireAlike(by, view, 0.03);
     view.light.toLight = {0.0F, 1.0F, 0.0F};  // along an axis, parallel to the sides of boxes
-    requireAlike(view, 0.03);
+    requireAlike(by, view, 0.03);
 }
 
 TEST_CASE("Shadows are shadows: without them the picture is another") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = cloudWithObstacles(120);
-    const render::Image lit = drawn(view, kSize, Quality::draft);
+    const render::Image lit = drawn(by, view, kSize, Quality::draft);
     view.light.shadows = true;
-    CHECK(compare(lit, drawn(view, kSize, Quality::draft), kStep).share > 0.04);  // counted once: 0.075
+    CHECK(compare(lit, drawn(by, view, kSize, Quality::draft), kStep).share > 0.04);  // counted once: 0.075
 }
 
 TEST_CASE("Better quality is nearer to the exact picture") {
+    const By by = GENERATE(from_range(renderers()));
+    CAPTURE(by);
     render::View view = cloudWithObstacles(150);
     view.light.shadows = true;
     const render::Image exact = fromOracle(view, kSize, 6);
-    const double draft = compare(drawn(view, kSize, Quality::draft), exact, 0).mean;
-    const double normal = compare(drawn(view, kSize, Quality::normal), exact, 0).mean;
-    const double final = compare(drawn(view, kSize, Quality::final), exact, 0).mean;
+    const double draft = compare(drawn(by, view, kSize, Quality::draft), exact, 0).mean;
+    const double normal = compare(drawn(by, view, kSize, Quality::normal), exact, 0).mean;
+    const double final = compare(drawn(by, view, kSize, Quality::final), exact, 0).mean;
     CAPTURE(draft, normal, final);
     CHECK(normal < 0.6 * draft);   // four samples at outlines have half the error of one
     CHECK(final < 0.75 * normal);  // nine samples have two thirds of the error of four
