@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "render/opengl/context/device.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
 
@@ -78,6 +79,17 @@ TEST_CASE("devices lists OSMesa, what EGL chooses, and EGL's devices", "[opengl]
         CHECK(text.find(device["renderer"].get<std::string>()) != std::string::npos);
         CHECK(text.find(device["version"].get<std::string>()) != std::string::npos);
     }
+}
+
+TEST_CASE("figures draws with OpenGL where the build has OSMesa, else on the CPU", "[opengl]") {
+    const program::Folder folder;
+    const bool drawsWithOpenGl = render::isInBuild(render::Backend::osmesa);
+    const std::string help = run("figures --help").out;
+    CHECK(help.find(drawsWithOpenGl ? "(default: opengl)" : "(default: cpu)") != std::string::npos);
+    // A device that does not exist ends the command, before anything is simulated, if OpenGL draws.
+    const std::string onNone = "figures 4 --quiet -o " + (folder / "a").string() + " --gl egl:4711";
+    CHECK(run(onNone).code == (drawsWithOpenGl ? 1 : 2));
+    CHECK(run(onNone + " --renderer cpu").code == 2);
 }
 
 #ifdef RENDER_HAS_OPENGL

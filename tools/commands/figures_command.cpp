@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "engine/stepping/take_step.h"
+#include "render/opengl/context/device.h"
 #include "render/output/png.h"
 #include "tools/commands/commands.h"
 #include "tools/pages/figures_page.h"
@@ -20,8 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The renderer that draws the figures without --renderer.
-constexpr const char* kFiguresRenderer = "cpu";
+/// The renderer that draws the figures without --renderer: OpenGL, as in the paper, where the build has OSMesa.
+const char* figuresRenderer() {
+    return kRendererNames[render::isInBuild(render::Backend::osmesa) ? 1 : 0];
+}
 
 struct FiguresOptions {
     RunOptions run;
@@ -56,6 +59,14 @@ std::string constantsOf(const scenes::Scene& scene, std::size_t particleCount) {
         engine::nameOf(scene.setup.stepper), scene.setup.step);
 }
 
+/// The flags with which `render` draws as the figures are drawn, each after a space.
+std::string rendererFlags(const DrawOptions& draw) {
+    std::string flags;
+    if (draw.renderer != DrawOptions().renderer) flags += " --renderer " + draw.renderer;
+    if (!draw.device.empty()) flags += " --gl " + draw.device;
+    return flags;
+}
+
 FigureEntry makeFigure(int number, const FiguresOptions& options) {
     const std::string name = fmt::format("figure-{}", number);
     const scenes::Scene scene = load({name, {}, {}});
@@ -73,7 +84,8 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
         if (value.origin == scenes::ValueOrigin::schemaDefault) continue;
         entry.parameters.emplace_back(value.path, value.unit.empty() ? value.toml : value.toml + " " + value.unit);
     }
-    entry.command = fmt::format("globular render {} -o out/{} --video out/{}.mp4", name, name, name);
+    entry.command =
+        fmt::format("globular render {0} -o out/{0} --video out/{0}.mp4{1}", name, rendererFlags(options.draw));
 
     drawPictures(scene, options, entry);
     FinishedRun result = renderVideo(scene, options, entry);
@@ -113,7 +125,7 @@ void addFiguresCommand(CLI::App& program) {
     const auto options = std::make_shared<FiguresOptions>();
     command.add_option("FIGURE", options->numbers, "which figures (default: all four)")->check(CLI::Range(1, 4));
     command.add_option("-o,--output", options->folder, "folder to write to (default: out/figures)")->type_name("DIR");
-    options->draw.renderer = kFiguresRenderer;
+    options->draw.renderer = figuresRenderer();
     addRendererFlags(command, options->draw);
     addTo(command, options->run);
     command.footer("Example: globular figures 1 3 -o out/figures");

@@ -1,4 +1,4 @@
-// Names of devices.
+// Names of devices, and which libraries the build has.
 #include "render/opengl/context/device.h"
 
 #include <charconv>
@@ -22,6 +22,16 @@ std::optional<Device> deviceNamed(std::string_view name) {
     const auto [stop, error] = std::from_chars(name.data() + kNumbered.size(), end, index);
     if (error != std::errc() || stop != end || index < 0) return std::nullopt;
     return Device{Backend::egl, index};
+}
+
+bool isInBuild([[maybe_unused]] Backend backend) {
+#ifdef RENDER_HAS_OSMESA
+    if (backend == Backend::osmesa) return true;
+#endif
+#ifdef RENDER_HAS_EGL
+    if (backend == Backend::egl) return true;
+#endif
+    return false;
 }
 
 }  // namespace render

@@ -30,6 +30,9 @@ std::optional<Device> deviceNamed(std::string_view name);
 /// The names that deviceNamed() knows, for messages.
 inline constexpr std::string_view kDeviceNames = "osmesa, egl, egl:N";
 
+/// Whether contexts can come from this library in this build.
+bool isInBuild(Backend backend);
+
 /// What OpenGL says about itself on a device.
 struct DeviceInfo {
     Device device;
