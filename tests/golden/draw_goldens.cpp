@@ -1,20 +1,22 @@
-// All pictures have the same size, so that one renderer draws them all.
+// All pictures have the same size, so that one renderer of each kind draws them all.
 #include "tests/golden/draw_goldens.h"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <memory>
 #include <span>
 
 #include "engine/run/diagnostics.h"
+#include "render/opengl/context/device.h"
 #include "render/output/png.h"
-#include "render/renderer.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/view/frame_view.h"
 #include "tools/compare/picture_provenance.h"
 #include "tools/run/manifest.h"
-#include "tools/run/options.h"
+#include "tools/run/open_renderer.h"
 #include "tools/system/output_file.h"
+#include "tools/system/processors.h"
 
 namespace golden {
 namespace {
@@ -31,47 +33,64 @@ scenes::Scene sceneIn(const GoldenScene& golden, const std::string& style) {
     return scenes::loadScene(fmt::format("{}/scenes/library/{}.toml", GLOBULAR_SOURCE, golden.name), overrides);
 }
 
-class GoldenRenderer {
- public:
-    explicit GoldenRenderer(const fs::path& folder) : folder_(folder), renderer_(kSize, render::Quality::normal) {}
+tools::OpenedRenderer open(bool isOpenGl) {
+    return tools::openRenderer({isOpenGl, {}}, kSize, render::Quality::normal, tools::usableProcessors());
+}
 
-    void draw(const GoldenScene& golden, std::size_t timeCount) {
-        const std::array scenes = {sceneIn(golden, kStyles[0]), sceneIn(golden, kStyles[1])};
-        engine::Simulation simulation = engine::start(scenes[0].setup);
-        const std::array frames = {golden.first, golden.second};
-        for (const int frame : std::span(frames).first(timeCount)) {
-            scenes::advanceToFrame(scenes[0], simulation, frame);
-            for (std::size_t k = 0; k < kStyles.size(); ++k) {
-                const fs::path folder = folder_ / golden.name / kStyles[k];
-                write(folder / fmt::format("frame-{:05}.png", frame), scenes[k], simulation);
-            }
-        }
+/// A scene at one of its times, in both styles.
+struct Moment {
+    const GoldenScene& golden;
+    int frame;
+    const std::array<scenes::Scene, 2>& scenes;
+    const engine::Simulation& simulation;
+};
+
+/// Calls the function with each moment of a scene.
+template <class Function>
+void forMoments(const GoldenScene& golden, std::size_t timeCount, const Function& function) {
+    const std::array scenes = {sceneIn(golden, kStyles[0]), sceneIn(golden, kStyles[1])};
+    engine::Simulation simulation = engine::start(scenes[0].setup);
+    const std::array frames = {golden.first, golden.second};
+    for (const int frame : std::span(frames).first(timeCount)) {
+        scenes::advanceToFrame(scenes[0], simulation, frame);
+        function(Moment{golden, frame, scenes, simulation});
     }
+}
 
- private:
-    void write(const fs::path& path, const scenes::Scene& scene, const engine::Simulation& simulation) {
-        const auto png = render::encodePng(renderer_.draw(scenes::frameView(scene, simulation)));
-        tools::PictureProvenance provenance;
-        provenance.sceneHash = scene.sceneHash;
-        provenance.stateHash = engine::stateHash(simulation.particles);
-        provenance.version = GLOBULAR_VERSION;
-        provenance.renderer.name = tools::kRendererNames[0];
-        provenance.quality = "normal";
+/// Draws a moment in both styles.
+void drawMoment(const Moment& moment, const tools::OpenedRenderer& opened, const fs::path& folder) {
+    tools::PictureProvenance provenance;
+    provenance.stateHash = engine::stateHash(moment.simulation.particles);
+    provenance.version = GLOBULAR_VERSION;
+    provenance.renderer = opened.record;
+    provenance.quality = "normal";
+    for (std::size_t k = 0; k < kStyles.size(); ++k) {
+        const fs::path path = folder / goldenName(moment.golden, kStyles[k], moment.frame, opened.record.name);
+        const render::View view = scenes::frameView(moment.scenes[k], moment.simulation);
+        const auto png = render::encodePng(opened.renderer->draw(view));
+        provenance.sceneHash = moment.scenes[k].sceneHash;
         tools::createFolder(path.parent_path());
         tools::writeFile(path, png);
         tools::writeFile(tools::sidecarPath(path), tools::indentedText(tools::sidecarJson(
                                                        provenance, tools::checksumOf(png), kSize.width, kSize.height)));
     }
-
-    fs::path folder_;
-    render::Renderer renderer_;
-};
+}
 
 }  // namespace
 
+bool canDrawWithOpenGl() {
+    return render::isInBuild(render::Backend::osmesa);
+}
+
 void draw(const std::vector<GoldenScene>& scenes, std::size_t timeCount, const fs::path& folder) {
-    GoldenRenderer renderer(folder);
-    for (const GoldenScene& scene : scenes) renderer.draw(scene, timeCount);
+    const tools::OpenedRenderer cpu = open(false);
+    const std::unique_ptr<const tools::OpenedRenderer> openGl(
+        canDrawWithOpenGl() && timeCount > 1 ? new tools::OpenedRenderer(open(true)) : nullptr);
+    for (const GoldenScene& scene : scenes)
+        forMoments(scene, timeCount, [&](const Moment& moment) {
+            drawMoment(moment, cpu, folder);
+            if (openGl && scene.isDrawnWithOpenGl && moment.frame == scene.second) drawMoment(moment, *openGl, folder);
+        });
 }
 
 }  // namespace golden

@@ -8,8 +8,11 @@
 
 namespace golden {
 
-/// Writes SCENE/STYLE/frame-NNNNN.png below the folder, each with a sidecar, so that `globular approve` knows its
-/// provenance.
+/// Whether the build has OSMesa, which draws the goldens by OpenGL.
+bool canDrawWithOpenGl();
+
+/// Writes the pictures below the folder by their names, each with a sidecar, so that `globular approve` knows its
+/// provenance. Those by OpenGL are drawn if canDrawWithOpenGl().
 /// @param timeCount  1 for the first frame of each scene only, 2 for both
 void draw(const std::vector<GoldenScene>& scenes, std::size_t timeCount, const std::filesystem::path& folder);
 
