@@ -195,13 +195,18 @@ package() {
         globular --version
         globular scenes
     ' || fail "the package does not install, or its program does not start"
-    local render="render liquid --frames 0-9 --size 320x180 --quiet -o frames --video film.mp4"
-    on_machine package globular $render || fail "the package's program does not render"
-    on_machine package-build globular/build/release/tools/globular $render || fail "the build's program does not render"
-    cmp "$work"/{package,package-build}/root/film.mp4 || fail "the package's program draws other films than the build does"
+    local render renderer
+    for renderer in cpu opengl; do
+        render="render liquid --renderer $renderer --frames 0-9 --size 320x180 --quiet -o frames-$renderer --video $renderer.mp4"
+        on_machine package globular $render || fail "the package's program does not render: $renderer"
+        on_machine package-build globular/build/release/tools/globular $render ||
+            fail "the build's program does not render: $renderer"
+        cmp "$work"/{package,package-build}/root/$renderer.mp4 ||
+            fail "the package's program draws other films than the build does: $renderer"
+    done
     on_machine package apt-get purge -y -qq globular >/dev/null || fail "the package cannot be removed"
     [ -z "$(cd "$work/package" && find usr etc -path '*globular*')" ] || fail "the package leaves files behind"
-    say "package: it installs, renders the films of the build, and leaves nothing behind"
+    say "package: it installs, renders the films of the build with both renderers, and leaves nothing behind"
 }
 
 make_bare
