@@ -99,6 +99,10 @@ FourHits surfaceAt(int tile, FourRays rays) {
     vec4 isBracketed = asNumbers(greaterThanEqual(newton, rays.low)) * asNumbers(lessThanEqual(newton, rays.high));
     FourHits hits;
     hits.depth = mix(rays.found, max(newton, 1.0e-30), greaterThan(isBracketed * rays.found, vec4(0.0)));
+    // Where a ray was found to touch the surface between samples, which is an estimate, the field itself has the last
+    // word. It may miss the threshold by a little, because the depth of the touch is an estimate, too.
+    vec4 isEstimate = asNumbers(equal(rays.low, rays.high)) * asNumbers(lessThan(field, vec4(0.99 * threshold)));
+    hits.depth *= 1.0 - isEstimate;
     vec4 scale = 1.0 / sqrt(max(x * x + y * y + z * z, 1.0e-30));
     x *= scale;
     y *= scale;
