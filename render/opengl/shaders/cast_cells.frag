@@ -14,7 +14,7 @@ float searchBegin(ivec2 cell) {
     return 0.0;
 }
 #else
-#define REFINEMENTS 1
+#define REFINEMENTS 2
 uniform usampler2DArray coarseRays;
 
 // Where the rays of a cell begin to be searched for the surface: a radius before the nearest hit of the coarse rays
