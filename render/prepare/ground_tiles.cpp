@@ -19,22 +19,23 @@ bool overlap(const Rectangle& a, const Rectangle& b, float slack) {
 }
 
 /// Bounds of all shadows on the light's plane, soft edges included.
-Rectangle shadowBounds(const GroundOccluders& occluders) {
+Rectangle shadowBounds(const PreparedView& prepared) {
+    const View& view = *prepared.view;
     Rectangle bounds;
-    if (const LightGrid* grid = occluders.spheres)
-        bounds.add(grid->origin, grid->origin + grid->cellSize * glm::vec2(grid->columns, grid->rows));
+    if (const LightGrid& grid = prepared.lightGrid; !grid.empty())
+        bounds.add(grid.origin, grid.origin + grid.cellSize * glm::vec2(grid.columns, grid.rows));
     // The depth map may be shifted by less than a texel: one more is added on each side.
-    if (const DepthMapGrid* map = occluders.metaballs)
-        bounds.add(map->origin - map->texelSize,
-                   map->origin + map->texelSize * glm::vec2(map->columns + 1, map->rows + 1));
-    for (const BoxObstacle& box : occluders.boxes) {
+    if (const DepthMapGrid& map = prepared.depthMap; !map.empty())
+        bounds.add(map.origin - map.texelSize, map.origin + map.texelSize * glm::vec2(map.columns + 1, map.rows + 1));
+    if (!view.light.shadows) return bounds;
+    for (const BoxObstacle& box : view.boxObstacles) {
         // More than half the width of the shadow's edge, which is soft or as wide as a pixel. Half the box's diagonal
         // is enough for a pixel, because a box far away that is smaller than a pixel has no visible shadow.
         const glm::vec3 size = box.maximum - box.minimum;
-        const float edge = occluders.softEdge + 0.5F * length(size);
+        const float edge = view.light.softness * prepared.meanRadius + 0.5F * length(size);
         for (int corner = 0; corner < 8; ++corner) {
             const glm::vec3 at = box.minimum + size * glm::vec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-            const glm::vec2 onPlane(occluders.light.toLightSpace(at - occluders.eye));
+            const glm::vec2 onPlane(prepared.light.toLightSpace(at - prepared.frame.eye));
             bounds.add(onPlane - edge, onPlane + edge);
         }
     }
@@ -42,12 +43,12 @@ Rectangle shadowBounds(const GroundOccluders& occluders) {
 }
 
 /// Bounds of the map of the ground's sky visibility, x and z relative to the eye.
-Rectangle skyBounds(const GroundOccluders& occluders) {
+Rectangle skyBounds(const PreparedView& prepared) {
     Rectangle bounds;
-    if (const SkyVisibilityMap* map = occluders.sky) {
-        const glm::vec2 low = map->origin - glm::vec2(occluders.eye.x, occluders.eye.z);
-        bounds.add(low, low + map->side * glm::vec2(map->columns, map->rows));
-    }
+    if (!prepared.hasOcclusion()) return bounds;
+    const SkyVisibilityMap& map = prepared.groundSky;
+    const glm::vec2 low = map.origin - glm::vec2(prepared.frame.eye.x, prepared.frame.eye.z);
+    bounds.add(low, low + map.side * glm::vec2(map.columns, map.rows));
     return bounds;
 }
 
@@ -88,9 +89,11 @@ TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, c
 
 }  // namespace
 
-std::vector<TileKind> groundTiles(const CameraFrame& frame, float height, const GroundOccluders& occluders) {
-    const Rectangle shadows = shadowBounds(occluders);
-    const Rectangle sky = skyBounds(occluders);
+std::vector<TileKind> groundTiles(const PreparedView& view) {
+    const CameraFrame& frame = view.frame;
+    const float height = *view.groundHeight();
+    const Rectangle shadows = shadowBounds(view);
+    const Rectangle sky = skyBounds(view);
     const int columns = tilesAlong(frame.width);
     const int rows = tilesAlong(frame.height);
     std::vector<Corner> corners;
@@ -103,8 +106,8 @@ std::vector<TileKind> groundTiles(const CameraFrame& frame, float height, const 
         for (int column = 0; column < columns; ++column) {
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
-            tiles.push_back(kindOf({corners[first], corners[first + 1], corners[below], corners[below + 1]},
-                                   occluders.light, shadows, sky));
+            tiles.push_back(kindOf({corners[first], corners[first + 1], corners[below], corners[below + 1]}, view.light,
+                                   shadows, sky));
         }
     }
     return tiles;

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include "render/prepare/ground_tiles.h"
 #include "render/prepare/strays.h"
 
 namespace render {
@@ -63,16 +64,7 @@ void findBoxTiles(PreparedView& to) {
 
 void findGroundTiles(PreparedView& to) {
     to.groundTiles.assign(to.sphereTiles.cellCount(), TileKind::background);
-    if (!to.view->ground) return;
-    GroundOccluders occluders;
-    occluders.light = to.light;
-    occluders.eye = to.frame.eye;
-    if (!to.lightGrid.empty()) occluders.spheres = &to.lightGrid;
-    if (!to.depthMap.empty()) occluders.metaballs = &to.depthMap;
-    if (to.view->light.shadows) occluders.boxes = to.view->boxObstacles;
-    occluders.softEdge = to.view->light.softness * to.meanRadius;
-    if (to.hasOcclusion()) occluders.sky = &to.groundSky;
-    to.groundTiles = groundTiles(to.frame, *to.groundHeight(), occluders);
+    if (to.view->ground) to.groundTiles = groundTiles(to);
 }
 
 }  // namespace

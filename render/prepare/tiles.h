@@ -18,6 +18,14 @@ inline constexpr int kTileSize =
 
 inline constexpr std::size_t kTilePixels = kTileSize * kTileSize;
 
+/// What a tile of the picture shows.
+enum class TileKind : std::uint8_t {
+    background,      ///< nothing but the background
+    openGround,      ///< nothing but ground, out of reach of all shadows and with the whole sky visible
+    occludedGround,  ///< nothing but ground that may be shadowed or see only a part of the sky
+    mixed            ///< anything else, or several of these
+};
+
 /// Number of tiles that cover so many pixels of a row or column of the picture.
 constexpr int tilesAlong(int pixels) {
     return (pixels + kTileSize - 1) / kTileSize;
