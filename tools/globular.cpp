@@ -56,6 +56,8 @@ int run(CLI::App& program, int argc, char** argv) {
         return report(error.what(), kUnstable);
     } catch (const tools::ExitStatus& status) {
         return report(status.what(), status.code());
+    } catch (const render::OpenGlError& error) {
+        return report(fmt::format("{}; without OpenGL: --renderer cpu", error.what()), kOutsideFailed);
     } catch (const std::system_error& error) {
         // fmt::print throws std::system_error when it cannot write to standard output.
         const bool isReaderGone = error.code() == std::errc::broken_pipe;

@@ -49,22 +49,19 @@ TextureName makeTexture(const Gl& gl, PictureSize size, GLenum format) {
 void requireSize(const Gl& gl, PictureSize size) {
     const GLint limit = limitOf(gl, GL_MAX_TEXTURE_SIZE);
     if (size.width <= limit && size.height <= limit) return;
-    throw SystemError(fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}; try --renderer cpu",
-                                  size.width, size.height, limit));
+    throw OpenGlError(
+        fmt::format("a picture of {} x {} pixels is larger than OpenGL's limit of {}", size.width, size.height, limit));
 }
 
 /// Throws unless the framebuffer that is bound can be drawn to. @param bytes  size of its textures
 void requireComplete(const Gl& gl, PictureSize size, double bytes) {
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (gl.GetError() == GL_OUT_OF_MEMORY)
-        throw SystemError(
-            fmt::format("OpenGL has not got the {:.0f} MB of memory for {} x {} pixels; choose fewer, or "
-                        "try --renderer cpu",
-                        1e-6 * bytes, size.width, size.height));
+        throw OpenGlError(fmt::format("OpenGL has not got the {:.0f} MB of memory for {} x {} pixels", 1e-6 * bytes,
+                                      size.width, size.height));
     if (status == GL_FRAMEBUFFER_COMPLETE) return;
-    throw SystemError(
-        fmt::format("OpenGL cannot draw to {} x {} pixels: framebuffer status 0x{:04x}; try --renderer cpu", size.width,
-                    size.height, status));
+    throw OpenGlError(fmt::format("OpenGL cannot draw to {} x {} pixels: framebuffer status 0x{:04x}", size.width,
+                                  size.height, status));
 }
 
 }  // namespace
@@ -80,14 +77,13 @@ void TextureBuffer::upload(std::span<const std::byte> bytes, std::string_view wh
     const std::size_t texels = bytes.size() / texelBytes_;
     const auto most = static_cast<std::size_t>(limitOf(*gl_, GL_MAX_TEXTURE_BUFFER_SIZE));
     if (texels > most)
-        throw SystemError(
-            fmt::format("{} take {} texels, and OpenGL allows {} in a list; try --renderer cpu", what, texels, most));
+        throw OpenGlError(fmt::format("{} take {} texels, and OpenGL allows {} in a list", what, texels, most));
     gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
     gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STREAM_DRAW);
     gl_->BindTexture(GL_TEXTURE_BUFFER, texture_.get());
     gl_->TexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.get());
     if (gl_->GetError() == GL_OUT_OF_MEMORY)
-        throw SystemError(fmt::format("OpenGL has not got the {:.0f} MB of memory for {}; try --renderer cpu",
+        throw OpenGlError(fmt::format("OpenGL has not got the {:.0f} MB of memory for {}",
                                       1e-6 * static_cast<double>(bytes.size()), what));
 }
 

@@ -71,7 +71,7 @@ class TextureBuffer {
 
     /// Replaces the list.
     /// @param what  names the list in the message
-    /// @throws SystemError if it has more texels than OpenGL allows, or OpenGL lacks the memory
+    /// @throws OpenGlError if it has more texels than OpenGL allows, or OpenGL lacks the memory
     void upload(std::span<const std::byte> bytes, std::string_view what);
 
     GLuint texture() const { return texture_.get(); }
@@ -96,7 +96,7 @@ void uploadList(TextureBuffer& buffer, const std::vector<Item>& items, std::stri
 class Target {
  public:
     /// A texture for each format, for example GL_RGBA8. GL_DEPTH_COMPONENT32F makes the depth buffer.
-    /// @throws SystemError if OpenGL cannot create textures of this size
+    /// @throws OpenGlError if OpenGL cannot create textures of this size
     Target(const Gl& gl, PictureSize size, std::initializer_list<GLenum> formats);
 
     /// Binds the textures to be drawn to, and sets the viewport.
@@ -119,7 +119,7 @@ class Target {
 class LayeredTarget {
  public:
     /// @param hasDepth  whether it has a depth buffer
-    /// @throws SystemError if OpenGL cannot create textures of this size
+    /// @throws OpenGlError if OpenGL cannot create textures of this size
     LayeredTarget(const Gl& gl, PictureSize size, bool hasDepth);
 
     /// Binds the layers to be drawn to.

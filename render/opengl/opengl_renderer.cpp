@@ -40,7 +40,7 @@ OpenGlRenderer::~OpenGlRenderer() {
     try {
         const CurrentContext current(context_);
         passes_.reset();
-    } catch (const SystemError&) {
+    } catch (const OpenGlError&) {
         // OpenGL objects cannot be deleted without their context. They are freed together with the context.
         static_cast<void>(passes_.release());
     }

@@ -8,9 +8,9 @@
 
 namespace render {
 
-/// Makes the renderer. Its functions throw SystemError if OpenGL fails.
+/// Makes the renderer. Its functions throw OpenGlError if OpenGL fails.
 /// @param context  must outlive the renderer
-/// @throws SystemError if OpenGL cannot draw pictures of this size, or the build has no OpenGL
+/// @throws OpenGlError if OpenGL cannot draw pictures of this size, or the build has no OpenGL
 std::unique_ptr<ViewRenderer> makeOpenGlRenderer(Context& context, PictureSize size, Quality quality);
 
 }  // namespace render

@@ -36,8 +36,7 @@ void attach(const Gl& gl, GLuint program, GLenum kind, std::string_view name, co
         isCompiled != 0 ? "" : withFileNames(logOf(shader, gl.GetShaderiv, gl.GetShaderInfoLog), source);
     gl.AttachShader(program, shader);
     gl.DeleteShader(shader);
-    if (isCompiled == 0)
-        throw SystemError(fmt::format("OpenGL cannot compile the shader {}: {}; try --renderer cpu", name, log));
+    if (isCompiled == 0) throw OpenGlError(fmt::format("OpenGL cannot compile the shader {}: {}", name, log));
 }
 
 }  // namespace
@@ -51,8 +50,8 @@ ShaderProgram::ShaderProgram(const Gl& gl, std::string_view vertex, std::string_
         GLint isLinked = 0;
         gl.GetProgramiv(program_, GL_LINK_STATUS, &isLinked);
         if (isLinked == 0)
-            throw SystemError(fmt::format("OpenGL cannot link the shaders {} and {}: {}; try --renderer cpu", vertex,
-                                          fragment, logOf(program_, gl.GetProgramiv, gl.GetProgramInfoLog)));
+            throw OpenGlError(fmt::format("OpenGL cannot link the shaders {} and {}: {}", vertex, fragment,
+                                          logOf(program_, gl.GetProgramiv, gl.GetProgramInfoLog)));
     } catch (...) {
         gl.DeleteProgram(program_);
         throw;

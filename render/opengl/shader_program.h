@@ -27,7 +27,7 @@ class ShaderProgram {
  public:
     /// Compiles and links a program.
     /// @param vertex, fragment  file names in shaders/
-    /// @throws SystemError with the compiler's log, in which file names and line numbers are those of shaders/
+    /// @throws OpenGlError with the compiler's log, in which file names and line numbers are those of shaders/
     ShaderProgram(const Gl& gl, std::string_view vertex, std::string_view fragment, const Defines& defines);
     ~ShaderProgram();
     ShaderProgram(const ShaderProgram&) = delete;

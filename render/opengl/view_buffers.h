@@ -26,7 +26,7 @@ class ViewBuffers {
  public:
     explicit ViewBuffers(const Gl& gl);
 
-    /// @throws SystemError if a list is too long for OpenGL, or memory runs out
+    /// @throws OpenGlError if a list is too long for OpenGL, or memory runs out
     void upload(const PreparedView& view);
 
     /// The samplers of the shaders and their textures.

@@ -1,4 +1,4 @@
-// The exception that render/ and tools/ throw for failures outside the program: OpenGL, ffmpeg, the disk, a damaged PNG
+// The exceptions that render/ and tools/ throw for failures outside the program: OpenGL, ffmpeg, the disk, a damaged PNG
 // file.
 #pragma once
 
@@ -11,6 +11,13 @@ namespace render {
 class SystemError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
+};
+
+/// OpenGL failed, or lacks something that the machine, the build or a picture of this size needs. The renderer on the CPU
+/// may draw all the same.
+class OpenGlError : public SystemError {
+ public:
+    using SystemError::SystemError;
 };
 
 }  // namespace render

@@ -1,4 +1,4 @@
-// Opens OpenGL where it is asked for, and adds what to do to the messages of its failures.
+// Opens OpenGL where it is asked for, and names the device in the messages of its failures.
 #include "tools/run/open_renderer.h"
 
 #include <utility>
@@ -27,9 +27,9 @@ OpenedRenderer openRenderer(const RendererChoice& choice, render::PictureSize si
     prepareMesa(threads);
     try {
         return openOnGl(choice, size, quality);
-    } catch (const render::SystemError& error) {
-        throw render::SystemError(fmt::format("OpenGL on {} cannot be used: {}; without OpenGL: --renderer cpu",
-                                              render::nameOf(choice.device), error.what()));
+    } catch (const render::OpenGlError& error) {
+        throw render::OpenGlError(
+            fmt::format("OpenGL on {} cannot be used: {}", render::nameOf(choice.device), error.what()));
     }
 }
 

@@ -19,7 +19,7 @@ struct OpenedRenderer {
 
 /// Makes a renderer for pictures of one size and quality.
 /// @param threads  number of threads for Mesa's software renderer, unless LP_NUM_THREADS says otherwise
-/// @throws render::SystemError if OpenGL cannot be used, with the advice to draw on the CPU
+/// @throws render::OpenGlError if OpenGL cannot be used
 OpenedRenderer openRenderer(const RendererChoice& choice, render::PictureSize size, render::Quality quality,
                             int threads);
 

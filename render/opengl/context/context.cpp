@@ -45,7 +45,7 @@ Context::Context(const Device& device) : parts_(std::make_unique<Parts>()) {
     const int major = integerOf(parts_->gl, GL_MAJOR_VERSION);
     const int minor = integerOf(parts_->gl, GL_MINOR_VERSION);
     if (major * 10 + minor < 33)
-        throw SystemError(fmt::format("OpenGL 3.3 is needed, '{}' offers {}.{}", parts_->renderer, major, minor));
+        throw OpenGlError(fmt::format("OpenGL 3.3 is needed, '{}' offers {}.{}", parts_->renderer, major, minor));
 }
 
 Context::Context(Context&&) noexcept = default;
@@ -74,7 +74,7 @@ const Gl& Context::gl() const {
 CurrentContext::~CurrentContext() {
     try {
         context_.release();
-    } catch (const SystemError&) {
+    } catch (const OpenGlError&) {
         // A destructor must not throw. The context stays bound, and the next makeCurrent() reports the error.
     }
 }
@@ -102,7 +102,7 @@ DeviceInfo deviceInfo(const Device& device) {
         gl.GetIntegerv(GL_POINT_SIZE_RANGE, points);
         info.smallestPoint = points[0];
         info.largestPoint = points[1];
-    } catch (const SystemError& error) {
+    } catch (const OpenGlError& error) {
         info.problem = error.what();
     }
     return info;

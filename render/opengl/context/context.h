@@ -15,7 +15,7 @@ struct Gl;
 /// different threads as long as each releases it before the next makes it current.
 class Context {
  public:
-    /// @throws SystemError if the build or the machine lacks the library, the device or OpenGL 3.3
+    /// @throws OpenGlError if the build or the machine lacks the library, the device or OpenGL 3.3
     explicit Context(const Device& device);
     Context(Context&&) noexcept;
     ~Context();

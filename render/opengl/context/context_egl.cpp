@@ -18,7 +18,7 @@ namespace render {
 namespace {
 
 [[noreturn]] void fail(const char* tried) {
-    throw SystemError(fmt::format("{} failed with EGL error 0x{:04x}", tried, eglGetError()));
+    throw OpenGlError(fmt::format("{} failed with EGL error 0x{:04x}", tried, eglGetError()));
 }
 
 /// Whether a list of names that are separated by spaces has a name.
@@ -35,7 +35,7 @@ class EglContext final : public NativeContext {
         if (eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) fail("eglInitialize");
         const char* extensions = eglQueryString(display_, EGL_EXTENSIONS);
         for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"})
-            if (!lists(extensions, needed)) throw SystemError(fmt::format("EGL lacks the extension {}", needed));
+            if (!lists(extensions, needed)) throw OpenGlError(fmt::format("EGL lacks the extension {}", needed));
         bindApi();
         const std::array<EGLint, 7> attributes = {
             EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
@@ -109,11 +109,11 @@ std::string rendererOf(NativeContext& context) {
 }
 
 /// A context of a GPU.
-/// @throws SystemError also if Mesa draws for the device on the CPU, for example with LIBGL_ALWAYS_SOFTWARE=1
+/// @throws OpenGlError also if Mesa draws for the device on the CPU, for example with LIBGL_ALWAYS_SOFTWARE=1
 std::unique_ptr<NativeContext> contextOnGpu(EGLDeviceEXT device) {
     std::unique_ptr<NativeContext> context = contextOn(EGL_PLATFORM_DEVICE_EXT, device);
     const std::string renderer = rendererOf(*context);
-    if (isSoftwareRenderer(renderer)) throw SystemError(fmt::format("its renderer is {}", renderer));
+    if (isSoftwareRenderer(renderer)) throw OpenGlError(fmt::format("its renderer is {}", renderer));
     return context;
 }
 
@@ -125,13 +125,13 @@ class Attempts {
         if (context_ != nullptr) return;
         try {
             context_ = make();
-        } catch (const SystemError& error) {
+        } catch (const OpenGlError& error) {
             problems_ += fmt::format("{}{}: {}", problems_.empty() ? "" : "; ", place, error.what());
         }
     }
 
     std::unique_ptr<NativeContext> result() {
-        if (context_ == nullptr) throw SystemError(fmt::format("EGL finds nothing to draw with ({})", problems_));
+        if (context_ == nullptr) throw OpenGlError(fmt::format("EGL finds nothing to draw with ({})", problems_));
         return std::move(context_);
     }
 
@@ -146,7 +146,7 @@ std::unique_ptr<NativeContext> makeEglContext(int index) {
     const std::vector<EGLDeviceEXT> devices = allDevices();
     const int count = static_cast<int>(devices.size());
     if (index >= count)
-        throw SystemError(fmt::format("there is no EGL device {}; EGL lists {} device{}, counted from 0", index, count,
+        throw OpenGlError(fmt::format("there is no EGL device {}; EGL lists {} device{}, counted from 0", index, count,
                                       count == 1 ? "" : "s"));
     if (index >= 0) return contextOn(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(index)]);
     Attempts attempts;
@@ -169,7 +169,7 @@ int eglDeviceCount() {
 #else
 
 std::unique_ptr<render::NativeContext> render::makeEglContext(int) {
-    throw SystemError("this globular was built without EGL (libegl-dev)");
+    throw OpenGlError("this globular was built without EGL (libegl-dev)");
 }
 
 int render::eglDeviceCount() {

@@ -19,12 +19,12 @@ class NativeContext {
     virtual GlFunction address(const char* name) = 0;
 };
 
-/// @throws SystemError if the build has no OSMesa, or OSMesa no OpenGL 3.3 core
+/// @throws OpenGlError if the build has no OSMesa, or OSMesa no OpenGL 3.3 core
 std::unique_ptr<NativeContext> makeOsmesaContext();
 
 /// A context on the device with this number. With a number below zero, on the first device that is a GPU; without one,
 /// on EGL's software device; or else on no device, which Mesa's surfaceless platform offers.
-/// @throws SystemError if the build has no EGL, there is no such device, or it has no OpenGL 3.3 core
+/// @throws OpenGlError if the build has no EGL, there is no such device, or it has no OpenGL 3.3 core
 std::unique_ptr<NativeContext> makeEglContext(int index);
 
 /// How many devices EGL lists; 0 in a build without EGL.

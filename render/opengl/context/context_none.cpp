@@ -19,7 +19,7 @@ constexpr const char* kProblem = "this globular was built without OpenGL";
 struct Context::Parts {};
 
 Context::Context(const Device&) {
-    throw SystemError(kProblem);
+    throw OpenGlError(kProblem);
 }
 
 Context::Context(Context&&) noexcept = default;

@@ -30,7 +30,7 @@ class OsmesaContext final : public NativeContext {
                                                 0,
                                                 0};
         context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-        if (context_ == nullptr) throw SystemError("OSMesa cannot create an OpenGL 3.3 core context");
+        if (context_ == nullptr) throw OpenGlError("OSMesa cannot create an OpenGL 3.3 core context");
     }
     ~OsmesaContext() override { OSMesaDestroyContext(context_); }
     OsmesaContext(const OsmesaContext&) = delete;
@@ -39,12 +39,12 @@ class OsmesaContext final : public NativeContext {
     void makeCurrent() override {
         // OSMesa requires a buffer to draw to, but everything is drawn to framebuffer objects.
         if (OSMesaMakeCurrent(context_, unused_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
-            throw SystemError("OSMesa cannot make its context current");
+            throw OpenGlError("OSMesa cannot make its context current");
         }
     }
     void release() override {
         if (OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0) == GL_FALSE) {
-            throw SystemError("OSMesa cannot release its context");
+            throw OpenGlError("OSMesa cannot release its context");
         }
     }
     GlFunction address(const char* name) override { return OSMesaGetProcAddress(name); }
@@ -65,7 +65,7 @@ std::unique_ptr<NativeContext> makeOsmesaContext() {
 #else
 
 std::unique_ptr<render::NativeContext> render::makeOsmesaContext() {
-    throw SystemError("this globular was built without OSMesa (libosmesa6-dev)");
+    throw OpenGlError("this globular was built without OSMesa (libosmesa6-dev)");
 }
 
 #endif

@@ -12,7 +12,7 @@ namespace {
 template <typename Function>
 Function lookUp(const std::function<GlFunction(const char*)>& address, const char* name) {
     const GlFunction found = address(name);
-    if (found == nullptr) throw SystemError(fmt::format("OpenGL lacks the function {}", name));
+    if (found == nullptr) throw OpenGlError(fmt::format("OpenGL lacks the function {}", name));
     return reinterpret_cast<Function>(found);
 }
 
@@ -30,7 +30,7 @@ void checkGl(const Gl& gl, std::string_view doing) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return;
     const char* meaning = error == GL_OUT_OF_MEMORY ? " (out of memory)" : "";
-    throw SystemError(fmt::format("OpenGL error 0x{:04x}{} while {}; try --renderer cpu", error, meaning, doing));
+    throw OpenGlError(fmt::format("OpenGL error 0x{:04x}{} while {}", error, meaning, doing));
 }
 
 GLint limitOf(const Gl& gl, GLenum name) {

@@ -82,11 +82,11 @@ struct Gl {
 using GlFunction = void (*)();
 
 /// Looks up every function by its full name.
-/// @throws SystemError with the name of the first function that is missing
+/// @throws OpenGlError with the name of the first function that is missing
 Gl loadGl(const std::function<GlFunction(const char*)>& address);
 
 /// @param doing  for the message, for example "drawing a frame"
-/// @throws SystemError with OpenGL's error code if an OpenGL function has failed since the last call
+/// @throws OpenGlError with OpenGL's error code if an OpenGL function has failed since the last call
 void checkGl(const Gl& gl, std::string_view doing);
 
 /// A limit of the implementation, such as GL_MAX_TEXTURE_SIZE.
