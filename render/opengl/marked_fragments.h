@@ -24,15 +24,15 @@ class MarkedFragments {
     /// @param tiles     indices of the tiles
     template <typename IsMarked>
     void list(const IsMarked& isMarked, PictureSize size, int tileSize, std::span<const std::int32_t> tiles) {
-        places_.clear();
+        groups_.clear();
         for (const std::int32_t tile : tiles) addTile(isMarked, size, tileSize, tile);
         finish(size, tileSize);
     }
 
-    bool empty() const { return places_.empty(); }
+    bool empty() const { return groups_.empty(); }
 
     /// The size of the target in which they lie side by side.
-    PictureSize size() const { return {kColumns, static_cast<int>(slots_.size()) / kColumns}; }
+    PictureSize size() const { return {kColumns, static_cast<int>(placesOfPixels_.size()) / kColumns}; }
 
     /// Binds the list to the sampler of shaders/place.glsl.
     TextureBinding binding() const { return {"marked", GL_TEXTURE_BUFFER, marked_.texture()}; }
@@ -42,7 +42,7 @@ class MarkedFragments {
 
     /// For each pixel of this target, row by row: the place of its fragment in the marked target, as
     /// column + row * width. Several pixels may stand for one fragment.
-    std::span<const std::int32_t> placesOfPixels() const { return slots_; }
+    std::span<const std::int32_t> placesOfPixels() const { return placesOfPixels_; }
 
  private:
     static constexpr int kColumns = 64;
@@ -52,8 +52,8 @@ class MarkedFragments {
     void addTile(const IsMarked& isMarked, PictureSize size, int tileSize, std::int32_t tile);
     void finish(PictureSize size, int tileSize);
 
-    std::vector<std::int32_t> places_;  // group after group
-    std::vector<std::int32_t> slots_;
+    std::vector<std::int32_t> groups_;  // places of the marked fragments, group after group
+    std::vector<std::int32_t> placesOfPixels_;
     TextureBuffer marked_;
     glm::vec4 grid_{0.0F};
 };
@@ -66,10 +66,10 @@ void MarkedFragments::addTile(const IsMarked& isMarked, PictureSize size, int ti
     for (int row = top; row < top + tileSize; ++row)
         for (int column = left; column < left + tileSize; ++column) {
             const std::int32_t place = column + row * size.width;
-            if (isMarked(static_cast<std::size_t>(place))) places_.push_back(place);
+            if (isMarked(static_cast<std::size_t>(place))) groups_.push_back(place);
         }
     // A group is completed by its last fragment.
-    while (places_.size() % kGroup != 0) places_.push_back(places_.back());
+    while (groups_.size() % kGroup != 0) groups_.push_back(groups_.back());
 }
 
 }  // namespace render

@@ -115,8 +115,11 @@ void MetaballPasses::castDepthMap(const PreparedView& view, const Defines& defin
     program.set("lightImage", {2.0F / static_cast<float>(frame.width), 2.0F / static_cast<float>(frame.height),
                                frame.halfWidth, frame.halfHeight});
     gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(light_.tileIndices().size()));
+    spreadDepths({2 * grid.columns, 2 * grid.rows});
+}
 
-    const PictureSize size{2 * grid.columns, 2 * grid.rows};
+/// Makes the depth texture of the depths. @param size  of the texture
+void MetaballPasses::spreadDepths(PictureSize size) {
     if (!map_ || map_->size() != size) {
         map_.emplace(gl_, size, std::initializer_list<GLenum>{GL_DEPTH_COMPONENT32F});
         compareDepths(gl_, map_->texture(0));
@@ -187,7 +190,7 @@ void MetaballPasses::castMarkedCells(const Defines& defines) {
     if (!markedHits_ || markedHits_->size().height < size.height) markedHits_.emplace(gl_, size, false);
     markedHits_->bind(size);
     Defines marked = defines;
-    marked.insert(marked.end(), {"MARKED", "SEARCHED"});
+    marked.emplace_back("MARKED");
     std::vector<TextureBinding> textures{markedCells_.binding(),
                                          {"coarseRays", GL_TEXTURE_2D_ARRAY, coarse_.texture()}};
     camera_.addBindings(textures);

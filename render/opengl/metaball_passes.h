@@ -23,7 +23,7 @@ class BallBuffers {
  public:
     explicit BallBuffers(const Gl& gl);
 
-    /// @throws SystemError if a list is too long for OpenGL, or memory runs out
+    /// @throws OpenGlError if a list is too long for OpenGL, or memory runs out
     void upload(const MetaballScene& scene);
 
     void addBindings(std::vector<TextureBinding>& to) const;
@@ -54,6 +54,7 @@ class MetaballPasses {
 
  private:
     void castDepthMap(const PreparedView& view, const Defines& defines, glm::vec2 offset);
+    void spreadDepths(PictureSize size);
     void castCoarseRays(const PreparedView& view, const Defines& defines) const;
     void castAllPixels(const PreparedView& view, const Defines& defines) const;
     void findPixelHits(const PreparedView& view, const Defines& defines);

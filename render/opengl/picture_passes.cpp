@@ -145,7 +145,7 @@ void PicturePasses::drawSilhouettes(const PreparedView& view, TileClass kind, co
         samples_.emplace(gl_, size, std::initializer_list<GLenum>{GL_RGBA8});
     samples_->bind(size);
     Defines defines = definesOf(view, kind, output);
-    defines.insert(defines.end(), {"CAST_SAMPLES", "SEARCHED", "MARKED"});
+    defines.emplace_back("MARKED");
     const ShaderProgram& program = programs_.get("marked.vert", "objects.frag", defines);
     std::vector<TextureBinding> textures = texturesOf(view);
     textures.push_back(silhouettes_.binding());

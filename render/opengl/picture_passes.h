@@ -26,7 +26,7 @@ struct PassOutput {
 class PicturePasses {
  public:
     /// @param size  of the picture, in whole tiles
-    /// @throws SystemError if OpenGL cannot draw pictures of this size
+    /// @throws OpenGlError if OpenGL cannot draw pictures of this size
     PicturePasses(const Gl& gl, PictureSize size, Quality quality);
 
     PictureSize size() const { return size_; }

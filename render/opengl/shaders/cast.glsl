@@ -14,12 +14,12 @@ void setHits(vec4 isMet, vec4 low, vec4 high, vec4 depth, int first, inout FourR
 // Sets the hits of open rays that meet the surface in a window.
 // @param isOpen  1 for rays that may be hit, else 0
 void addHits(Window at, vec4 start, float spacing, vec4 isOpen, int first, inout FourRays rays) {
-    Event event = firstEvent(at);
+    Crossing crossing = firstCrossing(at);
     // A ray that begins inside the surface hits it there.
     bvec4 isInside = greaterThanEqual(at.f0, vec4(threshold));
-    vec4 low = mix(start + event.index * spacing, start, isInside);
-    vec4 hit = mix(low + cubicRoot(event) * spacing, start, isInside);
-    vec4 isMet = max(asNumbers(greaterThanEqual(event.index, vec4(0.0))), asNumbers(isInside)) * isOpen;
+    vec4 low = mix(start + crossing.index * spacing, start, isInside);
+    vec4 hit = mix(low + cubicRoot(crossing) * spacing, start, isInside);
+    vec4 isMet = max(asNumbers(greaterThanEqual(crossing.index, vec4(0.0))), asNumbers(isInside)) * isOpen;
     setHits(isMet, low, mix(low + spacing, start, isInside), hit, first, rays);
 }
 
@@ -71,7 +71,7 @@ float entryOf(FourRays rays, float depth, int end, inout int first) {
 // @param tile  whose list of balls is taken
 void castRays(int tile, float from, float to, inout FourRays rays) {
     int end = texelFetch(ballBegins, tile + 1).x;
-#ifdef SEARCHED
+#ifdef MARKED
     int first = firstBeyond(texelFetch(ballBegins, tile).x, end, from);
 #else
     int first = texelFetch(ballBegins, tile).x;
@@ -118,7 +118,7 @@ void castRays(int tile, float from, float to, inout FourRays rays) {
             suspect = -1.0;
         } else {
             vec4 found = suspectOf(at, before);
-            vec4 met = firstEvent(at).index;
+            vec4 met = firstCrossing(at).index;
             vec4 isEarlier = max(asNumbers(lessThan(found, met)), asNumbers(lessThan(met, vec4(0.0))));
             vec4 isHidden = asNumbers(greaterThanEqual(found, vec4(0.0))) * isEarlier * isOpen;
             addHits(at, start, spacing, isOpen * (1.0 - isHidden), first, rays);

@@ -5,11 +5,11 @@
 #include "cast.glsl"
 #include "hit_surface.glsl"
 #include "cells.glsl"
-
 #include "place.glsl"
 
 #ifdef CASTS_ALL
 #define REFINEMENTS 3
+
 float searchBegin(ivec2 cell) {
     return 0.0;
 }

@@ -24,36 +24,36 @@ void addBall(FourRays rays, Ball ball, vec4 start, float spacing, float inverse,
     kernel = max(root, 0.0); at.f7 += kernel * kernel;
 }
 
-// The first sample interval of a window in which each ray meets the surface, or may have met it unseen.
-struct Event {
-    vec4 index;             // of the interval's first sample; -1 without an event
+// The first interval between two samples of a window in which each ray meets the surface.
+struct Crossing {
+    vec4 index;             // of the interval's first sample; -1 if the ray does not meet the surface
     vec4 f0, f1, f2, f3;    // samples before, at both ends of and after the interval
 };
 
-void addEvent(vec4 index, vec4 f0, vec4 f1, vec4 f2, vec4 f3, inout Event event) {
+void addCrossing(vec4 index, vec4 f0, vec4 f1, vec4 f2, vec4 f3, inout Crossing crossing) {
     bvec4 isMet = greaterThanEqual(f2, vec4(threshold));
-    event.index = mix(event.index, vec4(index), isMet);
-    event.f0 = mix(event.f0, f0, isMet);
-    event.f1 = mix(event.f1, f1, isMet);
-    event.f2 = mix(event.f2, f2, isMet);
-    event.f3 = mix(event.f3, f3, isMet);
+    crossing.index = mix(crossing.index, vec4(index), isMet);
+    crossing.f0 = mix(crossing.f0, f0, isMet);
+    crossing.f1 = mix(crossing.f1, f1, isMet);
+    crossing.f2 = mix(crossing.f2, f2, isMet);
+    crossing.f3 = mix(crossing.f3, f3, isMet);
 }
 
-Event firstEvent(Window at) {
-    Event event = Event(vec4(-1.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    addEvent(vec4(6.0), at.f5, at.f6, at.f7, 2.0 * at.f7 - at.f6, event);
-    addEvent(vec4(5.0), at.f4, at.f5, at.f6, at.f7, event);
-    addEvent(vec4(4.0), at.f3, at.f4, at.f5, at.f6, event);
-    addEvent(vec4(3.0), at.f2, at.f3, at.f4, at.f5, event);
-    addEvent(vec4(2.0), at.f1, at.f2, at.f3, at.f4, event);
-    addEvent(vec4(1.0), at.f0, at.f1, at.f2, at.f3, event);
-    addEvent(vec4(0.0), max(2.0 * at.f0 - at.f1, 0.0), at.f0, at.f1, at.f2, event);
-    return event;
+Crossing firstCrossing(Window at) {
+    Crossing crossing = Crossing(vec4(-1.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    addCrossing(vec4(6.0), at.f5, at.f6, at.f7, 2.0 * at.f7 - at.f6, crossing);
+    addCrossing(vec4(5.0), at.f4, at.f5, at.f6, at.f7, crossing);
+    addCrossing(vec4(4.0), at.f3, at.f4, at.f5, at.f6, crossing);
+    addCrossing(vec4(3.0), at.f2, at.f3, at.f4, at.f5, crossing);
+    addCrossing(vec4(2.0), at.f1, at.f2, at.f3, at.f4, crossing);
+    addCrossing(vec4(1.0), at.f0, at.f1, at.f2, at.f3, crossing);
+    addCrossing(vec4(0.0), max(2.0 * at.f0 - at.f1, 0.0), at.f0, at.f1, at.f2, crossing);
+    return crossing;
 }
 
 // Where the cubic through four samples meets the threshold between the second and the third, by Newton's method from
 // the chord; from 0 to 1.
-vec4 cubicRoot(Event at) {
+vec4 cubicRoot(Crossing at) {
     vec4 rise = 0.5 * (at.f2 - at.f0);
     vec4 square = at.f0 - 2.5 * at.f1 + 2.0 * at.f2 - 0.5 * at.f3;
     vec4 cube = 0.5 * (at.f3 - at.f0) + 1.5 * (at.f1 - at.f2);

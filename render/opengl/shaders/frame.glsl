@@ -4,7 +4,7 @@
 #include "frame_block.glsl"
 
 // Shaders read the fields of the block under their own names. The vertex shader hands them over, because llvmpipe takes
-// a third longer to read them from the block in each fragment; where OpenGL has too few varyings they come from there.
+// longer to read them from the block in each fragment. Where OpenGL has too few varyings they come from the block.
 #ifdef MANY_VARYINGS
 #define FLAT_FIELD(name) flat in vec4 name;
 FRAME_FIELDS(FLAT_FIELD)

@@ -24,7 +24,7 @@
 //   depthMapSize:        columns and rows of its texels, 1 / its height (1/m); w: greatest reach of a metaball (m)
 //   sampleOffset:        of a single sample from the middle of the pixel (pixels); z: depth by which neighboring
 //                        points of smooth metaballs differ at most (m); w: field beside which there is no surface
-//   lightCellCount:      columns and rows of that grid
+//   lightCellCount:      columns and rows of the grid of lightCells
 //   skyCellCount:        number of cubes along each axis
 //   metaballs:           threshold of the field, spacing of its samples on a ray (m), smallest radius (m), and how near
 //                        the field may come to the threshold between samples before it is sampled more densely

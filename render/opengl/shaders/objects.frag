@@ -1,7 +1,7 @@
 // Tiles that show objects: finds what each sample of a pixel hits, and colors each thing that the samples hit once, at
-// the mean position of its samples.
+// the mean position of its samples. With MARKED, metaballs are cast through each of four samples; else all samples have
+// the metaballs of the pixel's middle.
 #include "frame.glsl"
-
 #include "place.glsl"
 
 uniform samplerBuffer spheres;           // in view coordinates: center and radius (m)
@@ -37,7 +37,7 @@ uniform samplerBuffer skyGrid;
 #include "light.glsl"
 #include "shading.glsl"
 #ifdef METABALLS
-#ifdef CAST_SAMPLES
+#ifdef MARKED
 #include "cast.glsl"
 #include "hit_surface.glsl"
 #else
@@ -57,18 +57,14 @@ REAL hitDepth(vec4 depth) {
 #endif
 }
 
-#ifdef CAST_SAMPLES
+#ifdef MARKED
 // @param x, y  of the samples' rays on the image plane
 void addMetaballs(inout SampleHits hits, REAL x, REAL y) {
     FourRays rays = fourRays(vec4(x), vec4(y));
     vec2 range = searchRange(place);
     castRays(tile, range.x, range.y, rays);
     samples = surfaceAt(tile, rays);
-#if SAMPLES == 1
-    addHit(hits, hitDepth(samples.depth), kHitMetaballs);
-#else
     addHit(hits, hitDepth(samples.depth), kHitMetaballs + surfacesOfSamples());
-#endif
 }
 #else
 void addMetaballs(inout SampleHits hits, REAL x, REAL y) {
@@ -165,7 +161,7 @@ void main() {
     color = min(color * (1.0 - over.w) + over.rgb, 1.0);
 #endif
     writeColor(color);
-#if defined(METABALLS) && SAMPLES == 4 && !defined(CAST_SAMPLES)
+#if defined(METABALLS) && SAMPLES == 4 && !defined(MARKED)
     // Pixels that a silhouette crosses are marked by alpha 0, to be drawn again.
     if (isAtSilhouette(place, pixelSurface.depth)) pixel.a = 0.0;
 #endif

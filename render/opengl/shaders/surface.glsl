@@ -30,7 +30,7 @@ float sameSurface() {
     return 0.5 * smallestRadius;
 }
 
-#ifdef CAST_SAMPLES
+#ifdef MARKED
 FourHits samples;  // what the pixel's samples meet
 
 // Which samples show the surface of one of them: 1, else 0.
@@ -62,6 +62,7 @@ Surface surfaceOf(int index) {
                    vec3(dot(samples.skyAlong, weights), dot(samples.skyAgainst, weights),
                         dot(samples.skyMirrored, weights)));
 }
+
 // The depths between which the rays of the samples are searched for the surface: from a radius before the nearest hit
 // of the pixel and of those beside it. Where one of these shows no surface, to two radii behind the farthest: the
 // samples are to see no more than the pixels around them.
