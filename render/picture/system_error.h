@@ -1,5 +1,5 @@
-// The exceptions that render/ and tools/ throw for failures outside the program: OpenGL, ffmpeg, the disk, a damaged PNG
-// file.
+// The exceptions that render/ and tools/ throw for failures outside the program: OpenGL, ffmpeg, the disk, a damaged
+// PNG file.
 #pragma once
 
 #include <stdexcept>
@@ -13,8 +13,8 @@ class SystemError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// OpenGL failed, or lacks something that the machine, the build or a picture of this size needs. The renderer on the CPU
-/// may draw all the same.
+/// OpenGL failed, or lacks something that the machine, the build or a picture of this size needs. The renderer on the
+/// CPU may draw all the same.
 class OpenGlError : public SystemError {
  public:
     using SystemError::SystemError;
