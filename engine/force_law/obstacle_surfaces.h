@@ -1,6 +1,5 @@
 // The faces of obstacles as seen from a particle: a signed distance, a normal and a repulsor behind the face, so that
-// one contact law serves all shapes. The law is applied as a force here and in forces/external_forces.cpp, as in
-// section 3.2 of the paper, and along the path of fast particles in stepping/swept_contact.cpp.
+// one contact law serves all shapes. contact.h has the law.
 #pragma once
 
 #include <cmath>
@@ -8,7 +7,6 @@
 #include <type_traits>
 
 #include "engine/force_law/obstacles.h"
-#include "engine/force_law/pair_law.h"
 
 namespace engine {
 
@@ -19,6 +17,7 @@ struct Surface {
     double repulsorRadius = 0.5;                                     ///< m
     double halfThickness = std::numeric_limits<double>::infinity();  ///< half the depth of the solid, m
     double curvature = 0.0;                                          ///< 1/radius of a sphere, otherwise 0; 1/m
+    WallSurface wall = {};                                           ///< how it answers under the scaled wall law
 };
 
 // The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
@@ -68,11 +67,23 @@ void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadi
                   sphere.radius, 1.0 / sphere.radius});
 }
 
+/// How an obstacle, given by its index, answers particles under the scaled wall law.
+inline WallSurface wallSurfaceOf(const Obstacles& obstacles, std::size_t obstacle) {
+    return obstacle < obstacles.surfaces.size() ? obstacles.surfaces[obstacle] : WallSurface{};
+}
+
 /// Calls visit(Surface) for every surface of all obstacles.
 template <class Visit>
 void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& visit) {
-    for (const Obstacle& obstacle : obstacles.shapes)
-        std::visit([&](const auto& shape) { forEachSurface(shape, point, obstacles.law.radius, visit); }, obstacle);
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k)
+        std::visit(
+            [&](const auto& shape) {
+                forEachSurface(shape, point, obstacles.law.radius, [&](Surface surface) {
+                    surface.wall = wallSurfaceOf(obstacles, k);
+                    visit(surface);
+                });
+            },
+            obstacles.shapes[k]);
 }
 
 /// Whether a shape may have a surface within a distance `reach` (m) of a point. A cheap test, without a square root or
@@ -93,80 +104,29 @@ bool mayReach(const Shape& shape, const Vec3& point, double reach) {
     }
 }
 
-/// Calls visit(Surface) for every surface whose distance from a particle's center is less than its radius (m).
+/// Distance of a particle's center from a surface below which the surface acts on the particle, m: the particle's
+/// radius, or its diameter where the surface is adhesive.
+inline double contactReach(const WallSurface& wall, double radius) {
+    return wall.adhesion > 0.0 ? 2.0 * radius : radius;
+}
+
+/// Calls visit(Surface) for every surface that acts on a particle of this radius (m).
 template <class Visit>
 void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius, const Visit& visit) {
-    for (const Obstacle& obstacle : obstacles.shapes)
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
+        const WallSurface wall = wallSurfaceOf(obstacles, k);
+        const double reach = contactReach(wall, radius);
         std::visit(
             [&](const auto& shape) {
-                if (!mayReach(shape, point, radius)) return;
-                forEachSurface(shape, point, obstacles.law.radius, [&](const Surface& surface) {
-                    if (surface.height < radius) visit(surface);
+                if (!mayReach(shape, point, reach)) return;
+                forEachSurface(shape, point, obstacles.law.radius, [&](Surface surface) {
+                    if (surface.height >= reach) return;
+                    surface.wall = wall;
+                    visit(surface);
                 });
             },
-            obstacle);
-}
-
-/// The contact of a particle and a surface, treated as a pair of particles: the particle and the repulsor, which lies
-/// repulsorRadius behind the surface.
-struct Contact {
-    PairConstants<double> constants = {};
-    double distance = 0.0;    ///< distance to the repulsor, at least the core distance, m
-    double beyondCore = 0.0;  ///< how far the repulsor is inside the core distance, m
-};
-
-inline Contact contactWith(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
-    const double restLength = probe.radius + surface.repulsorRadius;
-    const double core = law.coreFraction * restLength;
-    const double distance = surface.height + surface.repulsorRadius;
-    Contact contact;
-    contact.constants = repulsorConstants(law.repulsion, law.dampingFactor * probe.dampingReach, restLength, core);
-    contact.distance = std::max(distance, core);
-    contact.beyondCore = contact.distance - distance;
-    return contact;
-}
-
-/// Force of a contact along the surface's normal on a particle with this normal speed (m/s), in newtons. On a particle
-/// closer to the repulsor than the core distance acts the force at the core distance, so that it can only be pushed out
-/// on the side of the surface.
-inline double normalForce(const Contact& contact, double normalSpeed) {
-    return repulsorForce(contact.distance, normalSpeed, contact.constants);
-}
-
-/// Energy of the conservative part of a contact's force, in joules.
-inline double contactEnergy(const Contact& contact) {
-    return pairEnergy(contact.distance, contact.constants) + normalForce(contact, 0.0) * contact.beyondCore;
-}
-
-/// Energy of a particle at a surface of an obstacle, in joules; 0 where the particle does not touch the surface.
-inline double surfaceEnergy(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
-    return surface.height >= probe.radius ? 0.0 : contactEnergy(contactWith(surface, law, probe));
-}
-
-/// The tangential part of a velocity (m/s) at a surface with this normal.
-inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
-    return velocity - dot(velocity, normal) * normal;
-}
-
-/// Adds the force of a contact on the particle, in newtons, friction included. Forced inline, because a function call
-/// would take half of the time.
-[[gnu::always_inline]] inline void addForce(const Surface& surface, const Contact& contact, const Probe& probe,
-                                            Vec3& force) {
-    force += normalForce(contact, dot(probe.velocity, surface.normal)) * surface.normal;
-    if (probe.friction == 0.0) return;
-    const Vec3 slip = slipVelocity(probe.velocity, surface.normal);
-    force -= slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip)) * slip;
-}
-
-/// Damping of a contact along the surface's normal, in kg/s.
-inline double dampingAlong(const Contact& contact) {
-    const double distanceSq = contact.distance * contact.distance;
-    return pairDampingOverSq(distanceSq, contact.constants) * distanceSq;
-}
-
-/// Stiffness of a contact along the surface's normal, in N/m; 0 inside the core distance, where the force is constant.
-inline double stiffnessAlong(const Contact& contact) {
-    return contact.beyondCore > 0.0 ? 0.0 : std::max(0.0, pairStiffness(contact.distance, contact.constants));
+            obstacles.shapes[k]);
+    }
 }
 
 }  // namespace engine

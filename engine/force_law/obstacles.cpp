@@ -2,7 +2,7 @@
 #include "engine/force_law/obstacles.h"
 
 #include "engine/core/parallel.h"
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/force_law/contact.h"
 
 namespace engine {
 
@@ -15,7 +15,7 @@ std::size_t contactGrain(const Obstacles& obstacles) {
 ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe) {
     ContactSums sums;
     forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
-        const Contact contact = contactWith(surface, obstacles.law, probe);
+        const Contact contact = contactWith(surface, obstacles, probe);
         addForce(surface, contact, probe, sums.force);
         sums.energy += contactEnergy(contact);
     });

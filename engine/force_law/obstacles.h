@@ -1,9 +1,9 @@
-// Fixed obstacles (section 3.2 of the paper). A particle that touches one is repelled by a repulsor: a particle at rest
-// behind the closest point of the surface, which acts on that particle alone. The shapes here are plain data;
-// obstacle_surfaces.h computes their distance from a particle.
+// Fixed obstacles: their shapes, their surfaces, and how they answer particles. The shapes are plain data;
+// obstacle_surfaces.h computes their distance from a particle, contact.h the force.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -46,21 +46,46 @@ struct RepulsorLaw {
     double coreFraction = 0.25;  ///< core distance, in rest lengths
 };
 
+/// Restitution of surfaces that are given none. Chosen: liquids splash a little, and heaps come to rest soon.
+inline constexpr double kRestitution = 0.2;
+
+/// How the surface of an obstacle answers particles under the scaled wall law.
+struct WallSurface {
+    /// Speed after a rebound over the speed before, 0 to 1. Where it is left out it is kRestitution, and less for
+    /// particles of a viscous material, which is damped at the wall, too.
+    std::optional<double> restitution = {};
+    std::optional<double> friction = {};  ///< coefficient mu; that of the particle's material where it is left out
+    double adhesion = 0.0;                ///< stress with which the surface holds particles that touch it, N/m^2
+};
+
+/// The laws of the force between particles and obstacles; contact.h has the formulas.
+enum class WallLaw {
+    paper,  ///< the repulsors of section 3.2 of the paper: one stiffness for particles of any material and size
+    scaled  ///< stiffness and damping follow the particle's material, mass and radius; no center passes the surface
+};
+
 struct Obstacles {
     std::vector<Obstacle> shapes;
-    RepulsorLaw law;
+    WallLaw wall = WallLaw::paper;
+    RepulsorLaw law;  ///< of the paper's walls
+    std::vector<WallSurface>
+        surfaces;          ///< of the shapes, in their order, for scaled walls; default where there is none
+    double gravity = 0.0;  ///< size of the gravity under which particles lie on scaled walls, m/s^2
 };
 
 /// Number of particles that a thread processes at a time in loops over the contacts of each particle.
 std::size_t contactGrain(const Obstacles& obstacles);
 
-/// The quantities of a particle on which its contacts with obstacles depend.
+/// A particle as its contacts with obstacles see it.
 struct Probe {
     Vec3 position = Vec3::Zero();  ///< m
     Vec3 velocity = Vec3::Zero();  ///< m/s
     double radius = 0.15;          ///< m
     double dampingReach = 1.0;     ///< damping reach c_d of the particle's material, in rest lengths
     double friction = 0.0;         ///< friction coefficient mu of the particle's material
+    double mass = 1.0;             ///< kg
+    double repulsion = 0.01;       ///< strength b1 of the repulsion of the particle's material, N m^4
+    double damping = 1.0;          ///< damping coefficient b_d of the particle's material, kg/s
 };
 
 /// Force of the obstacles on a particle, and the particle's energy at them.
@@ -70,7 +95,7 @@ struct ContactSums {
 };
 
 /// Sums force and energy over all obstacles that a particle touches; zero where it touches none. Planes push along
-/// their normal however deep the particle is. Source: section 3.2.
+/// their normal however deep the particle is.
 ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe);
 
 }  // namespace engine

@@ -6,7 +6,8 @@
 #include <array>
 #include <variant>
 
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/force_law/contact.h"
+#include "engine/state/probe.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/forces/external_forces.cpp"
@@ -100,12 +101,10 @@ class SimdContacts {
         for (std::size_t lane = 0; lane < lanes(); ++lane) {
             const std::size_t p = first_ + lane;
             if (!mayReach(box, particles_.position[p], particles_.radius[p])) continue;
-            const Material& material = materials_[particles_.material[p]];
-            const Probe probe{particles_.position[p], velocities_[p], particles_.radius[p], material.dampingReach,
-                              material.friction};
+            const Probe probe = probeOf(materials_, particles_, p, velocities_[p]);
             forEachSurface(box, probe.position, law_.radius, [&](const Surface& surface) {
                 if (surface.height < probe.radius)
-                    addForce(surface, contactWith(surface, law_, probe), probe, force[lane]);
+                    addForce(surface, paperContact(surface, law_, probe), probe, force[lane]);
             });
         }
         force_ = read(force.front());

@@ -3,6 +3,7 @@
 
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/checked_steps.h"
+#include "engine/run/wall_depths.h"
 #include "engine/stepping/free_groups.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
@@ -32,6 +33,7 @@ void advance(Simulation& simulation, double time) {
     else
         advanceChecked(simulation, time, simulation.setup.step, StepLimit::fixed);
     renewGroups(simulation);
+    recordWallDepths(simulation);
 }
 
 }  // namespace engine

@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 /// Version of the checkpoint format: kCheckpointMark in ASCII and a digit, another for every change of what is stored.
-constexpr std::uint64_t kFormat = 0x36504B434C424C47;
+constexpr std::uint64_t kFormat = 0x37504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -143,7 +143,8 @@ void exchangeAutomatic(Archive& archive, State& state) {
 
 template <class Archive, class Statistics>
 void exchangeStatistics(Archive& archive, Statistics& steps) {
-    archive(steps.count, steps.shortest, steps.longest, steps.forceEvaluations, steps.products, steps.rejected);
+    archive(steps.count, steps.shortest, steps.longest, steps.forceEvaluations, steps.products, steps.rejected,
+            steps.held);
     for (auto& count : steps.limitedBy) archive(count);
     for (auto& count : steps.takenBy) archive(count);
 }
@@ -161,6 +162,7 @@ void exchange(Archive& archive, State& simulation) {
     archive(simulation.restriction.seconds, simulation.restriction.reason, simulation.restriction.passed);
     exchangeAutomatic(archive, simulation.automatic);
     exchangeStatistics(archive, simulation.steps);
+    archive(simulation.wallDepths.deepest, simulation.wallDepths.centersOutside);
 }
 
 /// Hash of the numbers of materials, emitters and schedules: a checkpoint fits a setup only if the hashes agree.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "engine/state/probe.h"
 #include "engine/stepping/step_cache.h"
 
 namespace engine {
@@ -18,7 +19,7 @@ Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
         const Vec3& v = particles.velocity[p];
         sum.kinetic += 0.5 * particles.mass[p] * squaredLength(v);
         sum.gravity -= particles.mass[p] * dot(field.gravity, x);
-        sum.contacts += sumContacts(field.obstacles, {x, v, particles.radius[p]}).energy;
+        sum.contacts += sumContacts(field.obstacles, probeOf(field.materials, particles, p, v)).energy;
     }
     return sum;
 }

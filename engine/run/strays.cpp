@@ -7,6 +7,7 @@
 
 #include "engine/core/bounding_box.h"
 #include "engine/core/parallel.h"
+#include "engine/state/probe.h"
 
 namespace engine {
 namespace {
@@ -69,7 +70,7 @@ std::uint64_t strayCount(const Simulation& simulation) {
         const Vec3& v = particles.velocity[p];
         const Vec3 away = x - x.cwiseMax(place->low).cwiseMin(place->high);
         if (!(squaredLength(away) > far * far && dot(v, away) > 0.0 && dot(v, setup.gravity) >= 0.0)) return 0;
-        return sumContacts(setup.obstacles, {x, v, particles.radius[p]}).energy > 0.0 ? 0 : 1;
+        return sumContacts(setup.obstacles, probeOf(setup.materials, particles, p, v)).energy != 0.0 ? 0 : 1;
     });
 }
 

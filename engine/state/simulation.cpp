@@ -20,6 +20,7 @@ StepStatistics& StepStatistics::operator+=(const StepStatistics& other) {
     forceEvaluations += other.forceEvaluations;
     products += other.products;
     rejected += other.rejected;
+    held += other.held;
     for (std::size_t limit = 0; limit < kStepLimits; ++limit) limitedBy[limit] += other.limitedBy[limit];
     for (std::size_t stepper = 0; stepper < kStepperKinds; ++stepper) takenBy[stepper] += other.takenBy[stepper];
     return *this;

@@ -33,11 +33,12 @@ constexpr bool isLimit(StepLimit limit) {
 /// Statistics of the time steps of a run.
 struct StepStatistics {
     std::uint64_t count = 0;
-    double shortest = 0.0;                               ///< s
-    double longest = 0.0;                                ///< s
-    std::uint64_t forceEvaluations = 0;                  ///< number of passes over all pairs of particles
-    std::uint64_t products = 0;                          ///< number of products of the implicit steppers' matrix
-    std::uint64_t rejected = 0;                          ///< number of steps taken back and retried at half the length
+    double shortest = 0.0;               ///< s
+    double longest = 0.0;                ///< s
+    std::uint64_t forceEvaluations = 0;  ///< number of passes over all pairs of particles
+    std::uint64_t products = 0;          ///< number of products of the implicit steppers' matrix
+    std::uint64_t rejected = 0;          ///< number of steps taken back and retried at half the length
+    std::uint64_t held = 0;              ///< how often a surface of an obstacle held a particle's center
     std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< number of steps that each StepLimit has limited
     std::array<std::uint64_t, kStepperKinds> takenBy{};  ///< number of steps that each StepperKind has taken
 
@@ -74,6 +75,12 @@ struct AutoState {
     double estimateCost = 0.0;     ///< force evaluations spent on error estimates and not used by the run
 };
 
+/// How far scaled walls let particles in, measured at the ends of frames.
+struct WallDepths {
+    double deepest = 0.0;              ///< deepest penetration of a particle so far, in its radii: 1 at the center
+    std::uint64_t centersOutside = 0;  ///< most centers that lay beyond a surface at once
+};
+
 struct StepCache;
 
 /// Owns the step cache of a simulation and copies it with the simulation. The type of the cache is incomplete here, so
@@ -107,6 +114,7 @@ struct Simulation {
     StepRestriction restriction;
     AutoState automatic;
     StepStatistics steps;
+    WallDepths wallDepths;
     StepCachePointer cache;
     /// Called before every step with the simulation that takes it, which is a copy in the trial runs of error
     /// estimates; may be empty. To end advance() inside an interval, it throws Stopped. The simulation is then

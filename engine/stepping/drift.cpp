@@ -4,23 +4,30 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/core/parallel.h"
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/force_law/contact.h"
+#include "engine/obstacles/barriers.h"
+#include "engine/obstacles/swept_contact.h"
+#include "engine/state/probe.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/swept_contact.h"
 
 namespace engine {
 namespace {
 
 Probe probeOf(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
-    const Material& material = simulation.setup.materials[simulation.particles.material[p]];
-    return {simulation.particles.position[p], velocity, simulation.particles.radius[p], material.dampingReach,
-            material.friction};
+    return probeOf(simulation.setup.materials, simulation.particles, p, velocity);
 }
 
-BallisticState ballisticStateOf(const Simulation& simulation, std::size_t p) {
-    return {probeOf(simulation, p, simulation.particles.velocity[p]), simulation.particles.mass[p]};
+Probe probeOf(const Simulation& simulation, std::size_t p) {
+    return probeOf(simulation, p, simulation.particles.velocity[p]);
+}
+
+/// Counts how often barriers have held a particle in this step; one that is held more than 255 times counts as 255.
+void countHeld(Simulation& simulation, std::size_t p, int hits) {
+    std::uint8_t& held = simulation.cache->held[p];
+    held = static_cast<std::uint8_t>(std::min(255, held + hits));
 }
 
 constexpr std::uint32_t kNoNeighbor = std::numeric_limits<std::uint32_t>::max();
@@ -43,6 +50,7 @@ void prepareDrift(Simulation& simulation) {
     if (simulation.setup.obstacles.shapes.empty()) return;
     const Particles& particles = simulation.particles;
     cache.swept.resize(particles.count());
+    cache.held.assign(particles.count(), 0);
     cache.clearance.resize(particles.count(), kUnknown);
     cache.cachedNeighbors.resize(particles.count(), kNoNeighbor);
     copy(particles.position, cache.startPositions);
@@ -63,9 +71,9 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     cache.swept[p] = 0;
     const double pathLength = h * std::sqrt(squaredLength(simulation.particles.velocity[p]));
     if (pathLength <= cache.clearance[p]) return Vec3::Zero();
-    const BallisticState state = ballisticStateOf(simulation, p);
-    const Contacts contacts = contactsInStep(obstacles, state, h, isVerlet(simulation.stepper));
-    cache.clearance[p] = contacts.gap - kMargin * state.probe.radius;
+    const Probe particle = probeOf(simulation, p);
+    const Contacts contacts = contactsInStep(obstacles, particle, h, isVerlet(simulation.stepper));
+    cache.clearance[p] = contacts.gap - kMargin * particle.radius;
     // The contact of a particle without neighbors is swept, which means integrated along its path by small steps: only
     // the obstacle acts on it, so that this is nearly exact. With neighbors, the contact is coupled to the forces in
     // the heap around the particle.
@@ -82,20 +90,33 @@ bool hadFreePath(const Simulation& simulation, std::size_t p, const Vec3& start)
     const Obstacles& obstacles = simulation.setup.obstacles;
     if (obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return true;
     if (simulation.cache->swept[p]) return false;  // swept contacts are those in a particle's way
-    BallisticState state = ballisticStateOf(simulation, p);
-    state.probe.position = start;
-    const double gap = contactsInStep(obstacles, state, 0.0, false).gap;
+    Probe particle = probeOf(simulation, p);
+    particle.position = start;
+    const double gap = contactsInStep(obstacles, particle, 0.0, false).gap;
     // A clearance is smaller by a whole margin, so that a particle which is clear of obstacles also passes this test.
-    const double margin = 0.5 * kMargin * state.probe.radius;
+    const double margin = 0.5 * kMargin * particle.radius;
     return std::sqrt(squaredLength(simulation.particles.position[p] - start)) <= gap - margin;
 }
 
 void driftSwept(Simulation& simulation, std::size_t p, double h) {
-    BallisticState state = ballisticStateOf(simulation, p);
-    advanceThroughContacts(simulation.setup.obstacles, state, h);
-    simulation.particles.position[p] = state.probe.position;
-    simulation.particles.velocity[p] = state.probe.velocity;
+    Probe particle = probeOf(simulation, p);
+    countHeld(simulation, p, advanceThroughContacts(simulation.setup.obstacles, particle, h));
+    simulation.particles.position[p] = particle.position;
+    simulation.particles.velocity[p] = particle.velocity;
     simulation.cache->clearance[p] = kUnknown;
+}
+
+void driftToBarriers(Simulation& simulation, std::size_t p, double h) {
+    Probe particle = probeOf(simulation, p);
+    countHeld(simulation, p, moveAmongBarriers(simulation.setup.obstacles, particle, h, Arrival::slides));
+    simulation.particles.position[p] = particle.position;
+    simulation.particles.velocity[p] = particle.velocity;
+}
+
+void recordHeld(Simulation& simulation) {
+    if (simulation.setup.obstacles.wall == WallLaw::paper) return;
+    const std::vector<std::uint8_t>& held = simulation.cache->held;
+    simulation.steps.held = std::accumulate(held.begin(), held.end(), simulation.steps.held);
 }
 
 ContactSums resolvedContacts(const Simulation& simulation, std::size_t p, const Vec3& velocity) {
@@ -118,13 +139,13 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
         if (simulation.cache->swept[p] || isClearOfObstacles(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);
         forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
-            const Contact contact = contactWith(surface, obstacles.law, probe);
+            const Contact contact = contactWith(surface, obstacles, probe);
             const double along = weights.damping * dampingAlong(contact) + weights.stiffness * stiffnessAlong(contact);
             const Matrix3 projection = surface.normal * surface.normal.transpose();
             matrix.own[place] += along * projection;
-            if (probe.friction == 0.0) return;
+            if (contact.friction == 0.0) return;
             const Vec3 slip = slipVelocity(probe.velocity, surface.normal);
-            const double across = slipDamping(probe.friction, normalForce(contact, 0.0), squaredLength(slip));
+            const double across = slipDamping(contact.friction, pressureForce(contact), squaredLength(slip));
             matrix.own[place] += weights.damping * across * (Matrix3::Identity() - projection);
         });
     });

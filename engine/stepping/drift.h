@@ -27,14 +27,29 @@ bool hadFreePath(const Simulation& simulation, std::size_t p, const Vec3& start)
 /// Moves a particle with a swept contact for h seconds; its velocity changes where it meets an obstacle.
 void driftSwept(Simulation& simulation, std::size_t p, double h);
 
+/// Moves a particle along its velocity for h seconds, but not through the surface of an obstacle: it slides along.
+void driftToBarriers(Simulation& simulation, std::size_t p, double h);
+
 /// Moves a particle for h seconds.
 inline void drift(Simulation& simulation, std::size_t p, double h) {
     const bool hasObstacles = !simulation.setup.obstacles.shapes.empty();
     if (hasObstacles && simulation.cache->swept[p]) return driftSwept(simulation, p, h);
     const Vec3 displacement = h * simulation.particles.velocity[p];
+    if (!hasObstacles) {
+        simulation.particles.position[p] += displacement;
+        return;
+    }
+    double& clearance = simulation.cache->clearance[p];
+    const double length = std::sqrt(squaredLength(displacement));
+    // A surface holds the center, which is a radius further from it than the particle's surface.
+    const bool mayArrive = length > clearance + simulation.particles.radius[p];
+    clearance -= length;
+    if (mayArrive && simulation.setup.obstacles.wall == WallLaw::scaled) return driftToBarriers(simulation, p, h);
     simulation.particles.position[p] += displacement;
-    if (hasObstacles) simulation.cache->clearance[p] -= std::sqrt(squaredLength(displacement));
 }
+
+/// Adds to the statistics how often surfaces held particles' centers in a step. Called at its end.
+void recordHeld(Simulation& simulation);
 
 /// Force of the obstacles on a particle that has this velocity (m/s), and its energy at them. Where the contact is
 /// swept, the force is zero, but not the energy.

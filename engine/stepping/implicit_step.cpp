@@ -72,6 +72,7 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
         particles.velocity[p] *= decay;
         drift(simulation, p, 0.5 * h);
     });
+    recordHeld(simulation);
     simulation.cache->forcesCurrent = false;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/parallel.h"
+#include "engine/state/probe.h"
 #include "engine/stepping/drift.h"
 #include "engine/stepping/free_groups.h"
 
@@ -22,7 +23,8 @@ constexpr double kRounding = 1e-13;
 double contactEnergyOf(const Simulation& simulation, std::size_t p) {
     if (simulation.setup.obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return 0.0;
     const Particles& particles = simulation.particles;
-    return sumContacts(simulation.setup.obstacles, {particles.position[p], Vec3::Zero(), particles.radius[p]}).energy;
+    return sumContacts(simulation.setup.obstacles, probeOf(simulation.setup.materials, particles, p, Vec3::Zero()))
+        .energy;
 }
 
 /// Energy of the pairs of a new particle with all particles of lower index, J.

@@ -42,6 +42,7 @@ struct StepCache {
     /// are moved by steps only; empty where nothing is known.
     std::vector<double> clearance;
     std::vector<std::uint8_t> swept;  ///< 1 if a particle's contact is swept in this step, else 0
+    std::vector<std::uint8_t> held;   ///< how often each particle's center was held at a surface in this step
 
     Scratch<std::vector<Vec3>> startPositions;  ///< positions at the step's start, m
     double startCutoff = 0.0;                   ///< cutoff of the pair forces at the step's start, m

@@ -4,13 +4,40 @@
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
 #include "engine/forces/external_forces.h"
+#include "engine/obstacles/barriers.h"
+#include "engine/state/probe.h"
 #include "engine/state/state_checks.h"
+#include "engine/stepping/drift.h"
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
 
 namespace engine {
+
+namespace {
+
+/// A step of particles begin to end - 1 among scaled walls, from the forces between particles. Returns whether the new
+/// positions and velocities are valid.
+bool stepAmongScaledWalls(Simulation& simulation, double h, double decay, std::size_t begin, std::size_t end) {
+    const ForceField& field = simulation.cache->evaluator.forceField();
+    Particles& particles = simulation.particles;
+    bool areValid = true;
+    for (std::size_t p = begin; p < end; ++p) {
+        Probe particle = probeOf(field.materials, particles, p, particles.velocity[p]);
+        const Vec3 force =
+            simulation.cache->forces[p] + particle.mass * field.gravity + sumContacts(field.obstacles, particle).force;
+        particle.velocity = decay * Vec3(particle.velocity + h / particle.mass * force);
+        const int hits = moveAmongBarriers(field.obstacles, particle, h, Arrival::slides);
+        simulation.cache->held[p] = static_cast<std::uint8_t>(hits);
+        particles.position[p] = particle.position;
+        particles.velocity[p] = particle.velocity;
+        areValid &= isValid(particle.position, particle.velocity);
+    }
+    return areValid;
+}
+
+}  // namespace
 
 bool symplecticEulerStep(Simulation& simulation, double h) {
     Particles& particles = simulation.particles;
@@ -25,15 +52,21 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .gravity = evaluator.forceField().gravity,
                          .forces = simulation.cache->forces,
                          .hasWeight = hasObstacles};
-    return holdsInRanges(particles.count(), contactGrain(evaluator.forceField().obstacles),
-                         [&](std::size_t begin, std::size_t end) {
-                             // The forces are added in the order pairs, weight, obstacles; another order would change
-                             // the last bits.
-                             if (hasObstacles)
-                                 addExternalForces(evaluator.forceField(), particles, particles.velocity, begin, end,
-                                                   simulation.cache->forces);
-                             return kickAndDrift(step, begin, end, particles);
-                         });
+    const bool hasScaledWalls = hasObstacles && evaluator.forceField().obstacles.wall == WallLaw::scaled;
+    if (hasScaledWalls) simulation.cache->held.resize(particles.count());
+    const bool areValid = holdsInRanges(particles.count(), contactGrain(evaluator.forceField().obstacles),
+                                        [&](std::size_t begin, std::size_t end) {
+                                            if (hasScaledWalls)
+                                                return stepAmongScaledWalls(simulation, h, decay, begin, end);
+                                            // The forces are added in the order pairs, weight, obstacles; another order
+                                            // would change the last bits.
+                                            if (hasObstacles)
+                                                addExternalForces(evaluator.forceField(), particles, particles.velocity,
+                                                                  begin, end, simulation.cache->forces);
+                                            return kickAndDrift(step, begin, end, particles);
+                                        });
+    if (hasScaledWalls) recordHeld(simulation);
+    return areValid;
 }
 
 void advanceInEqualSteps(Simulation& simulation, double time) {

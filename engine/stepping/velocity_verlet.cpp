@@ -47,6 +47,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
         }
         predicted[p] = velocity + (2.0 * lambda - 1.0) * change;
     });
+    recordHeld(simulation);
     if (!isValid(particles)) return markInvalid(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);
     // The second half of the kick, and each particle's energy after it, in one loop.

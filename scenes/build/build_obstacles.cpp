@@ -44,6 +44,25 @@ engine::Obstacle obstacleFrom(Section& section, BuildContext& context) {
     return engine::Sphere{section.vector("center"), section.number("radius"), section.string("repulsor") == "literal"};
 }
 
+/// How an obstacle answers particles under the scaled wall law. Reports keys that the scene's law does not have.
+engine::WallSurface surfaceFrom(Section& section, engine::WallLaw law, BuildContext& context) {
+    if (law == engine::WallLaw::paper) {
+        for (const char* name : {"restitution", "friction", "adhesion"})
+            if (section.isGiven(name))
+                report(section, name, context, "the paper's walls have no {}; leave out physics.wall = \"paper\"",
+                       name);
+        return {};
+    }
+    if (section.string("shape") == "sphere" && section.string("repulsor") == "literal")
+        report(section, "repulsor", context,
+               "\"literal\" is the repulsor of the paper's walls; it needs physics.wall = \"paper\"");
+    engine::WallSurface surface;
+    if (section.has("restitution")) surface.restitution = section.number("restitution");
+    if (section.has("friction")) surface.friction = section.number("friction");
+    surface.adhesion = section.number("adhesion");
+    return surface;
+}
+
 /// Adds an obstacle to what is drawn. Planes are not drawn; boxes and containers may have edges.
 void addToLook(Section& section, const Section& lookSection, Look& look) {
     const std::string& shape = section.string("shape");
@@ -66,7 +85,10 @@ void addToLook(Section& section, const Section& lookSection, Look& look) {
 
 }  // namespace
 
-void buildObstacles(std::vector<Section>& sections, const Section& look, Scene& scene, BuildContext& context) {
+void buildObstacles(std::vector<Section>& sections, const Section& physics, const Section& look, Scene& scene,
+                    BuildContext& context) {
+    const bool isPaper = physics.has("wall") && physics.string("wall") == "paper";
+    scene.setup.obstacles.wall = isPaper ? engine::WallLaw::paper : engine::WallLaw::scaled;
     for (Section& section : sections) {
         if (!section.has("shape")) continue;
         const std::string& shape = section.string("shape");
@@ -76,7 +98,9 @@ void buildObstacles(std::vector<Section>& sections, const Section& look, Scene& 
         }
         if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
         if (!section.isValid()) continue;
-        scene.setup.obstacles.shapes.push_back(obstacleFrom(section, context));
+        engine::Obstacles& obstacles = scene.setup.obstacles;
+        obstacles.shapes.push_back(obstacleFrom(section, context));
+        obstacles.surfaces.push_back(surfaceFrom(section, obstacles.wall, context));
         addToLook(section, look, scene.look);
     }
 }

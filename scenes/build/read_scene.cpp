@@ -34,6 +34,7 @@ void readPhysics(const Section& physics, engine::Setup& setup) {
     setup.solverTolerance = physics.number("solver_tolerance");
     setup.precision = physics.string("precision") == "float" ? engine::Precision::singles : engine::Precision::doubles;
     setup.forces = physics.string("forces") == "reference" ? engine::ForceMethod::reference : engine::ForceMethod::grid;
+    setup.obstacles.gravity = setup.gravity.norm();
 }
 
 std::optional<engine::BoundingBox> buildWorld(Section& section, BuildContext& context) {
@@ -165,7 +166,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
     scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, scene.camera, context);
-    buildObstacles(sections.obstacles, sections.look, scene, context);
+    buildObstacles(sections.obstacles, sections.physics, sections.look, scene, context);
     buildOverlay(sections.overlay, sections.look, scene, context);
     readStill(sections, context, scene);
     checkSize(sections, context);

@@ -118,10 +118,21 @@ std::vector<Key> obstacleKeys() {
             .onlyFor({"box", "container"}),
         length("radius", "radius of the sphere").required().onlyFor({"sphere"}),
         key("repulsor", Type::choice, "",
-            "what repels particles: a repulsor below the surface, or, as in the paper, one as large as the sphere")
+            "what repels particles: a repulsor below the surface, or one as large as the sphere, for the paper's walls "
+            "alone")
             .defaultsTo("\"surface\"")
             .oneOf({"surface", "literal"})
             .onlyFor({"sphere"}),
+        key("restitution", Type::number, "", "speed after a rebound over the speed before; not of the paper's walls")
+            .derivedAs("0.2, less for viscous materials")
+            .within(kUnitInterval),
+        key("friction", Type::number, "", "friction coefficient against particles; not of the paper's walls")
+            .derivedAs("of the particle's material")
+            .within(kNotNegative),
+        key("adhesion", Type::number, "N/m^2",
+            "stress with which the surface holds particles that touch it; not of the paper's walls")
+            .defaultsTo("0")
+            .within(kNotNegative),
         key("visible", Type::boolean, "", "whether the obstacle is drawn")
             .defaultsTo("true")
             .onlyFor({"box", "container", "sphere"}),

@@ -50,6 +50,11 @@ std::vector<Key> physicsKeys() {
             "how pairs are found: with a cell grid, or by testing every pair as in the paper")
             .defaultsTo("\"grid\"")
             .oneOf({"grid", "reference"}),
+        key("wall", Type::choice, "",
+            "how obstacles answer: scaled to the mass, stiffness and radius of what hits them, and passed by nothing; "
+            "or as in the paper, alike for all")
+            .defaultsTo("\"scaled\"")
+            .oneOf({"scaled", "paper"}),
     };
 }
 

@@ -4,7 +4,7 @@
 #include "engine/error_control/checked_steps.h"
 #include "engine/stepping/drift.h"
 #include "engine/stepping/step_audit.h"
-#include "engine/stepping/swept_contact.h"
+#include "engine/obstacles/swept_contact.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;
@@ -25,7 +25,7 @@ Simulation falling(StepperKind stepper, double step) {
 double gapOf(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
     return contactsInStep(simulation.setup.obstacles,
-                          {{.position = particles.position[p], .radius = particles.radius[p]}}, 0.0, false)
+                          {.position = particles.position[p], .radius = particles.radius[p]}, 0.0, false)
         .gap;
 }
 

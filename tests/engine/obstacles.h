@@ -1,4 +1,4 @@
-// Sets of obstacles with a single one.
+// Sets of obstacles with a single one, and particles that meet them.
 #pragma once
 
 #include "engine/force_law/obstacles.h"
@@ -7,4 +7,10 @@ inline engine::Obstacles only(const engine::Obstacle& obstacle) {
     engine::Obstacles obstacles;
     obstacles.shapes = {obstacle};
     return obstacles;
+}
+
+/// A particle of this mass (kg).
+inline engine::Probe withMass(engine::Probe particle, double mass) {
+    particle.mass = mass;
+    return particle;
 }

@@ -25,8 +25,10 @@ engine::Emitter emitterOf(const std::string& lines) {
     return sceneOf(kTop + "[[emitter]]\n" + lines).setup.emitters.at(0);
 }
 
-scenes::Scene obstacleScene(const std::string& lines) {
-    return sceneOf(kBall + "[[obstacle]]\n" + lines);
+const scenes::Overrides kPaperWalls{{"physics.wall=paper", "--set"}};
+
+scenes::Scene obstacleScene(const std::string& lines, const scenes::Overrides& overrides = {}) {
+    return sceneOf(kBall + "[[obstacle]]\n" + lines, overrides);
 }
 
 }  // namespace
@@ -226,7 +228,7 @@ TEST_CASE("obstacles become shapes of the engine") {
     CHECK(container.minimum == Vec3(0, -2, -3));
     CHECK(container.maximum == Vec3(2, 2, 3));
     const auto sphere = std::get<engine::Sphere>(
-        obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 0.75\nrepulsor = \"literal\"\n")
+        obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 0.75\nrepulsor = \"literal\"\n", kPaperWalls)
             .setup.obstacles.shapes.at(0));
     CHECK(sphere.center == Vec3(1, 2, 3));
     CHECK(sphere.radius == 0.75);
@@ -234,6 +236,35 @@ TEST_CASE("obstacles become shapes of the engine") {
     CHECK(!std::get<engine::Sphere>(
                obstacleScene("shape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 1\n").setup.obstacles.shapes.at(0))
                .literalRepulsor);
+}
+
+TEST_CASE("obstacles answer as scaled walls unless the scene asks for the paper's") {
+    const std::string plane = "shape = \"plane\"\n";
+    const engine::Obstacles plain = obstacleScene(plane).setup.obstacles;
+    CHECK(plain.wall == engine::WallLaw::scaled);
+    CHECK(plain.gravity == 9.8);
+    CHECK(!plain.surfaces.at(0).restitution.has_value());
+    CHECK(!plain.surfaces.at(0).friction.has_value());
+    CHECK(plain.surfaces.at(0).adhesion == 0.0);
+    const engine::Obstacles given =
+        obstacleScene(plane + "restitution = 0.7\nfriction = 0.3\nadhesion = 20\n").setup.obstacles;
+    CHECK(given.surfaces.at(0).restitution == 0.7);
+    CHECK(given.surfaces.at(0).friction == 0.3);
+    CHECK(given.surfaces.at(0).adhesion == 20.0);
+    CHECK(obstacleScene(plane, kPaperWalls).setup.obstacles.wall == engine::WallLaw::paper);
+}
+
+TEST_CASE("keys of one wall law are refused under the other") {
+    const std::string plane = "[[obstacle]]\nshape = \"plane\"\nrestitution = 0.7\n";
+    CHECK(
+        scenes_test::problemsOf(scenes_test::kBall + plane, kPaperWalls) ==
+        scenes_test::Lines{"pile.toml:8:15: the paper's walls have no restitution; leave out physics.wall = \"paper\""});
+    const std::string sphere =
+        "[[obstacle]]\nshape = \"sphere\"\ncenter = [0, -9, 0]\nradius = 1\nrepulsor = \"literal\"\n";
+    CHECK(scenes_test::problemsOf(scenes_test::kBall + sphere) ==
+          scenes_test::Lines{"pile.toml:10:12: \"literal\" is the repulsor of the paper's walls; it needs "
+                             "physics.wall = \"paper\""});
+    CHECK(scenes_test::problemsOf(scenes_test::kBall + sphere, kPaperWalls).empty());
 }
 
 TEST_CASE("the keys of an obstacle determine how it is drawn") {

@@ -125,6 +125,7 @@ TEST_CASE("the paper's scenes have its gravity, obstacles and particles") {
                 CHECK(std::get<engine::Sphere>(obstacle).literalRepulsor);
         }
         CHECK(containers == 1);
+        CHECK(scene.setup.obstacles.wall == engine::WallLaw::paper);
         for (const engine::Emitter& emitter : scene.setup.emitters) CHECK(emitter.clearance == 0.0);
         for (const Vec3& position : scene.setup.initial.position) CHECK(position.z() == 0.0);
     }

@@ -222,6 +222,7 @@ jitter = 0.2
 shape = "container"
 minimum = [-0.7, -0.7, -0.7]
 maximum = [0.7, 0.7, 0.7]
+restitution = 1
 )",
                                        "gas.toml", {});
     studies::AccuracySettings settings = shortSettings();

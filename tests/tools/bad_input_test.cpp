@@ -131,7 +131,7 @@ TEST_CASE("An unstable run exits with 3 and keeps the frames before", "[tools]")
     const program::Folder folder;
     const auto outcome =
         run("render powder --size 64x36 --set material[0].b1=1e12 --set physics.stepper=symplectic-euler "
-            "--set physics.step=0.01 --frames 0-100 --quiet -o " +
+            "--set physics.step=0.01 --set physics.wall=paper --frames 0-100 --quiet -o " +
             (folder / "frames").string());
     INFO(outcome.err);
     CHECK(outcome.code == 3);
@@ -147,7 +147,8 @@ TEST_CASE("An unstable run exits with 3 and keeps the frames before", "[tools]")
 
 TEST_CASE("check describes a scene that becomes unstable at once", "[tools]") {
     const auto outcome =
-        run("check powder --set material[0].b1=1e12 --set physics.stepper=symplectic-euler --set physics.step=0.01");
+        run("check powder --set material[0].b1=1e12 --set physics.stepper=symplectic-euler --set physics.step=0.01 "
+            "--set physics.wall=paper");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 3);
     CHECK(outcome.out.find("cutoff 0.3 m") != std::string::npos);
@@ -178,7 +179,7 @@ TEST_CASE("The message of an unstable run names the keys that have an effect", "
     CHECK(automatic.code == 3);
     CHECK(automatic.err.find("after 0 steps, in a step of ") != std::string::npos);
     CHECK(automatic.err.find("lower physics.error, or raise material.mass") != std::string::npos);
-    CHECK(run(stiff + "symplectic-euler --set physics.step=0.01")
+    CHECK(run(stiff + "symplectic-euler --set physics.step=0.01 --set physics.wall=paper")
               .err.find("lower physics.step, or raise material.mass") != std::string::npos);
 
     const program::Folder folder;

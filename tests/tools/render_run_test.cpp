@@ -56,6 +56,8 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
     CHECK(json["frames"] == 10);
     CHECK(json["steps"]["count"] >= 9);  // at least one between two frames
     CHECK(json["particles"] > 100);
+    CHECK(json["walls"] ==
+          nlohmann::json({{"held", 0}, {"deepest", 0.0}, {"centers_outside", 0}}));  // still in the air
     const auto single = nlohmann::json::parse(textOf(folder / "c/run.json"));
     CHECK(single["threads"] == 1);
     CHECK(single["state_hash"] == json["state_hash"]);

@@ -151,6 +151,9 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["refused_births"] = engine::refusalCount(simulation);
     json["deaths"] = simulation.removedCount;
     json["strays"] = engine::strayCount(simulation);
+    json["walls"] = {{"held", simulation.steps.held},
+                     {"deepest", simulation.wallDepths.deepest},
+                     {"centers_outside", simulation.wallDepths.centersOutside}};
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;

@@ -7,12 +7,6 @@
 
 namespace engine {
 
-/// A moving particle on which, for a while, only the forces of obstacles act.
-struct BallisticState {
-    Probe probe;        ///< position, velocity, radius and contact constants of the particle
-    double mass = 1.0;  ///< kg
-};
-
 /// The contacts of a particle with obstacles at the start of a step.
 struct Contacts {
     double gap = 0.0;           ///< distance from the particle to the nearest obstacle, m; negative in contact
@@ -23,13 +17,14 @@ struct Contacts {
 /// Finds the contacts of a particle for a step of this duration (s). They need to be swept, which means integrated
 /// along the path by small steps, where the particle may cover more than a fraction of a contact's depth in the step,
 /// or where contacts act as explicit forces and the step is near the limit of stability.
-Contacts contactsInStep(const Obstacles& obstacles, const BallisticState& state, double duration, bool isExplicit);
+Contacts contactsInStep(const Obstacles& obstacles, const Probe& particle, double duration, bool isExplicit);
 
-/// Moves a particle for a duration (s) under the forces of the obstacles alone (section 3.2 of the paper). At any
-/// finite speed its center stays on the side of a plane, of a box's face and of a sphere that it came from. Where the
-/// repulsor cannot stop it, it is reflected at a barrier under the surface, which is a departure from the paper. Under
-/// a plane the barrier lies at the law's core distance from the repulsor, in a solid a tenth of the particle's radius
-/// or of half the solid's thickness under the surface. The error is of second order in the duration.
-void advanceThroughContacts(const Obstacles& obstacles, BallisticState& state, double duration);
+/// Moves a particle for a duration (s) under the forces of the obstacles alone. At any finite speed its center stays on
+/// the side of a plane, of a box's face and of a sphere that it came from. Where a scaled wall cannot stop it, it
+/// rebounds at the surface. Where the repulsor of a paper's wall cannot stop it, it is reflected at a barrier under the
+/// surface, which is a departure from the paper. Under a plane that barrier lies at the law's core distance from the
+/// repulsor, in a solid a tenth of the particle's radius or of half the solid's thickness under the surface. The error
+/// is of second order in the duration. Returns how often a scaled wall held the center at its surface.
+int advanceThroughContacts(const Obstacles& obstacles, Probe& particle, double duration);
 
 }  // namespace engine

@@ -1,0 +1,172 @@
+// The force between a particle and a surface that it touches, by one of two laws. In both, a repulsor lies behind the
+// point of the surface that is closest to the particle: a particle at rest that acts on this particle alone, with the
+// pair force of pair_law.h.
+//
+// The paper's walls (section 3.2): the repulsor has the same radius, strength and damping for particles of any kind. A
+// heavy particle sinks in and a fine one does not, and what presses hard enough gets through.
+//
+// Scaled walls are as if made of the particle's own material, several times as stiff:
+// - The repulsor has the particle's radius r and its strength b1 times kWallStiffness, so that a layer on the floor is
+//   compressed less than the layers above it. The strength is at least that with which the wall carries the weight of
+//   one particle whose center is half a radius above it, so that heavy particles of a soft material lie on the floor.
+// - Damping. With the potential U of the repulsor's force f and w = sqrt(2 U / m), a damping coefficient of
+//       c = 2 zeta f / w
+//   turns the motion along the normal, m dv/dt = f - c v, into that of a damped oscillator, dv/ds = w - 2 zeta v and
+//   dw/ds = -v with ds = f/(m w) dt. Therefore the ratio of the speeds after and before a rebound is the same at every
+//   speed: the restitution e = exp(-pi zeta / sqrt(1 - zeta^2)). Where the scene gives no restitution, the damping of
+//   the particle's material is added, with b_d c_d in place of the paper's 5 c_d, so that what is viscous does not
+//   bounce.
+// - Friction is Coulomb's, of the force f.
+// - Adhesion (after Derjaguin, Muller and Toporov) pulls with a constant force wherever f acts, and fades within
+// another
+//   radius. The force is a stress times the area that a particle takes up in the closest packing of a layer. It is not
+//   part of f, hence an adhering particle is pressed on the wall and rubs against it.
+// The steppers stop centers of particles at the surface; see obstacles/barriers.h.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/force_law/pair_law.h"
+
+namespace engine {
+
+/// Strength b1 of a scaled wall over that of the particle's material. Chosen: with 8 the lowest layer of 5 m of the
+/// scene liquid keeps its centers off the floor, and steps are not shorter than the particles' own forces ask for.
+inline constexpr double kWallStiffness = 8.0;
+
+/// The contact of a particle and a surface.
+struct Contact {
+    PairConstants<double> constants = {};
+    double distance = 0.0;      ///< distance to the repulsor, at least the core distance, m
+    double beyondCore = 0.0;    ///< how far the repulsor is inside the core distance, m
+    double wallDamping = 0.0;   ///< damping of a scaled wall along the normal, kg/s
+    double adhesion = 0.0;      ///< force with which the wall pulls, N
+    double adhesionEnergy = 0;  ///< energy of that force, J, not positive
+    double friction = 0.0;      ///< coefficient mu
+};
+
+inline Contact paperContact(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
+    const double restLength = probe.radius + surface.repulsorRadius;
+    const double core = law.coreFraction * restLength;
+    const double distance = surface.height + surface.repulsorRadius;
+    Contact contact;
+    contact.constants = repulsorConstants(law.repulsion, law.dampingFactor * probe.dampingReach, restLength, core);
+    contact.distance = std::max(distance, core);
+    contact.beyondCore = contact.distance - distance;
+    contact.friction = probe.friction;
+    return contact;
+}
+
+/// Force of a contact along the surface's normal on a particle with this normal speed (m/s), in newtons. On a particle
+/// closer to the repulsor than the core distance acts the force at the core distance, so that it can only be pushed out
+/// on the side of the surface.
+inline double normalForce(const Contact& contact, double normalSpeed) {
+    return repulsorForce(contact.distance, normalSpeed, contact.constants) - contact.wallDamping * normalSpeed -
+           contact.adhesion;
+}
+
+/// Repulsion of a contact, in newtons: what friction is proportional to.
+inline double pressureForce(const Contact& contact) {
+    return repulsorForce(contact.distance, 0.0, contact.constants);
+}
+
+/// Energy of the conservative part of a contact's force, in joules.
+inline double contactEnergy(const Contact& contact) {
+    return pairEnergy(contact.distance, contact.constants) + pressureForce(contact) * contact.beyondCore +
+           contact.adhesionEnergy;
+}
+
+/// Damping ratio zeta, 0 to 1, with which rebounds have this restitution.
+inline double dampingRatio(double restitution) {
+    if (restitution <= 0.0) return 1.0;
+    const double logarithm = std::log(restitution);
+    return -logarithm / std::sqrt(std::numbers::pi * std::numbers::pi + logarithm * logarithm);
+}
+
+/// Strength b1 of the repulsors of scaled walls for a particle under gravity of this size (m/s^2), N m^4.
+inline double wallStrength(const Probe& probe, double gravity) {
+    // The force at D = 3/2 r over b1/r^3, with D0 = 2 r: 3/2 (1/(3/2)^2 - 1/2^2)^2.
+    constexpr double kHalfRadiusForce = 1.5 * (1.0 / 2.25 - 0.25) * (1.0 / 2.25 - 0.25);
+    const double cube = probe.radius * probe.radius * probe.radius;
+    return std::max(kWallStiffness * probe.repulsion, probe.mass * gravity * cube / kHalfRadiusForce);
+}
+
+/// Sets the adhesion of a contact with a surface at this height (m) over the particle's radius.
+inline void setAdhesion(Contact& contact, double height, double stress, double radius) {
+    const double area = 2.0 * std::numbers::sqrt3 * radius * radius;
+    const double force = stress * area;
+    const double t = height / radius - 1.0;
+    if (t <= 0.0) {
+        contact.adhesion = force;
+        contact.adhesionEnergy = force * radius * (t - 0.5);
+    } else if (t < 1.0) {
+        contact.adhesion = force * (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
+        contact.adhesionEnergy = -force * radius * (0.5 - t + t * t * t - 0.5 * t * t * t * t);
+    }
+}
+
+inline Contact scaledContact(const Surface& surface, double gravity, const Probe& probe) {
+    const double restLength = 2.0 * probe.radius;
+    const double distance = surface.height + probe.radius;
+    Contact contact;
+    const double damping = surface.wall.restitution ? 0.0 : probe.damping * probe.dampingReach;
+    contact.constants = repulsorConstants(wallStrength(probe, gravity), damping, restLength, probe.radius);
+    contact.distance = std::max(distance, probe.radius);
+    contact.beyondCore = contact.distance - distance;
+    contact.friction = surface.wall.friction.value_or(probe.friction);
+    const double energy = contactEnergy(contact);
+    if (energy > 0.0)
+        contact.wallDamping = dampingRatio(surface.wall.restitution.value_or(kRestitution)) * pressureForce(contact) *
+                              std::sqrt(2.0 * probe.mass / energy);
+    if (surface.wall.adhesion > 0.0) setAdhesion(contact, surface.height, surface.wall.adhesion, probe.radius);
+    return contact;
+}
+
+inline Contact contactWith(const Surface& surface, const Obstacles& obstacles, const Probe& probe) {
+    return obstacles.wall == WallLaw::paper ? paperContact(surface, obstacles.law, probe)
+                                            : scaledContact(surface, obstacles.gravity, probe);
+}
+
+/// Energy of a particle at a surface of an obstacle, in joules; 0 where the surface does not act on it.
+inline double surfaceEnergy(const Surface& surface, const Obstacles& obstacles, const Probe& probe) {
+    const double reach = contactReach(surface.wall, probe.radius);
+    return surface.height >= reach ? 0.0 : contactEnergy(contactWith(surface, obstacles, probe));
+}
+
+/// The tangential part of a velocity (m/s) at a surface with this normal.
+inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
+    return velocity - dot(velocity, normal) * normal;
+}
+
+/// Adds the force of a contact on the particle, in newtons, friction included. Forced inline, because a function call
+/// would take half of the time.
+[[gnu::always_inline]] inline void addForce(const Surface& surface, const Contact& contact, const Probe& probe,
+                                            Vec3& force) {
+    force += normalForce(contact, dot(probe.velocity, surface.normal)) * surface.normal;
+    if (contact.friction == 0.0) return;
+    const Vec3 slip = slipVelocity(probe.velocity, surface.normal);
+    force -= slipDamping(contact.friction, pressureForce(contact), squaredLength(slip)) * slip;
+}
+
+/// Damping of a contact along the surface's normal, in kg/s.
+inline double dampingAlong(const Contact& contact) {
+    const double distanceSq = contact.distance * contact.distance;
+    return pairDampingOverSq(distanceSq, contact.constants) * distanceSq + contact.wallDamping;
+}
+
+/// Stiffness of a contact along the surface's normal, in N/m; 0 inside the core distance, where the force is constant.
+inline double stiffnessAlong(const Contact& contact) {
+    return contact.beyondCore > 0.0 ? 0.0 : std::max(0.0, pairStiffness(contact.distance, contact.constants));
+}
+
+/// Growth of a scaled wall's stiffness with depth where a contact with it begins, in N/m^2: with D0 - D = d, the force
+/// is 4 b1 d^2 / D0^5 at first.
+inline double hardeningAtContact(const Obstacles& obstacles, const Probe& probe) {
+    const double restLength = 2.0 * probe.radius;
+    const double square = restLength * restLength;
+    return 8.0 * wallStrength(probe, obstacles.gravity) / (square * square * restLength);
+}
+
+}  // namespace engine

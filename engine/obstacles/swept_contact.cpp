@@ -1,0 +1,235 @@
+// Moves a particle among obstacles by small steps near a surface and by one long straight leap elsewhere.
+//
+// A leap is safe if it is no longer than the distance to the nearest surface. Near a surface, a small step covers at
+// most a fraction of the distances to the barrier and to the repulsor (whose force goes like D^-4), and lasts at most a
+// fraction of the contact's own oscillation. Each small step is half a drift, the implicit midpoint rule for m dv/dt =
+// F - C v, and half a drift.
+#include "engine/obstacles/swept_contact.h"
+
+#include <Eigen/LU>
+
+#include "engine/force_law/contact.h"
+#include "engine/obstacles/barriers.h"
+
+namespace engine {
+namespace {
+
+/// A small step near an obstacle may cover this fraction of the distances to the barrier and to the repulsor, and may
+/// last this fraction of the contact's 1/frequency. Measured: rebounds of 0.01 to 1 kg at 1 to 1000 m/s are within 0.5
+/// % of those at a tenth of this fraction.
+constexpr double kFraction = 0.1;
+
+/// In a step that covers less than this share of a contact's depth, the contact may act as a force, without small steps
+/// along the path. Measured on drops and dams: with half or twice this share the errors change by less than the error
+/// of the stepper itself.
+constexpr double kResolved = 0.2;
+
+/// Contacts act as explicit forces in steps up to this share of the limit of stability. Chosen: a safe distance from
+/// the limit.
+constexpr double kStable = 0.5;
+
+/// Largest number of small steps in one time step. Chosen: far more than any contact needs. A particle that is caught
+/// between obstacles then stays where it is until the next time step.
+constexpr int kMostSteps = 20000;
+
+/// How deep a particle may enter a solid whose repulsor cannot stop it, in radii or half thicknesses. Chosen: a
+/// particle that grazes the solid this deep goes on nearly straight, as off a hard surface.
+constexpr double kGrazeDepth = 0.1;
+
+/// Largest depth (m) under the surface of a sphere that a particle reaches if it continues straight ahead; infinite for
+/// other surfaces.
+double depthOfStraightPath(const Surface& surface, const Vec3& velocity) {
+    if (surface.curvature == 0.0) return std::numeric_limits<double>::infinity();
+    const double radius = 1.0 / surface.curvature;
+    const double speedSq = squaredLength(velocity);
+    const double normalSpeed = dot(velocity, surface.normal);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - normalSpeed * normalSpeed / speedSq));
+    return radius - (radius + surface.height) * sine;
+}
+
+/// Whether the particle's kinetic energy suffices to reach a depth (m) under the surface against the force of the
+/// repulsor.
+bool canReach(double depth, const Surface& surface, const Obstacles& obstacles, const Probe& particle) {
+    Surface surfaceAtDepth = surface;
+    surfaceAtDepth.height = -depth;
+    const double kinetic = 0.5 * particle.mass * squaredLength(particle.velocity);
+    return kinetic + surfaceEnergy(surface, obstacles, particle) > surfaceEnergy(surfaceAtDepth, obstacles, particle);
+}
+
+/// Depth of the reflecting barrier under a face of a paper's wall, m, positive. Under a plane the particle may come as
+/// close to the repulsor as the core distance. A solid has a far side, and an off-center hit can miss the repulsor's
+/// core: a particle too fast for the repulsor to deflect is stopped at the barrier immediately.
+double barrierDepth(const Surface& surface, const Obstacles& obstacles, const Probe& particle) {
+    const double radius = particle.radius;
+    const double core = obstacles.law.coreFraction * (radius + surface.repulsorRadius);
+    const double depth = std::min(std::max(0.0, surface.repulsorRadius - core), 0.9 * surface.halfThickness);
+    if (std::isinf(surface.halfThickness)) return depth;
+    const double deepest = std::min(depth, depthOfStraightPath(surface, particle.velocity));
+    if (!canReach(deepest, surface, obstacles, particle)) return depth;
+    return std::min(depth, kGrazeDepth * std::min(radius, surface.halfThickness));
+}
+
+/// Bounds on distance and forces of a particle's contacts with obstacles.
+struct ContactBounds {
+    double gap = std::numeric_limits<double>::infinity();  ///< distance to the nearest surface, negative in contact, m
+    double scale = std::numeric_limits<double>::infinity();  ///< shortest length over which contact forces change, m
+    double stiffness = 0.0;                                  ///< largest stiffness of a contact, N/m
+    double damping = 0.0;                                    ///< largest damping of a contact, kg/s
+};
+
+/// Length over which the force of a paper's wall changes near its surface or its barrier, m, or `known` if that is
+/// smaller. The barrier, which is costly to find, is not considered where the scale of the force is far above the path
+/// length or above `known`.
+[[gnu::always_inline]] inline double paperScale(const Surface& surface, const Obstacles& obstacles,
+                                                const Probe& particle, double pathLength, double known) {
+    // At worst a step ends this far beyond the barrier, which is still on the near side of the solid.
+    const double least = 0.5 * std::min(particle.radius + surface.repulsorRadius, surface.halfThickness);
+    const double above = std::min(surface.height, particle.radius);
+    const double shallow = std::max(least, above);
+    const bool needsBarrier = pathLength > kResolved * shallow && shallow < known;
+    const double depth = needsBarrier ? barrierDepth(surface, obstacles, particle) : 0.0;
+    return std::min(known, std::max(least, above + depth));
+}
+
+/// Length over which the force of a scaled wall changes, m: the distance from the repulsor, at most as at contact.
+double scaledScale(const Surface& surface, double radius) {
+    return radius + std::clamp(surface.height, 0.0, radius);
+}
+
+/// Finds the bounds on a particle's contacts, and calls visit(surface, contact) for each contact.
+/// @param pathLength  length of the particle's path in the coming step, m
+/// The lambda is forced inline, because most surfaces are far away, and a call takes longer than finding that out.
+/// Measured with `globular simulate powder --threads 1`: a twentieth less time.
+template <class Visit>
+ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particle, double pathLength,
+                                const Visit& visit) {
+    ContactBounds bounds;
+    const double radius = particle.radius;
+    forEachSurface(
+        obstacles, particle.position, [&](const Surface& surface) __attribute__((always_inline)) {
+            const double gap = surface.height - contactReach(surface.wall, radius);
+            bounds.gap = std::min(bounds.gap, gap);
+            bounds.scale = obstacles.wall == WallLaw::paper
+                               ? paperScale(surface, obstacles, particle, pathLength, bounds.scale)
+                               : std::min(bounds.scale, scaledScale(surface, radius));
+            if (gap >= 0.0) return;
+            const Contact contact = contactWith(surface, obstacles, particle);
+            bounds.scale = std::min(bounds.scale, contact.distance);
+            bounds.stiffness = std::max(bounds.stiffness, stiffnessAlong(contact));
+            bounds.damping = std::max(bounds.damping, dampingAlong(contact));
+            visit(surface, contact);
+        });
+    return bounds;
+}
+
+/// The longest small step (s) that the bounds on the contacts allow, such that the remaining time (s) is divided
+/// evenly.
+/// @param hardening  growth of a scaled wall's stiffness with depth, N/m^2
+double smallStepFor(const ContactBounds& bounds, double hardening, double mass, double speed, double remaining) {
+    const double leap =
+        std::max(bounds.gap, kFraction * std::min(bounds.scale, 0.1 * bounds.scale + std::max(0.0, -bounds.gap)));
+    double step = remaining;
+    if (speed * step > leap) step = leap / speed;
+    const double frequency = std::sqrt(bounds.stiffness / mass);
+    if (frequency * step > kFraction) step = kFraction / frequency;
+    // The same for the stiffness at the end of the step, where a light particle arrives at a stiff wall.
+    const double outside = std::max(0.0, bounds.gap) / speed;
+    double inside = std::max(0.0, step - outside);
+    const auto loadWithin = [&](double time) { return (bounds.stiffness + hardening * speed * time) * time * time; };
+    while (loadWithin(inside) > kFraction * kFraction * mass) inside *= 0.5;
+    step = std::min(step, outside + inside);
+    return remaining / std::ceil(remaining / step);
+}
+
+/// Applies Coulomb friction: an impulse (N s) against the slip, at most what stops it.
+void applyFriction(Probe& particle, const Vec3& normal, double impulse) {
+    Vec3& velocity = particle.velocity;
+    const Vec3 slip = slipVelocity(velocity, normal);
+    const double speed = std::sqrt(squaredLength(slip));
+    if (speed > 0.0) velocity -= std::min(1.0, impulse / (particle.mass * speed)) * slip;
+}
+
+/// Changes the velocity by the forces of the contacts at the particle's position over a step (s), by the implicit
+/// midpoint rule.
+void kick(const Obstacles& obstacles, Probe& particle, double step) {
+    Vec3 force = Vec3::Zero();
+    Matrix3 damping = Matrix3::Zero();
+    const Probe atStart = particle;
+    bool isTouched = false;
+    forEachTouched(obstacles, atStart.position, atStart.radius, [&](const Surface& surface) {
+        const Contact contact = contactWith(surface, obstacles, atStart);
+        force += normalForce(contact, 0.0) * surface.normal;
+        damping += dampingAlong(contact) * surface.normal * surface.normal.transpose();
+        if (contact.friction > 0.0)
+            applyFriction(particle, surface.normal, contact.friction * pressureForce(contact) * step);
+        isTouched = true;
+    });
+    if (!isTouched) return;
+    Vec3& velocity = particle.velocity;
+    const Matrix3 matrix = particle.mass * Matrix3::Identity() + 0.5 * step * damping;
+    const Vec3 middle = matrix.inverse() * Vec3(particle.mass * velocity + 0.5 * step * force);
+    velocity = 2.0 * middle - velocity;
+}
+
+/// Reflects a particle that moves on under the barrier of a paper's wall.
+void reflectAtBarriers(const Obstacles& obstacles, Probe& particle) {
+    Vec3& velocity = particle.velocity;
+    forEachSurface(obstacles, particle.position, [&](const Surface& surface) {
+        if (surface.height >= 0.0 || surface.height >= -barrierDepth(surface, obstacles, particle)) return;
+        const double normalSpeed = dot(velocity, surface.normal);
+        if (normalSpeed < 0.0) velocity -= 2.0 * normalSpeed * surface.normal;
+    });
+}
+
+}  // namespace
+
+Contacts contactsInStep(const Obstacles& obstacles, const Probe& particle, double duration, bool isExplicit) {
+    const double pathLength = duration * std::sqrt(squaredLength(particle.velocity));
+    Contacts contacts;
+    const ContactBounds bounds = findContactBounds(
+        obstacles, particle, pathLength,
+        [&](const Surface& surface, const Contact& contact) { addForce(surface, contact, particle, contacts.force); });
+    contacts.gap = bounds.gap;
+    // A contact that acts as an explicit force is stable up to h^2 k + 2 h b = 4 m, with k at the end of the step.
+    const double depth = std::max(0.0, pathLength - std::max(0.0, bounds.gap));
+    const double hardening = obstacles.wall == WallLaw::paper ? 0.0 : hardeningAtContact(obstacles, particle);
+    const double load = duration * (duration * (bounds.stiffness + hardening * depth) + 2.0 * bounds.damping);
+    contacts.needsSweep = pathLength > bounds.gap && (pathLength > kResolved * bounds.scale ||
+                                                      (isExplicit && load > kStable * 4.0 * particle.mass));
+    return contacts;
+}
+
+int advanceThroughContacts(const Obstacles& obstacles, Probe& particle, double duration) {
+    Vec3& position = particle.position;
+    const Vec3& velocity = particle.velocity;
+    const bool isPaper = obstacles.wall == WallLaw::paper;
+    const double hardening = isPaper ? 0.0 : hardeningAtContact(obstacles, particle);
+    int hits = 0;
+    const auto move = [&](double step) {
+        if (isPaper)
+            position += step * velocity;
+        else
+            hits += moveAmongBarriers(obstacles, particle, step, Arrival::rebounds);
+    };
+    double remaining = duration;
+    for (int count = 0; remaining > 0.0 && count < kMostSteps; ++count) {
+        const double speed = std::sqrt(squaredLength(velocity));
+        constexpr double kAnyLength = std::numeric_limits<double>::infinity();
+        const ContactBounds bounds =
+            findContactBounds(obstacles, particle, kAnyLength, [](const auto&, const auto&) {});
+        // Written so that a NaN speed ends the loop; the check after the step reports it.
+        if (!(speed * remaining > bounds.gap) && (bounds.gap > 0.0 || !(speed >= 0.0))) {
+            position += remaining * velocity;
+            return hits;
+        }
+        const double step = smallStepFor(bounds, hardening, particle.mass, speed, remaining);
+        move(0.5 * step);
+        kick(obstacles, particle, step);
+        move(0.5 * step);
+        if (isPaper) reflectAtBarriers(obstacles, particle);
+        remaining = step >= remaining ? 0.0 : remaining - step;
+    }
+    return hits;
+}
+
+}  // namespace engine

@@ -1,0 +1,22 @@
+// What the contacts with obstacles need of a particle of a simulation.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/force_law/material.h"
+#include "engine/force_law/obstacles.h"
+#include "engine/state/particles.h"
+
+namespace engine {
+
+/// A particle as its contacts see it.
+/// @param velocity  from which damping and friction are computed, m/s
+inline Probe probeOf(const std::vector<Material>& materials, const Particles& particles, std::size_t p,
+                     const Vec3& velocity) {
+    const Material& material = materials[particles.material[p]];
+    return {particles.position[p], velocity,          particles.radius[p], material.dampingReach,
+            material.friction,     particles.mass[p], material.repulsion,  material.damping};
+}
+
+}  // namespace engine
