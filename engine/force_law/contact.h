@@ -32,68 +32,64 @@
 
 namespace engine {
 
-/// Strength b1 of a scaled wall over that of the particle's material. Chosen: with 8 the lowest layer of 5 m of the
-/// scene liquid keeps its centers off the floor, and steps are not shorter than the particles' own forces ask for.
+/// Strength b1 of a scaled wall over that of the particle's material. Chosen: with 8 the lowest layer of 5 m of the scene
+/// liquid is compressed by a third, and steps are not shorter than the particles' own forces ask for; with 4 the errors of
+/// the case hard/dam exceed its limit.
 inline constexpr double kWallStiffness = 8.0;
+
+/// The contact of a particle and a surface under the paper's law: a pair of the particle and the repulsor.
+struct RepulsorContact {
+    PairConstants<double> constants = {};
+    double distance = 0.0;    ///< distance to the repulsor, at least the core distance, m
+    double beyondCore = 0.0;  ///< how far the repulsor is inside the core distance, m
+};
 
 /// The contact of a particle and a surface.
 struct Contact {
-    PairConstants<double> constants = {};
-    double distance = 0.0;      ///< distance to the repulsor, at least the core distance, m
-    double beyondCore = 0.0;    ///< how far the repulsor is inside the core distance, m
-    double wallDamping = 0.0;   ///< damping of a scaled wall along the normal, kg/s
-    double adhesion = 0.0;      ///< force with which the wall pulls, N
-    double adhesionEnergy = 0;  ///< energy of that force, J, not positive
-    double friction = 0.0;      ///< coefficient mu
+    RepulsorContact repulsor;  ///< unused under the scaled law
+    bool isPaper = true;
+    double friction = 0.0;  ///< coefficient mu
+    // Of scaled walls, all along the normal:
+    double pressure = 0.0;        ///< repulsion, N
+    double damping = 0.0;         ///< kg/s
+    double stiffness = 0.0;       ///< N/m
+    double energy = 0.0;          ///< of the repulsion, J
+    double adhesion = 0.0;        ///< force with which the wall pulls, N
+    double adhesionEnergy = 0.0;  ///< energy of that force, J, not positive
 };
 
-inline Contact paperContact(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
+inline RepulsorContact repulsorContact(const Surface& surface, const RepulsorLaw& law, const Probe& probe) {
     const double restLength = probe.radius + surface.repulsorRadius;
     const double core = law.coreFraction * restLength;
     const double distance = surface.height + surface.repulsorRadius;
-    Contact contact;
+    RepulsorContact contact;
     contact.constants = repulsorConstants(law.repulsion, law.dampingFactor * probe.dampingReach, restLength, core);
     contact.distance = std::max(distance, core);
     contact.beyondCore = contact.distance - distance;
-    contact.friction = probe.friction;
     return contact;
 }
 
-/// Force of a contact along the surface's normal on a particle with this normal speed (m/s), in newtons. On a particle
-/// closer to the repulsor than the core distance acts the force at the core distance, so that it can only be pushed out
-/// on the side of the surface.
-inline double normalForce(const Contact& contact, double normalSpeed) {
-    return repulsorForce(contact.distance, normalSpeed, contact.constants) - contact.wallDamping * normalSpeed -
-           contact.adhesion;
-}
-
-/// Repulsion of a contact, in newtons: what friction is proportional to.
-inline double pressureForce(const Contact& contact) {
-    return repulsorForce(contact.distance, 0.0, contact.constants);
-}
-
-/// Energy of the conservative part of a contact's force, in joules.
-inline double contactEnergy(const Contact& contact) {
-    return pairEnergy(contact.distance, contact.constants) + pressureForce(contact) * contact.beyondCore +
-           contact.adhesionEnergy;
-}
-
-/// Damping ratio zeta, 0 to 1, with which rebounds have this restitution.
-inline double dampingRatio(double restitution) {
-    if (restitution <= 0.0) return 1.0;
-    const double logarithm = std::log(restitution);
-    return -logarithm / std::sqrt(std::numbers::pi * std::numbers::pi + logarithm * logarithm);
+inline double repulsorForceOf(const RepulsorContact& contact, double normalSpeed) {
+    return repulsorForce(contact.distance, normalSpeed, contact.constants);
 }
 
 /// Strength b1 of the repulsors of scaled walls for a particle under gravity of this size (m/s^2), N m^4.
 inline double wallStrength(const Probe& probe, double gravity) {
-    // The force at D = 3/2 r over b1/r^3, with D0 = 2 r: 3/2 (1/(3/2)^2 - 1/2^2)^2.
-    constexpr double kHalfRadiusForce = 1.5 * (1.0 / 2.25 - 0.25) * (1.0 / 2.25 - 0.25);
-    const double cube = probe.radius * probe.radius * probe.radius;
-    return std::max(kWallStiffness * probe.repulsion, probe.mass * gravity * cube / kHalfRadiusForce);
+    // The force at D = 3/2 r over b1/r^4, with D0 = 2 r: (1/(3/2)^2 - 1/2^2)^2.
+    constexpr double kHalfRadiusForce = (1.0 / 2.25 - 0.25) * (1.0 / 2.25 - 0.25);
+    const double square = probe.radius * probe.radius;
+    return std::max(kWallStiffness * probe.repulsion, probe.mass * gravity * square * square / kHalfRadiusForce);
 }
 
-/// Sets the adhesion of a contact with a surface at this height (m) over the particle's radius.
+/// Growth of a scaled wall's stiffness with depth where a contact with it begins, in N/m^2: with D0 - D = d, the force
+/// is 4 b1 d^2 / D0^6 at first.
+inline double hardeningAtContact(const Obstacles& obstacles, const Probe& probe) {
+    const double restLength = 2.0 * probe.radius;
+    const double square = restLength * restLength;
+    return 8.0 * wallStrength(probe, obstacles.gravity) / (square * square * square);
+}
+
+/// Sets the adhesion of a contact with a surface at this height (m).
 inline void setAdhesion(Contact& contact, double height, double stress, double radius) {
     const double area = 2.0 * std::numbers::sqrt3 * radius * radius;
     const double force = stress * area;
@@ -107,31 +103,66 @@ inline void setAdhesion(Contact& contact, double height, double stress, double r
     }
 }
 
-inline Contact scaledContact(const Surface& surface, double gravity, const Probe& probe) {
-    const double restLength = 2.0 * probe.radius;
-    const double distance = surface.height + probe.radius;
-    Contact contact;
-    const double damping = surface.wall.restitution ? 0.0 : probe.damping * probe.dampingReach;
-    contact.constants = repulsorConstants(wallStrength(probe, gravity), damping, restLength, probe.radius);
-    contact.distance = std::max(distance, probe.radius);
-    contact.beyondCore = contact.distance - distance;
-    contact.friction = surface.wall.friction.value_or(probe.friction);
-    const double energy = contactEnergy(contact);
-    if (energy > 0.0)
-        contact.wallDamping = dampingRatio(surface.wall.restitution.value_or(kRestitution)) * pressureForce(contact) *
-                              std::sqrt(2.0 * probe.mass / energy);
-    if (surface.wall.adhesion > 0.0) setAdhesion(contact, surface.height, surface.wall.adhesion, probe.radius);
-    return contact;
+/// Sets the repulsion of a scaled wall and its damping. Force, energy and stiffness are those of pair_law.h for c_r =
+/// 1, in terms of e = 1/D - 1/D0, which keeps all digits where a contact begins:
+///   f = b1 e^2 (1/D + 1/D0)^2,  U = b1 e^3 (1/3 + D/D0),  k = 4 b1 e (1/D + 1/D0) / D^3
+/// Under the surface, where only a particle is that starts there, the force is that at the surface.
+inline void setRepulsion(Contact& contact, const Surface& surface, double gravity, const Probe& probe) {
+    const double strength = wallStrength(probe, gravity);
+    const double height = std::max(surface.height, 0.0);
+    const double distance = height + probe.radius;
+    const double inverse = 1.0 / distance;
+    const double inverseRest = 0.5 / probe.radius;
+    const double e = (probe.radius - height) * inverse * inverseRest;
+    const double toRest = e * (inverse + inverseRest);
+    contact.pressure = strength * toRest * toRest;
+    contact.energy =
+        strength * e * e * e * (1.0 / 3.0 + distance * inverseRest) + contact.pressure * (height - surface.height);
+    if (surface.height >= 0.0) contact.stiffness = 4.0 * strength * toRest * inverse * inverse * inverse;
+    if (contact.energy > 0.0)
+        contact.damping =
+            surface.wall->rebound.dampingRatio * contact.pressure * std::sqrt(2.0 * probe.mass / contact.energy);
+    if (surface.wall->rebound.isDampedByMaterial)
+        contact.damping += probe.damping * probe.dampingReach * toRest * distance * distance;
 }
 
 inline Contact contactWith(const Surface& surface, const Obstacles& obstacles, const Probe& probe) {
-    return obstacles.wall == WallLaw::paper ? paperContact(surface, obstacles.law, probe)
-                                            : scaledContact(surface, obstacles.gravity, probe);
+    Contact contact;
+    contact.isPaper = obstacles.wall == WallLaw::paper;
+    if (contact.isPaper) {
+        contact.repulsor = repulsorContact(surface, obstacles.law, probe);
+        contact.friction = probe.friction;
+        return contact;
+    }
+    contact.friction = surface.wall->friction.value_or(probe.friction);
+    if (surface.height < probe.radius) setRepulsion(contact, surface, obstacles.gravity, probe);
+    if (surface.wall->adhesion > 0.0) setAdhesion(contact, surface.height, surface.wall->adhesion, probe.radius);
+    return contact;
+}
+
+/// Force of a contact along the surface's normal on a particle with this normal speed (m/s), in newtons. On a particle
+/// closer to the repulsor than the core distance acts the force at the core distance, so that it can only be pushed out
+/// on the side of the surface.
+inline double normalForce(const Contact& contact, double normalSpeed) {
+    if (contact.isPaper) return repulsorForceOf(contact.repulsor, normalSpeed);
+    return contact.pressure - contact.damping * normalSpeed - contact.adhesion;
+}
+
+/// Repulsion of a contact, in newtons: what friction is proportional to.
+inline double pressureForce(const Contact& contact) {
+    return contact.isPaper ? repulsorForceOf(contact.repulsor, 0.0) : contact.pressure;
+}
+
+/// Energy of the conservative part of a contact's force, in joules.
+inline double contactEnergy(const Contact& contact) {
+    if (!contact.isPaper) return contact.energy + contact.adhesionEnergy;
+    const RepulsorContact& repulsor = contact.repulsor;
+    return pairEnergy(repulsor.distance, repulsor.constants) + repulsorForceOf(repulsor, 0.0) * repulsor.beyondCore;
 }
 
 /// Energy of a particle at a surface of an obstacle, in joules; 0 where the surface does not act on it.
 inline double surfaceEnergy(const Surface& surface, const Obstacles& obstacles, const Probe& probe) {
-    const double reach = contactReach(surface.wall, probe.radius);
+    const double reach = contactReach(*surface.wall, probe.radius);
     return surface.height >= reach ? 0.0 : contactEnergy(contactWith(surface, obstacles, probe));
 }
 
@@ -152,21 +183,16 @@ inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
 
 /// Damping of a contact along the surface's normal, in kg/s.
 inline double dampingAlong(const Contact& contact) {
-    const double distanceSq = contact.distance * contact.distance;
-    return pairDampingOverSq(distanceSq, contact.constants) * distanceSq + contact.wallDamping;
+    if (!contact.isPaper) return contact.damping;
+    const double distanceSq = contact.repulsor.distance * contact.repulsor.distance;
+    return pairDampingOverSq(distanceSq, contact.repulsor.constants) * distanceSq;
 }
 
 /// Stiffness of a contact along the surface's normal, in N/m; 0 inside the core distance, where the force is constant.
 inline double stiffnessAlong(const Contact& contact) {
-    return contact.beyondCore > 0.0 ? 0.0 : std::max(0.0, pairStiffness(contact.distance, contact.constants));
-}
-
-/// Growth of a scaled wall's stiffness with depth where a contact with it begins, in N/m^2: with D0 - D = d, the force
-/// is 4 b1 d^2 / D0^5 at first.
-inline double hardeningAtContact(const Obstacles& obstacles, const Probe& probe) {
-    const double restLength = 2.0 * probe.radius;
-    const double square = restLength * restLength;
-    return 8.0 * wallStrength(probe, obstacles.gravity) / (square * square * restLength);
+    if (!contact.isPaper) return contact.stiffness;
+    if (contact.repulsor.beyondCore > 0.0) return 0.0;
+    return std::max(0.0, pairStiffness(contact.repulsor.distance, contact.repulsor.constants));
 }
 
 }  // namespace engine

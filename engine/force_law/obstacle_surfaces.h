@@ -10,6 +10,9 @@
 
 namespace engine {
 
+/// The surface of an obstacle for which the scene says nothing else.
+inline constexpr WallSurface kPlainWall;
+
 /// One face of an obstacle relative to one particle.
 struct Surface {
     double height = 0.0;                                             ///< distance of the particle's center, signed, m
@@ -17,7 +20,7 @@ struct Surface {
     double repulsorRadius = 0.5;                                     ///< m
     double halfThickness = std::numeric_limits<double>::infinity();  ///< half the depth of the solid, m
     double curvature = 0.0;                                          ///< 1/radius of a sphere, otherwise 0; 1/m
-    WallSurface wall = {};                                           ///< how it answers under the scaled wall law
+    const WallSurface* wall = &kPlainWall;                           ///< how it answers under the scaled wall law
 };
 
 // The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
@@ -68,22 +71,25 @@ void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadi
 }
 
 /// How an obstacle, given by its index, answers particles under the scaled wall law.
-inline WallSurface wallSurfaceOf(const Obstacles& obstacles, std::size_t obstacle) {
-    return obstacle < obstacles.surfaces.size() ? obstacles.surfaces[obstacle] : WallSurface{};
+inline const WallSurface& wallSurfaceOf(const Obstacles& obstacles, std::size_t obstacle) {
+    return obstacle < obstacles.surfaces.size() ? obstacles.surfaces[obstacle] : kPlainWall;
 }
 
 /// Calls visit(Surface) for every surface of all obstacles.
 template <class Visit>
 void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& visit) {
-    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k)
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
+        const WallSurface* const wall = &wallSurfaceOf(obstacles, k);
         std::visit(
             [&](const auto& shape) {
-                forEachSurface(shape, point, obstacles.law.radius, [&](Surface surface) {
-                    surface.wall = wallSurfaceOf(obstacles, k);
-                    visit(surface);
-                });
+                forEachSurface(
+                    shape, point, obstacles.law.radius, [&](Surface surface) __attribute__((always_inline)) {
+                        surface.wall = wall;
+                        visit(surface);
+                    });
             },
             obstacles.shapes[k]);
+    }
 }
 
 /// Whether a shape may have a surface within a distance `reach` (m) of a point. A cheap test, without a square root or
@@ -114,14 +120,14 @@ inline double contactReach(const WallSurface& wall, double radius) {
 template <class Visit>
 void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius, const Visit& visit) {
     for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
-        const WallSurface wall = wallSurfaceOf(obstacles, k);
+        const WallSurface& wall = wallSurfaceOf(obstacles, k);
         const double reach = contactReach(wall, radius);
         std::visit(
             [&](const auto& shape) {
                 if (!mayReach(shape, point, reach)) return;
                 forEachSurface(shape, point, obstacles.law.radius, [&](Surface surface) {
                     if (surface.height >= reach) return;
-                    surface.wall = wall;
+                    surface.wall = &wall;
                     visit(surface);
                 });
             },

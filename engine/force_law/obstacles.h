@@ -46,14 +46,20 @@ struct RepulsorLaw {
     double coreFraction = 0.25;  ///< core distance, in rest lengths
 };
 
-/// Restitution of surfaces that are given none. Chosen: liquids splash a little, and heaps come to rest soon.
-inline constexpr double kRestitution = 0.2;
+/// How particles rebound from a scaled wall.
+struct Rebound {
+    double restitution = 0.2;                  ///< speed after a rebound over the speed before, 0 to 1
+    double dampingRatio = 0.4559498107691261;  ///< zeta of contact.h, 0 to 1, which makes that restitution
+    /// Whether the damping of the particle's material is added, so that what is viscous rebounds less.
+    bool isDampedByMaterial = true;
+};
+
+/// Rebounds with this restitution exactly, 0 to 1, whatever the material.
+Rebound reboundWith(double restitution);
 
 /// How the surface of an obstacle answers particles under the scaled wall law.
 struct WallSurface {
-    /// Speed after a rebound over the speed before, 0 to 1. Where it is left out it is kRestitution, and less for
-    /// particles of a viscous material, which is damped at the wall, too.
-    std::optional<double> restitution = {};
+    Rebound rebound = {};
     std::optional<double> friction = {};  ///< coefficient mu; that of the particle's material where it is left out
     double adhesion = 0.0;                ///< stress with which the surface holds particles that touch it, N/m^2
 };

@@ -37,6 +37,7 @@ class SimdContacts {
     SimdContacts(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                  std::size_t first)
         : materials_(field.materials),
+          obstacles_(field.obstacles),
           law_(field.obstacles.law),
           particles_(particles),
           velocities_(velocities),
@@ -104,7 +105,7 @@ class SimdContacts {
             const Probe probe = probeOf(materials_, particles_, p, velocities_[p]);
             forEachSurface(box, probe.position, law_.radius, [&](const Surface& surface) {
                 if (surface.height < probe.radius)
-                    addForce(surface, paperContact(surface, law_, probe), probe, force[lane]);
+                    addForce(surface, contactWith(surface, obstacles_, probe), probe, force[lane]);
             });
         }
         force_ = read(force.front());
@@ -143,6 +144,7 @@ class SimdContacts {
     }
 
     const std::vector<Material>& materials_;
+    const Obstacles& obstacles_;
     const RepulsorLaw& law_;
     const Particles& particles_;
     const std::vector<Vec3>& velocities_;

@@ -33,7 +33,7 @@ struct Hit {
     double time = kNever;  ///< s
     Vec3 normal = Vec3::UnitY();
     double rise = 0.0;  ///< distance along the normal that puts the center at its place above the surface, m
-    WallSurface wall = {};
+    const WallSurface* wall = nullptr;
 };
 
 /// A straight motion, and what is known of it.
@@ -132,19 +132,19 @@ Hit firstHit(const Obstacles& obstacles, const Motion& motion, double duration) 
             obstacles.shapes[k]);
         if (hit.time >= first.time) continue;
         first = hit;
-        first.wall = wallSurfaceOf(obstacles, k);
+        first.wall = &wallSurfaceOf(obstacles, k);
     }
     return first;
 }
 
 /// Changes the velocity of a particle that arrives at a surface.
 void answer(const Hit& hit, Arrival arrival, Probe& particle) {
-    const double restitution = arrival == Arrival::rebounds ? hit.wall.restitution.value_or(kRestitution) : 0.0;
+    const double restitution = arrival == Arrival::rebounds ? hit.wall->rebound.restitution : 0.0;
     const double approach = -dot(particle.velocity, hit.normal);
     const double change = (1.0 + restitution) * approach;
     Vec3 slip = particle.velocity + approach * hit.normal;
     const double slipSpeed = std::sqrt(squaredLength(slip));
-    const double friction = hit.wall.friction.value_or(particle.friction);
+    const double friction = hit.wall->friction.value_or(particle.friction);
     if (slipSpeed > 0.0) slip *= std::max(0.0, 1.0 - friction * change / slipSpeed);
     particle.velocity = slip + (change - approach) * hit.normal;
 }

@@ -107,14 +107,14 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particl
     const double radius = particle.radius;
     forEachSurface(
         obstacles, particle.position, [&](const Surface& surface) __attribute__((always_inline)) {
-            const double gap = surface.height - contactReach(surface.wall, radius);
+            const double gap = surface.height - contactReach(*surface.wall, radius);
             bounds.gap = std::min(bounds.gap, gap);
             bounds.scale = obstacles.wall == WallLaw::paper
                                ? paperScale(surface, obstacles, particle, pathLength, bounds.scale)
                                : std::min(bounds.scale, scaledScale(surface, radius));
             if (gap >= 0.0) return;
             const Contact contact = contactWith(surface, obstacles, particle);
-            bounds.scale = std::min(bounds.scale, contact.distance);
+            if (contact.isPaper) bounds.scale = std::min(bounds.scale, contact.repulsor.distance);
             bounds.stiffness = std::max(bounds.stiffness, stiffnessAlong(contact));
             bounds.damping = std::max(bounds.damping, dampingAlong(contact));
             visit(surface, contact);
@@ -191,11 +191,11 @@ Contacts contactsInStep(const Obstacles& obstacles, const Probe& particle, doubl
         [&](const Surface& surface, const Contact& contact) { addForce(surface, contact, particle, contacts.force); });
     contacts.gap = bounds.gap;
     // A contact that acts as an explicit force is stable up to h^2 k + 2 h b = 4 m, with k at the end of the step.
-    const double depth = std::max(0.0, pathLength - std::max(0.0, bounds.gap));
+    if (pathLength <= bounds.gap) return contacts;
+    const double depth = pathLength - std::max(0.0, bounds.gap);
     const double hardening = obstacles.wall == WallLaw::paper ? 0.0 : hardeningAtContact(obstacles, particle);
     const double load = duration * (duration * (bounds.stiffness + hardening * depth) + 2.0 * bounds.damping);
-    contacts.needsSweep = pathLength > bounds.gap && (pathLength > kResolved * bounds.scale ||
-                                                      (isExplicit && load > kStable * 4.0 * particle.mass));
+    contacts.needsSweep = pathLength > kResolved * bounds.scale || (isExplicit && load > kStable * 4.0 * particle.mass);
     return contacts;
 }
 

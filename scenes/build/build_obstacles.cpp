@@ -57,7 +57,7 @@ engine::WallSurface surfaceFrom(Section& section, engine::WallLaw law, BuildCont
         report(section, "repulsor", context,
                "\"literal\" is the repulsor of the paper's walls; it needs physics.wall = \"paper\"");
     engine::WallSurface surface;
-    if (section.has("restitution")) surface.restitution = section.number("restitution");
+    if (section.has("restitution")) surface.rebound = engine::reboundWith(section.number("restitution"));
     if (section.has("friction")) surface.friction = section.number("friction");
     surface.adhesion = section.number("adhesion");
     return surface;

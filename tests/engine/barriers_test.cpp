@@ -23,7 +23,7 @@ Obstacles all(std::vector<Obstacle> shapes, double friction = 0.0) {
     obstacles.shapes = std::move(shapes);
     obstacles.wall = WallLaw::scaled;
     obstacles.gravity = 9.8;
-    obstacles.surfaces.assign(obstacles.shapes.size(), WallSurface{.restitution = 0.6, .friction = friction});
+    obstacles.surfaces.assign(obstacles.shapes.size(), WallSurface{.rebound = reboundWith(0.6), .friction = friction});
     return obstacles;
 }
 

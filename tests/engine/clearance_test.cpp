@@ -2,9 +2,9 @@
 #include "tests/catch.h"
 
 #include "engine/error_control/checked_steps.h"
+#include "engine/obstacles/swept_contact.h"
 #include "engine/stepping/drift.h"
 #include "engine/stepping/step_audit.h"
-#include "engine/obstacles/swept_contact.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

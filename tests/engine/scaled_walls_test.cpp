@@ -5,9 +5,9 @@
 #include <vector>
 #include "tests/catch.h"
 
+#include "engine/obstacles/swept_contact.h"
 #include "engine/run/advance.h"
 #include "engine/run/diagnostics.h"
-#include "engine/obstacles/swept_contact.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/runs.h"
 
@@ -33,7 +33,7 @@ Probe particleOf(const Material& material, double height, const Vec3& velocity) 
 
 /// Speed after a rebound from the plane y = 0 over the speed before.
 double restitutionOf(const Material& material, double speed, double restitution) {
-    const Obstacles floor = scaled(Plane{}, {.restitution = restitution});
+    const Obstacles floor = scaled(Plane{}, {.rebound = reboundWith(restitution)});
     Probe particle = particleOf(material, 1.5 * material.radius, Vec3(0, -speed, 0));
     for (int call = 0; call < 2000 && !(particle.velocity.y() > 0.0 && particle.position.y() > material.radius); ++call)
         advanceThroughContacts(floor, particle, 0.1 * material.radius / speed);

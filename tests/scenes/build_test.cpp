@@ -243,12 +243,13 @@ TEST_CASE("obstacles answer as scaled walls unless the scene asks for the paper'
     const engine::Obstacles plain = obstacleScene(plane).setup.obstacles;
     CHECK(plain.wall == engine::WallLaw::scaled);
     CHECK(plain.gravity == 9.8);
-    CHECK(!plain.surfaces.at(0).restitution.has_value());
+    CHECK(plain.surfaces.at(0).rebound.isDampedByMaterial);
     CHECK(!plain.surfaces.at(0).friction.has_value());
     CHECK(plain.surfaces.at(0).adhesion == 0.0);
     const engine::Obstacles given =
         obstacleScene(plane + "restitution = 0.7\nfriction = 0.3\nadhesion = 20\n").setup.obstacles;
-    CHECK(given.surfaces.at(0).restitution == 0.7);
+    CHECK(given.surfaces.at(0).rebound.restitution == 0.7);
+    CHECK(!given.surfaces.at(0).rebound.isDampedByMaterial);
     CHECK(given.surfaces.at(0).friction == 0.3);
     CHECK(given.surfaces.at(0).adhesion == 20.0);
     CHECK(obstacleScene(plane, kPaperWalls).setup.obstacles.wall == engine::WallLaw::paper);
