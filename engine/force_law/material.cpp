@@ -35,6 +35,17 @@ std::optional<Material> materialPreset(std::string_view name) {
     return preset == presets.end() ? std::nullopt : std::optional(*preset);
 }
 
+Material withRadius(const Material& material, double radius) {
+    const double ratio = radius / material.radius;
+    const double volumeRatio = ratio * ratio * ratio;
+    Material scaled = material;
+    scaled.radius = radius;
+    scaled.mass = material.mass * volumeRatio;
+    scaled.repulsion = material.repulsion * volumeRatio * volumeRatio;
+    scaled.damping = material.damping * ratio;
+    return scaled;
+}
+
 Material mixed(const Material& a, const Material& b) {
     Material mix;
     mix.repulsion = std::sqrt(a.repulsion * b.repulsion);

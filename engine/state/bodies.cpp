@@ -18,25 +18,47 @@ Vec3 jitterOf(const Packing& packing, std::uint64_t index) {
     return packing.jitter * packing.spacing * randomVector(packing.seed, index);
 }
 
-/// Calls visit(position) for the points of a face-centered cubic lattice in a box of the given center and half extent
-/// (m). A lattice of cube edge a = sqrt(2) spacing has a point wherever the sum of its half-edge coordinates is even.
+/// Distance of the layers of a face-centered cubic lattice along an axis, half the edge of its cube, m.
+double layerDistance(double spacing) {
+    return spacing / std::sqrt(2.0);
+}
+
+/// Number of layers of a lattice, one of which is in the middle, that fit into a distance (m) of twice `halfExtent`.
+double layersWithin(double halfExtent, double spacing) {
+    return 2.0 * std::floor(halfExtent / layerDistance(spacing) + kFaceSlack) + 1.0;
+}
+
+/// Calls visit(position) for the points of a face-centered cubic lattice with the given number of layers along each
+/// axis. A lattice of cube edge a = sqrt(2) spacing has a point wherever the sum of its half-edge coordinates is even.
 template <class Visit>
-void forEachLatticePoint(const Vec3& center, const Vec3& halfExtent, double spacing, const Visit& visit) {
-    const double halfEdge = spacing / std::sqrt(2.0);
-    std::array<int, 3> count{};
-    for (int axis = 0; axis < 3; ++axis)
-        count[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor(halfExtent[axis] / halfEdge + kFaceSlack));
-    for (int z = -count[2]; z <= count[2]; ++z)
-        for (int y = -count[1]; y <= count[1]; ++y)
-            for (int x = -count[0]; x <= count[0]; ++x)
-                if ((x + y + z) % 2 == 0) visit(Vec3(center + halfEdge * Vec3(x, y, z)));
+void forEachLatticePoint(const Vec3& center, const Vec3& layers, double spacing, const Visit& visit) {
+    const double halfEdge = layerDistance(spacing);
+    const Vec3 middle = 0.5 * (layers - Vec3::Ones());
+    const std::array<int, 3> counts = {static_cast<int>(layers.x()), static_cast<int>(layers.y()),
+                                       static_cast<int>(layers.z())};
+    const auto [nx, ny, nz] = counts;
+    const int parity = ((nx - 1) / 2 + (ny - 1) / 2 + (nz - 1) / 2) % 2;
+    for (int z = 0; z < nz; ++z)
+        for (int y = 0; y < ny; ++y)
+            for (int x = 0; x < nx; ++x)
+                if ((x + y + z) % 2 == parity) visit(Vec3(center + halfEdge * (Vec3(x, y, z) - middle)));
 }
 
 }  // namespace
 
+Vec3 boxLayers(const Vec3& minimum, const Vec3& maximum, const Packing& packing) {
+    Vec3 layers;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double coarse = layersWithin(0.5 * (maximum[axis] - minimum[axis]), packing.refinement * packing.spacing);
+        layers[axis] = std::max(1.0, std::round(packing.refinement * coarse));
+    }
+    return layers;
+}
+
 std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing& packing) {
+    const Vec3 layers = Vec3::Constant(layersWithin(radius, packing.spacing));
     std::vector<Vec3> positions;
-    forEachLatticePoint(center, Vec3::Constant(radius), packing.spacing, [&](const Vec3& point) {
+    forEachLatticePoint(center, layers, packing.spacing, [&](const Vec3& point) {
         if (squaredLength(point - center) > radius * radius * (1.0 + kFaceSlack)) return;
         positions.push_back(point + jitterOf(packing, positions.size()));
     });
@@ -45,7 +67,7 @@ std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing
 
 std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const Packing& packing) {
     std::vector<Vec3> positions;
-    forEachLatticePoint(0.5 * (minimum + maximum), 0.5 * (maximum - minimum), packing.spacing,
+    forEachLatticePoint(0.5 * (minimum + maximum), boxLayers(minimum, maximum, packing), packing.spacing,
                         [&](const Vec3& point) { positions.push_back(point + jitterOf(packing, positions.size())); });
     return positions;
 }

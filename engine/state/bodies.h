@@ -15,7 +15,13 @@ struct Packing {
     double spacing = 0.3;    ///< distance of nearest neighbors, m
     double jitter = 0.0;     ///< largest random displacement of a coordinate, in spacings
     std::uint64_t seed = 1;  ///< seed of the random displacements
+    /// Number of layers that take the place of each layer of a box's lattice. The spacing above is the one after that.
+    double refinement = 1.0;
 };
+
+/// Number of layers of a box's lattice along each axis, whole numbers. The layers are spacing / sqrt(2) apart. A refined
+/// box is filled with as many layers as keep its volume, so that the outermost ones may be slightly beyond its faces.
+Vec3 boxLayers(const Vec3& minimum, const Vec3& maximum, const Packing& packing);
 
 /// Face-centered cubic positions inside a ball, in meters.
 std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing& packing);

@@ -1,12 +1,12 @@
 // Makes the particles that exist from the start, from the [[body]] tables of a scene.
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "engine/core/hash.h"
 #include "engine/core/random.h"
 #include "engine/state/bodies.h"
 #include "scenes/build/builders.h"
+#include "scenes/build/columns.h"
 #include "scenes/model/particle_file.h"
 #include "scenes/text/read_file.h"
 
@@ -20,26 +20,28 @@ struct Body {
     Section& section;
     std::size_t index = 0;
     std::uint32_t material = 0;
-    const Materials& materials;
+    Materials& materials;
 };
 
-/// Number of lattice points that the packing visits in a box of the given half extent (m). engine/state/bodies.cpp
-/// describes the lattice.
-double latticeCount(const Vec3& halfExtent, double spacing) {
-    double count = 0.5;
-    for (int axis = 0; axis < 3; ++axis)
-        count *= 2.0 * std::floor(halfExtent[axis] * std::numbers::sqrt2 / spacing) + 1.0;
-    return count;
+engine::Packing packingOf(const Section& section, const BuildContext& context) {
+    engine::Packing packing;
+    packing.spacing = section.number("spacing");
+    packing.jitter = section.number("jitter");
+    packing.refinement = context.resolution;
+    return packing;
 }
 
 /// Upper bound of the number of particles in a body of shape box, ball or grid.
-double maxParticleCount(const Section& section) {
+double maxParticleCount(const Section& section, const BuildContext& context) {
     const std::string& shape = section.string("shape");
-    if (shape == "ball") return latticeCount(Vec3::Constant(section.number("radius")), section.number("spacing"));
+    if (shape == "grid") return section.vector("counts").prod();
+    // A ball is cut out of the lattice of its bounding box.
+    const Vec3 radius = Vec3::Constant(shape == "ball" ? section.number("radius") : 0.0);
+    engine::Packing packing = packingOf(section, context);
     if (shape == "box")
-        return latticeCount(0.5 * (section.vector("maximum") - section.vector("minimum")), section.number("spacing"));
-    const Vec3& counts = section.vector("counts");
-    return counts.x() * counts.y() * counts.z();
+        return 0.5 * engine::boxLayers(section.vector("minimum"), section.vector("maximum"), packing).prod();
+    packing.refinement = 1.0;
+    return 0.5 * engine::boxLayers(-radius, radius, packing).prod();
 }
 
 void checkPoints(Section& section, BuildContext& context) {
@@ -53,9 +55,7 @@ void checkPoints(Section& section, BuildContext& context) {
 
 std::vector<Vec3> packedPositions(const Body& body, const BuildContext& context) {
     const Section& section = body.section;
-    engine::Packing packing;
-    packing.spacing = section.number("spacing");
-    packing.jitter = section.number("jitter");
+    engine::Packing packing = packingOf(section, context);
     packing.seed = engine::scatter(context.seed ^ engine::scatter(body.index));
     const std::string& shape = section.string("shape");
     if (shape == "ball") return engine::ballPositions(section.vector("center"), section.number("radius"), packing);
@@ -142,34 +142,58 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
     }
 }
 
-void buildBody(const Body& body, BuildContext& context, engine::Particles& particles) {
-    Section& section = body.section;
-    if (!section.has("shape")) return;
-    const std::string& shape = section.string("shape");
-    const bool isPacked = shape == "box" || shape == "ball" || shape == "grid";
-    if (isPacked)
-        section.derive("spacing", TypedValue::ofNumber(2.0 * (section.has("particle_radius")
-                                                                  ? section.number("particle_radius")
-                                                                  : body.materials.list[body.material].radius)));
-    checkCorners(section, Flatness::allowed, context);
-    checkPoints(section, context);
-    if (isPacked && section.isValid())
-        addExpectedParticles(section, "shape", maxParticleCount(section), "the body would have", context);
-    if (!section.isValid()) return;
-    const std::size_t countBefore = particles.count();
+/// Appends the particles of a body.
+void appendBody(const Body& body, BuildContext& context, engine::Particles& particles) {
+    const std::string& shape = body.section.string("shape");
     if (shape == "file")
         appendFile(body, context, particles);
     else if (shape == "points")
         appendPoints(body, particles);
     else
-        return appendPacked(body, context, particles);
-    addExpectedParticles(section, "shape", static_cast<double>(particles.count() - countBefore), "the body has",
-                         context);
+        appendPacked(body, context, particles);
+}
+
+void buildBody(Body body, BuildContext& context, engine::Particles& particles) {
+    Section& section = body.section;
+    if (!section.has("shape")) return;
+    const std::string& shape = section.string("shape");
+    const bool isPacked = shape == "box" || shape == "ball" || shape == "grid";
+    // The particles of a file keep their material with its constants, whatever their radii are.
+    if (shape != "file" && section.has("particle_radius"))
+        body.material = materialAtRadius(body.materials, body.material, section.number("particle_radius"));
+    if (isPacked)
+        section.derive("spacing", TypedValue::ofNumber(2.0 * body.materials.list[body.material].radius));
+    checkCorners(section, Flatness::allowed, context);
+    checkPoints(section, context);
+    if (isPacked && section.isValid())
+        addExpectedParticles(section, "shape", maxParticleCount(section, context), "the body would have", context);
+    if (!section.isValid()) return;
+    const std::size_t countBefore = particles.count();
+    appendBody(body, context, particles);
+    if (!isPacked)
+        addExpectedParticles(section, "shape", static_cast<double>(particles.count() - countBefore), "the body has",
+                             context);
+}
+
+/// The column that a body is, and the material of its particles; without height if the body is empty or has problems.
+BodyColumn bodyColumn(const Section& section, const Scene& scene, const Materials& materials, std::size_t first,
+                      const BuildContext& context) {
+    const engine::Particles& particles = scene.setup.initial;
+    BodyColumn column;
+    column.shape.height = 0.0;
+    if (first == particles.count()) return column;
+    column.material = materials.list[particles.material[first]];
+    column.material.radius = particles.radius[first];
+    column.material.mass = particles.mass[first];
+    const auto packed = columnOf(section, column.material, context);
+    column.shape = packed ? *packed
+                          : columnOf(std::span(particles.position).subspan(first), column.material, context);
+    return column;
 }
 
 }  // namespace
 
-void buildBodies(std::vector<Section>& sections, const Materials& materials, Scene& scene, BuildContext& context) {
+void buildBodies(std::vector<Section>& sections, Materials& materials, Scene& scene, BuildContext& context) {
     engine::Particles& particles = scene.setup.initial;
     for (std::size_t index = 0; index < sections.size(); ++index) {
         const auto material = materialOf(sections[index], materials, context);
@@ -177,6 +201,7 @@ void buildBodies(std::vector<Section>& sections, const Materials& materials, Sce
         buildBody({sections[index], index, material.value_or(0), materials}, context, particles);
         checkWithinWorld(sections[index], "shape", std::span(particles.position).subspan(countBefore), context);
         scene.tables.bodyEnds.push_back(particles.count());
+        scene.bodyColumns.push_back(bodyColumn(sections[index], scene, materials, countBefore, context));
     }
 }
 

@@ -1,10 +1,14 @@
 // Makes the materials of particles from the [material] tables of a scene: a preset, in which the keys that are given
-// replace the preset's values.
+// replace the preset's values. What a table leaves out of mass, b1 and bd follows from the radius, so that a preset
+// stays the same substance at any size of its particles.
 #include <array>
+#include <cmath>
 #include <map>
 #include <string_view>
 
 #include "scenes/build/builders.h"
+#include "scenes/build/columns.h"
+#include "scenes/schema/keys.h"
 #include "scenes/text/color.h"
 
 namespace scenes {
@@ -31,9 +35,44 @@ constexpr std::array<MaterialKey, 8> kMaterialKeys = {{{"radius", &engine::Mater
                                                        {"friction", &engine::Material::friction},
                                                        {"core", &engine::Material::coreFraction}}};
 
-/// Sets the keys of [material] that the scene leaves out to the values of the preset.
-void completeMaterial(Section& section) {
+/// The keys that follow from the radius where they are not given.
+constexpr std::array<MaterialKey, 3> kFollowing = {kMaterialKeys[1], kMaterialKeys[2], kMaterialKeys[3]};
+
+/// "mass 0.064, b1 4.1e-05" for those of the keys that follow from the radius.
+std::string followingText(const engine::Material& material, const auto& follows) {
+    std::vector<std::string> parts;
+    for (const MaterialKey& key : kFollowing)
+        if (follows(key.name)) parts.push_back(fmt::format("{} {:.3g}", key.name, material.*key.member));
+    if (parts.empty()) return "mass, b1 and bd are given";
+    return fmt::format("{} follow{}", fmt::join(parts, ", "), parts.size() == 1 ? "s" : "");
+}
+
+/// The substance of a [material] table before its own constants are set: the preset with particles of the table's
+/// radius, and at the scene's resolution.
+engine::Material presetOf(const Section& section) {
     const engine::Material preset = *engine::materialPreset(section.string("preset"));
+    return section.has("radius") ? engine::withRadius(preset, section.number("radius")) : preset;
+}
+
+/// Divides the radius of a table by the scene's resolution, and lets the constants that are given follow.
+void refine(Section& section, double resolution) {
+    const engine::Material preset = *engine::materialPreset(section.string("preset"));
+    section.derive("radius", TypedValue::ofNumber(preset.radius));
+    if (resolution == 1.0 || !section.isValid()) return;
+    engine::Material given = preset;
+    for (const MaterialKey& key : kMaterialKeys)
+        if (section.has(key.name)) given.*key.member = section.number(key.name);
+    given = engine::withRadius(given, given.radius / resolution);
+    for (const MaterialKey& key : kMaterialKeys)
+        if (section.has(key.name))
+            section.put(key.name, TypedValue::ofNumber(given.*key.member), section.position(key.name),
+                        section.origin(key.name));
+}
+
+/// Sets the keys of [material] that the scene leaves out to the values of the preset.
+void completeMaterial(Section& section, double resolution) {
+    refine(section, resolution);
+    const engine::Material preset = presetOf(section);
     section.derive("name", TypedValue::ofString(preset.name));
     for (const MaterialKey& key : kMaterialKeys) section.derive(key.name, TypedValue::ofNumber(preset.*key.member));
     section.derive("color", TypedValue::ofVector(*colorFromHex(kPresetColors.at(preset.name))));
@@ -45,27 +84,105 @@ void checkName(Section& section, const Materials& previous, BuildContext& contex
             report(section, "name", context, "there are two materials with the name {}", tomlString(material.name));
 }
 
+/// Records a problem if the resolution, or a radius far from the preset's, makes particles that the engine does not
+/// accept.
+void checkRanges(Section& section, BuildContext& context) {
+    const auto isWithin = [](double value, const Range& range) { return value >= range.low && value <= range.high; };
+    if (!isWithin(section.number("radius"), kRadii))
+        report(section, "radius", context, "the radius would be {:.7g} m, must be {}", section.number("radius"),
+               rangeText(kRadii));
+    if (!isWithin(section.number("mass"), kMasses))
+        report(section, "mass", context, "the mass would be {:.7g} kg, must be {}", section.number("mass"),
+               rangeText(kMasses));
+}
+
+/// Why mass, b1 and bd of a material are what they are, for `check`; empty where they are those of its preset.
+std::string noteOn(const Section& section, const engine::Material& material, double resolution) {
+    const double presetRadius = engine::materialPreset(section.string("preset"))->radius;
+    if (material.radius == presetRadius && resolution == 1.0) return {};
+    const auto follows = [&](std::string_view key) {
+        const bool isChosen = key == "b1" && section.isGiven("compression");
+        return !isChosen && (resolution != 1.0 || !section.isGiven(key));
+    };
+    return fmt::format("radius {:.3g}{} is {:.3g} times that of the preset {}: {}", material.radius,
+                       resolution == 1.0 ? "" : fmt::format(" at resolution {:g}", resolution),
+                       material.radius / presetRadius, section.string("preset"), followingText(material, follows));
+}
+
+/// Chooses b1 of a material for the wanted compression, and returns what was done, for `check`.
+std::string chooseRepulsion(Section& section, const engine::Material& material, const std::vector<Section>& bodies,
+                            BuildContext& context) {
+    const auto column = columnFor(section, material, bodies, context);
+    if (!column) return {};
+    const double wanted = 1.0 - section.number("compression");
+    const auto repulsion = engine::repulsionForShare(material, *column, wanted);
+    if (!repulsion) {
+        report(section, "compression", context,
+               "compression is {}, but particles {:.3g} m apart sink further, however strong their repulsion is: give "
+               "the body a smaller spacing",
+               section.canonical("compression"), column->spacing);
+        return {};
+    }
+    section.derive("b1", TypedValue::ofNumber(*repulsion));
+    return fmt::format("compression {} of {:.3g} m: b1 {:.3g}", section.canonical("compression"), column->height,
+                       *repulsion);
+}
+
+void appendMaterial(Section& section, Materials& materials, BuildContext& context) {
+    // An invalid material keeps its name, so that no body that uses it is reported for an undefined material.
+    engine::Material material;
+    engine::Vec3 color = engine::Vec3::Zero();
+    completeMaterial(section, context.resolution);
+    if (section.has("name")) {
+        checkName(section, materials, context);
+        material.name = section.string("name");
+    }
+    if (section.isValid()) checkRanges(section, context);
+    if (section.isValid()) {
+        for (const MaterialKey& key : kMaterialKeys) material.*key.member = section.number(key.name);
+        color = section.vector("color");
+    }
+    materials.list.push_back(material);
+    materials.colors.push_back(color);
+    materials.sections.push_back(&section);
+    materials.notes.push_back(section.isValid() ? noteOn(section, material, context.resolution) : "");
+}
+
 }  // namespace
 
-Materials buildMaterials(std::vector<Section>& sections, BuildContext& context) {
+Materials buildMaterials(std::vector<Section>& sections, const std::vector<Section>& bodies, BuildContext& context) {
     Materials materials;
-    for (Section& section : sections) {
-        // An invalid material keeps its name, so that no body that uses it is reported for an undefined material.
-        engine::Material material;
-        engine::Vec3 color = engine::Vec3::Zero();
-        completeMaterial(section);
-        if (section.has("name")) {
-            checkName(section, materials, context);
-            material.name = section.string("name");
-        }
-        if (section.isValid()) {
-            for (const MaterialKey& key : kMaterialKeys) material.*key.member = section.number(key.name);
-            color = section.vector("color");
-        }
-        materials.list.push_back(material);
-        materials.colors.push_back(color);
+    for (Section& section : sections) appendMaterial(section, materials, context);
+    // The bodies find their material by its name, which all materials have by now.
+    for (std::size_t index = 0; index < sections.size(); ++index) {
+        Section& section = sections[index];
+        if (!checkCompression(section, context)) continue;
+        const std::string note = chooseRepulsion(section, materials.list[index], bodies, context);
+        if (!section.isValid()) continue;
+        materials.list[index].repulsion = section.number("b1");
+        materials.notes[index] += (materials.notes[index].empty() ? "" : "; ") + note;
     }
     return materials;
+}
+
+std::uint32_t materialAtRadius(Materials& materials, std::uint32_t index, double radius) {
+    const engine::Material original = materials.list[index];
+    const Section& section = *materials.sections[index];
+    if (radius == original.radius) return index;
+    engine::Material derived = engine::withRadius(original, radius);
+    for (const MaterialKey& key : kFollowing)
+        if (section.isGiven(key.name)) derived.*key.member = original.*key.member;
+    derived.name = fmt::format("{} at radius {:.7g}", original.name, radius);
+    for (std::uint32_t other = 0; other < materials.list.size(); ++other)
+        if (materials.list[other].name == derived.name) return other;
+    materials.list.push_back(derived);
+    materials.colors.push_back(engine::Vec3(materials.colors[index]));
+    materials.sections.push_back(&section);
+    const auto follows = [&](std::string_view key) { return !section.isGiven(key); };
+    materials.notes.push_back(fmt::format("particle_radius {:.3g} is {:.3g} times the radius of the material {}: {}",
+                                          radius, radius / original.radius, original.name,
+                                          followingText(derived, follows)));
+    return static_cast<std::uint32_t>(materials.list.size() - 1);
 }
 
 }  // namespace scenes

@@ -18,11 +18,13 @@
 
 namespace scenes {
 
-/// The materials of a scene in the order of its [[material]] tables, and their particles' colors, which the engine does
-/// not need.
+/// The materials of a scene in the order of its [[material]] tables, then those of bodies whose particles have another
+/// radius than their material's.
 struct Materials {
     std::vector<engine::Material> list;
-    std::vector<engine::Vec3> colors;  ///< linear RGB
+    std::vector<engine::Vec3> colors;      ///< of the particles, linear RGB
+    std::vector<const Section*> sections;  ///< the table that each material comes from
+    std::vector<std::string> notes;        ///< why mass, b1 and bd are what they are; empty: those of the preset
 };
 
 /// What the builders share.
@@ -32,6 +34,8 @@ struct BuildContext {
     std::string folder;     ///< the scene file's folder, which file names in it are relative to
     double duration = 1.0;  ///< s
     std::uint64_t seed = 1;
+    double resolution = 1.0;  ///< factor by which radii and spacings are divided
+    engine::Vec3 gravity = engine::Vec3::Zero();  ///< m/s^2
     bool hasOmissions =
         false;  ///< a part of the scene file could not be read, so keys that seem to be missing may be in it
     std::uint64_t contentHash;                 ///< hash over the contents of the files that the scene refers to
@@ -40,9 +44,19 @@ struct BuildContext {
     double expectedParticles = 0.0;  ///< number of particles of the bodies and emitters built so far
 };
 
-Materials buildMaterials(std::vector<Section>& sections, BuildContext& context);
+/// Refines bodies, emitters and the time step for the key resolution: spacings, counts and schedules. Materials are
+/// refined when they are built. Records a problem for what cannot be refined.
+void applyResolution(Sections& sections, BuildContext& context);
+
+/// @param bodies  of which the tallest tells the depth of a material that gives its compression without one
+Materials buildMaterials(std::vector<Section>& sections, const std::vector<Section>& bodies, BuildContext& context);
+
+/// Index of the material that acts like the given one and has particles of another radius (m): what its table leaves
+/// out of mass, b1 and bd follows from the radius. It is added unless it is there.
+std::uint32_t materialAtRadius(Materials& materials, std::uint32_t index, double radius);
+
 /// Adds the particles of the bodies to the scene, and which of them are of which body.
-void buildBodies(std::vector<Section>& sections, const Materials& materials, Scene& scene, BuildContext& context);
+void buildBodies(std::vector<Section>& sections, Materials& materials, Scene& scene, BuildContext& context);
 std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const Materials& materials,
                                            BuildContext& context);
 

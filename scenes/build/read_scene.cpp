@@ -148,6 +148,8 @@ BuildContext contextOf(const Sections& sections, const std::string& fileName, Pr
     // Without a valid duration the scene is rejected in the end; the default serves to find the problems in the other
     // tables.
     if (sections.top.has("duration")) context.duration = sections.top.number("duration");
+    if (sections.top.has("resolution")) context.resolution = sections.top.number("resolution");
+    if (sections.physics.has("gravity")) context.gravity = sections.physics.vector("gravity");
     context.seed = static_cast<std::uint64_t>(sections.top.integer("seed"));
     return context;
 }
@@ -160,7 +162,8 @@ std::vector<SourcePosition> positionsOf(const std::vector<Section>& sections) {
 
 /// Builds the parts of a scene from its tables. They are complete only if no problem was recorded.
 void build(Sections& sections, BuildContext& context, Scene& scene) {
-    Materials materials = buildMaterials(sections.materials, context);
+    applyResolution(sections, context);
+    Materials materials = buildMaterials(sections.materials, sections.bodies, context);
     scene.setup.world = buildWorld(sections.world, context);
     buildBodies(sections.bodies, materials, scene, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
@@ -175,6 +178,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     checkWorld(sections.world, scene.setup, context);
     scene.setup.materials = std::move(materials.list);
     scene.materialColors = std::move(materials.colors);
+    scene.materialNotes = std::move(materials.notes);
     scene.tables.bodies = positionsOf(sections.bodies);
     scene.tables.emitters = positionsOf(sections.emitters);
     scene.tables.obstacles = positionsOf(sections.obstacles);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/force_law/compression.h"
 #include "engine/state/setup.h"
 #include "scenes/model/camera_path.h"
 #include "scenes/model/look.h"
@@ -29,6 +30,12 @@ struct SourceTables {
     std::vector<std::size_t> bodyEnds;  ///< for each body, the number of initial particles up to its last one
 };
 
+/// A body of a scene as a column, whose weight compresses it.
+struct BodyColumn {
+    engine::Column shape;       ///< its height is 0 where there is no gravity or no more than one particle
+    engine::Material material;  ///< with the radius and the mass of the body's particles
+};
+
 struct Scene {
     std::string title;
     std::string description;
@@ -36,6 +43,8 @@ struct Scene {
     render::FrameRate fps;
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB of the particles, one for each of the setup's materials
+    std::vector<std::string> materialNotes;    ///< for each material why mass, b1 and bd are what they are, or empty
+    std::vector<BodyColumn> bodyColumns;       ///< one for each body
     CameraPath camera;
     Look look;
     render::PictureSize size;

@@ -44,11 +44,12 @@ std::vector<Key> bodyKeys() {
         key("file", Type::string, "", "PLY file as `globular simulate` writes it, relative to the scene file")
             .required()
             .onlyFor({"file"}),
-        length("particle_radius", "radius of this body's particles")
+        length("particle_radius",
+               "radius of this body's particles; what their material leaves out of mass, b1 and bd follows from it")
             .derivedAs("of the material; for a file, the radii in it")
             .within(kRadii),
         key("particle_mass", Type::number, "kg", "mass of this body's particles")
-            .derivedAs("of the material; for a file, the masses in it")
+            .derivedAs("of the material at this radius; for a file, the masses in it")
             .within(kMasses),
     };
 }

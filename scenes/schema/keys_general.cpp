@@ -16,6 +16,11 @@ std::vector<Key> topKeys() {
             .defaultsTo("30")
             .within({1.0, 240.0}),
         key("seed", Type::integer, "", "seed of all random numbers").defaultsTo("1").within(kNotNegative),
+        key("resolution", Type::number, "",
+            "divides all radii and spacings of particles, also those given, and physics.step; the same substances and "
+            "volumes, of this number to the third power times as many particles")
+            .defaultsTo("1")
+            .within({0.01, 100.0}),
     };
 }
 
@@ -75,10 +80,24 @@ std::vector<Key> materialKeys() {
             "row of Table 1 of the paper, or a named substance, that the other keys take their defaults from")
             .defaultsTo("\"liquid\"")
             .oneOf(presets),
-        length("radius", "radius of a particle").derivedAs(preset).within(kRadii),
-        key("mass", Type::number, "kg", "mass of a particle").derivedAs(preset).within(kMasses),
-        key("b1", Type::number, "N m^4", "strength of repulsion and attraction").derivedAs(preset).within(kNotNegative),
-        key("bd", Type::number, "kg/s", "strength of damping: viscosity").derivedAs(preset).within(kNotNegative),
+        length("radius", "radius of a particle; what is left out of mass, b1 and bd follows from it")
+            .derivedAs(preset)
+            .within(kRadii),
+        key("mass", Type::number, "kg", "mass of a particle")
+            .derivedAs("of the preset, times the third power of radius over the preset's radius")
+            .within(kMasses),
+        key("b1", Type::number, "N m^4", "strength of repulsion and attraction")
+            .derivedAs("of the preset, times the sixth power of radius over the preset's radius; or from compression")
+            .within(kNotNegative),
+        key("bd", Type::number, "kg/s", "strength of damping: viscosity")
+            .derivedAs("of the preset, times radius over the preset's radius")
+            .within(kNotNegative),
+        key("compression", Type::number, "",
+            "share of its height by which a column of the material sinks under its own weight; chooses b1")
+            .derivedAs("as b1 has it")
+            .within(kOpenUnitInterval),
+        length("depth", "height of the column of which compression is a share")
+            .derivedAs("of the tallest body of the material"),
         key("cr", Type::number, "",
             "cutoff of repulsion and attraction in rest lengths; particles attract only above 1")
             .derivedAs(preset)

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/force_law/compression.h"
 #include "engine/neighbors/pair_estimate.h"
 #include "engine/run/strays.h"
 #include "engine/stepping/step_bound.h"
@@ -81,11 +82,18 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
             {"particle", bound->particle}};
 }
 
-/// The constants of a material, under the names of the keys of a scene file.
-Json materialJson(const engine::Material& material) {
+/// The constants of a material, under the names of the keys of a scene file, and why mass, b1 and bd are what they are.
+Json materialJson(const engine::Material& material, const std::string& note) {
     return {{"name", material.name},         {"b1", material.repulsion},      {"bd", material.damping},
             {"cr", material.repulsionReach}, {"cd", material.dampingReach},   {"radius", material.radius},
-            {"mass", material.mass},         {"core", material.coreFraction}, {"friction", material.friction}};
+            {"mass", material.mass},         {"core", material.coreFraction}, {"friction", material.friction},
+            {"note", note}};
+}
+
+/// How tall a body is, and to what share of that it sinks under its own weight; null where nothing weighs on it.
+Json bodyJson(const scenes::BodyColumn& body) {
+    if (body.shape.height == 0.0) return nullptr;
+    return {{"height", body.shape.height}, {"sinks_to", engine::settledShare(body.material, body.shape)}};
 }
 
 /// What follows from the scene file alone.
@@ -104,7 +112,10 @@ Json sceneJson(const scenes::Scene& scene) {
     if (terms.pair.damping) json["terms"].push_back("damping");
     if (terms.pair.friction) json["terms"].push_back("friction");
     json["materials"] = Json::array();
-    for (const engine::Material& material : scene.setup.materials) json["materials"].push_back(materialJson(material));
+    for (std::size_t index = 0; index < scene.setup.materials.size(); ++index)
+        json["materials"].push_back(materialJson(scene.setup.materials[index], scene.materialNotes[index]));
+    json["bodies"] = Json::array();
+    for (const scenes::BodyColumn& body : scene.bodyColumns) json["bodies"].push_back(bodyJson(body));
     json["uniform"] = terms.uniform;
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.obstacles.shapes.size();
@@ -212,6 +223,20 @@ std::string predictedText(const Json& json) {
     return text;
 }
 
+/// A line for each body that gravity compresses, up to as many as one reads.
+std::string bodiesText(const Json& bodies) {
+    constexpr std::size_t kMostLines = 12;  // chosen
+    std::string text;
+    for (std::size_t index = 0; index < bodies.size(); ++index) {
+        if (bodies[index].is_null()) continue;
+        if (index >= kMostLines) return text + fmt::format("body       ... {} in all\n", bodies.size());
+        text += fmt::format(
+            "body       {}: a column as tall as it, {:.3g} m, sinks to {:.2g} of its height by its own weight\n",
+            index + 1, bodies[index]["height"].get<double>(), bodies[index]["sinks_to"].get<double>());
+    }
+    return text;
+}
+
 /// What `check` prints without --json.
 std::string checkText(const Json& json) {
     std::string text = fmt::format("{}: {}\n", json["source"].get<std::string>(), json["scene"].get<std::string>());
@@ -231,7 +256,10 @@ std::string checkText(const Json& json) {
             "{:g}\n",
             material["name"].get<std::string>(), value("b1"), value("bd"), value("cr"), value("cd"), value("radius"),
             value("mass"), value("core"), value("friction"));
+        if (const auto note = material["note"].get<std::string>(); !note.empty())
+            text += fmt::format("           {}\n", note);
     }
+    text += bodiesText(json["bodies"]);
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
     text += predictedText(json);
     if (const Json& cutOff = json["cut_off"]; !cutOff.is_null())
