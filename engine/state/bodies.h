@@ -19,8 +19,9 @@ struct Packing {
     double refinement = 1.0;
 };
 
-/// Number of layers of a box's lattice along each axis, whole numbers. The layers are spacing / sqrt(2) apart. A refined
-/// box is filled with as many layers as keep its volume, so that the outermost ones may be slightly beyond its faces.
+/// Number of layers of a box's lattice along each axis, whole numbers. The layers are spacing / sqrt(2) apart. A
+/// refined box is filled with as many layers as keep its volume, so that the outermost ones may be slightly beyond its
+/// faces.
 Vec3 boxLayers(const Vec3& minimum, const Vec3& maximum, const Packing& packing);
 
 /// Face-centered cubic positions inside a ball, in meters.

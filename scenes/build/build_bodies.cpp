@@ -161,8 +161,7 @@ void buildBody(Body body, BuildContext& context, engine::Particles& particles) {
     // The particles of a file keep their material with its constants, whatever their radii are.
     if (shape != "file" && section.has("particle_radius"))
         body.material = materialAtRadius(body.materials, body.material, section.number("particle_radius"));
-    if (isPacked)
-        section.derive("spacing", TypedValue::ofNumber(2.0 * body.materials.list[body.material].radius));
+    if (isPacked) section.derive("spacing", TypedValue::ofNumber(2.0 * body.materials.list[body.material].radius));
     checkCorners(section, Flatness::allowed, context);
     checkPoints(section, context);
     if (isPacked && section.isValid())
@@ -186,8 +185,7 @@ BodyColumn bodyColumn(const Section& section, const Scene& scene, const Material
     column.material.radius = particles.radius[first];
     column.material.mass = particles.mass[first];
     const auto packed = columnOf(section, column.material, context);
-    column.shape = packed ? *packed
-                          : columnOf(std::span(particles.position).subspan(first), column.material, context);
+    column.shape = packed ? *packed : columnOf(std::span(particles.position).subspan(first), column.material, context);
     return column;
 }
 

@@ -1,6 +1,8 @@
 // Makes the emitters of the simulation, with their points of emission and times of emission, from the [[emitter]]
 // tables of a scene.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "scenes/build/builders.h"
 
@@ -38,9 +40,34 @@ std::optional<Vec3> discNormal(Section& section, BuildContext& context) {
     return normal;
 }
 
+double sitesAcross(double radius, double spacing) {
+    return 2.0 * radius / spacing + 1.0;
+}
+
+/// At another resolution, gives a disc the area that its points of emission had at resolution 1, each of which stands
+/// for its cell of the hexagonal lattice, and an interval with which it emits the same mass per second. The interval
+/// has already been divided by the resolution, which is right if there are as many more points as there is finer area.
+void refineDisc(Section& section, BuildContext& context) {
+    if (context.resolution == 1.0 || !section.isValid()) return;
+    const double spacing = section.number("spacing");
+    const double coarse = spacing * context.resolution;
+    const double radius = section.number("radius");
+    if (std::pow(sitesAcross(radius, std::min(spacing, coarse)), 2.0) > context.limits.particles) return;
+    const auto countOf = [](double within, double apart) {
+        return static_cast<double>(engine::discSites(Vec3::Zero(), Vec3::UnitY(), within, apart).size());
+    };
+    const double coarseCount = countOf(radius, coarse);
+    const double refined = coarse * std::sqrt(coarseCount * std::sqrt(0.75) / std::numbers::pi);
+    const double wanted = coarseCount * context.resolution * context.resolution;
+    section.put("radius", TypedValue::ofNumber(refined), section.position("radius"), ValueOrigin::given);
+    if (!section.isGiven("interval") || section.string("pick") == "random") return;
+    section.put("interval", TypedValue::ofNumber(section.number("interval") * countOf(refined, spacing) / wanted),
+                section.position("interval"), ValueOrigin::given);
+}
+
 /// Points of emission that fill a disc; none, with the problem recorded, if there would be too many.
 std::vector<Vec3> discSitesOf(Section& section, const Vec3& normal, BuildContext& context) {
-    const double across = 2.0 * section.number("radius") / section.number("spacing") + 1.0;
+    const double across = sitesAcross(section.number("radius"), section.number("spacing"));
     if (across * across > context.limits.particles) {
         report(section, "spacing", context, "the disc would have about {:.2g} points of emission, {}", across * across,
                allowedText("particles", context.limits.particles));
@@ -101,8 +128,10 @@ std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const
         const auto material = materialOf(section, materials, context);
         checkPositions(section, context);
         checkSchedule(section, context);
-        if (isDisc(section))
+        if (isDisc(section)) {
             section.derive("spacing", TypedValue::ofNumber(2.0 * materials.list[material.value_or(0)].radius));
+            refineDisc(section, context);
+        }
         std::vector<Vec3> sites = sitesOf(section, context);
         checkWithinWorld(section, section.has("positions") ? "positions" : "position", sites, context);
         if (!section.isValid()) continue;

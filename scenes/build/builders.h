@@ -34,7 +34,7 @@ struct BuildContext {
     std::string folder;     ///< the scene file's folder, which file names in it are relative to
     double duration = 1.0;  ///< s
     std::uint64_t seed = 1;
-    double resolution = 1.0;  ///< factor by which radii and spacings are divided
+    double resolution = 1.0;                      ///< factor by which radii and spacings are divided
     engine::Vec3 gravity = engine::Vec3::Zero();  ///< m/s^2
     bool hasOmissions =
         false;  ///< a part of the scene file could not be read, so keys that seem to be missing may be in it

@@ -20,10 +20,11 @@ void refineBody(Section& body, BuildContext& context) {
     const double resolution = context.resolution;
     const std::string& shape = body.string("shape");
     if (shape == "points" || shape == "file")
-        return report(body, shape == "file" ? "file" : "positions", context,
-                      "resolution is {}, but particles that are given one by one cannot be refined: use a box, a ball or "
-                      "a grid, or leave resolution at 1",
-                      formatNumber(resolution));
+        return report(
+            body, shape == "file" ? "file" : "positions", context,
+            "resolution is {}, but particles that are given one by one cannot be refined: use a box, a ball or "
+            "a grid, or leave resolution at 1",
+            formatNumber(resolution));
     scale(body, "spacing", 1.0 / resolution);
     scale(body, "particle_radius", 1.0 / resolution);
     scale(body, "particle_mass", 1.0 / (resolution * resolution * resolution));

@@ -84,10 +84,11 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
 
 /// The constants of a material, under the names of the keys of a scene file, and why mass, b1 and bd are what they are.
 Json materialJson(const engine::Material& material, const std::string& note) {
-    return {{"name", material.name},         {"b1", material.repulsion},      {"bd", material.damping},
-            {"cr", material.repulsionReach}, {"cd", material.dampingReach},   {"radius", material.radius},
-            {"mass", material.mass},         {"core", material.coreFraction}, {"friction", material.friction},
-            {"note", note}};
+    return {{"name", material.name},         {"b1", material.repulsion},
+            {"bd", material.damping},        {"cr", material.repulsionReach},
+            {"cd", material.dampingReach},   {"radius", material.radius},
+            {"mass", material.mass},         {"core", material.coreFraction},
+            {"friction", material.friction}, {"note", note}};
 }
 
 /// How tall a body is, and to what share of that it sinks under its own weight; null where nothing weighs on it.
