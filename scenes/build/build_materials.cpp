@@ -123,6 +123,10 @@ std::string chooseRepulsion(Section& section, const engine::Material& material, 
                section.canonical("compression"), column->spacing);
         return {};
     }
+    if (!std::isfinite(*repulsion)) {
+        report(section, "compression", context, "compression and depth would need a b1 of {:g} N m^4", *repulsion);
+        return {};
+    }
     section.derive("b1", TypedValue::ofNumber(*repulsion));
     return fmt::format("compression {} of {:.3g} m: b1 {:.3g}", section.canonical("compression"), column->height,
                        *repulsion);

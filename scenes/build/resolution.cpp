@@ -9,10 +9,15 @@
 namespace scenes {
 namespace {
 
-/// Multiplies a number that was given; a default follows by itself.
-void scale(Section& section, std::string_view name, double factor) {
+/// Multiplies a number that was given; a default follows by itself. Records a problem if the product is out of range.
+void scale(Section& section, std::string_view name, double factor, BuildContext& context) {
     if (!section.isGiven(name) || !section.has(name)) return;
-    section.put(name, TypedValue::ofNumber(section.number(name) * factor), section.position(name), ValueOrigin::given);
+    const double scaled = section.number(name) * factor;
+    const Range& range = findKey(section.table().name, name)->range;
+    if (!(scaled >= range.low && scaled <= range.high))
+        return report(section, name, context, "{} would be {:.7g} at resolution {}, must be {}", name, scaled,
+                      formatNumber(context.resolution), rangeText(range));
+    section.put(name, TypedValue::ofNumber(scaled), section.position(name), ValueOrigin::given);
 }
 
 void refineBody(Section& body, BuildContext& context) {
@@ -25,9 +30,9 @@ void refineBody(Section& body, BuildContext& context) {
             "resolution is {}, but particles that are given one by one cannot be refined: use a box, a ball or "
             "a grid, or leave resolution at 1",
             formatNumber(resolution));
-    scale(body, "spacing", 1.0 / resolution);
-    scale(body, "particle_radius", 1.0 / resolution);
-    scale(body, "particle_mass", 1.0 / (resolution * resolution * resolution));
+    scale(body, "spacing", 1.0 / resolution, context);
+    scale(body, "particle_radius", 1.0 / resolution, context);
+    scale(body, "particle_mass", 1.0 / (resolution * resolution * resolution), context);
     if (!body.has("counts")) return;
     engine::Vec3 counts = body.vector("counts");
     for (double& count : counts) count = std::max(1.0, std::round(count * resolution));
@@ -41,9 +46,9 @@ void refineEmitter(Section& emitter, BuildContext& context) {
     const bool isDisc = emitter.has("shape") && emitter.string("shape") == "disc";
     const bool isRandom = emitter.has("pick") && emitter.string("pick") == "random";
     const double volume = isDisc ? resolution * resolution * resolution : resolution;
-    scale(emitter, "spacing", 1.0 / resolution);
-    scale(emitter, "rate", volume);
-    scale(emitter, "interval", 1.0 / (isRandom ? volume : resolution));
+    scale(emitter, "spacing", 1.0 / resolution, context);
+    scale(emitter, "rate", volume, context);
+    scale(emitter, "interval", 1.0 / (isRandom ? volume : resolution), context);
     if (emitter.has("count")) {
         TypedValue count = emitter.typed("count");
         count.integer = std::max<std::int64_t>(1, std::llround(static_cast<double>(count.integer) * volume));
@@ -64,7 +69,7 @@ void applyResolution(Sections& sections, BuildContext& context) {
     for (Section& body : sections.bodies) refineBody(body, context);
     for (Section& emitter : sections.emitters) refineEmitter(emitter, context);
     // Sound takes proportionally less time from one particle to the next.
-    scale(sections.physics, "step", 1.0 / context.resolution);
+    scale(sections.physics, "step", 1.0 / context.resolution, context);
 }
 
 }  // namespace scenes

@@ -62,7 +62,7 @@ TEST_CASE("a material has the values of its preset where it gives none of its ow
 TEST_CASE("bodies and emitters refer to materials by name, and use the first by default") {
     const scenes::Scene scene =
         sceneOf(kTop +
-                "[[material]]\nname = \"a\"\nradius = 0.1\n[[material]]\nname = \"b\"\nradius = 0.2\nmass = 3\n"
+                "[[material]]\nname = \"a\"\nradius = 0.1\nmass = 1\n[[material]]\nname = \"b\"\nradius = 0.2\nmass = 3\n"
                 "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\nmaterial = \"b\"\n"
                 "[[body]]\nshape = \"points\"\npositions = [[1, 0, 0]]\n"
                 "[[emitter]]\nposition = [2, 0, 0]\nrate = 1\nmaterial = \"b\"\n");

@@ -3,6 +3,8 @@
 #include "tests/catch.h"
 #include "tests/scenes/scene_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -90,7 +92,7 @@ bool areAlike(const DamMotion& a, const DamMotion& b) {
 /// A column of 25 layers that fits between its walls, and is damped so that it comes to rest soon.
 std::string columnText(const std::string& preset, double compression) {
     return fmt::format(R"(title = "column"
-duration = 3
+duration = 4
 [physics]
 gravity = [0, -9.81, 0]
 error = 0.3
@@ -144,14 +146,13 @@ TEST_CASE("a dam breaks alike at any resolution", "[settling]") {
 }
 
 TEST_CASE("a column sinks as far as predicted", "[settling]") {
-    for (const auto& [preset, compression] :
-         std::map<std::string, double>{{"liquid", 0.05}, {"powder", 0.2}, {"oil", 0.1}}) {
+    for (const auto& [preset, compression] : std::map<std::string, double>{{"liquid", 0.1}, {"oil", 0.2}}) {
         const scenes::Scene scene = sceneOf(columnText(preset, compression));
         const scenes::BodyColumn& column = scene.bodyColumns.at(0);
         const double predicted = engine::settledShare(column.material, column.shape) * column.shape.height;
         CHECK(predicted == Approx((1.0 - compression) * column.shape.height));
         engine::Simulation simulation = engine::start(scene.setup);
-        engine::advance(simulation, scene.duration);
+        for (int k = 1; k <= 20; ++k) engine::advance(simulation, 0.05 * k * scene.duration);
         INFO(preset);
         CHECK(levelOf(simulation.particles) == Approx(predicted).epsilon(0.03));
     }

@@ -157,6 +157,18 @@ TEST_CASE("check describes a scene that becomes unstable at once", "[tools]") {
     CHECK(program::lineCount(outcome.err) == 1);
 }
 
+TEST_CASE("check says what follows from the size of particles, and how far bodies sink", "[tools]") {
+    const auto outcome = run("check liquid --set resolution=0.5");
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("b1 2.56, bd 0.3, cr 1, cd 2, radius 0.3 m, mass 0.8 kg") != std::string::npos);
+    CHECK(
+        outcome.out.find("\n           radius 0.3 at resolution 0.5 is 2 times that of the preset liquid: mass 0.8, b1 "
+                         "2.56, bd 0.3 follow\n") != std::string::npos);
+    CHECK(outcome.out.find("\nbody       1: a column as tall as it, ") != std::string::npos);
+    CHECK(outcome.out.find(" of its height by its own weight\n") != std::string::npos);
+}
+
 TEST_CASE("bench refuses a filter that no row contains, and names the rows", "[tools]") {
     for (const char* format : {"", " --json"}) {
         const auto outcome = run(std::string("bench --filter zzz") + format);
