@@ -8,7 +8,6 @@
 
 #include "scenes/build/builders.h"
 #include "scenes/build/columns.h"
-#include "scenes/schema/keys.h"
 #include "scenes/text/color.h"
 
 namespace scenes {
@@ -87,13 +86,12 @@ void checkName(Section& section, const Materials& previous, BuildContext& contex
 /// Records a problem if the resolution, or a radius far from the preset's, makes particles that the engine does not
 /// accept.
 void checkRanges(Section& section, BuildContext& context) {
-    const auto isWithin = [](double value, const Range& range) { return value >= range.low && value <= range.high; };
-    if (!isWithin(section.number("radius"), kRadii))
-        report(section, "radius", context, "the radius would be {:.7g} m, must be {}", section.number("radius"),
-               rangeText(kRadii));
-    if (!isWithin(section.number("mass"), kMasses))
-        report(section, "mass", context, "the mass would be {:.7g} kg, must be {}", section.number("mass"),
-               rangeText(kMasses));
+    for (const std::string_view name : {"radius", "mass"}) {
+        const Range& range = findKey("material", name)->range;
+        const double value = section.number(name);
+        if (value < range.low || value > range.high)
+            report(section, name, context, "the {} would be {:.7g}, must be {}", name, value, rangeText(range));
+    }
 }
 
 /// Why mass, b1 and bd of a material are what they are, for `check`; empty where they are those of its preset.

@@ -141,8 +141,8 @@ TEST_CASE("a dam breaks alike at any resolution", "[settling]") {
     std::string given = kDam;
     const std::string key = "compression = 0.3";
     given.replace(given.find(key), key.size(),
-                  fmt::format("b1 = {}", 4.0 * sceneOf(kDam).setup.materials.at(0).repulsion));
-    CHECK_FALSE(areAlike(coarse, motionOf(given, {"resolution=4"})));
+                  fmt::format("b1 = {}", 2.0 * sceneOf(kDam).setup.materials.at(0).repulsion));
+    CHECK_FALSE(areAlike(coarse, motionOf(given, {"resolution=2"})));
 }
 
 TEST_CASE("a column sinks as far as predicted", "[settling]") {

@@ -152,7 +152,7 @@ TEST_CASE("what cannot be refined is named") {
     CHECK(problemsOf(kBall + "particle_mass = 1e-30\n", {"resolution=10"}) ==
           Lines{"pile.toml:6:17: particle_mass would be 1e-33 at resolution 10, must be 1e-30 to 1e+30"});
     CHECK(problemsOf(kBall + "[material]\nmass = 1e-30\n", {"resolution=10"}) ==
-          Lines{"pile.toml:7:8: the mass would be 1e-33 kg, must be 1e-30 to 1e+30"});
+          Lines{"pile.toml:7:8: the mass would be 1e-33, must be 1e-30 to 1e+30"});
     const scenes::Scene scene = sceneOf(kTop + "[[emitter]]\nposition = [0, 0, 0]\ninterval = 0.1\n", {"resolution=2"});
     REQUIRE(scene.warnings.size() == 1);
     CHECK(scene.warnings[0] ==
