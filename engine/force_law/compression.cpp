@@ -37,7 +37,7 @@ constexpr double kSpacingFactor = 0.995;
 /// Least spacing in the table, in rest lengths. Chosen: a lattice that is compressed further takes up no room.
 constexpr double kLeastSpacing = 0.05;
 
-/// Ratio of the wanted to the found share, and number of halvings of an interval, with which b1 is found.
+/// How often an interval is halved in which a solution lies. Chosen: until it is no wider than rounding.
 constexpr int kHalvings = 100;
 
 /// How many lattice points are at a distance of sqrt(n) spacings from one of them, for each n. In units of half the
