@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 /// Version of the checkpoint format: kCheckpointMark in ASCII and a digit, another for every change of what is stored.
-constexpr std::uint64_t kFormat = 0x37504B434C424C47;
+constexpr std::uint64_t kFormat = 0x38504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -130,7 +130,7 @@ void exchangeEmitters(Archive& archive, Emitters& emitters) {
     for (auto& emitter : emitters) {
         for (auto& schedule : emitter.schedules)
             archive(schedule.origin, schedule.due, schedule.births, schedule.delayed);
-        archive(emitter.births, emitter.refusals);
+        archive(emitter.births);
     }
 }
 

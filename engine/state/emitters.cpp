@@ -1,4 +1,4 @@
-// Schedules of emitters, and the sites of a disc-shaped nozzle.
+// Schedules of emitters.
 #include "engine/state/emitters.h"
 
 #include <algorithm>
@@ -7,68 +7,150 @@
 namespace engine {
 namespace {
 
-/// Relative tolerance with which sites exactly on the rim of a disc count as inside.
-constexpr double kRimSlack = 1.0 + 1e-9;
+/// How many times per interval an emission that has found no room is tried again. Chosen: where each try ends a time
+/// step, few are wanted; grouped emissions are tried between steps.
+constexpr double kTriesPerInterval = 4.0;
+constexpr double kGroupedTriesPerInterval = 16.0;
+
+/// A delayed emission is not tried more often than this while the one before moves out of the way. Chosen: the rate
+/// falls by half of a sixteenth on average.
+constexpr double kTriesWhileClearing = 16.0;
+
+/// How far a particle may fly freely between two groups of emissions, in radii. Chosen: the distance of two
+/// layers of a dense jet and a little more, so that a jet ends one step for each layer.
+constexpr double kGroupedFlight = 2.2;
+
+/// Share of the grouping by which an emission may be due after the end of a group and still belong to it, for rounding.
+constexpr double kGroupingSlack = 1e-6;
+
+/// Time of the first emission of a schedule, s. Schedules that are staggered begin one after another.
+double firstDue(const Emitter& emitter, std::size_t schedule) {
+    if (emitter.pick != Pick::staggered) return emitter.start;
+    const double share = static_cast<double>(schedule) / static_cast<double>(emitter.sites.size());
+    return emitter.start + share * emitter.interval;
+}
+
+std::size_t scheduleCount(const Emitter& emitter) {
+    return emitter.pick == Pick::random ? 1 : emitter.sites.size();
+}
+
+/// Time at which an emission that is due at a time (s) takes place, s.
+double emissionTime(const Emitter& emitter, double due) {
+    if (emitter.grouping == 0.0) return due;
+    return emitter.start + std::ceil((due - emitter.start) / emitter.grouping - kGroupingSlack) * emitter.grouping;
+}
+
+bool isBeforeEnd(const Emitter& emitter, double due) {
+    return due < emitter.until - kSameMoment;
+}
+
+/// Number of emissions of a schedule that take place up to a time (s) if none is delayed.
+std::uint64_t askedCount(const Emitter& emitter, double first, double time) {
+    const auto isAsked = [&](double k) {
+        const double due = first + k * emitter.interval;
+        return takesPlace(emitter, due, time) && isBeforeEnd(emitter, due);
+    };
+    // The quotient may be off by one for rounding or the grouping.
+    double count = std::max(0.0, std::floor((std::min(time, emitter.until) - first) / emitter.interval));
+    while (count > 0.0 && !isAsked(count - 1.0)) count -= 1.0;
+    while (isAsked(count)) count += 1.0;
+    return static_cast<std::uint64_t>(count);
+}
 
 }  // namespace
-
-PlaneAxes axesAcross(const Vec3& direction) {
-    const double length = std::sqrt(squaredLength(direction));
-    if (length == 0.0) return {};
-    const Vec3 unit = direction / length;
-    // A coordinate axis that is far from parallel to the direction, so that the cross product is not small.
-    const Vec3 axis = std::abs(unit.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
-    Vec3 first = axis.cross(unit);
-    first /= std::sqrt(squaredLength(first));
-    return {first, unit.cross(first)};
-}
 
 double dueTime(const Emitter& emitter, const Schedule& schedule) {
     return schedule.origin + static_cast<double>(schedule.births) * emitter.interval;
 }
 
-std::vector<Vec3> discSites(const Vec3& center, const Vec3& direction, double radius, double spacing) {
-    const PlaneAxes plane = axesAcross(direction);
-    const double rowHeight = spacing * std::sqrt(0.75);
-    const auto rows = static_cast<int>(std::floor(radius * kRimSlack / rowHeight));
-    std::vector<Vec3> sites;
-    for (int row = -rows; row <= rows; ++row) {
-        const double across2 = row * rowHeight;
-        const double shift = row % 2 == 0 ? 0.0 : 0.5 * spacing;
-        const auto columns = static_cast<int>(std::floor(radius * kRimSlack / spacing)) + 1;
-        for (int column = -columns; column <= columns; ++column) {
-            const double across1 = column * spacing + shift;
-            if (across1 * across1 + across2 * across2 > radius * radius * kRimSlack) continue;
-            sites.push_back(center + across1 * plane.first + across2 * plane.second);
-        }
-    }
-    return sites;
+bool takesPlace(const Emitter& emitter, double due, double time) {
+    return emissionTime(emitter, due) <= time + kSameMoment;
+}
+
+bool hasLeft(const Emitter& emitter, const EmitterState& state) {
+    return state.births < emitter.limit && emitter.limit - state.births >= emitter.cluster.size();
+}
+
+double retryDelay(const Emitter& emitter) {
+    const double tries = emitter.grouping > 0.0 ? kGroupedTriesPerInterval : kTriesPerInterval;
+    return std::max(emitter.interval / tries, emitter.leastDelay);
 }
 
 EmitterState initialState(const Emitter& emitter) {
     EmitterState state;
-    state.schedules.resize(emitter.pick == Pick::all ? emitter.sites.size() : 1);
-    for (Schedule& schedule : state.schedules) schedule.origin = schedule.due = emitter.start;
+    state.schedules.resize(scheduleCount(emitter));
+    for (std::size_t s = 0; s < state.schedules.size(); ++s)
+        state.schedules[s].origin = state.schedules[s].due = firstDue(emitter, s);
     return state;
 }
 
 bool isReachable(const Emitter& emitter, const EmitterState& state) {
     std::uint64_t births = 0;
-    for (const Schedule& schedule : state.schedules) {
+    for (std::size_t s = 0; s < state.schedules.size(); ++s) {
+        const Schedule& schedule = state.schedules[s];
         const double undisturbed = dueTime(emitter, schedule);
-        if (!std::isfinite(schedule.due) || schedule.origin < emitter.start - kSameMoment) return false;
+        if (!std::isfinite(schedule.due) || schedule.origin < firstDue(emitter, s) - kSameMoment) return false;
         if (schedule.delayed ? schedule.due <= undisturbed : schedule.due != undisturbed) return false;
         births += schedule.births;
     }
-    return births == state.births && births <= emitter.limit;
+    return births * emitter.cluster.size() == state.births && state.births <= emitter.limit;
 }
 
 double nextEmission(const Emitter& emitter, const EmitterState& state) {
     double next = std::numeric_limits<double>::infinity();
-    if (state.births >= emitter.limit) return next;
+    if (!hasLeft(emitter, state)) return next;
     for (const Schedule& schedule : state.schedules)
-        if (schedule.due < emitter.until - kSameMoment) next = std::min(next, schedule.due);
+        if (isBeforeEnd(emitter, schedule.due)) next = std::min(next, emissionTime(emitter, schedule.due));
     return next;
+}
+
+std::uint64_t askedCount(const Emitter& emitter, double time) {
+    std::uint64_t emissions = 0;
+    for (std::size_t s = 0; s < scheduleCount(emitter); ++s)
+        emissions += askedCount(emitter, firstDue(emitter, s), time);
+    const std::uint64_t size = emitter.cluster.size();
+    return size * std::min(emissions, emitter.limit / size);
+}
+
+double timeToMove(const Vec3& velocity, const Vec3& gravity, double distance) {
+    const double speed = std::sqrt(squaredLength(velocity));
+    const double fall = std::sqrt(squaredLength(gravity));
+    const double never = std::numeric_limits<double>::infinity();
+    const double straight = speed > 0.0 ? distance / speed : never;
+    if (fall == 0.0 || distance == 0.0) return straight;
+    const double scale = std::min(straight, std::sqrt(2.0 * distance / fall));
+    const auto isAway = [&](double t) {
+        return squaredLength(t * velocity + 0.5 * t * t * gravity) >= distance * distance;
+    };
+    // The particle has not gone the distance at half the scale. A throw that returns before it has gone the distance is
+    // that far below its site after 4.8 times the scale at most: (1 + sqrt 2) v / g, where v^2 = 2 g times the
+    // distance.
+    constexpr double kMostScales = 8.0;
+    double late = 0.5 * scale;
+    while (!isAway(late) && late < kMostScales * scale) late += 0.125 * scale;
+    double early = late - 0.125 * scale;
+    for (double middle = 0.5 * (early + late); middle > early && middle < late; middle = 0.5 * (early + late))
+        (isAway(middle) ? late : early) = middle;
+    return late;
+}
+
+double clearingTime(const Emitter& emitter, const Vec3& gravity, double radius) {
+    double outermost = 0.0;
+    for (const Vec3& position : emitter.cluster) outermost = std::max(outermost, squaredLength(position));
+    const double distance = 2.0 * std::sqrt(outermost) + 2.0 * emitter.clearance * radius;
+    return timeToMove((1.0 - emitter.speedSpread) * emitter.velocity, gravity, distance);
+}
+
+void completeTimes(Emitter& emitter, const Vec3& gravity, double radius) {
+    emitter.leastDelay = 0.0;
+    emitter.grouping = 0.0;
+    if (emitter.pick == Pick::all) return;
+    const double clearing = clearingTime(emitter, gravity, radius);
+    if (std::isfinite(clearing)) emitter.leastDelay = clearing / kTriesWhileClearing;
+    if (emitter.pick != Pick::staggered) return;
+    const double groups = std::ceil(emitter.interval / timeToMove(emitter.velocity, gravity, kGroupedFlight * radius));
+    if (groups < static_cast<double>(emitter.sites.size()) || groups == 1.0)
+        emitter.grouping = emitter.interval / std::max(1.0, groups);
 }
 
 }  // namespace engine

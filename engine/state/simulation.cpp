@@ -37,9 +37,9 @@ std::uint64_t birthCount(const Simulation& simulation) {
 }
 
 std::uint64_t refusalCount(const Simulation& simulation) {
-    std::uint64_t sum = 0;
-    for (const EmitterState& state : simulation.emitters) sum += state.refusals;
-    return sum;
+    std::uint64_t asked = 0;
+    for (const Emitter& emitter : simulation.setup.emitters) asked += askedCount(emitter, simulation.time);
+    return asked - birthCount(simulation);
 }
 
 }  // namespace engine

@@ -137,7 +137,7 @@ std::uint64_t largestCount(const Simulation& simulation);
 /// Number of particles that all emitters together have emitted.
 std::uint64_t birthCount(const Simulation& simulation);
 
-/// Number of emissions, of all emitters together, that had to wait for room when they were due; each counts once.
+/// Number of particles that all emitters together were to emit until now, but have not emitted for want of room.
 std::uint64_t refusalCount(const Simulation& simulation);
 
 }  // namespace engine

@@ -1,7 +1,5 @@
-// Emission and removal of particles. Every random number is a function of seed, emitter, schedule and emission, so the
-// state of an emitter is a few counters, and a resumed run draws the same numbers as an uninterrupted one. Free space
-// for a new particle is searched in linked cells, so that time and memory are linear in the number of particles even if
-// many are emitted at once.
+// Emission and removal of particles. Free space for a new particle is searched in linked cells, so that time and memory
+// are linear in the number of particles even if many are emitted at once.
 #include "engine/stepping/population.h"
 
 #include <algorithm>
@@ -9,8 +7,8 @@
 #include <limits>
 
 #include "engine/core/parallel.h"
-#include "engine/core/random.h"
 #include "engine/neighbors/linked_cells.h"
+#include "engine/state/emission.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/free_groups.h"
 #include "engine/stepping/step_audit.h"
@@ -19,40 +17,9 @@
 namespace engine {
 namespace {
 
-/// How many times per interval between emissions an emission that has found no room is tried again. Chosen: each try
-/// ends a time step, so few are wanted.
-constexpr double kTriesPerInterval = 4.0;
-
-/// The purposes of an emitter's random numbers; each purpose has a stream of random numbers of its own.
-enum class Purpose : std::uint64_t { site = 0, jitterFirst = 1, jitterSecond = 2 };
-
-/// The index of an emitter in the setup, of one of its schedules, and of an emission of that schedule.
-struct Emission {
-    std::uint64_t emitter = 0;
-    std::uint64_t schedule = 0;
-    std::uint64_t number = 0;
-};
-
-std::uint64_t drawBits(const Setup& setup, const Emission& emission, Purpose purpose) {
-    const std::uint64_t stream =
-        (emission.emitter << 40) ^ (emission.schedule << 2) ^ static_cast<std::uint64_t>(purpose);
-    return randomBits(setup.seed, stream, emission.number);
-}
-
-Vec3 siteOf(const Setup& setup, const Emission& emission) {
-    const Emitter& emitter = setup.emitters[emission.emitter];
-    if (emitter.pick == Pick::all) return emitter.sites[emission.schedule];
-    return emitter.sites[drawBits(setup, emission, Purpose::site) % emitter.sites.size()];
-}
-
-/// Random displacement across the emitter's velocity, in units of the emitter's jitter.
-Vec3 jitterOf(const Setup& setup, const Emission& emission) {
-    const Emitter& emitter = setup.emitters[emission.emitter];
-    if (emitter.jitter == 0.0) return Vec3::Zero();
-    const PlaneAxes plane = axesAcross(emitter.velocity);
-    return symmetricUnit(drawBits(setup, emission, Purpose::jitterFirst)) * plane.first +
-           symmetricUnit(drawBits(setup, emission, Purpose::jitterSecond)) * plane.second;
-}
+/// How often the site of an emission is drawn anew where the one before has no room. Chosen: of sites of which a
+/// quarter are free, nine in ten tries find one.
+constexpr std::uint64_t kDrawsOfSite = 8;
 
 bool hasRoom(const Particles& particles, const LinkedCells& cells, const NewParticle& added, double clearance) {
     if (clearance == 0.0) return true;
@@ -62,22 +29,6 @@ bool hasRoom(const Particles& particles, const LinkedCells& cells, const NewPart
         if (squaredLength(particles.position[p] - added.position) < least * least) hasRoom = false;
     });
     return hasRoom;
-}
-
-/// The particle of an emission at a time (s), which was due `late` seconds before. Since then it has flown freely under
-/// gravity.
-NewParticle particleOf(const Setup& setup, const Emission& emission, double time, double late) {
-    const Emitter& emitter = setup.emitters[emission.emitter];
-    const Material& material = setup.materials[emitter.material];
-    NewParticle particle;
-    particle.position = siteOf(setup, emission) + emitter.jitter * material.radius * jitterOf(setup, emission);
-    particle.position += late * emitter.velocity + 0.5 * late * late * setup.gravity;
-    particle.velocity = emitter.velocity + late * setup.gravity;
-    particle.radius = material.radius;
-    particle.mass = material.mass;
-    particle.birthTime = time - late;
-    particle.material = emitter.material;
-    return particle;
 }
 
 /// The largest radius of the present particles and of the particles that emitters may add, m.
@@ -99,32 +50,47 @@ double cellWidthFor(const Simulation& simulation) {
     return width;
 }
 
+/// Draws the particles of an emission that was due `late` seconds before. Returns whether there is room for them.
+bool findRoom(const Simulation& simulation, const LinkedCells& cells, Emission emission, double late,
+              std::vector<NewParticle>& particles) {
+    const Emitter& emitter = simulation.setup.emitters[emission.emitter];
+    const std::uint64_t draws = emitter.pick == Pick::random ? kDrawsOfSite : 1;
+    for (; emission.attempt < draws; ++emission.attempt) {
+        drawEmission(simulation.setup, emission, simulation.time, late, particles);
+        const auto fits = [&](const NewParticle& particle) {
+            return hasRoom(simulation.particles, cells, particle, emitter.clearance);
+        };
+        if (std::all_of(particles.begin(), particles.end(), fits)) return true;
+    }
+    return false;
+}
+
 /// Emits the particles that the emitter of this index has due, where there is room, and adds them to the cells.
 void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
-    const Setup& setup = simulation.setup;
-    const Emitter& emitter = setup.emitters[index];
+    const Emitter& emitter = simulation.setup.emitters[index];
     EmitterState& state = simulation.emitters[index];
+    std::vector<NewParticle> particles;
     for (std::size_t s = 0; s < state.schedules.size(); ++s) {
         Schedule& schedule = state.schedules[s];
-        while (schedule.due <= simulation.time + kSameMoment && schedule.due < emitter.until - kSameMoment &&
-               state.births < emitter.limit) {
+        while (takesPlace(emitter, schedule.due, simulation.time) && schedule.due < emitter.until - kSameMoment &&
+               hasLeft(emitter, state)) {
             const double late = std::max(0.0, simulation.time - schedule.due);
-            const NewParticle particle = particleOf(setup, {index, s, schedule.births}, simulation.time, late);
-            if (!hasRoom(simulation.particles, cells, particle, emitter.clearance)) {
-                if (!schedule.delayed) ++state.refusals;
+            if (!findRoom(simulation, cells, {index, s, schedule.births}, late, particles)) {
                 schedule.delayed = true;
-                schedule.due += emitter.interval / kTriesPerInterval;
+                schedule.due += retryDelay(emitter);
                 continue;
             }
-            append(simulation.particles, particle);
-            cells.add(particle.position);
+            for (const NewParticle& particle : particles) {
+                append(simulation.particles, particle);
+                cells.add(particle.position);
+            }
             // A delay shifts the whole schedule; otherwise the delayed particles would come in a burst.
             ++schedule.births;
             if (schedule.delayed)
                 schedule.origin = schedule.due - static_cast<double>(schedule.births - 1) * emitter.interval;
             schedule.due = dueTime(emitter, schedule);
             schedule.delayed = false;
-            ++state.births;
+            state.births += particles.size();
         }
     }
 }

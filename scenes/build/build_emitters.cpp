@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/run/fitting_rate.h"
+#include "engine/state/emitter_sites.h"
 #include "scenes/build/builders.h"
 
 namespace scenes {
@@ -11,8 +13,13 @@ namespace {
 
 using engine::Vec3;
 
-bool isDisc(const Section& section) {
-    return section.has("shape") && section.string("shape") == "disc";
+bool isOfShape(const Section& section, std::string_view shape) {
+    return section.has("shape") && section.string("shape") == shape;
+}
+
+/// Whether the emitter's points of emission lie in a plane across a direction.
+bool isFacing(const Section& section) {
+    return isOfShape(section, "disc") || isOfShape(section, "ring");
 }
 
 void checkPositions(Section& section, BuildContext& context) {
@@ -21,27 +28,26 @@ void checkPositions(Section& section, BuildContext& context) {
 }
 
 void checkSchedule(Section& section, BuildContext& context) {
-    if (!reportConflict(section, "interval", "rate", context) && !section.isGiven("interval") &&
-        !section.isGiven("rate"))
-        reportMissing(section, "interval", context);
+    reportConflict(section, "interval", "rate", context);
     if (section.has("start") && section.has("until") && section.number("until") <= section.number("start"))
         report(section, "until", context, "until is {}, must be after start, {} (seconds)", section.canonical("until"),
                section.canonical("start"));
+    if (section.has("count") && section.has("cluster") && section.integer("count") < section.integer("cluster"))
+        report(section, "count", context, "count is {}, must be at least that of one cluster, {}",
+               section.canonical("count"), section.canonical("cluster"));
 }
 
-/// The unit normal of a disc of emission: the key direction, scaled to length 1, or without it the direction of the
-/// velocity.
-std::optional<Vec3> discNormal(Section& section, BuildContext& context) {
+/// The unit normal of a disc or ring of emission: the key direction, scaled to length 1, or without it the direction of
+/// the velocity.
+std::optional<Vec3> normalOf(Section& section, BuildContext& context) {
     if (section.has("direction")) return directionFrom(section, "direction", context);
     if (section.isGiven("direction") || !section.has("velocity")) return std::nullopt;
     const auto normal = unitVector(section.vector("velocity"));
-    if (!normal) report(section, "direction", context, "direction is missing, a disc whose velocity is zero needs it");
+    if (!normal)
+        report(section, "direction", context, "direction is missing, a {} whose velocity is zero needs it",
+               section.string("shape"));
     if (normal) section.derive("direction", TypedValue::ofVector(*normal));
     return normal;
-}
-
-double sitesAcross(double radius, double spacing) {
-    return 2.0 * radius / spacing + 1.0;
 }
 
 /// At another resolution, gives a disc the area that its points of emission had at resolution 1, each of which stands
@@ -52,7 +58,7 @@ void refineDisc(Section& section, BuildContext& context) {
     const double spacing = section.number("spacing");
     const double coarse = spacing * context.resolution;
     const double radius = section.number("radius");
-    if (std::pow(sitesAcross(radius, std::min(spacing, coarse)), 2.0) > context.limits.particles) return;
+    if (std::pow(2.0 * radius / std::min(spacing, coarse) + 1.0, 2.0) > context.limits.particles) return;
     const auto countOf = [](double within, double apart) {
         return static_cast<double>(engine::discSites(Vec3::Zero(), Vec3::UnitY(), within, apart).size());
     };
@@ -65,33 +71,105 @@ void refineDisc(Section& section, BuildContext& context) {
                 section.position("interval"), ValueOrigin::given);
 }
 
-/// Points of emission that fill a disc; none, with the problem recorded, if there would be too many.
-std::vector<Vec3> discSitesOf(Section& section, const Vec3& normal, BuildContext& context) {
-    const double across = sitesAcross(section.number("radius"), section.number("spacing"));
-    if (across * across > context.limits.particles) {
-        report(section, "spacing", context, "the disc would have about {:.2g} points of emission, {}", across * across,
-               allowedText("particles", context.limits.particles));
+/// About how many points of emission the shape would have, never less than the number that it has.
+double mostSites(const Section& section) {
+    const auto pointsAlong = [&](double length) { return length / section.number("spacing") + 1.0; };
+    if (isOfShape(section, "disc")) return std::pow(pointsAlong(2.0 * section.number("radius")), 2.0);
+    if (isOfShape(section, "ring")) return pointsAlong(2.0 * std::numbers::pi * section.number("radius"));
+    const Vec3 size =
+        isOfShape(section, "line") ? Vec3(section.vector("end") - section.vector("position")) : section.vector("size");
+    if (isOfShape(section, "line")) return pointsAlong(size.stableNorm());
+    return 1.5 * pointsAlong(size.x()) * pointsAlong(size.y()) * pointsAlong(size.z());
+}
+
+/// Points of emission that fill a shape; none, with the problem recorded, if there would be too many.
+std::vector<Vec3> filledSites(Section& section, const Vec3& normal, BuildContext& context) {
+    const double most = mostSites(section);
+    if (most > context.limits.particles) {
+        report(section, "spacing", context, "the {} would have about {:.2g} points of emission, {}",
+               section.string("shape"), most, allowedText("particles", context.limits.particles));
         return {};
     }
-    return engine::discSites(section.vector("position"), normal, section.number("radius"), section.number("spacing"));
+    const Vec3& position = section.vector("position");
+    const double spacing = section.number("spacing");
+    if (isOfShape(section, "disc")) return engine::discSites(position, normal, section.number("radius"), spacing);
+    if (isOfShape(section, "ring")) return engine::ringSites(position, normal, section.number("radius"), spacing);
+    if (isOfShape(section, "line")) return engine::lineSites(position, section.vector("end"), spacing);
+    return engine::boxSites(position, section.vector("size"), spacing);
 }
 
 std::vector<Vec3> sitesOf(Section& section, BuildContext& context) {
-    if (isDisc(section)) {
-        const auto normal = discNormal(section, context);
-        return normal && section.isValid() ? discSitesOf(section, *normal, context) : std::vector<Vec3>{};
-    }
-    if (!section.isValid()) return {};
+    std::optional<Vec3> normal = Vec3::UnitY();
+    if (isFacing(section)) normal = normalOf(section, context);
+    if (!normal || !section.isValid()) return {};
+    if (!isOfShape(section, "point")) return filledSites(section, *normal, context);
     return section.has("positions") ? section.vectors("positions") : std::vector<Vec3>{section.vector("position")};
 }
 
-/// Derives the rate of an emitter from its interval, or the interval from the rate. An emitter has one schedule for
-/// each point of emission, or a single one if it picks points at random; each schedule emits one particle per interval.
-void completeSchedule(Section& section, double scheduleCount) {
-    if (section.has("interval"))
-        section.derive("rate", TypedValue::ofNumber(scheduleCount / section.number("interval")));
-    else
-        section.derive("interval", TypedValue::ofNumber(scheduleCount / section.number("rate")));
+/// Derives what depends on the particle's radius (m), the jitter and the size of a cluster.
+void deriveSizes(Section& section, double radius) {
+    double diameter = 2.0 * radius;
+    if (section.has("cluster"))
+        for (const Vec3& offset :
+             engine::clusterPositions(static_cast<std::size_t>(section.integer("cluster")), 2.0 * radius))
+            diameter = std::max(diameter, 2.0 * (radius + std::sqrt(engine::squaredLength(offset))));
+    if (!isOfShape(section, "point")) section.derive("spacing", TypedValue::ofNumber(diameter));
+    // Neighbors that are displaced towards each other, each in two directions, come closer by this share.
+    constexpr double kLeastClearance = 0.8;  // chosen: what any substance bears without being shot apart
+    if (section.has("jitter"))
+        section.derive("clearance", TypedValue::ofNumber(std::max(
+                                        kLeastClearance, 1.0 - std::numbers::sqrt2 * section.number("jitter"))));
+}
+
+/// Number of particles that all schedules together emit per interval. An emitter has one schedule for each point of
+/// emission, or a single one if it picks points at random.
+double particlesPerInterval(const engine::Emitter& emitter) {
+    return static_cast<double>(engine::initialState(emitter).schedules.size() * emitter.cluster.size());
+}
+
+/// The shortest interval at which an emitter finds room for its particles, s; nothing, with the problem recorded, if
+/// there is no such interval.
+std::optional<double> densestInterval(Section& section, engine::Emitter emitter, const Materials& materials,
+                                      BuildContext& context) {
+    constexpr double kMargin = 1.001;  // chosen: far above rounding errors
+    constexpr double kEnough = 0.99;   // share of the emissions that find room; chosen
+    constexpr int kMostRounds = 4;
+    const double radius = materials.list[emitter.material].radius;
+    const double clearing = engine::clearingTime(emitter, context.gravity, radius);
+    if (!std::isfinite(clearing) || clearing <= 0.0) {
+        report(section, "rate", context, "rate is missing, an emitter {} needs it (per second)",
+               clearing > 0.0 ? "whose particles do not move away" : "without clearance");
+        return std::nullopt;
+    }
+    engine::Setup setup;
+    setup.materials = materials.list;
+    setup.gravity = context.gravity;
+    setup.seed = context.seed;
+    emitter.interval = kMargin * clearing;
+    if (emitter.pick == engine::Pick::random) emitter.interval /= static_cast<double>(emitter.sites.size());
+    for (int round = 0; round < kMostRounds; ++round) {
+        engine::completeTimes(emitter, context.gravity, radius);
+        setup.emitters = {emitter};
+        const double share = engine::fittingShare(setup, 0);
+        if (share >= kEnough) break;
+        emitter.interval /= std::max(share, 1.0 / static_cast<double>(emitter.sites.size()));
+    }
+    return emitter.interval;
+}
+
+/// Completes rate and interval: one from the other, or both from what fits.
+void completeSchedule(Section& section, engine::Emitter& emitter, const Materials& materials, BuildContext& context) {
+    const double particles = particlesPerInterval(emitter);
+    if (section.has("rate")) {
+        section.derive("interval", TypedValue::ofNumber(particles / section.number("rate")));
+    } else if (!section.has("interval")) {
+        const auto densest = densestInterval(section, emitter, materials, context);
+        if (!densest) return;
+        section.derive("interval", TypedValue::ofNumber(*densest));
+    }
+    emitter.interval = section.number("interval");
+    section.derive("rate", TypedValue::ofNumber(particles / emitter.interval));
+    engine::completeTimes(emitter, context.gravity, materials.list[emitter.material].radius);
 }
 
 /// Checks that the particles emitted by the end of the scene are not too many.
@@ -101,21 +179,29 @@ void checkEmissionCount(Section& section, BuildContext& context) {
     const double time = until - section.number("start");
     double count = time > 0.0 ? section.number("rate") * (time + section.number("interval")) : 0.0;
     if (section.has("count")) count = std::min(count, static_cast<double>(section.integer("count")));
-    addExpectedParticles(section, section.isGiven("rate") ? "rate" : "interval", count, "the emitter would emit",
+    addExpectedParticles(section, section.isGiven("interval") ? "interval" : "rate", count, "the emitter would emit",
                          context);
 }
 
-engine::Emitter emitterFrom(const Section& section, std::vector<Vec3> sites) {
+/// The emitter without its times of emission.
+engine::Emitter emitterFrom(const Section& section, std::vector<Vec3> sites, std::uint32_t material, double radius) {
     engine::Emitter emitter;
+    emitter.material = material;
     emitter.sites = std::move(sites);
     emitter.velocity = section.vector("velocity");
-    emitter.interval = section.number("interval");
     emitter.start = section.number("start");
     if (section.has("until")) emitter.until = section.number("until");
     if (section.has("count")) emitter.limit = static_cast<std::uint64_t>(section.integer("count"));
-    emitter.pick = section.string("pick") == "random" ? engine::Pick::random : engine::Pick::all;
+    const std::string& pick = section.string("pick");
+    emitter.pick = pick == "random" ? engine::Pick::random
+                   : pick == "all"  ? engine::Pick::all
+                                    : engine::Pick::staggered;
+    if (emitter.pick == engine::Pick::staggered) emitter.sites = engine::takingTurns(emitter.sites);
     emitter.clearance = section.number("clearance");
     emitter.jitter = section.number("jitter");
+    emitter.spread = engine::oneMinusCosine(section.number("spread"));
+    emitter.speedSpread = section.number("speed_spread");
+    emitter.cluster = engine::clusterPositions(static_cast<std::size_t>(section.integer("cluster")), 2.0 * radius);
     return emitter;
 }
 
@@ -126,19 +212,19 @@ std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const
     std::vector<engine::Emitter> emitters;
     for (Section& section : sections) {
         const auto material = materialOf(section, materials, context);
+        const double radius = materials.list[material.value_or(0)].radius;
         checkPositions(section, context);
         checkSchedule(section, context);
-        if (isDisc(section)) {
-            section.derive("spacing", TypedValue::ofNumber(2.0 * materials.list[material.value_or(0)].radius));
-            refineDisc(section, context);
-        }
+        deriveSizes(section, radius);
+        if (isOfShape(section, "disc")) refineDisc(section, context);
         std::vector<Vec3> sites = sitesOf(section, context);
         checkWithinWorld(section, section.has("positions") ? "positions" : "position", sites, context);
         if (!section.isValid()) continue;
-        completeSchedule(section, section.string("pick") == "random" ? 1.0 : static_cast<double>(sites.size()));
+        engine::Emitter emitter = emitterFrom(section, std::move(sites), *material, radius);
+        completeSchedule(section, emitter, materials, context);
+        if (!section.isValid()) continue;
         checkEmissionCount(section, context);
-        emitters.push_back(emitterFrom(section, std::move(sites)));
-        emitters.back().material = *material;
+        emitters.push_back(std::move(emitter));
     }
     return emitters;
 }

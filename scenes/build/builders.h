@@ -30,9 +30,10 @@ struct Materials {
 /// What the builders share.
 struct BuildContext {
     ProblemList& problems;
-    ProblemList& warnings;  ///< messages on what is valid but may not be meant
-    std::string folder;     ///< the scene file's folder, which file names in it are relative to
-    double duration = 1.0;  ///< s
+    ProblemList& warnings;                        ///< messages on what is valid but may not be meant
+    std::string folder;                           ///< the scene file's folder, which file names in it are relative to
+    double duration = 1.0;                        ///< s
+    engine::Vec3 gravity = engine::Vec3::Zero();  ///< m/s^2
     std::uint64_t seed = 1;
     double resolution = 1.0;                      ///< factor by which radii and spacings are divided
     engine::Vec3 gravity = engine::Vec3::Zero();  ///< m/s^2

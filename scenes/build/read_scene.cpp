@@ -181,6 +181,8 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.materialNotes = std::move(materials.notes);
     scene.tables.bodies = positionsOf(sections.bodies);
     scene.tables.emitters = positionsOf(sections.emitters);
+    for (const Section& section : sections.emitters)
+        scene.tables.hasRate.push_back(section.isGiven("rate") || section.isGiven("interval"));
     scene.tables.obstacles = positionsOf(sections.obstacles);
 }
 

@@ -39,27 +39,45 @@ void refineBody(Section& body, BuildContext& context) {
     body.put("counts", TypedValue::ofVector(counts), body.position("counts"), ValueOrigin::given);
 }
 
-/// Refines an emitter. A disc keeps the mass that it emits per second. Single points of emission cannot: a jet one
-/// particle wide becomes a thinner one.
+/// The number of directions in which an emitter's points of emission fill a shape.
+int dimensionsOf(const Section& emitter) {
+    if (!emitter.has("shape")) return 0;
+    const std::string& shape = emitter.string("shape");
+    if (shape == "disc") return 2;
+    if (shape == "ring" || shape == "line") return 1;
+    if (shape != "box" || !emitter.has("size")) return 0;
+    return static_cast<int>((emitter.vector("size").array() > 0.0).count());
+}
+
+void scaleCount(Section& section, std::string_view name, double factor) {
+    if (!section.isGiven(name) || !section.has(name)) return;
+    TypedValue count = section.typed(name);
+    count.integer = std::max<std::int64_t>(1, std::llround(static_cast<double>(count.integer) * factor));
+    count.canonical = fmt::format("{}", count.integer);
+    section.put(name, std::move(count), section.position(name), ValueOrigin::given);
+}
+
+/// Refines an emitter. What is emitted in clusters, or from a shape with an area, keeps the mass that it emits per
+/// second. Single points and lines cannot: a jet one particle wide becomes a thinner one.
 void refineEmitter(Section& emitter, BuildContext& context) {
     const double resolution = context.resolution;
-    const bool isDisc = emitter.has("shape") && emitter.string("shape") == "disc";
+    const int dimensions = dimensionsOf(emitter);
     const bool isRandom = emitter.has("pick") && emitter.string("pick") == "random";
-    const double volume = isDisc ? resolution * resolution * resolution : resolution;
-    scale(emitter, "spacing", 1.0 / resolution, context);
-    scale(emitter, "rate", volume, context);
-    scale(emitter, "interval", 1.0 / (isRandom ? volume : resolution), context);
-    if (emitter.has("count")) {
-        TypedValue count = emitter.typed("count");
-        count.integer = std::max<std::int64_t>(1, std::llround(static_cast<double>(count.integer) * volume));
-        count.canonical = fmt::format("{}", count.integer);
-        emitter.put("count", std::move(count), emitter.position("count"), ValueOrigin::given);
-    }
-    if (!isDisc)
-        context.warnings.add(
-            emitter.position(),
-            fmt::format("at resolution {} the jets of single points of emission are thinner; use shape = \"disc\"",
-                        formatNumber(resolution)));
+    const bool hasClusters = emitter.has("cluster") && emitter.integer("cluster") > 1;
+    const bool isThin = dimensions < 2 && !hasClusters;
+    const double particles = std::pow(resolution, isThin ? dimensions + 1 : 3);
+    // Of the particles that one interval emits there are more by the points of emission or by the size of clusters.
+    const double perInterval = hasClusters ? particles : isRandom ? 1.0 : std::pow(resolution, dimensions);
+    if (!hasClusters) scale(emitter, "spacing", 1.0 / resolution, context);
+    scale(emitter, "rate", particles, context);
+    scale(emitter, "interval", perInterval / particles, context);
+    scaleCount(emitter, "count", particles);
+    scaleCount(emitter, "cluster", particles);
+    if (isThin)
+        context.warnings.add(emitter.position(),
+                             fmt::format("at resolution {} the jets of points and lines of emission are thinner; use a "
+                                         "disc or a box",
+                                         formatNumber(resolution)));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "engine/force_law/obstacle_surfaces.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/pair_estimate.h"
+#include "scenes/build/emission_warnings.h"
 #include "scenes/text/input_error.h"
 
 namespace scenes {
@@ -343,7 +344,9 @@ std::vector<std::string> startWarnings(const Scene& scene) {
     findNarrowGaps(scene, stride, messages);
     findSitesInside(scene, messages);
     findClosePairs(scene, messages);
-    return std::move(messages).list();
+    std::vector<std::string> warnings = std::move(messages).list();
+    for (std::string& warning : emissionWarnings(scene)) warnings.push_back(std::move(warning));
+    return warnings;
 }
 
 }  // namespace scenes

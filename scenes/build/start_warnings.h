@@ -10,7 +10,8 @@
 
 namespace scenes {
 
-/// Messages on bodies and emitters that start where they are not likely to be meant, each with the position of a
+/// Messages on bodies and emitters that start where they are not likely to be meant, and on emitters that are asked for
+/// more than fits (emission_warnings.h), each with the position of a
 /// [[body]], [[emitter]] or [[obstacle]] in the scene file. Counts are exact unless a message says "about": in scenes
 /// with very many particles within each other, or with very many obstacles, only a sample of the particles is examined.
 /// Takes about a second for a million particles on one thread.

@@ -28,6 +28,7 @@ struct EffectiveValue {
 struct SourceTables {
     std::vector<SourcePosition> bodies, emitters, obstacles;
     std::vector<std::size_t> bodyEnds;  ///< for each body, the number of initial particles up to its last one
+    std::vector<bool> hasRate;          ///< for each emitter, whether its rate or interval was given
 };
 
 /// A body of a scene as a column, whose weight compresses it.

@@ -29,8 +29,9 @@ std::vector<Key> bodyKeys() {
         length("spacing", "distance of nearest neighbors")
             .derivedAs("two particle radii")
             .onlyFor({"box", "ball", "grid"}),
-        key("jitter", Type::number, "", "random displacement, as a share of the spacing")
-            .defaultsTo("0")
+        key("jitter", Type::number, "",
+            "random displacement, as a share of the spacing; without any a splash is a star")
+            .derivedAs("0.05; 0 for a grid")
             .within({0.0, 0.5})
             .onlyFor({"box", "ball", "grid"}),
         key("positions", Type::vec3List, "m", "position of each particle")
@@ -56,44 +57,60 @@ std::vector<Key> bodyKeys() {
 
 std::vector<Key> emitterKeys() {
     return {
-        key("shape", Type::choice, "", "individual points of emission, or a disc filled with them")
+        key("shape", Type::choice, "",
+            "what the points of emission fill: single points, a disc, a circle, a box or a line")
             .defaultsTo("\"point\"")
-            .oneOf({"point", "disc"}),
-        position("position", "point of emission, or center of the disc")
+            .oneOf({"point", "disc", "ring", "box", "line"}),
+        position("position", "point of emission, center of the disc, ring or box, or one end of the line")
             .derivedAs("none: this or positions is required"),
         key("positions", Type::vec3List, "m", "several points of emission")
             .derivedAs("none: this or position is required")
             .within(kWithinWorld)
             .onlyFor({"point"}),
         velocity("velocity", "velocity of emitted particles").defaultsTo("[0, 0, 0]"),
-        key("direction", Type::vec3, "", "normal of the disc, of any length")
+        key("spread", Type::number, "degrees", "largest angle of a particle's velocity to `velocity`, random")
+            .defaultsTo("0")
+            .within({0.0, 90.0}),
+        key("speed_spread", Type::number, "", "largest random change of the speed, as a share of it")
+            .defaultsTo("0")
+            .within({.low = 0.0, .high = 1.0, .isHighExcluded = true}),
+        key("direction", Type::vec3, "", "normal of the disc or ring, of any length")
             .derivedAs("of the velocity")
-            .onlyFor({"disc"}),
-        length("radius", "radius of the disc").required().onlyFor({"disc"}),
-        length("spacing", "distance of the disc's points of emission")
-            .derivedAs("two particle radii")
-            .onlyFor({"disc"}),
+            .onlyFor({"disc", "ring"}),
+        length("radius", "radius of the disc or ring").required().onlyFor({"disc", "ring"}),
+        key("size", Type::vec3, "m", "edge lengths of the box; 0 makes it flat, and twice 0 a line")
+            .required()
+            .within({.low = 0.0, .high = engine::kWorldLimit})
+            .onlyFor({"box"}),
+        position("end", "other end of the line").required().onlyFor({"line"}),
+        length("spacing", "distance of the points of emission")
+            .derivedAs("two particle radii, or the diameter of a cluster")
+            .onlyFor({"disc", "ring", "box", "line"}),
         key("interval", Type::number, "s",
             "time between emissions of each point, or of the whole emitter if it picks points at random")
-            .derivedAs("none: this or rate is required")
+            .derivedAs("of the rate; without it, as dense as fits")
             .within({.low = 1e-9}),
         key("rate", Type::number, "1/s", "particles that the whole emitter emits per second")
-            .derivedAs("none: this or interval is required")
+            .derivedAs("of the interval; without it, as dense as fits")
             .within({0.0, 1e9, true}),
+        key("cluster", Type::integer, "", "particles of one emission, which form a drop around its point")
+            .defaultsTo("1")
+            .within({1.0, 1000.0}),
         key("start", Type::number, "s", "time of the first emission").defaultsTo("0").within(kNotNegative),
         key("until", Type::number, "s", "nothing is emitted at or after this time")
             .derivedAs("no end")
             .within(kPositive),
         key("count", Type::integer, "", "total number of particles emitted").derivedAs("no limit").within({.low = 1.0}),
-        key("pick", Type::choice, "", "whether every point emits, or one that is picked at random each time")
-            .defaultsTo("\"all\"")
-            .oneOf({"all", "random"}),
+        key("pick", Type::choice, "",
+            "which points emit: each in its turn, evenly over the interval; all at once; or one at random each time")
+            .defaultsTo("\"staggered\"")
+            .oneOf({"staggered", "all", "random"}),
         key("clearance", Type::number, "",
             "smallest distance to other particles at emission, in sums of radii; 0 lets them overlap")
-            .defaultsTo("1")
+            .derivedAs("1 less what the jitter may take away, at least 0.8")
             .within(kNotNegative),
         key("jitter", Type::number, "", "random displacement perpendicular to the velocity, in particle radii")
-            .defaultsTo("0")
+            .defaultsTo("0.1")
             .within({0.0, 10.0}),
         key("material", Type::string, "", "name of a [[material]]").derivedAs("the first"),
     };

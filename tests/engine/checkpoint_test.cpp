@@ -1,5 +1,6 @@
 // A run that is resumed from a checkpoint has the same bits as the run it was taken from; damaged bytes are refused.
 #include "engine/run/checkpoint.h"
+#include "engine/state/emitter_sites.h"
 #include "engine/stepping/step_cache.h"
 
 #include <cstring>
@@ -108,6 +109,23 @@ TEST_CASE("A run of two materials, with random emissions and friction, goes on w
     setup.emitters.front().pick = engine::Pick::random;
     setup.emitters.front().interval = 0.01;
     checkGoingOn(setup, 12);
+}
+
+TEST_CASE("A run with a staggered jet of drops goes on with the same bits", "[checkpoint]") {
+    const StepperKind stepper =
+        GENERATE(StepperKind::symplecticEuler, StepperKind::velocityVerlet, StepperKind::automatic);
+    Setup setup = busySetup(stepper);
+    engine::Emitter& nozzle = setup.emitters.front();
+    nozzle.pick = engine::Pick::staggered;
+    nozzle.spread = 0.1;
+    nozzle.speedSpread = 0.1;
+    nozzle.cluster = engine::clusterPositions(GENERATE(1U, 4U), 2.0 * setup.materials[0].radius);
+    engine::completeTimes(nozzle, setup.gravity, setup.materials[0].radius);
+    REQUIRE(nozzle.grouping > 0.0);
+    checkGoingOn(setup, 12);
+    Simulation whole = engine::start(setup);
+    runs::advanceFrames(whole, 0, 12);
+    CHECK(refusalCount(whole) > 0);
 }
 
 TEST_CASE("A run with strays goes on with the same bits", "[checkpoint]") {

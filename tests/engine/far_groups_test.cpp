@@ -12,9 +12,9 @@ using namespace engine;
 
 namespace {
 
-constexpr double kGap = 10.0;    // m
-constexpr double kCutoff = 0.6;  // m
-constexpr double kSkin = 0.06;   // m
+constexpr double kGap = 10.0;         // m
+constexpr double kGroupCutoff = 0.6;  // m
+constexpr double kGroupSkin = 0.06;   // m
 
 /// A cloud of particles about the origin, and clumps of three particles at the given places (m).
 std::vector<Vec3> cloudAndClumps(const std::vector<Vec3>& places) {
@@ -105,12 +105,12 @@ TEST_CASE("Strays outdate a list only where they come near other particles or pa
     const auto positions = cloudAndClumps({Vec3(0, -30, 0), Vec3(0, -60, 0)});
     const FarGroups groups = findFarGroups(positions, kGap);
     NeighborList list;
-    build(list, positions, {}, kCutoff, kSkin);
+    build(list, positions, {}, kGroupCutoff, kGroupSkin);
     const auto coversMoved = [&](const Vec3& first, const Vec3& second) {
         std::vector<Vec3> moved = positions;
         for (std::size_t p = 0; p < 3; ++p) moved[p] += first;
         for (std::size_t p = 3; p < 6; ++p) moved[p] += second;
-        return covers(list, moved, kCutoff, groups);
+        return covers(list, moved, kGroupCutoff, groups);
     };
     CHECK(coversMoved(Vec3(0, -1e6, 0), Vec3(5, -2e6, 0)));
     CHECK(coversMoved(Vec3(0, -1e6, 0), Vec3::Zero()));
@@ -118,21 +118,21 @@ TEST_CASE("Strays outdate a list only where they come near other particles or pa
     CHECK_FALSE(coversMoved(Vec3(0, 30, 0), Vec3::Zero()));             // a clump is in the cloud
     std::vector<Vec3> parted = positions;
     for (std::size_t p = 0; p < 3; ++p) parted[p].y() -= 1e3;
-    parted[2].x() += kSkin;
-    CHECK_FALSE(covers(list, parted, kCutoff, groups));
+    parted[2].x() += kGroupSkin;
+    CHECK_FALSE(covers(list, parted, kGroupCutoff, groups));
     parted = positions;
     for (std::size_t p = 0; p < 3; ++p) parted[p].y() -= 1e3;
-    parted.back().x() += kSkin;  // in the cloud
-    CHECK_FALSE(covers(list, parted, kCutoff, groups));
+    parted.back().x() += kGroupSkin;  // in the cloud
+    CHECK_FALSE(covers(list, parted, kGroupCutoff, groups));
 }
 
 TEST_CASE("A stray at any distance does not enlarge a list", "[far-groups][neighbor-list]") {
     const auto near = cloudAndClumps({Vec3(0, -2, 0)});
     NeighborList dense;
-    build(dense, near, {}, kCutoff, kSkin);
+    build(dense, near, {}, kGroupCutoff, kGroupSkin);
     for (const double far : {1e3, 1e6, 9e7}) {
         NeighborList list;
-        build(list, cloudAndClumps({Vec3(0.3 * far, -far, 0)}), {}, kCutoff, kSkin);
+        build(list, cloudAndClumps({Vec3(0.3 * far, -far, 0)}), {}, kGroupCutoff, kGroupSkin);
         INFO(far << " m");
         REQUIRE(list.scratch.classes.size() == 1);
         // A grid has at most two cells a particle and 64 at least.

@@ -4,6 +4,7 @@
 #include "engine/error_control/error_estimate.h"
 #include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
+#include "engine/state/emitter_sites.h"
 #include "tests/engine/runs.h"
 
 using namespace engine;

@@ -5,6 +5,7 @@
 
 #include "engine/run/diagnostics.h"
 #include "engine/state/bodies.h"
+#include "engine/state/emitter_sites.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
 #include "tests/engine/runs.h"

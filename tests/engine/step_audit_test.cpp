@@ -6,6 +6,7 @@
 #include "tests/catch.h"
 
 #include "engine/run/diagnostics.h"
+#include "engine/state/emitter_sites.h"
 #include "engine/stepping/step_cache.h"
 #include "tests/engine/runs.h"
 

@@ -1,7 +1,10 @@
 // Tests that the tables of a scene become the engine's input: materials, bodies, emitters and obstacles.
 #include "tests/catch.h"
 
+#include <cmath>
+
 #include "engine/state/bodies.h"
+#include "engine/state/emitter_sites.h"
 #include "engine/state/emitters.h"
 #include "scenes/model/particle_file.h"
 #include "scenes/text/color.h"
@@ -74,18 +77,30 @@ TEST_CASE("bodies and emitters refer to materials by name, and use the first by 
 
 TEST_CASE("packed bodies are those of the engine, with a default spacing of two radii") {
     const engine::Particles ball =
-        particlesOf("shape = \"ball\"\ncenter = [1, 2, 3]\nradius = 1\nvelocity = [4, 5, 6]\n");
+        particlesOf("shape = \"ball\"\ncenter = [1, 2, 3]\nradius = 1\nvelocity = [4, 5, 6]\njitter = 0\n");
     CHECK(ball.position == engine::ballPositions(Vec3(1, 2, 3), 1.0, {.spacing = 0.3}));
     CHECK(ball.velocity.at(0) == Vec3(4.0, 5.0, 6.0));
     CHECK(ball.count() > 50);
     const engine::Particles box =
-        particlesOf("shape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 2, 1]\nspacing = 0.5\n");
+        particlesOf("shape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 2, 1]\nspacing = 0.5\njitter = 0\n");
     CHECK(box.position == engine::boxPositions(Vec3(0, 0, 0), Vec3(1, 2, 1), {.spacing = 0.5}));
     const engine::Particles grid =
         particlesOf("shape = \"grid\"\ncounts = [3, 2, 1]\nparticle_radius = 0.25\nparticle_mass = 9\n");
     CHECK(grid.position == engine::gridPositions(Vec3(0, 0, 0), {3, 2, 1}, {.spacing = 0.5}));
     CHECK(grid.radius.at(5) == 0.25);
     CHECK(grid.mass.at(5) == 9.0);
+}
+
+TEST_CASE("balls and boxes have a jitter of their own, grids have none") {
+    const engine::Particles ball = particlesOf("shape = \"ball\"\nradius = 1\n");
+    const std::vector<Vec3> lattice = engine::ballPositions(Vec3::Zero(), 1.0, {.spacing = 0.3});
+    REQUIRE(ball.count() == lattice.size());
+    double largest = 0.0;
+    for (std::size_t p = 0; p < lattice.size(); ++p)
+        largest = std::max(largest, (ball.position[p] - lattice[p]).cwiseAbs().maxCoeff());
+    CHECK(largest <= 0.05 * 0.3);
+    CHECK(largest > 0.9 * 0.05 * 0.3);
+    CHECK(particlesOf("shape = \"ball\"\nradius = 1\njitter = 0\n").position == lattice);
 }
 
 TEST_CASE("jitter depends on the seed of the scene and differs between bodies") {
@@ -201,17 +216,62 @@ TEST_CASE("the keys of an emitter reach the engine") {
     const engine::Emitter plain = emitterOf("position = [0, 0, 0]\nrate = 1\n");
     CHECK(plain.until == engine::Emitter{}.until);
     CHECK(plain.limit == engine::Emitter{}.limit);
-    CHECK(plain.pick == engine::Pick::all);
-    CHECK(plain.clearance == 1.0);
+    CHECK(plain.pick == engine::Pick::staggered);
+    CHECK(plain.jitter == 0.1);
+    CHECK(plain.clearance == Approx(1.0 - 0.1 * std::sqrt(2.0)));
+    CHECK(plain.spread == 0.0);
+    CHECK(plain.speedSpread == 0.0);
+    CHECK(plain.cluster == std::vector<Vec3>{Vec3::Zero()});
+    CHECK(emitterOf("position = [0, 0, 0]\nrate = 1\njitter = 0\n").clearance == 1.0);
+    CHECK(emitterOf("position = [0, 0, 0]\nrate = 1\njitter = 3\n").clearance == 0.8);
+    CHECK(emitterOf("position = [0, 0, 0]\nrate = 1\npick = \"all\"\n").pick == engine::Pick::all);
 }
 
 TEST_CASE("a disc is filled with points of emission perpendicular to its direction") {
     const std::string disc = "shape = \"disc\"\nposition = [0, 1, 0]\nradius = 0.5\nrate = 10\n";
     const engine::Emitter along = emitterOf(disc + "velocity = [0, -3, 0]\n");
-    CHECK(along.sites == engine::discSites(Vec3(0, 1, 0), Vec3(0, -1, 0), 0.5, 0.3));
+    CHECK(along.sites == engine::takingTurns(engine::discSites(Vec3(0, 1, 0), Vec3(0, -1, 0), 0.5, 0.3)));
     CHECK(along.interval == Approx(static_cast<double>(along.sites.size()) / 10.0));
     const engine::Emitter tilted = emitterOf(disc + "velocity = [0, -3, 0]\ndirection = [2, 0, 0]\nspacing = 0.25\n");
-    CHECK(tilted.sites == engine::discSites(Vec3(0, 1, 0), Vec3(1, 0, 0), 0.5, 0.25));
+    CHECK(tilted.sites == engine::takingTurns(engine::discSites(Vec3(0, 1, 0), Vec3(1, 0, 0), 0.5, 0.25)));
+    CHECK(emitterOf(disc + "velocity = [0, -3, 0]\npick = \"all\"\n").sites ==
+          engine::discSites(Vec3(0, 1, 0), Vec3(0, -1, 0), 0.5, 0.3));
+}
+
+TEST_CASE("rings, boxes and lines are filled with points of emission") {
+    const std::string all = "velocity = [0, -3, 0]\npick = \"all\"\nrate = 10\nposition = [1, 2, 3]\n";
+    CHECK(emitterOf(all + "shape = \"ring\"\nradius = 0.5\n").sites ==
+          engine::ringSites(Vec3(1, 2, 3), Vec3(0, -1, 0), 0.5, 0.3));
+    CHECK(emitterOf(all + "shape = \"box\"\nsize = [2, 0, 1]\nspacing = 0.25\n").sites ==
+          engine::boxSites(Vec3(1, 2, 3), Vec3(2, 0, 1), 0.25));
+    CHECK(emitterOf(all + "shape = \"line\"\nend = [1, 2, 5]\n").sites ==
+          engine::lineSites(Vec3(1, 2, 3), Vec3(1, 2, 5), 0.3));
+}
+
+TEST_CASE("spread and clusters reach the engine") {
+    const engine::Emitter emitter = emitterOf(
+        "shape = \"box\"\nposition = [0, 9, 0]\nsize = [4, 0, 4]\nvelocity = [0, -3, 0]\nrate = 130\ncluster = 13\n"
+        "spread = 60\nspeed_spread = 0.25\n");
+    CHECK(emitter.spread == Approx(0.5));
+    CHECK(emitter.speedSpread == 0.25);
+    CHECK(emitter.cluster == engine::clusterPositions(13, 0.3));
+    CHECK(emitter.interval == Approx(static_cast<double>(emitter.sites.size()) / 10.0));
+    // A drop of 13 is about a particle and its twelve neighbors: 0.9 m across.
+    for (std::size_t a = 0; a < emitter.sites.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) CHECK((emitter.sites[a] - emitter.sites[b]).norm() > 0.85);
+}
+
+TEST_CASE("an emitter without a rate emits as densely as fits") {
+    const std::string disc = "shape = \"disc\"\nposition = [0, 9, 0]\nradius = 0.5\nvelocity = [0, -3, 0]\n";
+    const engine::Emitter dense = emitterOf(disc);
+    const double distance = 0.3 * dense.clearance;
+    // 3 t + 4.9 t^2 = distance; an interval is a thousandth longer, and a few per cent where neighbors get in the way.
+    const double clearing = (-3.0 + std::sqrt(9.0 + 4.0 * 4.9 * distance)) / 9.8;
+    CHECK(dense.interval > clearing);
+    CHECK(dense.interval < 1.04 * clearing);
+    const engine::Emitter crowded = emitterOf(disc + "spacing = 0.15\n");
+    CHECK(crowded.interval > 2.0 * clearing);  // four times the points on the same area
+    CHECK(emitterOf(disc + "pick = \"all\"\njitter = 0\n").interval > dense.interval);
 }
 
 TEST_CASE("obstacles become shapes of the engine") {

@@ -113,7 +113,8 @@ TEST_CASE("no particle may start outside the world") {
 
 TEST_CASE("no particle may start further out than can be simulated") {
     const auto at = [](const std::string& center) {
-        return problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = 0.2\ncenter = [" + center + ", 0, 0]\n");
+        return problemsOf(kTop + "[[body]]\nshape = \"ball\"\nradius = 0.2\njitter = 0\ncenter = [" + center +
+                          ", 0, 0]\n");
     };
     CHECK(at("99999998") == Lines{});
     const Lines problems = at("100000000");
@@ -157,8 +158,18 @@ TEST_CASE("missing keys are reported at the table that needs them") {
           Lines{"pile.toml:3:1: radius is missing, a body of shape \"ball\" needs it (meters)"});
     CHECK(problemsOf(kTop + "[[body]]\n") == Lines{"pile.toml:3:1: shape is missing, a body needs it"});
     CHECK(problemsOf(kTop + "[[emitter]]\n") ==
-          Lines{"pile.toml:3:1: position is missing, an emitter needs it (meters)",
-                "pile.toml:3:1: interval is missing, an emitter needs it (seconds)"});
+          Lines{"pile.toml:3:1: position is missing, an emitter needs it (meters)"});
+    const std::string still = kTop + "[physics]\ngravity = [0, 0, 0]\n[[emitter]]\nposition = [0, 0, 0]\n";
+    CHECK(problemsOf(still) ==
+          Lines{"pile.toml:5:1: rate is missing, an emitter whose particles do not move away needs it (per second)"});
+    CHECK(problemsOf(still + "velocity = [0, 1, 0]\nclearance = 0\n") ==
+          Lines{"pile.toml:5:1: rate is missing, an emitter without clearance needs it (per second)"});
+    CHECK(problemsOf(still + "velocity = [0, 1, 0]\n").empty());
+    CHECK(problemsOf(still + "rate = 1\ncluster = 9\ncount = 8\n") ==
+          Lines{"pile.toml:9:9: count is 8, must be at least that of one cluster, 9"});
+    CHECK(problemsOf(still + "rate = 1\nshape = \"line\"\nend = [1e6, 0, 0]\n") ==
+          Lines{"pile.toml:5:1: the line would have about 3.3e+06 points of emission, at most 2000000 are allowed; "
+                "--limit particles=N allows more"});
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"sphere\"\n") ==
           Lines{"pile.toml:6:1: radius is missing, an obstacle of shape \"sphere\" needs it (meters)",
                 "pile.toml:6:1: center is missing, an obstacle of shape \"sphere\" needs it (meters)"});
@@ -215,6 +226,8 @@ TEST_CASE("corners, directions and cameras are checked") {
           Lines{"pile.toml:7:19: light_direction is [0, 0, 0], must not be zero"});
     CHECK(problemsOf(kTop + "[[emitter]]\nshape = \"disc\"\nposition = [0, 0, 0]\nradius = 1\nrate = 1\n") ==
           Lines{"pile.toml:3:1: direction is missing, a disc whose velocity is zero needs it"});
+    CHECK(problemsOf(kTop + "[[emitter]]\nshape = \"ring\"\nposition = [0, 0, 0]\nradius = 1\nrate = 1\n") ==
+          Lines{"pile.toml:3:1: direction is missing, a ring whose velocity is zero needs it"});
     CHECK(problemsOf(kBall + "[look]\ncolor_by = \"speed\"\ncolor_range = [2, 1]\n") ==
           Lines{"pile.toml:8:15: color_range is [2, 1], must be two numbers [low, high], low below high (m/s or s)"});
 }

@@ -284,6 +284,8 @@ shape = "point"
 position = [0, 1, 0]
 interval = 0.2
 start = 0.35
+pick = "all"
+jitter = 0
 )",
                                         "late.toml", {});
     studies::AccuracySettings settings = shortSettings();

@@ -30,8 +30,50 @@ TEST_CASE("Births are counted as the schedule has them", "[forecast]") {
     CHECK(tools::plannedBirths(sceneWith(point + "count = 4\n")) == 4);
     CHECK(tools::plannedBirths(sceneWith(point + "start = 0.99\n")) == 0);
     const std::string points = "positions = [[0, 0, 0], [5, 0, 0]]\ninterval = 0.1\n";
-    CHECK(tools::plannedBirths(sceneWith(points)) == 20);
+    CHECK(tools::plannedBirths(sceneWith(points + "pick = \"all\"\n")) == 20);
     CHECK(tools::plannedBirths(sceneWith(points + "pick = \"random\"\n")) == 10);
+    // The second point is 0.05 s behind. Its last emission is due at 0.95 s, before the last frame at 0.967 s, but slow
+    // particles are emitted in groups, here at 0.1 0.2 ... s.
+    CHECK(tools::plannedBirths(sceneWith(points + "velocity = [0, 19, 0]\n")) == 20);
+    CHECK(tools::plannedBirths(sceneWith(points)) == 19);
+    CHECK(tools::plannedBirths(sceneWith(points + "cluster = 7\npick = \"all\"\n")) == 140);
+    CHECK(tools::plannedBirths(sceneWith(points + "cluster = 7\ncount = 20\n")) == 14);
+}
+
+TEST_CASE("check, the last line of a run and run.json say what of a rate fits", "[forecast]") {
+    const program::Folder folder;
+    const std::string path = (folder / "jet.toml").string();
+    const std::string out = (folder / "out").string();
+    const auto write = [&](const std::string& rate) {
+        std::ofstream(path) << "title = \"t\"\nduration = 2\nfps = 10\n[physics]\ngravity = [0, 0, 0]\n"
+                               "[[emitter]]\nposition = [0, 0, 0]\nvelocity = [0, 3, 0]\n"
+                            << rate;
+    };
+    write("rate = 50\n");
+    const auto checked = program::run("check " + path);
+    INFO(checked.out << checked.err);
+    CHECK(checked.out.find("\nwarning    " + path + ":6:1: emitter 1: asked 50/s, about 1") != std::string::npos);
+    const auto run = program::run("simulate " + path + " -o " + out);
+    INFO(run.out << run.err);
+    CHECK(run.code == 0);
+    CHECK(run.out.find(", emitter 1: asked 50/s, 1") != std::string::npos);
+    CHECK(run.out.ends_with("/s fit\n"));
+    std::ifstream file(folder / "out/run.json");
+    const auto json = nlohmann::json::parse(file);
+    const int asked = json["emitters"][0]["asked"].get<int>();
+    const int born = json["emitters"][0]["born"].get<int>();
+    CHECK(asked == 96);  // 0 0.02 ... 1.9 s
+    CHECK(born > 15);    // at 3 m/s a particle needs 0.086 s for 0.26 m
+    CHECK(born <= 23);
+    CHECK(json["emitters"][0]["refused"] == asked - born);
+    CHECK(json["refused_births"] == asked - born);
+
+    write("");
+    CHECK(program::run("check " + path).out.find("asked") == std::string::npos);
+    const auto dense = program::run("simulate " + path + " --overwrite -o " + out);
+    CHECK(dense.out.find("asked") == std::string::npos);
+    std::ifstream again(folder / "out/run.json");
+    CHECK(nlohmann::json::parse(again)["emitters"][0]["refused"] <= 1);  // particles push each other
 }
 
 TEST_CASE("The beginning of a run is simulated and measured", "[forecast]") {

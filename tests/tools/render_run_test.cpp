@@ -48,10 +48,10 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
 
     const auto json = nlohmann::json::parse(textOf(folder / "a/run.json"));
     for (const char* key :
-         {"scene",       "scene_hash",      "version",          "threads",   "instruction_set", "renderer",
-          "gl_renderer", "gl_version",      "particles",        "births",    "refused_births",  "deaths",
-          "strays",      "frames",          "stepper",          "steps",     "seconds",         "error_estimate",
-          "energy",      "linear_momentum", "angular_momentum", "state_hash"})
+         {"scene",          "scene_hash", "version",         "threads",          "instruction_set", "renderer",
+          "gl_renderer",    "gl_version", "particles",       "births",           "refused_births",  "deaths",
+          "strays",         "emitters",   "frames",          "stepper",          "steps",           "seconds",
+          "error_estimate", "energy",     "linear_momentum", "angular_momentum", "state_hash"})
         CHECK(json.contains(key));
     CHECK(json["frames"] == 10);
     CHECK(json["steps"]["count"] >= 9);  // at least one between two frames

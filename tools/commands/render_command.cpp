@@ -8,6 +8,7 @@
 #include "render/output/video.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
+#include "tools/run/emission_report.h"
 #include "tools/run/frame_folder.h"
 #include "tools/run/render_loop.h"
 #include "tools/system/command_files.h"
@@ -33,15 +34,15 @@ bool pipesFrames(const RenderOptions& options) {
     return options.folder.path == kStandardStream;
 }
 
-std::string summaryOf(const RenderOptions& options, const FinishedRun& run) {
+std::string summaryOf(const RenderOptions& options, const scenes::Scene& scene, const FinishedRun& run) {
     const StageSeconds& seconds = run.report.seconds;
     return fmt::format(
         "{} frames {}{}\n{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), "
-        "state {}\n",
+        "state {}{}\n",
         run.report.frames, pipesFrames(options) ? "to standard output" : "in " + options.folder.path,
         options.video.empty() ? "" : ", video " + options.video, engine::largestCount(run.simulation),
         run.simulation.steps.count, seconds.all, seconds.simulating, seconds.drawing, seconds.encoding,
-        run.report.stateHash);
+        run.report.stateHash, missedRates(scene, run.simulation));
 }
 
 /// Checks the outputs before anything is done.
@@ -78,7 +79,7 @@ void render(RenderOptions options) {
     if (!options.video.empty()) createFolderOf(options.video);
     const FinishedRun run = renderFrames(job);
     requireComplete(run.report, options.folder.path);
-    const std::string summary = summaryOf(options, run);
+    const std::string summary = summaryOf(options, scene, run);
     if (!job.pipesFrames)
         printResult(options.run, {{"event", "done"}, {"folder", options.folder.path}, {"run", run.json}}, summary);
     else if (!options.run.quiet)

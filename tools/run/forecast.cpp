@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "engine/run/run_memory.h"
 #include "render/picture/view.h"
@@ -23,16 +22,9 @@ void recordMemory(Preview& preview) {
 }  // namespace
 
 std::uint64_t plannedBirths(const scenes::Scene& scene) {
+    const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
     std::uint64_t sum = 0;
-    for (const engine::Emitter& emitter : scene.setup.emitters) {
-        const double lastFrame = scenes::frameTime(scene, scenes::frameCount(scene) - 1);
-        // An emitter does not emit any more at its end time, `until`, but it does at the last frame.
-        const double end = std::min(lastFrame + engine::kSameMoment, emitter.until - 2.0 * engine::kSameMoment);
-        if (end < emitter.start) continue;
-        const double events = std::floor((end - emitter.start) / emitter.interval) + 1.0;
-        const auto schedules = static_cast<double>(engine::initialState(emitter).schedules.size());
-        sum += static_cast<std::uint64_t>(std::min(static_cast<double>(emitter.limit), events * schedules));
-    }
+    for (const engine::Emitter& emitter : scene.setup.emitters) sum += engine::askedCount(emitter, lastFrame);
     return sum;
 }
 

@@ -13,6 +13,7 @@
 #include "engine/run/strays.h"
 #include "engine/stepping/take_step.h"
 #include "render/picture/system_error.h"
+#include "tools/run/emission_report.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"
 
@@ -149,6 +150,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);
+    json["emitters"] = emittersJson(simulation);
     json["deaths"] = simulation.removedCount;
     json["strays"] = engine::strayCount(simulation);
     json["walls"] = {{"held", simulation.steps.held},
