@@ -156,7 +156,7 @@ TEST_CASE("what cannot be refined is named") {
     const scenes::Scene scene = sceneOf(kTop + "[[emitter]]\nposition = [0, 0, 0]\ninterval = 0.1\n", {"resolution=2"});
     REQUIRE(scene.warnings.size() == 1);
     CHECK(scene.warnings[0] ==
-          "pile.toml:3:1: at resolution 2 the jets of single points of emission are thinner; use shape = \"disc\"");
+          "pile.toml:3:1: at resolution 2 the jets of points and lines of emission are thinner; use a disc or a box");
 }
 
 TEST_CASE("a compression chooses b1 for the tallest body of the material, or for a depth") {
