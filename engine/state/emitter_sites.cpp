@@ -124,7 +124,7 @@ class Closeness {
 };
 
 /// The most sites whose order is evened. Chosen: it takes a tenth of a second; a wider jet has no visible layers.
-constexpr std::size_t kMostEvened = 256;
+constexpr std::size_t kMostEvened = 128;
 
 /// Exchanges sites of an order for as long as that moves those that emit shortly after each other apart.
 void even(std::vector<Vec3>& sites) {

@@ -41,7 +41,7 @@ std::vector<Vec3> lineSites(const Vec3& from, const Vec3& to, double spacing);
 
 /// Sites in an order that makes an even jet where they emit one after another, the last followed by the first: any
 /// stretch of the order is spread over the whole nozzle, and no slanted or helical layers form. Takes time in
-/// proportion to the cube of the number of sites, at most half a second.
+/// proportion to the cube of the number of sites, at most a tenth of a second.
 std::vector<Vec3> takingTurns(const std::vector<Vec3>& sites);
 
 /// The points of a face-centered cubic lattice that form the roundest ball of so many points, around their mean, m.
