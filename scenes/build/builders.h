@@ -35,8 +35,7 @@ struct BuildContext {
     double duration = 1.0;                        ///< s
     engine::Vec3 gravity = engine::Vec3::Zero();  ///< m/s^2
     std::uint64_t seed = 1;
-    double resolution = 1.0;                      ///< factor by which radii and spacings are divided
-    engine::Vec3 gravity = engine::Vec3::Zero();  ///< m/s^2
+    double resolution = 1.0;  ///< factor by which radii and spacings are divided
     bool hasOmissions =
         false;  ///< a part of the scene file could not be read, so keys that seem to be missing may be in it
     std::uint64_t contentHash;                 ///< hash over the contents of the files that the scene refers to

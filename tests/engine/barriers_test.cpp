@@ -16,7 +16,7 @@ using namespace engine;
 
 namespace {
 
-constexpr double kRadius = 0.1;
+constexpr double kBallRadius = 0.1;
 
 Obstacles all(std::vector<Obstacle> shapes, double friction = 0.0) {
     Obstacles obstacles;
@@ -60,7 +60,7 @@ TEST_CASE("No motion ends inside an obstacle, and none gains energy", "[barriers
                 const Obstacles obstacles = all(set, number % 2 == 0 ? 0.0 : 0.4);
                 const double speed = std::pow(10.0, static_cast<double>(number % 6) - 2.0);
                 Probe particle{0.4 * clouds::randomVector(1, number) + Vec3(0, 0.6, 0),
-                               speed * clouds::randomVector(2, number), kRadius};
+                               speed * clouds::randomVector(2, number), kBallRadius};
                 if (far > 0.0 || heightOf(obstacles, particle.position) < 0.0) continue;
                 for (int call = 0; call < 30; ++call) {
                     const double before = squaredLength(particle.velocity);
@@ -76,7 +76,7 @@ TEST_CASE("No motion ends inside an obstacle, and none gains energy", "[barriers
 
 TEST_CASE("A particle slides over the seam of two boxes as over one", "[barriers]") {
     const Obstacles seam = all({Box{Vec3(-5, -1, -1), Vec3(0, 0, 1)}, Box{Vec3(0, -1, -1), Vec3(5, 0, 1)}});
-    Probe particle{Vec3(-1, 0, 0), Vec3(2, -1, 0), kRadius};
+    Probe particle{Vec3(-1, 0, 0), Vec3(2, -1, 0), kBallRadius};
     for (int step = 0; step < 100; ++step) {
         moveAmongBarriers(seam, particle, 0.01, Arrival::slides);
         particle.velocity.y() -= 0.1;
@@ -84,12 +84,12 @@ TEST_CASE("A particle slides over the seam of two boxes as over one", "[barriers
     CHECK(particle.velocity.x() == 2.0);
     CHECK(particle.position.x() == Approx(1.0).epsilon(1e-12));  // a hundred roundings
     CHECK(particle.position.y() >= 0.0);
-    CHECK(particle.position.y() < 1e-5 * kRadius);
+    CHECK(particle.position.y() < 1e-5 * kBallRadius);
 }
 
 TEST_CASE("A barrier reflects with the restitution and rubs with the friction of its surface", "[barriers]") {
     const Obstacles floor = all({Plane{}}, 0.25);
-    Probe particle{Vec3(0, 1, 0), Vec3(3, -2, 0), kRadius};
+    Probe particle{Vec3(0, 1, 0), Vec3(3, -2, 0), kBallRadius};
     CHECK(moveAmongBarriers(floor, particle, 1.0, Arrival::rebounds) == 1);
     CHECK(particle.velocity.y() == Approx(1.2).epsilon(1e-12));
     CHECK(particle.velocity.x() == Approx(3.0 - 0.25 * 3.2).epsilon(1e-12));  // mu times the impulse along the normal
@@ -98,7 +98,7 @@ TEST_CASE("A barrier reflects with the restitution and rubs with the friction of
 
 TEST_CASE("A particle that starts inside an obstacle is not held in it", "[barriers]") {
     const Obstacles box = all({Box{Vec3(-1, -1, -1), Vec3(1, 1, 1)}});
-    Probe particle{Vec3(0, 0.5, 0), Vec3(0, 2, 0), kRadius};
+    Probe particle{Vec3(0, 0.5, 0), Vec3(0, 2, 0), kBallRadius};
     CHECK(moveAmongBarriers(box, particle, 1.0, Arrival::slides) == 0);
     CHECK(particle.position == Vec3(0, 2.5, 0));
 }
