@@ -69,11 +69,12 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
     there = simulation;
     // The second run takes half the mean step of the first run, whose steps may have been shortened by rejections and
     // for emissions.
-    run(there, trialRun, 0.5 * trial.step, std::numeric_limits<double>::infinity());
+    trial.finished = run(there, trialRun, 0.5 * trial.step, trialRun.mostOfFiner);
+    trial.spent += forceEvaluationsOf(there);
+    if (!trial.finished) return trial;
     const double contrast = std::max(kLeastContrast, 1.0 - errorRatio(trialRun.stepper, meanStep() / trial.step));
     const std::size_t count = simulation.particles.count();
     trial.error = difference(coarse, there.particles, count, trialRun.horizon) / contrast / interval;
-    trial.spent += forceEvaluationsOf(there);
     if (finer == nullptr) return trial;
     *finer = std::move(there);
     finer->cache->implicit = {};  // the matrix is large, and several runs may be kept

@@ -21,12 +21,13 @@ struct TrialRun {
     double step = 0.0;                                                 ///< longest step of the first run, s
     double horizon = kErrorHorizon;                                    ///< error horizon for velocities, s
     double mostEvaluations = std::numeric_limits<double>::infinity();  ///< most force evaluations of the first run
+    double mostOfFiner = std::numeric_limits<double>::infinity();      ///< most force evaluations of the second run
 };
 
 /// Results of the two runs of an error estimate.
 struct Trial {
     StepperKind stepper = StepperKind::velocityVerlet;
-    bool finished = true;  ///< whether the first run got to the end; else only `spent` is set
+    bool finished = true;  ///< whether both runs got to the end; else only `spent` is of use
     double asked = 0.0;    ///< longest step that the first run was allowed to take, s
     double step = 0.0;     ///< mean step of the first run, s
     double error = 0.0;    ///< error at the mean step, radii per second of motion

@@ -243,21 +243,39 @@ TEST_CASE("globular simulate writes states that a scene can start from", "[tools
     CHECK(nlohmann::json::parse(check.out)["particles_at_start"] == written["particles"]);
 }
 
-TEST_CASE("The cost of error estimates with a fixed step is reported", "[tools]") {
+TEST_CASE("Error estimates with a fixed step cost at most a tenth of the run, and are counted", "[tools]") {
     const program::Folder folder;
-    REQUIRE(run("simulate figure-2 --frames 0-9 --quiet -o " + (folder / "states").string()).code == 0);
+    // A frame takes four steps of 0.01 s. A sample takes at least one of them at this length and at half of it.
+    const auto [frames, samples] = GENERATE(std::pair{0, 0}, std::pair{5, 0}, std::pair{9, 1}, std::pair{60, 6});
+    INFO(frames << " frames");
+    const std::string range = "simulate figure-2 --quiet --frames 0-" + std::to_string(frames);
+    REQUIRE(run(range + " -o " + (folder / "states").string()).code == 0);
     const auto json = nlohmann::json::parse(textOf(folder / "states/run.json"));
-    const double spent = json["error_estimate"]["force_evaluations_spent"];
+    const double spent = json["steps"]["force_evaluations_of_error_estimates"];
     INFO(json["steps"].dump() << " " << spent);
-    // A frame takes four steps of 0.01 s, and an estimate takes them at this length and at half of it.
-    CHECK(spent >= json["error_estimate"]["samples"].get<double>() * 12.0);
-    CHECK(run("simulate --help").out.find("error is estimated at up to 8 frames") != std::string::npos);
+    CHECK(spent <= 0.1 * (json["steps"]["force_evaluations"].get<double>() - spent));
+    CHECK(json["error_estimate"].is_null() == (samples == 0));
+    if (samples > 0) {
+        CHECK(json["error_estimate"]["samples"] == samples);
+        CHECK(spent >= 3.0 * samples);
+        CHECK(json["error_estimate"]["force_evaluations_spent"] == spent);
+    }
 
-    REQUIRE(run("simulate figure-2 --frames 0-9 --no-error-estimate --quiet -o " + (folder / "bare").string()).code ==
-            0);
+    REQUIRE(run(range + " --no-error-estimate -o " + (folder / "bare").string()).code == 0);
     const auto bare = nlohmann::json::parse(textOf(folder / "bare/run.json"));
     CHECK(bare["error_estimate"].is_null());
+    CHECK(bare["steps"]["force_evaluations_of_error_estimates"] == 0);
     CHECK(bare["state_hash"] == json["state_hash"]);
+    CHECK(run("simulate --help").out.find("error is estimated at up to 8 frames") != std::string::npos);
+}
+
+TEST_CASE("The automatic stepper's comparisons are counted among its force evaluations", "[tools]") {
+    const program::Folder folder;
+    REQUIRE(run("simulate liquid --quiet --frames 0-5 -o " + (folder / "states").string()).code == 0);
+    const auto json = nlohmann::json::parse(textOf(folder / "states/run.json"));
+    const double spent = json["steps"]["force_evaluations_of_error_estimates"];
+    CHECK(spent > 0.0);
+    CHECK(spent < json["steps"]["force_evaluations"].get<double>());
 }
 
 TEST_CASE("globular strip puts the frames of its times side by side", "[tools]") {

@@ -36,9 +36,9 @@ void addTo(CLI::App& command, FolderOptions& options, const std::string& help);
 void addErrorFlag(CLI::App& command, bool& estimatesErrors);
 /// What the help of `render` and `simulate` says about error estimates.
 inline constexpr const char* kErrorSampleNotes =
-    "With a fixed step the error is estimated at up to 8 frames of a run, unless --no-error-estimate is given. Each\n"
-    "estimate takes about as long as simulating three frames; run.json has the cost of all of them as\n"
-    "error_estimate.force_evaluations_spent.\n";
+    "With a fixed step the error is estimated at up to 8 frames of a run, unless --no-error-estimate is given. That\n"
+    "takes at most a tenth of the run's force evaluations; run.json counts them in steps.force_evaluations, and again\n"
+    "as steps.force_evaluations_of_error_estimates.\n";
 
 /// Adds only the flags --renderer and --gl, for commands that choose the size, style and quality of pictures
 /// themselves. The default of --renderer is the value that the options have.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/core/hash.h"
+#include "engine/error_control/step_cost.h"
 #include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
 #include "scenes/view/frame_view.h"
@@ -19,19 +20,19 @@
 namespace tools {
 namespace {
 
-/// The error of a fixed step is estimated at no more than this many frames of a run. Chosen, because each estimate
-/// costs as much as three frames.
+/// The error of a fixed step is estimated at no more than this many frames of a run. Chosen: in a run of 240 frames
+/// each estimate may then cover a whole frame.
 constexpr int kErrorSampleCount = 8;
 
 /// What the first Ctrl-C is answered with. On a terminal it replaces the line of progress, which is drawn again below.
 constexpr const char* kNotice = "ending after this frame; press again to stop now\n";
 constexpr const char* kNoticeOnTerminal = "\r\x1b[Kending after this frame; press again to stop now\n";
 
-/// Whether the error is estimated at a frame.
+/// Whether the error is estimated at a frame: at the end of each of as many equal parts of the run.
 bool isSampled(const FrameList& frames, int frame) {
     const int stride = (frames.count() - 1 + kErrorSampleCount) / kErrorSampleCount;
     const auto index = frames.indexOf(frame);
-    return index && *index % stride == 0;
+    return index && *index % stride == stride - 1;
 }
 
 /// Hash of a list of frames. Checkpoints record it, because the list decides at which frames errors are sampled.
@@ -120,6 +121,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
 bool FrameSequence::advanceTo(int frame) {
     const Stopwatch watch(run_.report.seconds.simulating);
     const auto frameTime = [&](int number) { return scenes::frameTime(scene_, number); };
+    const double evaluationsBefore = engine::forceEvaluationsOf(run_.simulation);
     try {
         {
             const Progress::Work work(progress_, fmt::format("frame {}", frame), run_.simulation.time,
@@ -130,7 +132,8 @@ bool FrameSequence::advanceTo(int frame) {
         if (!estimatesErrors_ || !isSampled(frames_, frame)) return true;
         const Progress::Work work(progress_, fmt::format("error of frame {}", frame), frameTime(frame),
                                   frameTime(frame + 1));
-        addSample(run_.report.errors, scene_, run_.simulation);
+        engine::addSample(run_.report.errors, run_.simulation, scene_.fps.timeOf(1),
+                          engine::forceEvaluationsOf(run_.simulation) - evaluationsBefore);
         return true;
     } catch (const engine::InstabilityError& error) {
         run_.report.unstable = error.what();

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 
-#include "engine/error_control/error_estimate.h"
 #include "engine/error_control/long_error_estimate.h"
 #include "engine/forces/simd_forces.h"
 #include "engine/run/diagnostics.h"
@@ -39,7 +40,9 @@ Json countsJson(const std::array<std::uint64_t, size>& counts, const Names& name
     return json;
 }
 
-Json stepsJson(const engine::StepStatistics& steps) {
+/// @param estimateCost  of the error estimates, which the statistics do not have, in force evaluations
+Json stepsJson(const engine::StepStatistics& steps, double estimateCost) {
+    const auto ofEstimates = static_cast<std::uint64_t>(std::llround(estimateCost));
     return {{"count", steps.count},
             {"shortest", steps.shortest},
             {"longest", steps.longest},
@@ -48,24 +51,25 @@ Json stepsJson(const engine::StepStatistics& steps) {
             {"taken_by", countsJson(steps.takenBy,
                                     [](std::size_t i) { return engine::nameOf(static_cast<engine::StepperKind>(i)); })},
             {"rejected", steps.rejected},
-            {"force_evaluations", steps.forceEvaluations},
+            {"force_evaluations", steps.forceEvaluations + ofEstimates},
+            {"force_evaluations_of_error_estimates", ofEstimates},
             {"matrix_products", steps.products}};
 }
 
 /// The error estimates of the automatic stepper, or else those sampled by the run.
-ErrorSamples errorsOf(const engine::Simulation& simulation, const ErrorSamples& samples) {
+engine::ErrorSamples errorsOf(const engine::Simulation& simulation, const engine::ErrorSamples& samples) {
     if (simulation.setup.stepper != engine::StepperKind::automatic) return samples;
     const engine::AutoState& state = simulation.automatic;
     return {static_cast<int>(state.estimateCount), state.errorSum, state.largestError, state.estimateCost};
 }
 
-Json errorJson(const engine::Simulation& simulation, const ErrorSamples& samples) {
-    const ErrorSamples errors = errorsOf(simulation, samples);
+Json errorJson(const engine::Simulation& simulation, const engine::ErrorSamples& samples) {
+    const engine::ErrorSamples errors = errorsOf(simulation, samples);
     if (errors.count == 0) return nullptr;
     Json json = {{"position", errors.sum / errors.count},
                  {"largest", errors.largest},
                  {"unit", "radii per second of motion, rms over the particles"},
-                 {"obtained", "frames run again at half the step: mean and largest over the samples"},
+                 {"obtained", "parts of frames run again at half the step: mean and largest over the samples"},
                  {"samples", errors.count},
                  {"force_evaluations_spent", errors.evaluationCost}};
     if (simulation.setup.stepper == engine::StepperKind::automatic) {
@@ -88,14 +92,14 @@ Json energyJson(const engine::Energy& energy) {
 
 }  // namespace
 
-Json encodeErrors(const ErrorSamples& errors) {
+Json encodeErrors(const engine::ErrorSamples& errors) {
     return {{"count", errors.count},
             {"sum", errors.sum},
             {"largest", errors.largest},
             {"evaluation_cost", errors.evaluationCost}};
 }
 
-ErrorSamples decodeErrors(const Json& json) {
+engine::ErrorSamples decodeErrors(const Json& json) {
     const auto isNumber = [&](const char* key) { return json.contains(key) && json[key].is_number(); };
     if (!isNumber("count") || !json["count"].is_number_integer() || !isNumber("sum") || !isNumber("largest") ||
         !isNumber("evaluation_cost"))
@@ -104,20 +108,6 @@ ErrorSamples decodeErrors(const Json& json) {
     if (count < 0 || count > kMostSamples) return {};
     return {static_cast<int>(count), json["sum"].get<double>(), json["largest"].get<double>(),
             json["evaluation_cost"].get<double>()};
-}
-
-void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation) {
-    if (simulation.setup.stepper == engine::StepperKind::automatic) return;
-    try {
-        const double next = simulation.time + scene.fps.timeOf(1);
-        const auto estimate = engine::measure(simulation, {next, simulation.stepper, simulation.setup.step});
-        ++samples.count;
-        samples.sum += estimate.error;
-        samples.largest = std::max(samples.largest, estimate.error);
-        samples.evaluationCost += estimate.spent;
-    } catch (const engine::InstabilityError&) {
-        // The run itself will report the instability when it gets there.
-    }
 }
 
 void addTo(Json& json, const RendererRecord& renderer) {
@@ -160,7 +150,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;
     json["stepper"] = engine::nameOf(scene.setup.stepper);
-    json["steps"] = stepsJson(simulation.steps);
+    json["steps"] = stepsJson(simulation.steps, errorsOf(simulation, report.errors).evaluationCost);
     json["seconds"] = {{"simulating", report.seconds.simulating},
                        {"drawing", report.seconds.drawing},
                        {"encoding", report.seconds.encoding},

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/error_control/error_samples.h"
 #include "engine/run/advance.h"
 #include "scenes/model/scene.h"
 #include "tools/system/json.h"
@@ -32,22 +33,10 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_;
 };
 
-/// Error estimates of a run with a fixed step, in radii per second of motion.
-struct ErrorSamples {
-    int count = 0;
-    double sum = 0.0;
-    double largest = 0.0;
-    double evaluationCost = 0.0;  ///< what the estimates cost, in force evaluations
-};
-
 /// Error samples as JSON, for a checkpoint.
-Json encodeErrors(const ErrorSamples& errors);
+Json encodeErrors(const engine::ErrorSamples& errors);
 /// The error samples in the JSON of a checkpoint; no samples if the JSON is anything else.
-ErrorSamples decodeErrors(const Json& json);
-
-/// Estimates the error of the next frame at the step of the run and adds it to the samples. Does nothing for the
-/// automatic stepper, which estimates its own error, and for a run that becomes unstable within that frame.
-void addSample(ErrorSamples& samples, const scenes::Scene& scene, const engine::Simulation& simulation);
+engine::ErrorSamples decodeErrors(const Json& json);
 
 /// What run.json, manifests and sidecars record of the renderer. A text is empty if there is nothing to record.
 struct RendererRecord {
@@ -63,7 +52,7 @@ void addTo(Json& json, const RendererRecord& renderer);
 
 struct RunReport {
     StageSeconds seconds;
-    ErrorSamples errors;
+    engine::ErrorSamples errors;
     int frames = 0;  ///< number of frames asked for that were written or kept
     int threads = 1;
     RendererRecord renderer;  ///< what drew; empty if nothing was drawn
