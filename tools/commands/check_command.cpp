@@ -17,7 +17,7 @@
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
-#include "tools/run/stray_warning.h"
+#include "tools/run/run_warnings.h"
 #include "tools/run/threads.h"
 #include "tools/system/memory.h"
 #include "tools/system/timed_child.h"

@@ -8,9 +8,9 @@
 #include "render/output/video.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
-#include "tools/run/emission_report.h"
 #include "tools/run/frame_folder.h"
 #include "tools/run/render_loop.h"
+#include "tools/run/run_warnings.h"
 #include "tools/system/command_files.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
@@ -38,11 +38,11 @@ std::string summaryOf(const RenderOptions& options, const scenes::Scene& scene, 
     const StageSeconds& seconds = run.report.seconds;
     return fmt::format(
         "{} frames {}{}\n{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), "
-        "state {}{}\n",
+        "state {}\n{}",
         run.report.frames, pipesFrames(options) ? "to standard output" : "in " + options.folder.path,
         options.video.empty() ? "" : ", video " + options.video, engine::largestCount(run.simulation),
         run.simulation.steps.count, seconds.all, seconds.simulating, seconds.drawing, seconds.encoding,
-        run.report.stateHash, missedRates(scene, run.simulation));
+        run.report.stateHash, troubleLine(scene, run.simulation));
 }
 
 /// Checks the outputs before anything is done.

@@ -8,8 +8,8 @@
 #include "render/output/atomic_file.h"
 #include "scenes/model/particle_file.h"
 #include "tools/commands/commands.h"
-#include "tools/run/emission_report.h"
 #include "tools/run/frame_sequence.h"
+#include "tools/run/run_warnings.h"
 #include "tools/run/threads.h"
 #include "tools/system/command_files.h"
 
@@ -66,9 +66,9 @@ void simulate(SimulateOptions options) {
     const RunReport& report = run.report;
     requireComplete(report, folder);
     printResult(options.run, {{"event", "done"}, {"folder", folder}, {"run", run.json}},
-                fmt::format("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}{}\n", report.frames, folder,
+                fmt::format("{} frames in {}\n{} particles, {} steps, {:.1f} s, state {}\n{}", report.frames, folder,
                             run.simulation.particles.count(), run.simulation.steps.count, report.seconds.all,
-                            report.stateHash, missedRates(scene, run.simulation)));
+                            report.stateHash, troubleLine(scene, run.simulation)));
 }
 
 }  // namespace

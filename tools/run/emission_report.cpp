@@ -27,7 +27,7 @@ std::string missedRates(const scenes::Scene& scene, const engine::Simulation& si
         if (++others > 0) continue;
         const auto perInterval = static_cast<double>(simulation.emitters[e].schedules.size() * emitter.cluster.size());
         const double rate = perInterval / emitter.interval;
-        text = fmt::format(", emitter {}: asked {:.3g}/s, {:.3g}/s fit", e + 1, rate, rate * born / asked);
+        text = fmt::format("emitter {}: asked {:.3g}/s, {:.3g}/s fit", e + 1, rate, rate * born / asked);
     }
     if (others > 0) text += fmt::format(" ({} more missed theirs)", others);
     return text;

@@ -12,8 +12,8 @@ namespace tools {
 /// For each emitter the numbers of particles asked for until now, born, and refused: asked for and not born.
 Json emittersJson(const engine::Simulation& simulation);
 
-/// Names the first emitter that has missed the rate that the scene gives, such as ", emitter 2: asked 500/s, 36/s fit",
-/// and counts the others, for the end of a summary; empty if there is none. An emitter without a rate emits what fits
+/// Names the first emitter that has missed the rate that the scene gives, such as "emitter 2: asked 500/s, 36/s fit",
+/// and counts the others; empty if there is none. An emitter without a rate emits what fits
 /// and misses nothing.
 std::string missedRates(const scenes::Scene& scene, const engine::Simulation& simulation);
 

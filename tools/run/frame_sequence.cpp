@@ -13,7 +13,7 @@
 #include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
 #include "scenes/view/frame_view.h"
-#include "tools/run/stray_warning.h"
+#include "tools/run/run_warnings.h"
 #include "tools/system/json.h"
 #include "tools/system/memory.h"
 

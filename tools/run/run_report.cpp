@@ -15,6 +15,7 @@
 #include "engine/stepping/take_step.h"
 #include "render/picture/system_error.h"
 #include "tools/run/emission_report.h"
+#include "tools/run/run_warnings.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"
 
@@ -142,6 +143,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["refused_births"] = engine::refusalCount(simulation);
     json["emitters"] = emittersJson(simulation);
     json["deaths"] = simulation.removedCount;
+    json["troubles"] = troublesOf(scene, simulation);
     json["strays"] = engine::strayCount(simulation);
     json["walls"] = {{"held", simulation.steps.held},
                      {"deepest", simulation.wallDepths.deepest},
