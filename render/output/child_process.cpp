@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -27,6 +28,16 @@ extern char** environ;
 namespace render {
 
 namespace {
+
+/// The process groups of the running programs; 0 where there is none. More programs than places are not recorded.
+std::array<std::atomic<pid_t>, 16> runningGroups = {};
+
+void replaceGroup(pid_t before, pid_t after) {
+    for (std::atomic<pid_t>& group : runningGroups) {
+        pid_t expected = before;
+        if (group.compare_exchange_strong(expected, after)) return;
+    }
+}
 
 std::string messageOf(int error) {
     return std::generic_category().message(error);
@@ -102,7 +113,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, std::chron
     const int output = standardOutput == StandardOutput::piped ? ends[1] : log_;
     const int error = spawn(arguments, {ends[1], output, log_}, pid_);
     ::close(ends[1]);
-    if (error == 0) return;
+    if (error == 0) {
+        replaceGroup(0, pid_);
+        return;
+    }
     ::close(input_);
     ::close(log_);
     const std::string message = fmt::format("cannot start {}: {}", arguments.front(), messageOf(error));
@@ -146,8 +160,8 @@ void ChildProcess::startWatch() {
 
 std::chrono::milliseconds ChildProcess::lookInterval() const {
     using std::chrono::milliseconds;
-    return std::clamp(std::chrono::duration_cast<milliseconds>(progressTimeout_ / 4), milliseconds(1),
-                      milliseconds(1000));
+    const milliseconds longest(mustStop_ ? 20 : 1000);  // chosen: a stop is answered within a tenth of a second
+    return std::clamp(std::chrono::duration_cast<milliseconds>(progressTimeout_ / 4), milliseconds(1), longest);
 }
 
 void ChildProcess::killIfStalled() {
@@ -162,6 +176,14 @@ void ChildProcess::killIfStalled() {
     ::kill(-pid_, SIGKILL);  // kills the whole process group of the child
 }
 
+/// Returns whether the program has been stopped.
+bool ChildProcess::killIfStopped() {
+    if (isStopped_ || !mustStop_ || !mustStop_()) return isStopped_;
+    isStopped_ = true;
+    ::kill(-pid_, SIGKILL);
+    return true;
+}
+
 bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
     startWatch();
     while (!bytes.empty()) {
@@ -169,7 +191,7 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
         const int ready = ::poll(&end, 1, static_cast<int>(lookInterval().count()));
         if (ready < 0 && errno != EINTR) return false;
         if (ready == 0) killIfStalled();
-        if (hasStalled_) return false;
+        if (hasStalled_ || killIfStopped()) return false;
         if (ready <= 0) continue;
         const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
@@ -208,10 +230,13 @@ std::string ChildProcess::wait() {
         const pid_t ended = ::waitpid(pid_, &status, WNOHANG);
         if (ended == pid_) break;
         if (ended < 0 && errno != EINTR) return fmt::format("no exit status: {}", messageOf(errno));
+        killIfStopped();
         killIfStalled();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
+    replaceGroup(pid_, 0);
     pid_ = -1;
+    if (isStopped_) return "stopped";
     if (hasStalled_) return fmt::format("no progress for {:g} s", progressTimeout_.count());
     if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
     return WEXITSTATUS(status) == 0 ? std::string() : fmt::format("exit status {}", WEXITSTATUS(status));
@@ -231,6 +256,11 @@ std::string ChildProcess::output(std::size_t most) const {
     text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
     return text;
+}
+
+void killChildProcesses() {
+    for (const std::atomic<pid_t>& group : runningGroups)
+        if (const pid_t id = group; id > 0) ::kill(-id, SIGKILL);
 }
 
 }  // namespace render

@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/picture/system_error.h"
@@ -51,6 +52,10 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
+    /// Kills the program as soon as a condition holds while write() or wait() wait for it. wait() then says "stopped".
+    /// @param mustStop  called often
+    void stopWhen(std::function<bool()> mustStop) { mustStop_ = std::move(mustStop); }
+
     /// Writes all bytes to the child's input. Returns false when the child no longer reads. Never raises SIGPIPE.
     bool write(std::span<const std::uint8_t> bytes);
 
@@ -85,6 +90,7 @@ class ChildProcess {
     void startWatch();
     std::chrono::milliseconds lookInterval() const;
     void killIfStalled();
+    bool killIfStopped();
 
     std::chrono::duration<double> progressTimeout_;
     std::string outputPath_;
@@ -92,10 +98,16 @@ class ChildProcess {
     std::chrono::steady_clock::time_point lastLook_;
     std::chrono::duration<double> silence_{};  ///< time without progress, s
     bool hasStalled_ = false;
+    std::function<bool()> mustStop_;
+    bool isStopped_ = false;
 
     int input_ = -1;
     int log_ = -1;
     pid_t pid_ = -1;
 };
+
+/// Kills the programs of all objects of this class, for a program that ends without destroying them. May be called from
+/// any thread and from a signal handler.
+void killChildProcesses();
 
 }  // namespace render

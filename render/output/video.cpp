@@ -180,6 +180,7 @@ VideoWriter::VideoWriter(VideoOptions options)
       process_(commandLine(options_, file_.temporaryPath().string()), options_.progressTimeout,
                file_.temporaryPath().string()) {
     file_.removeAbandoned();
+    process_.stopWhen(options_.mustStop);
 }
 
 void VideoWriter::fail(const std::string& ended) const {

@@ -5,12 +5,17 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "tests/catch.h"
-#include "tests/tools/program.h"
+#include "tests/tools/early_ends.h"
 
+using early_ends::after;
+using early_ends::checkpointsIn;
+using early_ends::filesOf;
+using early_ends::fountain;
+using early_ends::interrupted;
+using early_ends::onceThat;
+using early_ends::runOf;
 using program::Folder;
 using program::run;
 using program::textOf;
@@ -19,39 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A small run with births, obstacles, shadows, a video, and a checkpoint at every frame.
-std::string fountain(const fs::path& folder, const std::string& more = "") {
-    return "render fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " + folder.string() + " --video " +
-           folder.string() + ".mp4 " + more;
-}
-
-/// The bytes of the frames and the video of a run. run.json is left out because it has times in it.
-std::map<std::string, std::string> filesOf(const fs::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".png" || entry.path().extension() == ".ply")
-            files[entry.path().filename().string()] = textOf(entry.path());
-    if (fs::exists(folder.string() + ".mp4")) files["video"] = textOf(folder.string() + ".mp4");
-    return files;
-}
-
-nlohmann::json runOf(const fs::path& folder) {
-    return nlohmann::json::parse(textOf(folder / "run.json"));
-}
-
 /// run.json without the fields in which a resumed run may differ.
 nlohmann::json resultOf(const fs::path& folder) {
     nlohmann::json json = runOf(folder);
     for (const char* key : {"seconds", "resumed_from"}) json.erase(key);
     return json;
-}
-
-std::vector<fs::path> checkpointsIn(const fs::path& folder) {
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".state") found.push_back(entry.path());
-    std::sort(found.begin(), found.end());
-    return found;
 }
 
 void damage(const fs::path& path) {
@@ -60,85 +37,7 @@ void damage(const fs::path& path) {
     stream.put('!').put('?');
 }
 
-/// Shell commands that wait.
-std::string after(int milliseconds) {
-    return "sleep " + std::to_string(milliseconds / 1000.0);
-}
-std::string onceThat(const std::string& condition) {
-    return "while ! " + condition + " && kill -0 $child; do sleep 0.01; done";
-}
-
-/// Starts a run in the background and sends it a signal after the shell commands `when`. Returns its exit code.
-/// @param start  "--default-signal": the run starts as from a terminal, although a shell without one makes background
-/// processes ignore SIGINT; "--ignore-signal": it starts ignoring the signal, as under nohup
-int interrupted(const std::string& arguments, const std::string& signal, const std::string& when, const fs::path& log,
-                const std::string& start = "--default-signal") {
-    const std::string env = signal == "KILL" ? "" : "env " + start + "=" + signal + " ";
-    const std::string command = "sh -c '" + env + GLOBULAR_PROGRAM " " + arguments + " 2>" + log.string() +
-                                " & child=$!; " + when + "; kill -" + signal + " $child 2>/dev/null; wait $child'";
-    return program::shell(command).code;
-}
-
 }  // namespace
-
-TEST_CASE("A signal ends a run after the current frame, with a video that plays and a way to resume", "[resume]") {
-    const Folder folder;
-    REQUIRE(run(fountain(folder / "whole")).code == 0);
-    const std::string arguments = "render fountain --size 96x54 --quiet --checkpoint 100 -o " +
-                                  (folder / "a").string() + " --video " + (folder / "a.mp4").string();
-    const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143}, std::pair{"HUP", 129});
-    CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00030.png").string()),
-                      folder / "log") == code);
-    CHECK(textOf(folder / "log").find("--resume") != std::string::npos);
-    CHECK(program::lineCount(textOf(folder / "log")) == 1);
-    const auto json = runOf(folder / "a");
-    CHECK(json["interrupted"] == true);
-    const int frames = json["frames"];
-    INFO("after " << frames << " frames");
-    REQUIRE(frames < 240);
-    REQUIRE(checkpointsIn(folder / "a").size() == 1);
-    // The video has the frames that are there.
-    REQUIRE(run("video " + (folder / "a").string() + " --quiet --fps 30 -o " + (folder / "again.mp4").string()).code ==
-            0);
-    CHECK(textOf(folder / "again.mp4") == textOf(folder / "a.mp4"));
-    REQUIRE(run(fountain(folder / "a", "--resume")).code == 0);
-    CHECK(runOf(folder / "a")["resumed_from"] == (frames > 20 ? nlohmann::json() : nlohmann::json(frames - 1)));
-    CHECK(textOf(folder / "a.mp4") == textOf(folder / "whole.mp4"));
-    CHECK(textOf(folder / "a/frame-00019.png") == textOf(folder / "whole/frame-00019.png"));
-}
-
-TEST_CASE("A run whose frame takes long says so, answers a signal, and can be ended inside the frame", "[resume]") {
-    const Folder folder;
-    // A frame of more than a million steps.
-    const std::string arguments =
-        "simulate liquid --set physics.stepper=\\\"velocity-verlet\\\" --set physics.step=2e-8 -o " +
-        (folder / "a").string();
-    const std::string log = (folder / "log").string();
-    const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143});
-    INFO(signal);
-    std::string when = onceThat("grep -q \"% of its time, steps of 2e-08 s\" " + log);
-    // The first Ctrl-C is answered while the frame goes on. After a SIGTERM the frame has a few seconds.
-    if (std::string(signal) == "INT")
-        when += "; kill -INT $child; " + onceThat("grep -q \"press again to stop now\" " + log);
-    CHECK(interrupted(arguments, signal, when, log) == code);
-    const std::string text = textOf(log);
-    INFO(text);
-    CHECK(text.find("interrupted after ") != std::string::npos);
-    CHECK((text.find("ending after this frame") != std::string::npos) == (code == 130));
-    const auto json = runOf(folder / "a");
-    CHECK(json["interrupted"] == true);
-    CHECK_FALSE(json.contains("energy"));  // the state inside the frame is none of the run's
-    for (const auto& entry : fs::directory_iterator(folder / "a")) CHECK(entry.path().extension() != ".partial");
-}
-
-TEST_CASE("A signal that a run was started to ignore stays ignored", "[resume]") {
-    const Folder folder;
-    const std::string arguments = "render fountain --size 96x54 --quiet --frames 0-30 -o " + (folder / "a").string();
-    const std::string signal = GENERATE("INT", "HUP");
-    CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00005.png").string()), folder / "log",
-                      "--ignore-signal") == 0);
-    CHECK(runOf(folder / "a")["frames"] == 31);
-}
 
 TEST_CASE("A resumed run completes a killed one to the same bytes", "[resume]") {
     const Folder folder;

@@ -18,6 +18,7 @@
 #include "tools/compare/picture_set.h"
 #include "tools/pages/compare_reports.h"
 #include "tools/system/command_files.h"
+#include "tools/system/interrupts.h"
 #include "tools/system/json.h"
 #include "tools/system/memory.h"
 #include "tools/system/output_file.h"

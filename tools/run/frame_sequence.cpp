@@ -25,8 +25,14 @@ namespace {
 constexpr int kErrorSampleCount = 8;
 
 /// What the first Ctrl-C is answered with. On a terminal it replaces the line of progress, which is drawn again below.
-constexpr const char* kNotice = "ending after this frame; press again to stop now\n";
-constexpr const char* kNoticeOnTerminal = "\r\x1b[Kending after this frame; press again to stop now\n";
+constexpr const char* kNotice = "ending within two seconds; press again to stop now\n";
+constexpr const char* kNoticeOnTerminal = "\r\x1b[Kending within two seconds; press again to stop now\n";
+
+/// What is said where the run ends where it stands.
+constexpr const char* kLastWords =
+    "error: interrupted; the frames that are whole are kept; to go on, give the same command with --resume (and "
+    "without "
+    "--overwrite)\n";
 
 /// Whether the error is estimated at a frame: at the end of each of as many equal parts of the run.
 bool isSampled(const FrameList& frames, int frame) {
@@ -59,7 +65,7 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const
     const char* const notice = progress_.verbosity() == Verbosity::quiet ? nullptr
                                : isatty(STDERR_FILENO) == 1              ? kNoticeOnTerminal
                                                                          : kNotice;
-    if (folder_ != nullptr) interrupts_.emplace(2, notice);
+    if (folder_ != nullptr) interrupts_.emplace(InterruptOptions{true, notice, kLastWords});
     withMemoryForParticles(scene_.setup.initial.count(), [this] {
         if (folder_ == nullptr || !resume()) run_.simulation = engine::start(scene_.setup);
     });
@@ -168,6 +174,10 @@ void FrameSequence::finish() {
     if (folder_ != nullptr && position_ >= 0)
         folder_->writeCheckpoint(position_, checkpointOf(run_.simulation), checkpointReport());
     report.stateHash = engine::stateHash(run_.simulation.particles);
+}
+
+void FrameSequence::recordInterrupt() {
+    if (interrupts_) run_.report.interruptedBy = interrupts_->signal();
 }
 
 FinishedRun FrameSequence::take() {

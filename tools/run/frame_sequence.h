@@ -14,8 +14,8 @@
 #include "tools/run/frame_list.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"
+#include "tools/system/interrupts.h"
 #include "tools/system/json.h"
-#include "tools/system/process.h"
 #include "tools/system/progress.h"
 
 namespace tools {
@@ -52,8 +52,9 @@ class FrameSequence {
     /// Makes mustStop() true, because the run has failed elsewhere. May be called by any stage of the pipeline.
     void abort() { isAborted_ = true; }
 
-    /// Whether the run is to end at once, after abort() or because a signal asks for that: without the frames in
-    /// flight, their video and a last checkpoint. May be called by any stage of the pipeline; once true, it stays true.
+    /// Whether the run is to end at once, after abort() or because a signal asks for that (interrupts.h): without the
+    /// frames in flight, their video and a last checkpoint. May be called by any stage of the pipeline; once true, it
+    /// stays true.
     bool mustStop() const { return isAborted_ || (interrupts_ && interrupts_->mustStop()); }
 
     /// Writes the file of a frame that next() returned, unless it is kept or not wanted, and then its checkpoint.
@@ -61,6 +62,9 @@ class FrameSequence {
 
     /// Writes the last checkpoint, unless the run must stop, and completes the report, when all frames are stored.
     void finish();
+
+    /// Records in the report, after finish(), that a signal has stopped what was left to do: the end of the video.
+    void recordInterrupt();
 
     /// Writes run.json, if there is a folder, and hands over the results.
     /// @pre finish() has been called

@@ -17,6 +17,7 @@
 #include "render/output/atomic_file.h"
 #include "render/output/png.h"
 #include "render/output/video.h"
+#include "render/picture/system_error.h"
 #include "scenes/view/frame_view.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/open_renderer.h"
@@ -63,7 +64,10 @@ class RenderRun {
           frames_(*job.scene, job.frames, {folder_.get(), job.estimatesErrors}, progress_) {
         report().threads = job.threads;
         report().renderer = opened_.record;
-        if (!job.videoPath.empty()) video_ = std::make_unique<render::VideoWriter>(videoOptions(job));
+        if (job.videoPath.empty()) return;
+        render::VideoOptions options = videoOptions(job);
+        options.mustStop = [this] { return frames_.mustStop(); };
+        video_ = std::make_unique<render::VideoWriter>(options);
     }
 
     FinishedRun all() {
@@ -168,14 +172,26 @@ class RenderRun {
         if (folder_) frames_.store(frame, png);
         if (!frame.isWanted) return;
         if (job_.pipesFrames) writeStandardOutput(png);
-        if (video_) video_->add(flight.image ? *flight.image : readKept(frame.number));
+        if (video_) unlessStopped([&] { video_->add(flight.image ? *flight.image : readKept(frame.number)); });
         ++report().frames;
         progress_.frameDone(frame.number, frame.time);
     }
 
     void finishVideo() {
         const Progress::Work work(progress_, "completing the video");
-        video_->finish();
+        if (!unlessStopped([&] { video_->finish(); })) frames_.recordInterrupt();
+    }
+
+    /// Works on the video. Returns false where that failed because the run must stop; there will be no video then.
+    template <class Work>
+    bool unlessStopped(const Work& work) {
+        try {
+            work();
+            return true;
+        } catch (const render::SystemError&) {
+            if (!frames_.mustStop()) throw;
+            return false;
+        }
     }
 
     /// Reads the picture of a frame whose file existed before the run.

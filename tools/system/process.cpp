@@ -1,18 +1,17 @@
-// Standard streams are written with the C library, whose error flags stay set until they are read. Signals are handled
-// with sigaction.
+// Standard streams are written with the C library, whose error flags stay set until they are read.
 #include "tools/system/process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <system_error>
 
@@ -22,58 +21,6 @@
 
 namespace tools {
 namespace {
-
-constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
-
-/// How long after a SIGTERM or SIGHUP the present frame may take, ns. Chosen: half of the 10 s after which `docker
-/// stop` kills.
-constexpr std::int64_t kGraceTime = 5'000'000'000;
-
-// What the signal handler reads and writes.
-std::atomic<int> receivedSignal = 0;                 ///< the first signal, or 0
-std::atomic<int> receivedCount = 0;                  ///< number of signals that were recorded
-std::atomic<std::int64_t> receivedTime = 0;          ///< when the first signal arrived, ns
-std::atomic<int> mostRecorded = 1;                   ///< number of signals to record before one ends the program
-std::atomic<const char*> interruptNotice = nullptr;  ///< line to write when SIGINT arrives first, or nullptr
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free &&
-                  std::atomic<const char*>::is_always_lock_free,
-              "a signal handler must not wait for a lock");
-
-/// The time of a clock that never jumps, ns. Unlike those of std::chrono, it may be called in a signal handler.
-std::int64_t monotonicTime() {
-    timespec now = {};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
-}
-
-/// Sets the action of a signal, unless the signal is ignored: nohup and shells start a program so that it ignores what
-/// is meant for a terminal. Returns the action that was set before.
-struct sigaction replaceAction(int signal, void (*handler)(int)) {
-    struct sigaction previous = {};
-    ::sigaction(signal, nullptr, &previous);
-    struct sigaction action = {};
-    action.sa_handler = handler;
-    action.sa_flags = SA_RESTART;
-    if (previous.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
-    return previous;
-}
-
-/// The signal handler. After the last signal that is recorded it restores the default actions, so that the next signal
-/// ends the program.
-void recordSignal(int signal) {
-    const int previousError = errno;
-    if (receivedCount == 0) {
-        receivedTime = monotonicTime();
-        receivedSignal = signal;
-        const char* const notice = interruptNotice;
-        if (notice != nullptr && signal == SIGINT) {
-            [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, notice, std::strlen(notice));
-        }
-    }
-    if (++receivedCount >= mostRecorded)
-        for (const int each : kSignals) replaceAction(each, SIG_DFL);
-    errno = previousError;
-}
 
 /// Writes text as it is, with the commands to the terminal in it.
 void writeToStderr(const std::string& text) {
@@ -154,28 +101,6 @@ void writeStandardOutput(std::span<const std::uint8_t> bytes) {
 void flushStandardOutput() {
     errno = 0;
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) failToPrint(errno);
-}
-
-InterruptWatch::InterruptWatch(int recordedCount, const char* notice) {
-    receivedSignal = 0;
-    receivedCount = 0;
-    mostRecorded = recordedCount;
-    interruptNotice = notice;
-    for (std::size_t s = 0; s < kSignals.size(); ++s) previousActions_[s] = replaceAction(kSignals[s], recordSignal);
-}
-
-InterruptWatch::~InterruptWatch() {
-    for (std::size_t s = 0; s < kSignals.size(); ++s) ::sigaction(kSignals[s], &previousActions_[s], nullptr);
-}
-
-int InterruptWatch::signal() const {
-    return receivedSignal;
-}
-
-bool InterruptWatch::mustStop() const {
-    const int signal = receivedSignal;
-    if (signal == 0) return false;
-    return receivedCount > 1 || (signal != SIGINT && monotonicTime() - receivedTime > kGraceTime);
 }
 
 }  // namespace tools

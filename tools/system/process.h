@@ -1,8 +1,7 @@
-// The process as the operating system and the shell see it: standard streams, exit codes and signals. Used by main()
-// and by every command that prints results or can be interrupted.
+// The process as the operating system and the shell see it: standard streams and exit codes. Used by main() and by
+// every command that prints results. interrupts.h has the signals.
 #pragma once
 
-#include <array>
 #include <csignal>
 #include <cstdint>
 #include <span>
@@ -73,30 +72,5 @@ void writeStandardOutput(std::span<const std::uint8_t> bytes);
 /// @throws render::SystemError if anything printed so far could not be written
 /// @throws ExitStatus with kReaderGoneCode and no message if the reader of the pipe is gone
 void flushStandardOutput();
-
-/// While an object of this class exists, the first SIGINT, SIGTERM or SIGHUP is recorded instead of ending the program,
-/// so that a run can finish its frame and save what it needs to resume. What the program was started to ignore stays
-/// ignored.
-class InterruptWatch {
- public:
-    /// @param recordedCount  how many signals are recorded; the next one ends the program at once. Two for work that
-    /// asks mustStop()
-    /// @param notice  what the signal handler writes to standard error when the first signal is a SIGINT; must outlive
-    /// the object; nullptr: nothing
-    explicit InterruptWatch(int recordedCount = 1, const char* notice = nullptr);
-    ~InterruptWatch();
-    InterruptWatch(const InterruptWatch&) = delete;
-    InterruptWatch& operator=(const InterruptWatch&) = delete;
-
-    /// The number of the first signal that arrived, or 0.
-    int signal() const;
-
-    /// Whether even the work of the present frame must end: after a second signal, and a few seconds after a SIGTERM or
-    /// SIGHUP, whose sender waits a limited time. May be called from any thread.
-    bool mustStop() const;
-
- private:
-    std::array<struct sigaction, 3> previousActions_ = {};
-};
 
 }  // namespace tools
