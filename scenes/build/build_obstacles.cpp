@@ -64,14 +64,19 @@ engine::WallSurface surfaceFrom(Section& section, engine::WallLaw law, BuildCont
 }
 
 /// Adds an obstacle to what is drawn. Planes are not drawn; boxes and containers may have edges.
-void addToLook(Section& section, const Section& lookSection, Look& look) {
+void addToLook(Section& section, const Section& lookSection, Look& look, BuildContext& context) {
     const std::string& shape = section.string("shape");
     if (shape == "plane") return;
     const bool isContainer = shape == "container";
     if (shape != "sphere") section.derive("edges", TypedValue::ofBoolean(isContainer));
     const Vec3& edgeColor = lookSection.vector("edge_color");
     section.derive("color", TypedValue::ofVector(isContainer ? edgeColor : kObstacleColor));
-    if (!section.boolean("visible")) return;
+    if (!section.boolean("visible")) {
+        if (shape != "sphere" && section.isGiven("edges") && section.boolean("edges"))
+            context.warnings.add(section.position("edges"),
+                                 "edges = true draws nothing where visible is false; leave visible out, or edges");
+        return;
+    }
     const glm::vec3 color = toFloat(section.vector("color"));
     if (shape == "sphere") {
         look.spheres.push_back({section.vector("center"), section.number("radius"), color});
@@ -101,7 +106,7 @@ void buildObstacles(std::vector<Section>& sections, const Section& physics, cons
         engine::Obstacles& obstacles = scene.setup.obstacles;
         obstacles.shapes.push_back(obstacleFrom(section, context));
         obstacles.surfaces.push_back(surfaceFrom(section, obstacles.wall, context));
-        addToLook(section, look, scene.look);
+        addToLook(section, look, scene.look, context);
     }
 }
 

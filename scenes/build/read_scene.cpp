@@ -184,6 +184,8 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     for (const Section& section : sections.emitters)
         scene.tables.hasRate.push_back(section.isGiven("rate") || section.isGiven("interval"));
     scene.tables.obstacles = positionsOf(sections.obstacles);
+    scene.tables.camera = sections.cameras.front().position();
+    scene.tables.error = sections.physics.position("error");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Warnings about where the particles of a scene start: inside obstacles, between obstacles without room, or within one
-// another. Such a scene is valid, but its particles are shot out at once, with many short steps. Called by the commands
-// that run a scene.
+// Warnings about the start of a scene: particles and emitters inside obstacles, between obstacles without room, or
+// within one another, containers that contradict each other, and a camera that sees nothing. Such a scene is valid, but
+// shows what its author is not likely to mean. Called by the commands that run a scene.
 #pragma once
 
 #include <string>
@@ -10,11 +10,14 @@
 
 namespace scenes {
 
-/// Messages on bodies and emitters that start where they are not likely to be meant, and on emitters that are asked for
-/// more than fits (emission_warnings.h), each with the position of a
-/// [[body]], [[emitter]] or [[obstacle]] in the scene file. Counts are exact unless a message says "about": in scenes
-/// with very many particles within each other, or with very many obstacles, only a sample of the particles is examined.
-/// Takes about a second for a million particles on one thread.
+/// Messages on what is not likely to be meant, each with the position of a table in the scene file and what to change.
+/// Counts are exact unless a message says "about": in scenes with very many particles within each other, or with very
+/// many obstacles, only a sample of the particles is examined. Takes about a second for a million particles on one
+/// thread.
 std::vector<std::string> startWarnings(const Scene& scene);
+
+/// What to say where the automatic stepper misses the wanted error.
+/// @param error  what was estimated, radii per second of motion
+std::string missedErrorWarning(const Scene& scene, double error);
 
 }  // namespace scenes

@@ -27,6 +27,8 @@ struct EffectiveValue {
 /// Where the tables of a scene are in its file, in their order, for messages about what was made of them.
 struct SourceTables {
     std::vector<SourcePosition> bodies, emitters, obstacles;
+    SourcePosition camera;              ///< of the first camera
+    SourcePosition error;               ///< of the wanted error
     std::vector<std::size_t> bodyEnds;  ///< for each body, the number of initial particles up to its last one
     std::vector<bool> hasRate;          ///< for each emitter, whether its rate or interval was given
 };

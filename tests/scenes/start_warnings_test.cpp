@@ -47,15 +47,80 @@ TEST_CASE("Particles inside a box, inside a sphere and outside a container are c
     const std::string box = "[[obstacle]]\nshape = \"box\"\nminimum = [-1, 0, -1]\nmaximum = [1, 1, 1]\n";
     CHECK(warningsOf(body + box) ==
           Lines{"pile.toml:8:1: 1 particle starts inside obstacle 1, a box, up to 0.08 m deep, "
-                "e.g. at (0, 0.92, 0) in body 1 (line 5)"});
+                "e.g. at (0, 0.92, 0) in body 1 (line 5); move one of the two, or make it smaller"});
     const std::string sphere = "[[obstacle]]\nshape = \"sphere\"\nradius = 0.5\ncenter = [0, 4.7, 0]\n";
     CHECK(warningsOf(body + sphere) ==
           Lines{"pile.toml:8:1: 1 particle starts inside obstacle 1, a sphere, up to 0.2 m "
-                "deep, e.g. at (0, 5, 0) in body 1 (line 5)"});
+                "deep, e.g. at (0, 5, 0) in body 1 (line 5); move one of the two, or make it smaller"});
     const std::string container = "[[obstacle]]\nshape = \"container\"\nminimum = [-1, 0, -1]\nmaximum = [1, 4.5, 1]\n";
     CHECK(warningsOf(body + container) ==
           Lines{"pile.toml:8:1: 1 particle starts outside obstacle 1, a container, up to 0.5 m in the solid around it, "
-                "e.g. at (0, 5, 0) in body 1 (line 5)"});
+                "e.g. at (0, 5, 0) in body 1 (line 5); make the container larger, or move what is outside it"});
+}
+
+TEST_CASE("Containers side by side contradict each other, nested ones do not") {
+    const auto container = [](const std::string& low, const std::string& high) {
+        return "[[obstacle]]\nshape = \"container\"\nminimum = [" + low + ", 0, -1]\nmaximum = [" + high + ", 2, 1]\n";
+    };
+    const std::string bodies = particleAt("-2, 1, 0], [2, 1, 0], [2, 1.2, 0");
+    // The particle at -2 is outside the second container, the other two are outside the first.
+    CHECK(
+        warningsOf(bodies + container("-3", "-1") + container("1", "3")) ==
+        Lines{"pile.toml:8:1: containers contradict each other: 2 particles are, e.g. at (2, 1, 0) in body 1 (line 5), "
+              "outside obstacle 1, but inside obstacle 2 (line 12); a container keeps everything in the scene inside, "
+              "so make one container around all, with boxes as walls in it"});
+    CHECK(warningsOf(bodies + container("-3", "3") + container("-4", "4")).empty());
+    const Lines outer = warningsOf(bodies + container("-4", "4") + container("-3", "1"));
+    REQUIRE(outer.size() == 1);
+    CHECK(contains(outer[0], "contradict"));
+    const std::string emitter = "[[emitter]]\npositions = [[0, 1, 0]]\ninterval = 1\n";
+    const Lines emission = warningsOf(emitter + container("-3", "-1") + container("-0.5", "3"));
+    REQUIRE(emission.size() == 1);
+    CHECK(contains(emission[0], "1 point of emission is, e.g. at (0, 1, 0) in emitter 1 (line 5), outside obstacle 1"));
+}
+
+TEST_CASE("A camera that sees nothing of the scene is reported") {
+    const std::string ball = "[[body]]\nshape = \"ball\"\nradius = 0.5\n";
+    const auto camera = [](const std::string& keys) { return "[camera]\n" + keys + "\n"; };
+    CHECK(warningsOf(ball).empty());
+    const Lines away = warningsOf(ball + camera("eye = [0, 0, 9]\ntarget = [0, 0, 18]"));
+    CHECK(away ==
+          Lines{"pile.toml:8:1: the camera sees nothing of the scene but the ground, at any time; turn its target "
+                "to what happens, e.g. at (0, -0.1414, -0.4243)"});
+    CHECK(warningsOf(ball + camera("eye = [0, 0, 9]\ntarget = [9, 0, 5]")).size() == 1);
+    CHECK(warningsOf(ball + camera("eye = [0, 0, 9]\ntarget = [1, 0, 0]")).empty());
+    const std::string flat = "projection = \"orthographic\"\neye = [0, 0, 9]\ntarget = [";
+    CHECK(warningsOf(ball + camera(flat + "0, 0, 0]\nhalf_height = 1")).empty());
+    // The ball falls 19.6 m in two seconds, past a camera that is 5 m below it.
+    CHECK(warningsOf(ball + camera("eye = [0, -5, 9]\ntarget = [0, -5, 0]\nfov = 10")).empty());
+    CHECK(warningsOf(ball + camera("eye = [0, 5, 9]\ntarget = [0, 5, 0]\nfov = 10")).size() == 1);
+    // What is drawn of an obstacle is seen.
+    CHECK(warningsOf(ball + camera("eye = [0, 5, 9]\ntarget = [0, 5, 0]\nfov = 10") +
+                     "[[obstacle]]\nshape = \"sphere\"\nradius = 0.5\ncenter = [0, 5, 0]\n")
+              .empty());
+    // A path of the camera ends at the ball.
+    CHECK(warningsOf(ball + "[[camera]]\ntime = 0\neye = [0, 0, 9]\ntarget = [20, 0, 9]\n"
+                            "[[camera]]\ntime = 2\neye = [0, 0, 9]\ntarget = [0, 0, 0]\n")
+              .empty());
+}
+
+TEST_CASE("Edges that are asked for on an invisible box are reported") {
+    const std::string box =
+        "[[obstacle]]\nshape = \"box\"\nminimum = [5, 0, -1]\nmaximum = [6, 1, 1]\nvisible = false\n";
+    const std::string ball = "[[body]]\nshape = \"ball\"\nradius = 0.5\n";
+    CHECK(sceneOf(kTop + ball + box).warnings.empty());
+    CHECK(sceneOf(kTop + ball + box + "edges = false\n").warnings.empty());
+    CHECK(sceneOf(kTop + ball + box + "edges = true\n").warnings ==
+          Lines{"pile.toml:11:9: edges = true draws nothing where visible is false; leave visible out, or edges"});
+}
+
+TEST_CASE("A missed error is reported at its key, or at the table where it was not given") {
+    const std::string ball = "[[body]]\nshape = \"ball\"\nradius = 0.5\n";
+    const std::string message = scenes::missedErrorWarning(sceneOf(kTop + "[physics]\nerror = 0.05\n" + ball), 4.0);
+    CHECK(message.starts_with(
+        "pile.toml:4:9: an error of 0.05 radii a second is wanted, but the first frames come to 4; "));
+    CHECK(contains(scenes::missedErrorWarning(sceneOf(kTop + ball), 0.14), "ask for physics.error = 0.2 if"));
+    CHECK(scenes::missedErrorWarning(sceneOf(kTop + ball), 4.0).starts_with("pile.toml: an error of 0.01 "));
 }
 
 TEST_CASE("Particles that rest on an obstacle or lie on its surface are not inside") {
@@ -75,7 +140,7 @@ TEST_CASE("A particle between two obstacles that leave it no room is reported, i
         warningsOf(particleAt("0, 0.04, 0") + plane + lid("0.08")) ==
         Lines{
             "pile.toml:10:1: 1 particle has no room, the first of them between obstacle 1, a plane, and obstacle 2, a "
-            "box, at (0, 0.04, 0) in body 1 (line 5)"});
+            "box, at (0, 0.04, 0) in body 1 (line 5); leave a diameter between the two, or nothing"});
     CHECK(warningsOf(particleAt("0, 0.1, 0") + plane + lid("0.2")).empty());
     CHECK(warningsOf(particleAt("0.05, 0.05, 0.05") + plane +
                      "[[obstacle]]\nshape = \"container\"\nminimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n")
@@ -87,7 +152,7 @@ TEST_CASE("Points of emission inside an obstacle are reported at the emitter") {
     const std::string emitter = "[[emitter]]\npositions = [[0, 1, 0], [0, -1, 0], [0, 0.1, 0]]\ninterval = 1\n";
     CHECK(warningsOf(emitter + plane) ==
           Lines{"pile.toml:5:1: 1 of 3 points of emission are inside obstacle 1, a plane, "
-                "up to 1 m deep, e.g. at (0, -1, 0)"});
+                "up to 1 m deep, e.g. at (0, -1, 0); move them to the side that its normal points to"});
 }
 
 TEST_CASE("A rate that does not fit is reported with the rate that does") {
@@ -119,14 +184,16 @@ TEST_CASE("Bodies within each other are reported, bodies side by side are not") 
     CHECK(warningsOf(ball("0, 0, 0") + ball("0, 0.06, 0")) ==
           Lines{"pile.toml:10:1: bodies 1 and 2 overlap: they start with " + std::to_string(count) +
                 " pairs of particles closer than 0.6 rest lengths, the closest at 0.3 rest lengths, e.g. at "
-                "(0, -0.1414, -0.4243)"});
+                "(0, -0.1414, -0.4243); move them apart, or make one smaller"});
     CHECK(warningsOf(ball("0, 0, 0") + ball("0, 1.1, 0")).empty());
     CHECK(warningsOf(ball("0, 0, 0") + ball("0, 0.9, 0")).size() == 1);
     // The same particles as one body are a matter of its author, unless they are packed too closely.
     CHECK(warningsOf(particleAt("0, 0, 0], [0.1, 0, 0")).empty());
     const Lines coincident = warningsOf(particleAt("0, 0, 0], [0.04, 0, 0], [0, 0, 0"));
-    CHECK(coincident == Lines{"pile.toml:5:1: body 1 starts with 3 pairs of particles closer than their core, the "
-                              "closest at 0 rest lengths, e.g. at (0, 0, 0)"});
+    CHECK(coincident ==
+          Lines{"pile.toml:5:1: body 1 starts with 3 pairs of particles closer than their core, the "
+                "closest at 0 rest lengths, e.g. at (0, 0, 0); give it a larger spacing, or its particles a smaller "
+                "radius"});
 }
 
 TEST_CASE("Pairs of particles of unequal radii are judged by their own rest length") {
