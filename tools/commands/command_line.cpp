@@ -123,6 +123,10 @@ void addTo(CLI::App& command, FolderOptions& options, const std::string& help) {
         ->check(numberAtLeastZero());
 }
 
+void addStrictFlag(CLI::App& command, SceneOptions& options) {
+    command.add_flag("--strict", options.isStrict, "treat warnings about the scene as errors, before anything is run");
+}
+
 void addErrorFlag(CLI::App& command, bool& estimatesErrors) {
     command.add_flag_callback(
         "--no-error-estimate", [&estimatesErrors] { estimatesErrors = false; },

@@ -32,6 +32,8 @@ void addTo(CLI::App& command, SceneOptions& options);
 void addTo(CLI::App& command, DrawOptions& options);
 /// @param help  of -o, with the folder that is used without it
 void addTo(CLI::App& command, FolderOptions& options, const std::string& help);
+/// Adds the flag --strict.
+void addStrictFlag(CLI::App& command, SceneOptions& options);
 /// Adds the flag --no-error-estimate, which makes `estimatesErrors` false.
 void addErrorFlag(CLI::App& command, bool& estimatesErrors);
 /// What the help of `render` and `simulate` says about error estimates.

@@ -75,7 +75,7 @@ void render(RenderOptions options) {
     if (job.pipesFrames) job.folder.reset();
     checkOutputs(options, scene);
 
-    warnOfStart(scene, job.threads);
+    warnOfStart(options.scene, scene, job.threads);
     if (!options.video.empty()) createFolderOf(options.video);
     const FinishedRun run = renderFrames(job);
     requireComplete(run.report, options.folder.path);
@@ -92,6 +92,7 @@ void addRenderCommand(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("render", "simulate and draw a scene: PNG frames, run.json, a video");
     const auto options = std::make_shared<RenderOptions>();
     addTo(command, options->scene);
+    addStrictFlag(command, options->scene);
     addTo(command, options->folder,
           "folder for frames and run.json, or - for frames as PNGs on standard output (default: out/NAME)");
     command

@@ -60,7 +60,7 @@ void simulate(SimulateOptions options) {
         folder = (fs::path("out") / (render::shortenedName(name, kSuffix.size()) + std::string(kSuffix))).string();
 
     requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
-    warnOfStart(scene, threadCount(options.run));
+    warnOfStart(options.scene, scene, threadCount(options.run));
     FinishedRun run;
     onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options, name); });
     const RunReport& report = run.report;
@@ -77,6 +77,7 @@ void addSimulateCommand(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("simulate", "particle states only: one PLY file a frame, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
     addTo(command, options->scene);
+    addStrictFlag(command, options->scene);
     addTo(command, options->folder, "folder for frames and run.json (default: out/NAME-states)");
     command.add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
     command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");

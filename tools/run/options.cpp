@@ -49,17 +49,19 @@ scenes::Limits limitsOf(const std::vector<std::string>& flags) {
     return limits;
 }
 
-/// Warns of characters of overlay.color_label that are not drawn as they are meant. It is the only text of a scene that
-/// is drawn into pictures.
-void warnOfLabel(const std::string& label) {
+/// Warnings about characters of overlay.color_label that are not drawn as they are meant. It is the only text of a
+/// scene that is drawn into pictures.
+std::vector<std::string> labelWarnings(const std::string& label) {
+    std::vector<std::string> warnings;
     // In quotes line breaks and other control characters are escaped.
     if (const std::string missing = render::charactersWithoutGlyph(label); !missing.empty())
-        printWarning(
+        warnings.push_back(
             fmt::format("the font has no {}, which overlay.color_label asks for", scenes::tomlString(missing)));
     if (render::hasRightToLeftLetters(label))
-        printWarning(
+        warnings.emplace_back(
             "overlay.color_label has letters that are written from right to left, but are drawn one by one "
             "from the left");
+    return warnings;
 }
 
 }  // namespace
@@ -86,15 +88,25 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more) {
     };
     scenes::Scene scene =
         withMemoryFor([&] { return "reading the scene " + options.scene; }, "give the scene fewer particles", read);
-    for (const std::string& warning : scene.warnings) printWarning(warning);
-    if (const auto& colorBar = scene.look.common.overlay.colorBar) warnOfLabel(colorBar->title);
+    if (const auto& colorBar = scene.look.common.overlay.colorBar)
+        for (std::string& warning : labelWarnings(colorBar->title)) scene.warnings.push_back(std::move(warning));
+    if (!options.isStrict)
+        for (const std::string& warning : scene.warnings) printWarning(warning);
     return scene;
 }
 
-void warnOfStart(const scenes::Scene& scene, int threads) {
-    onThreads(threads, [&] {
-        for (const std::string& warning : scenes::startWarnings(scene)) printWarning(warning);
-    });
+void refuse(const std::vector<std::string>& warnings) {
+    if (!warnings.empty()) throw ExitStatus(kInputErrorCode, fmt::format("{}", fmt::join(warnings, "\n")));
+}
+
+void warnOfStart(const SceneOptions& options, const scenes::Scene& scene, int threads) {
+    std::vector<std::string> warnings;
+    onThreads(threads, [&] { warnings = scenes::startWarnings(scene); });
+    if (options.isStrict) {
+        warnings.insert(warnings.begin(), scene.warnings.begin(), scene.warnings.end());
+        refuse(warnings);
+    }
+    for (const std::string& warning : warnings) printWarning(warning);
 }
 
 std::string runName(const SceneOptions& options) {

@@ -31,6 +31,7 @@ struct SceneOptions {
     std::string scene;                 ///< path of a scene file, name of a built-in scene, or kStandardStream
     std::vector<std::string> changes;  ///< changes of keys, "key=value"
     std::vector<std::string> limits;   ///< raised limits on particles, frames or pixels, "name=number"
+    bool isStrict = false;             ///< whether warnings about the scene are errors
 };
 
 /// How frames are drawn.
@@ -76,14 +77,20 @@ void printResult(const RunOptions& options, const Json& json, const std::string&
 /// The number of threads to use, at least 1.
 int threadCount(const RunOptions& options);
 
-/// Loads the scene with its changes, and prints its warnings.
+/// Loads the scene with its changes, and prints its warnings unless the options are strict.
 /// @param more  further changes, which other flags ask for; applied last
 /// @throws scenes::InputError
 scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = {});
 
-/// Prints the warnings about where the particles of a scene start (scenes/build/start_warnings.h).
+/// Throws warnings as errors, a line for each, if there are any.
+/// @throws ExitStatus with kInputErrorCode
+void refuse(const std::vector<std::string>& warnings);
+
+/// Prints the warnings about the start of a scene (scenes/build/start_warnings.h). If the options are strict, throws
+/// them as errors, with those of the scene file.
 /// @param threads  number of threads to look for them with
-void warnOfStart(const scenes::Scene& scene, int threads);
+/// @throws ExitStatus as refuse()
+void warnOfStart(const SceneOptions& options, const scenes::Scene& scene, int threads);
 
 /// What a run of the scene is called in the names of its files: a built-in scene as it was given, such as "hard/honey",
 /// a scene file by its name without folder and extension, and standard input "stdin".
