@@ -2,7 +2,9 @@
 #include "tools/run/forecast.h"
 #include "scenes/build/read_scene.h"
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -97,6 +99,7 @@ TEST_CASE("A frame that takes too long is cut off", "[forecast]") {
     CHECK(preview.steps.count == 0);
     CHECK(preview.stepsInCutOff > 0);
     CHECK(preview.seconds >= 0.05);
+    CHECK(preview.work.empty());
     CHECK(preview.bytesPerParticle > 0);
 }
 
@@ -112,10 +115,12 @@ TEST_CASE("check tells what starts in the wrong place, and comes to an end", "[f
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     CHECK(seconds < 20.0);  // ten, and as many for a machine with other work
-    CHECK(outcome.out.find("\ncut off    frame 1 was not done after 5 s and ") != std::string::npos);
+    CHECK(outcome.out.find("\ncut off    frame 1 was not done after 4 s and ") != std::string::npos);
     CHECK(outcome.out.find("\nwarning    " + path + ":9:1: ") != std::string::npos);
     CHECK(outcome.out.find("is its normal flipped?\n") != std::string::npos);
-    CHECK(outcome.out.find("\ntime ") == std::string::npos);
+    // 1e9 steps, of each of which one takes at least a microsecond and at most a second.
+    CHECK(outcome.out.find("\ntime ") != std::string::npos);
+    CHECK(outcome.out.find(" hours of simulating") != std::string::npos);
     CHECK(outcome.err == "");
 
     std::ofstream(path) << "title = \"t\"\nduration = 0.1\n[physics]\nstep = 0.01\n[[body]]\nshape = \"points\"\n"
@@ -138,4 +143,106 @@ TEST_CASE("check does not try a scene whose neighbor list does not fit into memo
         outcome.out.find("\ncut off    the particles have 2e+06 neighbors on average at the start, and a list of them "
                          "takes 1.6e+04 GB of memory") != std::string::npos);
     CHECK(outcome.out.find("\nwarning    " + path + ":3:1: body 1 starts with about 2e+12 pairs") != std::string::npos);
+}
+
+TEST_CASE("check tells what starts in a surprising way, and --strict makes that an error", "[forecast]") {
+    const program::Folder folder;
+    const std::string path = (folder / "odd.toml").string();
+    const std::string keys = "title = \"t\"\nduration = 0.1\n[physics]\nstep = 0.01\n[[body]]\nshape = \"points\"\n";
+    std::ofstream(path) << keys << "positions = [[0, 1, 0]]\n[camera]\neye = [0, 0, 9]\ntarget = [0, 0, 18]\n"
+                        << "[[obstacle]]\nshape = \"box\"\nminimum = [5, 0, 0]\nmaximum = [6, 1, 1]\n"
+                        << "visible = false\nedges = true\n";
+    const auto lenient = program::run("simulate " + path + " --quiet -o " + (folder / "a").string());
+    INFO(lenient.err);
+    CHECK(lenient.code == 0);
+    CHECK(lenient.err.find("warning: " + path + ":8:1: the camera sees nothing") != std::string::npos);
+    CHECK(lenient.err.find("warning: " + path + ":16:9: edges = true draws nothing") != std::string::npos);
+    const std::vector<std::string> commands = {"check ", "simulate -o " + (folder / "b").string() + " ",
+                                               "render -o " + (folder / "b").string() + " "};
+    for (const std::string& command : commands) {
+        const auto strict = program::run(command + path + " --strict");
+        INFO(command << strict.err);
+        CHECK(strict.code == 2);
+        CHECK(strict.out.empty());
+        CHECK(program::lineCount(strict.err) == 2);
+        CHECK(strict.err.find("error: " + path + ":8:1: the camera sees nothing") != std::string::npos);
+        CHECK(strict.err.find("error: " + path + ":16:9: edges = true draws nothing") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(folder / "b"));
+    }
+    std::ofstream(path) << keys << "positions = [[0, 1, 0]]\n";
+    for (const std::string& command : {std::string("check "), "simulate --quiet -o " + (folder / "b").string() + " "})
+        CHECK(program::run(command + path + " --strict").code == 0);
+}
+
+TEST_CASE("A forecast of a run that was not simulated to its end says how sure it is", "[forecast]") {
+    const scenes::Scene scene = sceneWith("position = [0, 0, 0]\nvelocity = [0, 5, 0]\ninterval = 0.1\n");
+    tools::Preview preview;
+    preview.seconds = 6.0;
+    preview.simulation.time = scenes::frameTime(scene, 10);
+    preview.frames = 10;
+    for (int frame = 0; frame < 10; ++frame) preview.work.push_back({8.0, 2.0, 1.0});
+    const auto found = tools::forecastOf(scene, preview, std::nullopt);
+    REQUIRE(found);
+    // Ten frames of 0.6 s are known, and 19 are to come.
+    CHECK(found->leastSeconds > 6.0);
+    CHECK(found->leastSeconds < 6.0 + 19 * 0.6);
+    CHECK(found->mostSeconds > 6.0 + 19 * 0.6);
+    CHECK(found->likelySeconds() > found->leastSeconds);
+    CHECK(found->likelySeconds() < found->mostSeconds);
+
+    // Fewer frames tell less, and nothing but a part of the first frame nothing at all.
+    preview.work.resize(2);
+    preview.frames = 2;
+    preview.seconds = 1.2;
+    const auto unsure = tools::forecastOf(scene, preview, std::nullopt);
+    REQUIRE(unsure);
+    CHECK(unsure->mostSeconds / unsure->leastSeconds > found->mostSeconds / found->leastSeconds);
+    preview.work.clear();
+    preview.frames = 0;
+    CHECK_FALSE(tools::forecastOf(scene, preview, std::nullopt));
+
+    // With a fixed step the number of steps is known.
+    scenes::Scene fixed = scene;
+    fixed.setup.stepper = engine::StepperKind::velocityVerlet;
+    fixed.setup.step = 1.0 / 300.0;  // ten a frame
+    preview.isCutOff = true;
+    preview.stepsInCutOff = 5;
+    preview.seconds = 1.0;
+    append(preview.simulation.particles, {});
+    const auto nominal = tools::forecastOf(fixed, preview, std::nullopt);
+    REQUIRE(nominal);
+    CHECK(nominal->leastSeconds < 58.0);  // 290 steps of 0.2 s
+    CHECK(nominal->mostSeconds > 58.0);
+
+    // What was simulated to the end is known.
+    preview.work.assign(29, {8.0, 2.0, 1.0});
+    const auto known = tools::forecastOf(scene, preview, std::nullopt);
+    REQUIRE(known);
+    CHECK(known->leastSeconds == known->mostSeconds);
+}
+
+TEST_CASE("A column of a large scene is simulated in its place", "[forecast]") {
+    const program::Folder folder;
+    const std::string path = (folder / "dam.toml").string();
+    std::ofstream(path) << "title = \"t\"\nduration = 1\n[[body]]\nshape = \"grid\"\ncounts = [30, 30, 10]\n"
+                           "[[obstacle]]\nshape = \"plane\"\npoint = [0, -9, 0]\n";
+    const auto column = tools::simulateColumn(scenes::loadScene(path, {}));
+    REQUIRE(column);
+    CHECK(column->frames > 0);
+    CHECK(column->simulation.particles.count() <= 2000);
+    CHECK(column->simulation.particles.count() > 1500);
+    const std::vector<engine::Vec3>& start = column->simulation.setup.initial.position;
+    const auto [low, high] = std::minmax_element(
+        start.begin(), start.end(), [](const engine::Vec3& a, const engine::Vec3& b) { return a.y() < b.y(); });
+    CHECK(high->y() - low->y() > 28.0 * 0.3);  // all layers of it, 0.3 m apart
+    std::ofstream(path) << "title = \"t\"\nduration = 1\n[[body]]\nshape = \"grid\"\ncounts = [9, 9, 9]\n";
+    CHECK_FALSE(tools::simulateColumn(scenes::loadScene(path, {})));
+}
+
+TEST_CASE("Times are said in words that show how sure they are", "[forecast]") {
+    CHECK(tools::durationText(0.2, 0.2) == "about 1 s");
+    CHECK(tools::durationText(6.0, 11.0) == "about 9 s");
+    CHECK(tools::durationText(6.0, 40.0) == "6 to 40 s");
+    CHECK(tools::durationText(170.0, 520.0) == "3 to 9 minutes");
+    CHECK(tools::durationText(3600.0, 90000.0) == "1 to 25 hours");
 }

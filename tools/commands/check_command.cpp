@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/force_law/compression.h"
 #include "engine/neighbors/pair_estimate.h"
@@ -43,30 +47,36 @@ Json cutOffJson(const Preview& preview) {
 
 /// What a whole run would take, extrapolated from its first frames: steps, stepper, error, time and memory. What takes
 /// at least one frame to tell is null if the first one was cut off.
-Json predictionJson(const scenes::Scene& scene, double meanParticles) {
+Json predictionJson(const scenes::Scene& scene) {
     const Preview preview = simulateBeginning(scene);
-    const double framesLeft = scenes::frameCount(scene) - 1 - preview.frames;
+    const bool isWhole = preview.frames + 1 >= scenes::frameCount(scene) || !preview.unstable.empty();
+    const std::optional<Preview> column = isWhole ? std::nullopt : simulateColumn(scene);
+    const std::optional<Forecast> forecast = forecastOf(scene, preview, column);
     const double perFrame = static_cast<double>(preview.steps.count) / std::max(1, preview.frames);
     const bool isKnown = preview.frames > 0 || !preview.isCutOff;
     const auto ifKnown = [&](const auto& value) { return isKnown ? Json(value) : Json(nullptr); };
+    const auto ifForecast = [&](double value) { return forecast ? Json(value) : Json(nullptr); };
     Json json;
     json["unstable"] = preview.unstable.empty() ? Json(nullptr) : Json(preview.unstable);
     json["cut_off"] = cutOffJson(preview);
     json["from_frames"] = preview.frames;
     json["stepper"] = engine::nameOf(preview.stepper);
     json["step"] = ifKnown(perFrame > 0.0 ? scene.fps.timeOf(1) / perFrame : 0.0);
-    json["steps"] =
-        ifKnown(static_cast<std::int64_t>(static_cast<double>(preview.steps.count) + framesLeft * perFrame));
     const auto& limits = preview.steps.limitedBy;
     json["limited_by"] = ifKnown(engine::nameOf(
         static_cast<engine::StepLimit>(std::max_element(limits.begin(), limits.end()) - limits.begin())));
     json["error"] = preview.automatic.estimateCount > 0
                         ? Json(preview.automatic.errorSum / static_cast<double>(preview.automatic.estimateCount))
                         : Json(nullptr);
-    json["seconds_simulating"] =
-        ifKnown(preview.seconds + framesLeft * meanParticles * preview.seconds / std::max(1.0, preview.particleFrames));
+    const Forecast found = forecast.value_or(Forecast{});
+    json["steps"] = forecast ? Json(std::llround(found.steps)) : Json(nullptr);
+    json["seconds_simulating"] = ifForecast(found.likelySeconds());
+    json["seconds_least"] = ifForecast(found.leastSeconds);
+    json["seconds_most"] = ifForecast(found.mostSeconds);
+    json["processor_share"] = preview.seconds > 0.0 ? preview.processorSeconds / preview.seconds : 1.0;
     json["strays"] = engine::strayCount(preview.simulation);
-    json["bytes_per_particle"] = preview.bytesPerParticle;
+    // A column gets further, to the error estimates of more steppers, which take most of the memory.
+    json["bytes_per_particle"] = std::max(preview.bytesPerParticle, column ? column->bytesPerParticle : 0);
     json["bytes_of_materials"] = preview.bytesOfMaterials;
     return json;
 }
@@ -142,25 +152,39 @@ std::optional<std::string> crowdingText(const scenes::Scene& scene) {
         2.0 * pairs / static_cast<double>(particles.count()), kBytesPerPair * pairs / 1e9, memory / 1e9);
 }
 
+/// The memory that this process has in use, in bytes; 0 where the system does not tell.
+std::uint64_t residentBytes() {
+    std::ifstream stream("/proc/self/statm");
+    std::uint64_t all = 0;
+    std::uint64_t resident = 0;
+    stream >> all >> resident;
+    return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
 /// Looks at the start of the scene and simulates its first frames, and reports one result after the other.
-void examine(const scenes::Scene& scene, const Report& report) {
-    report({{"warnings", scenes::startWarnings(scene)}});
+/// @param isStrict  whether the scene is not simulated if there are warnings
+void examine(const scenes::Scene& scene, bool isStrict, const Report& report) {
+    std::vector<std::string> warnings = scenes::startWarnings(scene);
+    report({{"warnings", warnings}});
+    if (isStrict && !(warnings.empty() && scene.warnings.empty())) return;
     if (const auto crowding = crowdingText(scene)) return report({{"cut_off", *crowding}});
-    // Emitters emit evenly over the run, so that on average half of their particles exist. Particles that leave a
-    // bounded world are not taken off, because their number is not known.
-    const auto births = static_cast<double>(plannedBirths(scene));
-    const Json predicted = predictionJson(scene, static_cast<double>(scene.setup.initial.count()) + 0.5 * births);
+    const Json predicted = predictionJson(scene);
     report({{"predicted", predicted}});
+    if (const Json& error = predicted["error"]; !error.is_null() && isErrorMissed(error, scene.setup.error)) {
+        warnings.push_back(scenes::missedErrorWarning(scene, error));
+        report({{"warnings", warnings}});
+    }
     report({{"step_bound_at_start", boundJson(scene, predicted["stepper"].get<std::string>())}});
 }
 
 /// Everything that `check` says. What was not found out when the time was up is missing, and "cut_off" says what took
 /// so long.
-Json checkJson(const scenes::Scene& scene, int threads) {
+Json checkJson(const scenes::Scene& scene, int threads, bool isStrict) {
+    const std::uint64_t bytesOfProgram = residentBytes();
     // The child comes first, because it must not be started after other threads.
     const Json found = runInChild(kMostSeconds, [&](const Report& report) {
         withMemoryForParticles(scene.setup.initial.count(),
-                               [&] { onThreads(threads, [&] { examine(scene, report); }); });
+                               [&] { onThreads(threads, [&] { examine(scene, isStrict, report); }); });
     });
     Json json;
     onThreads(threads, [&] { json = sceneJson(scene); });
@@ -178,7 +202,7 @@ Json checkJson(const scenes::Scene& scene, int threads) {
     json["bytes_per_particle"] = predicted["bytes_per_particle"];
     json["memory_bytes"] =
         json["particles_at_most"].get<std::uint64_t>() * predicted["bytes_per_particle"].get<std::uint64_t>() +
-        predicted["bytes_of_materials"].get<std::uint64_t>();
+        predicted["bytes_of_materials"].get<std::uint64_t>() + bytesOfProgram;
     return json;
 }
 
@@ -203,7 +227,7 @@ std::string predictedText(const Json& json) {
     const Json& predicted = json["predicted"];
     if (!predicted["unstable"].is_null())
         text += fmt::format("; unstable after {} frames", predicted["from_frames"].get<int>());
-    else if (!predicted["steps"].is_null())
+    else if (!predicted["step"].is_null())
         text += fmt::format("; from the first {} frames: {}, {} steps of about {:.4g} s, limited by the {}",
                             predicted["from_frames"].get<int>(), predicted["stepper"].get<std::string>(),
                             predicted["steps"].get<std::int64_t>(), predicted["step"].get<double>(),
@@ -218,9 +242,11 @@ std::string predictedText(const Json& json) {
     text += fmt::format("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
                         json["bytes_per_particle"].get<std::size_t>());
     if (predicted["unstable"].is_null() && !predicted["seconds_simulating"].is_null())
-        text += fmt::format("time       {} {:.0f} s of simulating on this machine, drawing not counted\n",
-                            predicted["cut_off"].is_null() ? "about" : "at least",
-                            std::ceil(predicted["seconds_simulating"].get<double>()));
+        text += fmt::format(
+            "time       {} of simulating on this machine, drawing not counted\n",
+            durationText(predicted["seconds_least"].get<double>(), predicted["seconds_most"].get<double>()));
+    else if (predicted["unstable"].is_null())
+        text += "time       not known: not even the first frame was done\n";
     return text;
 }
 
@@ -272,7 +298,12 @@ std::string checkText(const Json& json) {
 
 void check(const CheckOptions& options) {
     const scenes::Scene scene = load(options.scene);
-    const Json json = checkJson(scene, threadCount(options.run));
+    const Json json = checkJson(scene, threadCount(options.run), options.scene.isStrict);
+    if (options.scene.isStrict) {
+        std::vector<std::string> warnings = scene.warnings;
+        for (const Json& warning : json.value("warnings", Json::array())) warnings.push_back(warning);
+        refuse(warnings);
+    }
     printResult(options.run, json, checkText(json));
     const Json unstable = json.value("/predicted/unstable"_json_pointer, Json(nullptr));
     if (!unstable.is_null()) throw engine::InstabilityError(unstable.get<std::string>());
@@ -284,6 +315,7 @@ void addCheckCommand(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("check", "validate a scene and say what would run");
     const auto options = std::make_shared<CheckOptions>();
     addTo(command, options->scene);
+    addStrictFlag(command, options->scene);
     addTo(command, options->run);
     command.footer(
         "Simulates the first frames of the scene. What is not found out within about ten seconds is cut off.\n"
