@@ -32,8 +32,9 @@ struct VideoOptions {
     FrameRate frameRate = {};
     std::string ffmpeg = "ffmpeg";  ///< the program, looked up on PATH
     std::chrono::duration<double> progressTimeout =
-        kProgressTimeout;            ///< time without progress after which ffmpeg is killed, s
-    std::function<bool()> mustStop;  ///< kills ffmpeg, as soon as it returns true, for which add() and finish() fail
+        kProgressTimeout;  ///< time without progress after which ffmpeg is killed, s
+    std::function<bool()> mustStop =
+        {};  ///< kills ffmpeg, as soon as it returns true, for which add() and finish() fail
 };
 
 /// Asks ffmpeg for the encoder of the video's kind, because an ffmpeg without it fails only after the first frames.

@@ -80,12 +80,12 @@ TEST_CASE("Containers side by side contradict each other, nested ones do not") {
 }
 
 TEST_CASE("A camera that sees nothing of the scene is reported") {
-    const std::string ball = "[[body]]\nshape = \"ball\"\nradius = 0.5\n";
+    const std::string ball = "[[body]]\nshape = \"ball\"\nradius = 0.5\njitter = 0\n";
     const auto camera = [](const std::string& keys) { return "[camera]\n" + keys + "\n"; };
     CHECK(warningsOf(ball).empty());
     const Lines away = warningsOf(ball + camera("eye = [0, 0, 9]\ntarget = [0, 0, 18]"));
     CHECK(away ==
-          Lines{"pile.toml:8:1: the camera sees nothing of the scene but the ground, at any time; turn its target "
+          Lines{"pile.toml:9:1: the camera sees nothing of the scene but the ground, at any time; turn its target "
                 "to what happens, e.g. at (0, -0.1414, -0.4243)"});
     CHECK(warningsOf(ball + camera("eye = [0, 0, 9]\ntarget = [9, 0, 5]")).size() == 1);
     CHECK(warningsOf(ball + camera("eye = [0, 0, 9]\ntarget = [1, 0, 0]")).empty());
