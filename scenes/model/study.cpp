@@ -34,6 +34,9 @@ const std::vector<ObservableInfo>& observables() {
         {Observable::spacing, "spacing", "", false,
          "mean distance of nearest neighbors at the end, relative to the lattice ball of least energy"},
         {Observable::passed, "passed", "", false, "particles on the wrong side of an obstacle at the end"},
+        {Observable::penetration, "penetration", "r", false,
+         "deepest that a particle lies in an obstacle at the end of any frame: its center is beyond the surface above "
+         "1"},
         {Observable::refusals, "refusals", "", false,
          "emissions that were due while another particle blocked the site"},
         {Observable::stepBound, "step-bound", "", false,

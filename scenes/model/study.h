@@ -30,6 +30,7 @@ enum class Observable {
     fragments,
     spacing,
     passed,
+    penetration,
     refusals,
     stepBound,
     order,

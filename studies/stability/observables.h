@@ -36,6 +36,7 @@ double medianSpeed(const ObservableInput& input);
 double fragments(const ObservableInput& input);
 double spacing(const ObservableInput& input);
 double tunnelingCount(const ObservableInput& input);
+double penetration(const ObservableInput& input);
 double refusals(const ObservableInput& input);
 double stepBound(const ObservableInput& input);
 double order(const ObservableInput& input);

@@ -85,7 +85,7 @@ double measure(scenes::Observable observable, const ObservableInput& input) {
     static constexpr Function kFunctions[] = {
         pairLaw,         momentumDrift, energyRise,       positionError, heightError, frontError, radiusError,
         statisticsError, reboundError,  restitutionError, largestSpeed,  medianSpeed, fragments,  spacing,
-        tunnelingCount,  refusals,      stepBound,        order,         cost};
+        tunnelingCount,  penetration,   refusals,         stepBound,     order,       cost};
     return kFunctions[static_cast<std::size_t>(observable)](input);
 }
 
@@ -134,6 +134,11 @@ double medianSpeed(const ObservableInput& input) {
     std::vector<double> speeds;
     for (const Vec3& velocity : input.run.frames.back().velocity) speeds.push_back(velocity.norm());
     return median(std::move(speeds));
+}
+
+/// Observable: the deepest penetration of a particle into an obstacle at the ends of the frames, in its radii.
+double penetration(const ObservableInput& input) {
+    return input.run.end.wallDepths.deepest;
 }
 
 /// Observable: number of births in a run that were refused because the position was occupied.

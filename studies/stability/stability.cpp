@@ -20,10 +20,11 @@ namespace {
 /// The core distance of the paper's program, which clamps the distance of two particles at one radius, in rest lengths.
 constexpr double kPaperCore = 0.5;
 
-/// A scene with the paper's stepper, step and core distance.
+/// A scene with the paper's stepper, step, core distance and walls.
 scenes::Scene withPaperStepper(scenes::Scene scene) {
     scene.setup.stepper = engine::StepperKind::symplecticEuler;
     scene.setup.step = scene.study->paperStep;
+    scene.setup.obstacles.wall = engine::WallLaw::paper;
     for (engine::Material& material : scene.setup.materials) material.coreFraction = kPaperCore;
     return scene;
 }
