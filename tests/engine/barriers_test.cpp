@@ -1,6 +1,7 @@
 // Straight motion among surfaces that no center passes.
 #include "engine/obstacles/barriers.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 #include "tests/catch.h"
@@ -131,4 +132,40 @@ TEST_CASE("A block of any mass stays above what it falls on, and comes to rest",
                 fastest = std::max(fastest, std::abs(velocity.y()));
             CHECK(fastest < 0.01);  // across the floor, which has no friction, they still glide
         }
+}
+
+TEST_CASE("Two hundred random scenes keep every center outside of their obstacles", "[barriers]") {
+    constexpr std::array kPresets = {"liquid", "solid", "powder", "honey", "sand"};
+    std::size_t scenes = 0;
+    for (std::uint64_t number = 0; scenes < 200; ++number) {
+        const auto random = [&](std::uint64_t k) { return clouds::randomVector(1000 + number, k); };
+        const double size = 0.5 + 0.4 * random(0).x();
+        Obstacles obstacles = all({Container{Vec3(-3, -3, -3), Vec3(3, 3, 3)}}, 0.2 + 0.2 * random(0).y());
+        for (std::uint64_t k = 0; k < 3; ++k) {
+            const Vec3 half = (Vec3(1.05, 1.05, 1.05) + random(10 + k)) * size;
+            obstacles.shapes.emplace_back(Box{2.5 * random(20 + k) - half, 2.5 * random(20 + k) + half});
+            obstacles.shapes.emplace_back(Sphere{2.5 * random(30 + k), size * (1.1 + random(40 + k).x())});
+        }
+        Material material = *materialPreset(kPresets[number % kPresets.size()]);
+        Setup setup = runs::freeSetup(material, StepperKind::automatic, 1e-3);
+        setup.error = 1.0;
+        setup.gravity = Vec3(0, -9.8, 0);
+        setup.obstacles = obstacles;
+        const double speed = std::pow(10.0, 1.25 * (1.0 + random(1).x()));  // 1 to 300 m/s
+        const double mass = material.mass * std::pow(10.0, 2.0 * random(1).y());
+        const Vec3 velocity = speed * random(2).normalized();
+        bool isFree = true;
+        for (const Vec3& position :
+             gridPositions(2.5 * random(3), {3, 3, 3}, {.spacing = 2.0 * material.radius, .jitter = 0.05})) {
+            isFree = isFree && heightOf(obstacles, position) > material.radius;
+            append(setup.initial,
+                   {.position = position, .velocity = velocity, .radius = material.radius, .mass = mass});
+        }
+        if (!isFree) continue;
+        ++scenes;
+        Simulation simulation = start(setup);
+        for (int frame = 1; frame <= 6; ++frame) advance(simulation, frame / 60.0);
+        INFO("scene " << number << ", " << material.name << " of " << mass << " kg at " << speed << " m/s");
+        CHECK(simulation.wallDepths.centersOutside == 0);
+    }
 }

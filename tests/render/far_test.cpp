@@ -20,7 +20,7 @@ std::string vec(const engine::Vec3& v) {
 /// A ball above the ground between a sphere, a box and a container, everything moved by an offset.
 std::string movedScene(const engine::Vec3& offset, const std::string& look) {
     const auto at = [&](double x, double y, double z) { return vec(offset + engine::Vec3(x, y, z)); };
-    std::string text = "title = \"t\"\nduration = 1\n[[body]]\nshape = \"ball\"\nradius = 0.7\n";
+    std::string text = "title = \"t\"\nduration = 1\n[[body]]\nshape = \"ball\"\nradius = 0.7\njitter = 0\n";
     text += fmt::format("center = {}\n", at(0.0, 1.0, 0.0));
     text += fmt::format("[[obstacle]]\nshape = \"sphere\"\nradius = 0.5\ncenter = {}\n", at(-1.5, 0.5, 0.5));
     text += fmt::format("[[obstacle]]\nshape = \"box\"\nminimum = {}\nmaximum = {}\n", at(1.0, 0.1, -0.5),
