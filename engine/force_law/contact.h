@@ -32,9 +32,9 @@
 
 namespace engine {
 
-/// Strength b1 of a scaled wall over that of the particle's material. Chosen: with 8 the lowest layer of 5 m of the scene
-/// liquid is compressed by a third, and steps are not shorter than the particles' own forces ask for; with 4 the errors of
-/// the case hard/dam exceed its limit.
+/// Strength b1 of a scaled wall over that of the particle's material. Chosen: with 8 the lowest layer of 5 m of the
+/// scene liquid is compressed by a third, and steps are not shorter than the particles' own forces ask for; with 4 the
+/// errors of the case hard/dam exceed its limit.
 inline constexpr double kWallStiffness = 8.0;
 
 /// The contact of a particle and a surface under the paper's law: a pair of the particle and the repulsor.

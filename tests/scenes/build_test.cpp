@@ -63,12 +63,12 @@ TEST_CASE("a material has the values of its preset where it gives none of its ow
 }
 
 TEST_CASE("bodies and emitters refer to materials by name, and use the first by default") {
-    const scenes::Scene scene =
-        sceneOf(kTop +
-                "[[material]]\nname = \"a\"\nradius = 0.1\nmass = 1\n[[material]]\nname = \"b\"\nradius = 0.2\nmass = 3\n"
-                "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\nmaterial = \"b\"\n"
-                "[[body]]\nshape = \"points\"\npositions = [[1, 0, 0]]\n"
-                "[[emitter]]\nposition = [2, 0, 0]\nrate = 1\nmaterial = \"b\"\n");
+    const scenes::Scene scene = sceneOf(
+        kTop +
+        "[[material]]\nname = \"a\"\nradius = 0.1\nmass = 1\n[[material]]\nname = \"b\"\nradius = 0.2\nmass = 3\n"
+        "[[body]]\nshape = \"points\"\npositions = [[0, 0, 0]]\nmaterial = \"b\"\n"
+        "[[body]]\nshape = \"points\"\npositions = [[1, 0, 0]]\n"
+        "[[emitter]]\nposition = [2, 0, 0]\nrate = 1\nmaterial = \"b\"\n");
     CHECK(scene.setup.initial.material == std::vector<std::uint32_t>{1, 0});
     CHECK(scene.setup.initial.radius == std::vector<double>{0.2, 0.1});
     CHECK(scene.setup.initial.mass == std::vector<double>{3.0, 1.0});
@@ -317,9 +317,9 @@ TEST_CASE("obstacles answer as scaled walls unless the scene asks for the paper'
 
 TEST_CASE("keys of one wall law are refused under the other") {
     const std::string plane = "[[obstacle]]\nshape = \"plane\"\nrestitution = 0.7\n";
-    CHECK(
-        scenes_test::problemsOf(scenes_test::kBall + plane, kPaperWalls) ==
-        scenes_test::Lines{"pile.toml:8:15: the paper's walls have no restitution; leave out physics.wall = \"paper\""});
+    CHECK(scenes_test::problemsOf(scenes_test::kBall + plane, kPaperWalls) ==
+          scenes_test::Lines{
+              "pile.toml:8:15: the paper's walls have no restitution; leave out physics.wall = \"paper\""});
     const std::string sphere =
         "[[obstacle]]\nshape = \"sphere\"\ncenter = [0, -9, 0]\nradius = 1\nrepulsor = \"literal\"\n";
     CHECK(scenes_test::problemsOf(scenes_test::kBall + sphere) ==
