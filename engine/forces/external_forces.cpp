@@ -6,7 +6,7 @@
 #include <array>
 #include <variant>
 
-#include "engine/force_law/contact.h"
+#include "engine/obstacles/contact.h"
 #include "engine/state/probe.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 #include "engine/force_law/pair_force-inl.h"
 
 /// Force of all obstacles on as many particles as D has lanes. The operations and their order are those of the scalar
-/// code in force_law/obstacle_surfaces.h. Its test mayReach(), which saves work and changes no result, is applied to
+/// code in obstacles/obstacle_surfaces.h. Its test mayReach(), which saves work and changes no result, is applied to
 /// boxes only.
 template <class D>
 class SimdContacts {
@@ -116,7 +116,7 @@ class SimdContacts {
     static Vector3<V> all(const Vec3& vector) { return {set(vector.x()), set(vector.y()), set(vector.z())}; }
 
     /// Adds the force of a face of an obstacle on the particles that touch it, as addForce() in
-    /// force_law/obstacle_surfaces.h does for one particle.
+    /// obstacles/obstacle_surfaces.h does for one particle.
     /// @param height  signed distances of the particles' centers from the face, m
     void touch(V height, const Vector3<V>& normal, double repulsorRadius) {
         const auto isTouched = hn::Lt(height, radius_);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/force_law/material.h"
-#include "engine/force_law/obstacles.h"
 #include "engine/force_law/pair_law.h"
+#include "engine/obstacles/obstacles.h"
 #include "engine/state/particles.h"
 #include "engine/state/setup.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/obstacles/obstacle_surfaces.h"
 
 namespace engine {
 namespace {
@@ -138,7 +138,7 @@ Hit firstHit(const Obstacles& obstacles, const Motion& motion, double duration) 
 }
 
 /// Changes the velocity of a particle that arrives at a surface.
-void answer(const Hit& hit, Arrival arrival, Probe& particle) {
+void respond(const Hit& hit, Arrival arrival, Probe& particle) {
     const double restitution = arrival == Arrival::rebounds ? hit.wall->rebound.restitution : 0.0;
     const double approach = -dot(particle.velocity, hit.normal);
     const double change = (1.0 + restitution) * approach;
@@ -165,7 +165,7 @@ int moveAmongBarriers(const Obstacles& obstacles, Probe& particle, double durati
             return hits;
         }
         particle.position += hit.time * particle.velocity + hit.rise * hit.normal;
-        answer(hit, arrival, particle);
+        respond(hit, arrival, particle);
         remaining -= hit.time;
     }
     return kMostHits;

@@ -3,7 +3,7 @@
 // them is stopped here, whatever the step.
 #pragma once
 
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 
 namespace engine {
 

@@ -8,8 +8,8 @@
 
 #include <Eigen/LU>
 
-#include "engine/force_law/contact.h"
 #include "engine/obstacles/barriers.h"
+#include "engine/obstacles/contact.h"
 
 namespace engine {
 namespace {

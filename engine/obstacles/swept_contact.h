@@ -3,7 +3,7 @@
 // contacts act as forces, together with those of the pairs. Used through drift.h by every stepper but the paper's.
 #pragma once
 
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 
 namespace engine {
 

@@ -76,7 +76,7 @@ double fittingShare(const Setup& setup, std::size_t index) {
         if (!(next < end)) break;
         fly(simulation, next - simulation.time);
         simulation.time = next;
-        // What has long left the nozzle is in nobody's way.
+        // Particles that left the nozzle long ago block no emission.
         keepWhere(simulation.particles, [&](std::size_t p) {
             return !std::isfinite(clearing) ||
                    simulation.time - simulation.particles.birthTime[p] < kSettling * clearing;

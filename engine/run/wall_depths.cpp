@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/core/parallel.h"
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/obstacles/obstacle_surfaces.h"
 #include "engine/stepping/drift.h"
 
 namespace engine {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/force_law/material.h"
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 #include "engine/state/particles.h"
 
 namespace engine {

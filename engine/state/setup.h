@@ -9,7 +9,7 @@
 
 #include "engine/core/bounding_box.h"
 #include "engine/force_law/material.h"
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 #include "engine/state/emitters.h"
 #include "engine/state/particles.h"
 

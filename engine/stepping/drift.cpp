@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "engine/core/parallel.h"
-#include "engine/force_law/contact.h"
 #include "engine/obstacles/barriers.h"
+#include "engine/obstacles/contact.h"
 #include "engine/obstacles/swept_contact.h"
 #include "engine/state/probe.h"
 #include "engine/stepping/step_cache.h"

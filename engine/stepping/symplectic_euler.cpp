@@ -14,7 +14,6 @@
 #include "engine/stepping/take_step.h"
 
 namespace engine {
-
 namespace {
 
 /// A step of particles begin to end - 1 among scaled walls, from the forces between particles. Returns whether the new

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/vec3.h"
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/obstacles/obstacle_surfaces.h"
 #include "scenes/model/scene.h"
 
 namespace scenes {

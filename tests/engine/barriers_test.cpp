@@ -6,7 +6,7 @@
 #include <vector>
 #include "tests/catch.h"
 
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/obstacles/obstacle_surfaces.h"
 #include "engine/run/advance.h"
 #include "engine/run/diagnostics.h"
 #include "tests/engine/clouds.h"

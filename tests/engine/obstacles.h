@@ -1,7 +1,7 @@
 // Sets of obstacles with a single one, and particles that meet them.
 #pragma once
 
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 
 inline engine::Obstacles only(const engine::Obstacle& obstacle) {
     engine::Obstacles obstacles;

@@ -1,12 +1,12 @@
 // The obstacles of section 3.2 against contacts worked by hand.
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 
 #include <cmath>
 #include <vector>
 #include "tests/catch.h"
 
-#include "engine/force_law/obstacle_surfaces.h"
 #include "engine/force_law/pair_law.h"
+#include "engine/obstacles/obstacle_surfaces.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/rounding.h"
 

@@ -1,5 +1,5 @@
 // The force of scaled walls on single particles: restitution, rest, friction and adhesion.
-#include "engine/force_law/contact.h"
+#include "engine/obstacles/contact.h"
 
 #include <cmath>
 #include <vector>

@@ -7,7 +7,7 @@
 #include <limits>
 #include "tests/catch.h"
 
-#include "engine/force_law/obstacle_surfaces.h"
+#include "engine/obstacles/obstacle_surfaces.h"
 #include "tests/engine/clouds.h"
 #include "tests/engine/obstacles.h"
 

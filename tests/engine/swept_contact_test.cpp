@@ -5,7 +5,7 @@
 #include <limits>
 #include "tests/catch.h"
 
-#include "engine/force_law/contact.h"
+#include "engine/obstacles/contact.h"
 #include "tests/engine/obstacles.h"
 #include "tests/engine/runs.h"
 

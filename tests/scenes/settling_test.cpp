@@ -25,7 +25,7 @@ struct DamMotion {
     double restHeight = 0.0;  ///< mean height at the end, m
 };
 
-/// The masses are small and the dam is soft because the particles would otherwise be pressed into the walls.
+/// A dam of the liquid that sinks by a third of its height before it breaks.
 const std::string kDam = R"(title = "dam"
 duration = 1.4
 [physics]
@@ -34,8 +34,8 @@ stepper = "leapfrog"
 step = 0.008
 [material]
 radius = 0.1
-mass = 1e-3
-bd = 3e-3
+mass = 1
+bd = 3
 compression = 0.3
 [[body]]
 shape = "box"
@@ -104,8 +104,8 @@ error = 0.3
 [material]
 preset = "{}"
 radius = 0.08
-mass = 2e-6
-bd = 3e-5
+mass = 1
+bd = 15
 compression = {}
 [[body]]
 shape = "box"

@@ -1,12 +1,12 @@
 // The forces of obstacles on a particle, as in the paper, and the energy of these forces.
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
-#include "engine/force_law/contact.h"
+#include "engine/obstacles/contact.h"
 
 namespace engine {
 

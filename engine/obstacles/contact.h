@@ -17,24 +17,22 @@
 //   the particle's material is added, with b_d c_d in place of the paper's 5 c_d, so that what is viscous does not
 //   bounce.
 // - Friction is Coulomb's, of the force f.
-// - Adhesion (after Derjaguin, Muller and Toporov) pulls with a constant force wherever f acts, and fades within
-// another
-//   radius. The force is a stress times the area that a particle takes up in the closest packing of a layer. It is not
-//   part of f, hence an adhering particle is pressed on the wall and rubs against it.
+// - Adhesion (after Derjaguin, Muller and Toporov) pulls with a constant force wherever f acts, and fades over another
+//   radius. It is a stress times the area of a particle in a layer of closest packing. It is not part of f, so that f
+//   balances it in an adhering particle at rest, and friction holds the particle.
 // The steppers stop centers of particles at the surface; see obstacles/barriers.h.
 #pragma once
 
 #include <cmath>
 #include <numbers>
 
-#include "engine/force_law/obstacle_surfaces.h"
 #include "engine/force_law/pair_law.h"
+#include "engine/obstacles/obstacle_surfaces.h"
 
 namespace engine {
 
-/// Strength b1 of a scaled wall over that of the particle's material. Chosen: with 8 the lowest layer of 5 m of the
-/// scene liquid is compressed by a third, and steps are not shorter than the particles' own forces ask for; with 4 the
-/// errors of the case hard/dam exceed its limit.
+/// Strength b1 of a scaled wall over that of the particle's material. Chosen: with 8 no particle of the scene liquid
+/// lies deeper in its floor than two thirds of a radius; with 4 the error of the case hard/dam exceeds its limit.
 inline constexpr double kWallStiffness = 8.0;
 
 /// The contact of a particle and a surface under the paper's law: a pair of the particle and the repulsor.
@@ -104,20 +102,20 @@ inline void setAdhesion(Contact& contact, double height, double stress, double r
 }
 
 /// Sets the repulsion of a scaled wall and its damping. Force, energy and stiffness are those of pair_law.h for c_r =
-/// 1, in terms of e = 1/D - 1/D0, which keeps all digits where a contact begins:
-///   f = b1 e^2 (1/D + 1/D0)^2,  U = b1 e^3 (1/3 + D/D0),  k = 4 b1 e (1/D + 1/D0) / D^3
-/// Under the surface, where only a particle is that starts there, the force is that at the surface.
+/// 1, in terms of q = 1/D - 1/D0, which keeps all digits where a contact begins:
+///   f = b1 q^2 (1/D + 1/D0)^2,  U = b1 q^3 (1/3 + D/D0),  k = 4 b1 q (1/D + 1/D0) / D^3
+/// The center of a particle is below the surface only if it has started there; the force is then that at the surface.
 inline void setRepulsion(Contact& contact, const Surface& surface, double gravity, const Probe& probe) {
     const double strength = wallStrength(probe, gravity);
     const double height = std::max(surface.height, 0.0);
     const double distance = height + probe.radius;
     const double inverse = 1.0 / distance;
     const double inverseRest = 0.5 / probe.radius;
-    const double e = (probe.radius - height) * inverse * inverseRest;
-    const double toRest = e * (inverse + inverseRest);
+    const double q = (probe.radius - height) * inverse * inverseRest;
+    const double toRest = q * (inverse + inverseRest);
     contact.pressure = strength * toRest * toRest;
     contact.energy =
-        strength * e * e * e * (1.0 / 3.0 + distance * inverseRest) + contact.pressure * (height - surface.height);
+        strength * q * q * q * (1.0 / 3.0 + distance * inverseRest) + contact.pressure * (height - surface.height);
     if (surface.height >= 0.0) contact.stiffness = 4.0 * strength * toRest * inverse * inverse * inverse;
     if (contact.energy > 0.0)
         contact.damping =

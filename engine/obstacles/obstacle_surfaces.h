@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/force_law/obstacles.h"
+#include "engine/obstacles/obstacles.h"
 
 namespace engine {
 
