@@ -125,15 +125,15 @@ Hit hitOf(const Sphere& sphere, const Motion& motion) {
 
 Hit firstHit(const Obstacles& obstacles, const Motion& motion, double duration) {
     Hit first;
-    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
-        const double reach = motion.speed * duration + 2.0 * motion.skin;
+    const double reach = motion.speed * duration + 2.0 * motion.skin;
+    forEachNear(obstacles, motion.position, reach, [&](std::size_t k) {
         const Hit hit = std::visit(
             [&](const auto& shape) { return mayReach(shape, motion.position, reach) ? hitOf(shape, motion) : Hit{}; },
             obstacles.shapes[k]);
-        if (hit.time >= first.time) continue;
+        if (hit.time >= first.time) return;
         first = hit;
         first.wall = &wallSurfaceOf(obstacles, k);
-    }
+    });
     return first;
 }
 

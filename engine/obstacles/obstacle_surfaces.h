@@ -75,10 +75,24 @@ inline const WallSurface& wallSurfaceOf(const Obstacles& obstacles, std::size_t 
     return obstacle < obstacles.surfaces.size() ? obstacles.surfaces[obstacle] : kPlainWall;
 }
 
-/// Calls visit(Surface) for every surface of all obstacles.
+/// Calls visit(index) for every obstacle that may have a surface nearer to a point than `reach` (m); others may be
+/// among them. Returns a distance (m) that no surface of the obstacles that are left out is nearer than.
 template <class Visit>
-void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& visit) {
-    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
+double forEachNear(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
+    if (obstacles.index.solids.isEmpty()) {
+        for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) visit(k);
+        return std::numeric_limits<double>::infinity();
+    }
+    for (const std::uint32_t k : obstacles.index.unavoidable) visit(k);
+    obstacles.index.solids.visitNear(point, reach, [&](std::uint32_t box) { visit(obstacles.index.solidAt[box]); });
+    return reach;
+}
+
+/// Calls visit(Surface) for every surface that is nearer to a point than `reach` (m); others may be among them. Returns
+/// a distance (m) that no surface that is left out is nearer than.
+template <class Visit>
+double forEachSurface(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
+    return forEachNear(obstacles, point, reach, [&](std::size_t k) {
         const WallSurface* const wall = &wallSurfaceOf(obstacles, k);
         std::visit(
             [&](const auto& shape) {
@@ -89,7 +103,7 @@ void forEachSurface(const Obstacles& obstacles, const Vec3& point, const Visit& 
                     });
             },
             obstacles.shapes[k]);
-    }
+    });
 }
 
 /// Whether a shape may have a surface within a distance `reach` (m) of a point. A cheap test, without a square root or
@@ -116,10 +130,15 @@ inline double contactReach(const WallSurface& wall, double radius) {
     return wall.adhesion > 0.0 ? 2.0 * radius : radius;
 }
 
+/// The largest contactReach() that any surface has for a particle of this radius (m).
+constexpr double largestContactReach(double radius) {
+    return 2.0 * radius;
+}
+
 /// Calls visit(Surface) for every surface that acts on a particle of this radius (m).
 template <class Visit>
 void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius, const Visit& visit) {
-    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
+    forEachNear(obstacles, point, largestContactReach(radius), [&](std::size_t k) {
         const WallSurface& wall = wallSurfaceOf(obstacles, k);
         const double reach = contactReach(wall, radius);
         std::visit(
@@ -132,7 +151,7 @@ void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius
                 });
             },
             obstacles.shapes[k]);
-    }
+    });
 }
 
 }  // namespace engine

@@ -29,6 +29,31 @@ Rebound reboundWith(double restitution) {
     return {restitution, restitution > 0.0 ? low : 1.0, false};
 }
 
+std::optional<BoundingBox> boundsOf(const Obstacle& obstacle) {
+    if (const auto* box = std::get_if<Box>(&obstacle)) return BoundingBox{box->minimum, box->maximum};
+    if (const auto* walls = std::get_if<Container>(&obstacle)) return BoundingBox{walls->minimum, walls->maximum};
+    if (const auto* sphere = std::get_if<Sphere>(&obstacle)) {
+        const Vec3 half = Vec3::Constant(sphere->radius);
+        return BoundingBox{sphere->center - half, sphere->center + half};
+    }
+    return std::nullopt;
+}
+
+ObstacleIndex indexOf(const std::vector<Obstacle>& shapes) {
+    // Fewest boxes and spheres for which the tree is used. Measured on cities of blocks with `globular simulate`.
+    constexpr std::size_t kFewest = 16;
+    ObstacleIndex index;
+    std::vector<BoundingBox> boxes;
+    for (std::uint32_t k = 0; k < shapes.size(); ++k) {
+        const bool isSolid = std::holds_alternative<Box>(shapes[k]) || std::holds_alternative<Sphere>(shapes[k]);
+        (isSolid ? index.solidAt : index.unavoidable).push_back(k);
+        if (isSolid) boxes.push_back(*boundsOf(shapes[k]));
+    }
+    if (boxes.size() < kFewest) return {};
+    index.solids = BoundingBoxTree(boxes);
+    return index;
+}
+
 ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe) {
     ContactSums sums;
     forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {

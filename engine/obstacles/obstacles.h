@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
 
-#include "engine/core/vec3.h"
+#include "engine/core/bounding_box.h"
+#include "engine/obstacles/bounding_box_tree.h"
 
 namespace engine {
 
@@ -37,6 +39,9 @@ struct Sphere {
 };
 
 using Obstacle = std::variant<Plane, Container, Box, Sphere>;
+
+/// The box around an obstacle; none around a plane, which has no end.
+std::optional<BoundingBox> boundsOf(const Obstacle& obstacle);
 
 /// The constants of the force between particles and repulsors (section 3.2 of the paper), the same for all obstacles.
 struct RepulsorLaw {
@@ -70,8 +75,19 @@ enum class WallLaw {
     scaled  ///< stiffness and damping follow the particle's material, mass and radius; no center passes the surface
 };
 
+/// Finds the obstacles near a point; empty where there are so few that looking at all of them is faster.
+struct ObstacleIndex {
+    BoundingBoxTree solids;                  ///< of the boxes and spheres
+    std::vector<std::uint32_t> solidAt;      ///< the obstacles that the boxes of that tree stand for
+    std::vector<std::uint32_t> unavoidable;  ///< planes and containers, which are near every point
+};
+
+/// The index of obstacles, which are named by their positions in the vector.
+ObstacleIndex indexOf(const std::vector<Obstacle>& shapes);
+
 struct Obstacles {
     std::vector<Obstacle> shapes;
+    ObstacleIndex index;  ///< of the shapes; start() fills it in
     WallLaw wall = WallLaw::paper;
     RepulsorLaw law;  ///< of the paper's walls
     std::vector<WallSurface>

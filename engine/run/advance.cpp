@@ -14,8 +14,9 @@ namespace engine {
 Simulation start(const Setup& setup) {
     Simulation simulation;
     simulation.setup = setup;
+    simulation.setup.obstacles.index = indexOf(setup.obstacles.shapes);
     simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
-    simulation.cache->evaluator = ForceEvaluator(forceFieldOf(setup), setup.forces, setup.precision);
+    simulation.cache->evaluator = ForceEvaluator(forceFieldOf(simulation.setup), setup.forces, setup.precision);
     simulation.particles = setup.initial;
     for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
     emitDue(simulation);

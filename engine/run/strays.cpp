@@ -16,17 +16,6 @@ namespace {
 /// outside any picture that shows the scene.
 constexpr double kFarDiagonals = 4.0;
 
-/// The box of a solid obstacle; none of a plane, which has no end.
-std::optional<BoundingBox> boxOf(const Obstacle& obstacle) {
-    if (const auto* box = std::get_if<Box>(&obstacle)) return BoundingBox{box->minimum, box->maximum};
-    if (const auto* walls = std::get_if<Container>(&obstacle)) return BoundingBox{walls->minimum, walls->maximum};
-    if (const auto* sphere = std::get_if<Sphere>(&obstacle)) {
-        const Vec3 half = Vec3::Constant(sphere->radius);
-        return BoundingBox{sphere->center - half, sphere->center + half};
-    }
-    return std::nullopt;
-}
-
 /// The box around everything that the scene begins with, and the points of planes nearest to it; none if it begins with
 /// nothing.
 std::optional<BoundingBox> placeOf(const Setup& setup) {
@@ -45,7 +34,7 @@ std::optional<BoundingBox> placeOf(const Setup& setup) {
             include({site - half, site + half});
         }
     for (const Obstacle& obstacle : setup.obstacles.shapes)
-        if (const auto box = boxOf(obstacle)) include(*box);
+        if (const auto box = boundsOf(obstacle)) include(*box);
     if (!place) return place;
     // A floor far below belongs to the place, too.
     const Vec3 middle = place->middle();
