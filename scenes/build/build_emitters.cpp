@@ -145,7 +145,11 @@ std::optional<double> densestInterval(Section& section, engine::Emitter emitter,
     setup.materials = materials.list;
     setup.gravity = context.gravity;
     setup.seed = context.seed;
-    emitter.interval = kMargin * clearing;
+    // The particles of a point follow one another at the distance at which they touch, even if their clearance allows
+    // less: nearer, they would push each other apart, and roundings would decide whether one finds room.
+    engine::Emitter touching = emitter;
+    touching.clearance = std::max(1.0, emitter.clearance);
+    emitter.interval = kMargin * engine::clearingTime(touching, context.gravity, radius);
     if (emitter.pick == engine::Pick::random) emitter.interval /= static_cast<double>(emitter.sites.size());
     for (int round = 0; round < kMostRounds; ++round) {
         engine::completeTimes(emitter, context.gravity, radius);

@@ -88,10 +88,10 @@ std::vector<Key> emitterKeys() {
             .onlyFor({"disc", "ring", "box", "line"}),
         key("interval", Type::number, "s",
             "time between emissions of each point, or of the whole emitter if it picks points at random")
-            .derivedAs("of the rate; without it, as dense as fits")
+            .derivedAs("of the rate; without it, particles follow one another touching")
             .within({.low = 1e-9}),
         key("rate", Type::number, "1/s", "particles that the whole emitter emits per second")
-            .derivedAs("of the interval; without it, as dense as fits")
+            .derivedAs("of the interval")
             .within({0.0, 1e9, true}),
         key("cluster", Type::integer, "", "particles of one emission, which form a drop around its point")
             .defaultsTo("1")
