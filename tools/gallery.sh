@@ -79,6 +79,7 @@ still mud 75
 still molten-metal 168
 still sand 345
 still cascade 180
+still sticky 45
 
 if wanted figures; then
     for figure in 1 2 3 4; do

@@ -39,6 +39,7 @@ const std::vector<GoldenScene>& scenes() {
         {"sand", 30, 100, {}},
         {"solid", 6, 24, {"physics.stepper=velocity-verlet", "physics.step=0.004"}, true},
         {"splash", 12, 40, {}},
+        {"sticky", 6, 20, {}},
     };
     return kScenes;
 }

@@ -38,7 +38,7 @@ Moment momentOf(const std::string& scene) {
         {"molten-metal", {30}}, {"mud", {20}},
         {"oil", {20}},          {"powder", {30}},
         {"sand", {10}},         {"solid", {6, {"physics.stepper=velocity-verlet", "physics.step=0.004"}}},
-        {"splash", {12}}};
+        {"splash", {12}},       {"sticky", {8}}};
     if (const auto found = moments.find(scene); found != moments.end()) return found->second;
     return {scene.starts_with("hard/") ? 1 : 60};
 }
