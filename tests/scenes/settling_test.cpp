@@ -162,3 +162,19 @@ TEST_CASE("a column sinks as far as predicted", "[settling]") {
         CHECK(levelOf(simulation.particles) == Approx(predicted).epsilon(0.03));
     }
 }
+
+TEST_CASE("pools of the built-in scenes keep nine tenths of their volume", "[settling]") {
+    // The areas of the pan and of the mold, m^2.
+    for (const auto& [name, area] : std::map<std::string, double>{{"oil", 5.0 * 3.4}, {"molten-metal", 3.3 * 1.0}}) {
+        const scenes::Scene scene = scenes::loadScene(GLOBULAR_SOURCE "/scenes/library/" + name + ".toml", {});
+        engine::Simulation simulation = engine::start(scene.setup);
+        engine::advance(simulation, scene.duration);
+        const double radius = scene.setup.materials.at(0).radius;
+        const auto count = static_cast<double>(simulation.particles.count());
+        // Closest packing of spheres that touch.
+        const double volume = count * 4.0 * std::sqrt(2.0) * radius * radius * radius;
+        INFO(name);
+        CHECK(2.0 * meanHeight(simulation.particles) * area > 0.9 * volume);
+        CHECK(2.0 * meanHeight(simulation.particles) * area < 1.2 * volume);
+    }
+}
