@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Draws the pictures of README.md and docs/ into docs/: the first scene as a moving picture and with one key changed at a time,
 # a still of each scene of the library's top folder, and a strip of moments of each figure of the paper. Needs the program,
-# which figures.sh builds. With names (first, keys, figures, splash, two-liquids, or scenes such as honey) it draws these
-# alone; with "times" it renders every scene that docs/gallery.md lists and prints particles, frames and processor seconds.
+# which figures.sh builds. With names (first, keys, constants, figures, splash, two-liquids, or scenes such as honey) it draws
+# these alone; with "times" it renders every scene that docs/gallery.md lists and prints particles, frames and processor seconds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -43,14 +43,28 @@ if wanted first; then
         -compression_level 6 docs/first.webp
 fi
 
+labelled() { # scene, frame, picture, label, options of render: the frame with the label on it, 320x180
+    local folder="$work/labelled" font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+    rm -rf "$folder"
+    "$globular" render "$1" "${@:5}" --frames "$2" --size 320x180 --quality final --quiet -o "$folder"
+    ffmpeg -v error -y -i "$folder/frame-$(printf %05d "$2").png" \
+        -vf "drawtext=text='$4':x=6:y=6:fontcolor=white:fontsize=13:fontfile=$font" "$3"
+}
+
 variations=0
-variation() { # label, options of render: one frame of the first scene with its label on it
-    local folder="$work/variation-$variations" font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
-    "$globular" render docs/first.toml "${@:2}" --frames 130 --size 320x180 --quality final --quiet -o "$folder"
-    ffmpeg -v error -y -i "$folder/frame-00130.png" \
-        -vf "drawtext=text='$1':x=6:y=6:fontcolor=white:fontsize=13:fontfile=$font" \
-        "$work/variations-$(printf %02d "$variations").png"
+variation() { # label, options of render: the first scene with its label on it
+    labelled docs/first.toml 130 "$work/variations-$(printf %02d "$variations").png" "$@"
     variations=$((variations + 1))
+}
+
+constants=0
+constant() { # key of the material, three values, options of render: a row of three pictures of docs/constants.toml
+    local value
+    for value in $2; do
+        labelled docs/constants.toml 36 "$work/constants-$(printf %02d "$constants").png" "$1 = $value" \
+            --set "material.$1=$value" "${@:3}"
+        constants=$((constants + 1))
+    done
 }
 
 if wanted keys; then
@@ -65,6 +79,19 @@ if wanted keys; then
     variation "metal" --set look.metal=1 --set look.reflection=2 --set look.mirror_top=[1.2,1.2,1.2]
     variation "by speed" --set look.color_by=speed --set look.color_map=ember --set look.color_range=[0,4]
     ffmpeg -v error -y -i "$work/variations-%02d.png" -vf tile=5x2:padding=4 -frames:v 1 -c:v libwebp -quality 85 docs/keys.webp
+fi
+
+if wanted constants; then
+    constant b1 "0.00005 0.0015 0.02"
+    constant bd "0.02 0.25 4"
+    # Less of it, on an open floor: the tank is far away.
+    constant cr "1 1.3 1.6" --set "body[0].minimum=[-0.5,0,-0.3]" --set "body[0].maximum=[0.2,1,0.3]" \
+        --set "obstacle[1].minimum=[-9,0,-9]" --set "obstacle[1].maximum=[9,9,9]" --set "obstacle[1].edges=false"
+    constant cd "1 2 3"
+    constant friction "0 0.3 0.8" --set material.preset=sand --set look.style=spheres
+    constant radius "0.12 0.08 0.04" --set look.style=spheres
+    ffmpeg -v error -y -i "$work/constants-%02d.png" -vf tile=3x6:padding=4 -frames:v 1 -c:v libwebp -quality 85 \
+        docs/constants.webp
 fi
 
 still fountain 168
