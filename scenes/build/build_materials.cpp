@@ -3,21 +3,15 @@
 // stays the same substance at any size of its particles.
 #include <array>
 #include <cmath>
-#include <map>
 #include <string_view>
 
 #include "scenes/build/builders.h"
 #include "scenes/build/columns.h"
+#include "scenes/schema/preset_info.h"
 #include "scenes/text/color.h"
 
 namespace scenes {
 namespace {
-
-/// Colors of particles by preset of their material, sRGB. Chosen: easy to tell apart on light and dark backgrounds.
-const std::map<std::string_view, std::string_view> kPresetColors = {
-    {"liquid", "#3f86c8"}, {"solid", "#c8794a"},        {"powder", "#d8b878"}, {"fountain", "#58a8dc"},
-    {"honey", "#d98a12"},  {"jam", "#9c1430"},          {"oil", "#d9b63a"},    {"lava", "#ff5a14"},
-    {"mud", "#6b4a2f"},    {"molten-metal", "#ffb347"}, {"sand", "#d9b36c"}};
 
 /// A key of [material] and the number of engine::Material that it sets.
 struct MaterialKey {
@@ -74,7 +68,7 @@ void completeMaterial(Section& section, double resolution) {
     const engine::Material preset = presetOf(section);
     section.derive("name", TypedValue::ofString(preset.name));
     for (const MaterialKey& key : kMaterialKeys) section.derive(key.name, TypedValue::ofNumber(preset.*key.member));
-    section.derive("color", TypedValue::ofVector(*colorFromHex(kPresetColors.at(preset.name))));
+    section.derive("color", TypedValue::ofVector(*colorFromHex(presetInfo(preset.name).color)));
 }
 
 void checkName(Section& section, const Materials& previous, BuildContext& context) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scenes/schema/material_guide.h"
 #include "scenes/schema/schema.h"
 
 namespace scenes {
@@ -97,14 +98,15 @@ std::string schemaText() {
             text += fmt::format("  {:<{}}    {}\n", "", width, factsOf(rowOf(*key)));
         }
     }
-    return text;
+    return text + "\n" + presetsText();
 }
 
 std::string schemaMarkdown() {
     std::string text = R"(# Scene files
 
-A scene is a [TOML](https://toml.io) file. This page lists every key that it may contain. It is generated: run
-`globular schema --markdown > docs/scenes.md` after a change of the schema. `globular schema` shows the same in a terminal.
+A scene is a [TOML](https://toml.io) file. This page lists every key that it may contain, the [presets](#presets) of materials and
+[what the constants of a material do](#what-the-constants-do). It is generated: run `globular schema --markdown > docs/scenes.md`
+after a change of the schema. `globular schema` shows the keys and presets in a terminal.
 
 Editors can complete and check keys: `globular schema --json-schema > globular.schema.json` writes a JSON Schema, which
 taplo and Even Better TOML use for a scene that starts with the line `#:schema ./globular.schema.json`.
@@ -121,6 +123,7 @@ range are errors, and are reported with line and column.
             text += fmt::format("{}{}.\n\n", static_cast<char>(std::toupper(table.help[0])), table.help.substr(1));
         text += "| Key | Type, unit | Default | Range or choices | Meaning |\n|---|---|---|---|---|\n";
         for (const Key* key : keysOf(table.name)) text += markdownRow(*key);
+        if (table.name == "material") text += materialGuideMarkdown();
     }
     return text;
 }

@@ -20,10 +20,11 @@ struct SchemaRow {
 
 std::vector<SchemaRow> schemaRows();
 
-/// All keys of scene files as text for a terminal.
+/// All keys of scene files, and the presets of materials, as text for a terminal.
 std::string schemaText();
 
-/// The whole schema as Markdown: for each table of a scene file a section with a table of its keys.
+/// The whole schema as Markdown: for each table of a scene file a section with a table of its keys; for materials also
+/// the presets, and what the constants do.
 std::string schemaMarkdown();
 
 /// The whole schema as JSON Schema, draft-07, which taplo and Even Better TOML read. It accepts every valid scene.

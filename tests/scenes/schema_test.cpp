@@ -2,11 +2,14 @@
 #include "tests/catch.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
 
+#include "engine/force_law/material.h"
 #include "scenes/schema/document.h"
+#include "scenes/schema/preset_info.h"
 #include "scenes/schema/schema.h"
 #include "scenes/schema/schema_export.h"
 #include "scenes/schema/typed_value.h"
@@ -100,6 +103,27 @@ TEST_CASE("the text shows every key under the header of its table") {
         CHECK(text.find(name, at) != std::string::npos);
         CHECK(text.find(std::string(key.help)) != std::string::npos);
     }
+}
+
+TEST_CASE("every preset is described, in the order of the presets, and its constants are those of the engine") {
+    const std::string text = scenes::schemaText();
+    const std::string page = scenes::schemaMarkdown();
+    const auto presets = engine::materialPresets();
+    REQUIRE(scenes::presetInfos().size() == presets.size());
+    for (std::size_t index = 0; index < presets.size(); ++index) {
+        const scenes::PresetInfo& info = scenes::presetInfos()[index];
+        INFO(info.name);
+        CHECK(info.name == presets[index].name);
+        CHECK(text.find(std::string(info.behavior)) != std::string::npos);
+        CHECK(page.find("| `" + std::string(info.name) + "` | " + std::string(info.behavior)) != std::string::npos);
+    }
+    CHECK(text.find("radius 0.08 m, mass 0.015 kg, b1 0.03, bd 1.2, cr 1, cd 1, friction 0.3") != std::string::npos);
+    CHECK(page.find(" | 0.08 | 0.015 | 0.03 | 1.2 | 1 | 1 | 0.3 | ") != std::string::npos);
+}
+
+TEST_CASE("the page shows a picture of what the constants do, which is there") {
+    CHECK(scenes::schemaMarkdown().find("](constants.webp)") != std::string::npos);
+    CHECK(std::filesystem::exists(GLOBULAR_SOURCE "/docs/constants.webp"));
 }
 
 TEST_CASE("docs/scenes.md is current") {
