@@ -33,9 +33,8 @@ still() { # scene, frame: mostly that of its still.time
     cp "$work/$1/"frame-*.png "docs/$1.png"
 }
 
-# Finer particles for docs/first.toml: the same substance and the same jet (docs/model.md, "Finer particles").
-finer=(--set material.radius=0.05 --set material.mass=0.0122 --set material.b1=0.000179 --set material.bd=5
-    --set "emitter[0].interval=0.034")
+# Finer particles for docs/first.toml (docs/model.md, "Finer particles").
+finer=(--set resolution=1.6)
 
 if wanted first; then
     "$globular" render docs/first.toml "${finer[@]}" --frames 8-176 --size 800x450 --quality final --quiet -o "$work/first"
