@@ -137,6 +137,12 @@ double restSpacing(const Material& material) {
     return 2.0 * material.radius * reducedRestSpacing(reducedLaw(material));
 }
 
+bool drawsTogether(const Material& material, const Column& column) {
+    constexpr double kAlike = 0.999;  // a ratio of lengths that are the same but for rounding; chosen
+    const double rest = restSpacing(material);
+    return rest < kAlike * 2.0 * material.radius && rest < kAlike * column.spacing;
+}
+
 double settledShare(const Material& material, const Column& column) {
     const double rest = 2.0 * material.radius;
     const double volumeBefore = cellVolume(column.spacing / rest);

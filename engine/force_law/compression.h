@@ -25,6 +25,10 @@ double latticePressure(const Material& material, double spacing);
 /// radii unless particles attract beyond their nearest neighbors (c_r above the square root of 2).
 double restSpacing(const Material& material);
 
+/// Whether a column of the material draws itself together and away from the walls around it, so that its height does
+/// not follow from its weight: particles attract beyond their nearest neighbors, and lie further apart than at rest.
+bool drawsTogether(const Material& material, const Column& column);
+
 /// The height at which a column of the material comes to rest, as a share of its height before. It is above 1 for a
 /// column that starts more closely packed than it comes to rest.
 double settledShare(const Material& material, const Column& column);

@@ -17,7 +17,7 @@ namespace {
 /// Empty for a material that draws itself together, and so does not fill a column between walls.
 std::string settledText(const engine::Material& material) {
     const engine::Column column{.height = 2.0, .spacing = 2.0 * material.radius};
-    if (engine::restSpacing(material) < column.spacing) return {};
+    if (engine::drawsTogether(material, column)) return {};
     return fmt::format("{:.0f} %", 100.0 * engine::settledShare(material, column));
 }
 

@@ -120,3 +120,13 @@ TEST_CASE("a material with particles of another radius keeps its density and its
         CHECK(same.damping == material.damping);
     }
 }
+
+TEST_CASE("Only particles that attract beyond their nearest neighbors draw a loose column together") {
+    for (const Material& material : materialPresets()) {
+        INFO(material.name);
+        Column column{.height = 1.0, .spacing = 2.0 * material.radius};
+        CHECK(drawsTogether(material, column) == (material.name == "solid"));
+        column.spacing = 0.5 * material.radius;
+        CHECK_FALSE(drawsTogether(material, column));
+    }
+}

@@ -101,10 +101,14 @@ Json materialJson(const engine::Material& material, const std::string& note) {
             {"friction", material.friction}, {"note", note}};
 }
 
-/// How tall a body is, and to what share of that it sinks under its own weight; null where nothing weighs on it.
+/// How tall a body is, and to what share of that it sinks under its own weight; null where nothing weighs on it. That
+/// share is null where the body draws itself together.
 Json bodyJson(const scenes::BodyColumn& body) {
     if (body.shape.height == 0.0) return nullptr;
-    return {{"height", body.shape.height}, {"sinks_to", engine::settledShare(body.material, body.shape)}};
+    Json json = {{"height", body.shape.height}, {"sinks_to", nullptr}};
+    if (!engine::drawsTogether(body.material, body.shape))
+        json["sinks_to"] = engine::settledShare(body.material, body.shape);
+    return json;
 }
 
 /// What follows from the scene file alone.
@@ -257,9 +261,13 @@ std::string bodiesText(const Json& bodies) {
     for (std::size_t index = 0; index < bodies.size(); ++index) {
         if (bodies[index].is_null()) continue;
         if (index >= kMostLines) return text + fmt::format("body       ... {} in all\n", bodies.size());
-        text += fmt::format(
-            "body       {}: a column as tall as it, {:.3g} m, sinks to {:.2g} of its height by its own weight\n",
-            index + 1, bodies[index]["height"].get<double>(), bodies[index]["sinks_to"].get<double>());
+        const Json& share = bodies[index]["sinks_to"];
+        text += fmt::format("body       {}: ", index + 1);
+        if (share.is_null())
+            text += "draws itself together, so that it does not follow how far it sinks\n";
+        else
+            text += fmt::format("a column as tall as it, {:.3g} m, sinks to {:.2g} of its height by its own weight\n",
+                                bodies[index]["height"].get<double>(), share.get<double>());
     }
     return text;
 }
