@@ -129,6 +129,13 @@ TEST_CASE("check tells what starts in the wrong place, and comes to an end", "[f
     const auto json = nlohmann::json::parse(program::run("check --json " + path).out);
     CHECK(json["cut_off"].is_null());
     CHECK(json["warnings"].size() == 1);
+
+    const auto secondsOfDrawing = [&](const std::string& size) {
+        const auto said = nlohmann::json::parse(program::run("check --json --set look.size=" + size + " " + path).out);
+        return said["predicted"]["seconds_drawing"].get<double>();
+    };
+    CHECK(secondsOfDrawing("[64,36]") > 0.0);
+    CHECK(secondsOfDrawing("[2560,1440]") > 3.0 * secondsOfDrawing("[64,36]"));  // it has 1600 times the pixels
 }
 
 TEST_CASE("check does not try a scene whose neighbor list does not fit into memory", "[forecast]") {

@@ -17,9 +17,12 @@
 #include "engine/run/strays.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
+#include "render/output/png.h"
 #include "scenes/build/start_warnings.h"
+#include "scenes/view/frame_view.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
+#include "tools/run/open_renderer.h"
 #include "tools/run/run_report.h"
 #include "tools/run/run_warnings.h"
 #include "tools/run/threads.h"
@@ -43,6 +46,19 @@ Json cutOffJson(const Preview& preview) {
     if (!preview.isCutOff) return nullptr;
     return fmt::format("frame {} was not done after {:.0f} s and {} steps", preview.frames + 1, preview.seconds,
                        preview.stepsInCutOff);
+}
+
+/// Wall-clock time in which all frames of a scene are drawn in normal quality and encoded, s, if each takes as long as
+/// the frame that shows this state.
+double secondsOfDrawing(const scenes::Scene& scene, const engine::Simulation& simulation) {
+    const OpenedRenderer opened = openRenderer({}, scene.size, render::Quality::normal, 1);
+    double seconds = 0.0;
+    for (int k = 0; k < 2; ++k) {  // the first one warms up
+        seconds = 0.0;
+        const Stopwatch watch(seconds);
+        render::encodePng(opened.renderer->draw(scenes::frameView(scene, simulation)));
+    }
+    return seconds * scenes::frameCount(scene);
 }
 
 /// What a whole run would take, extrapolated from its first frames: steps, stepper, error, time and memory. What takes
@@ -73,6 +89,8 @@ Json predictionJson(const scenes::Scene& scene) {
     json["seconds_simulating"] = ifForecast(found.likelySeconds());
     json["seconds_least"] = ifForecast(found.leastSeconds);
     json["seconds_most"] = ifForecast(found.mostSeconds);
+    json["seconds_drawing"] =
+        preview.unstable.empty() ? Json(secondsOfDrawing(scene, preview.simulation)) : Json(nullptr);
     json["processor_share"] = preview.seconds > 0.0 ? preview.processorSeconds / preview.seconds : 1.0;
     json["strays"] = engine::strayCount(preview.simulation);
     // A column gets further, to the error estimates of more steppers, which take most of the memory.
@@ -247,8 +265,9 @@ std::string predictedText(const Json& json) {
                         json["bytes_per_particle"].get<std::size_t>());
     if (predicted["unstable"].is_null() && !predicted["seconds_simulating"].is_null())
         text += fmt::format(
-            "time       {} of simulating on this machine, drawing not counted\n",
-            durationText(predicted["seconds_least"].get<double>(), predicted["seconds_most"].get<double>()));
+            "time       {} of simulating and {} of drawing on this machine, at the same time if there are free cores\n",
+            durationText(predicted["seconds_least"].get<double>(), predicted["seconds_most"].get<double>()),
+            durationText(predicted["seconds_drawing"].get<double>(), predicted["seconds_drawing"].get<double>()));
     else if (predicted["unstable"].is_null())
         text += "time       not known: not even the first frame was done\n";
     return text;
