@@ -193,23 +193,9 @@ namespace engine {
 
 HWY_EXPORT(addExternalForcesHere);
 
-namespace {
-
-/// Does the same for obstacles that are so many that each particle looks at those near it alone.
-void addAmongMany(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
-                  std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
-    for (std::size_t p = begin; p < end; ++p) {
-        const Probe probe = probeOf(field.materials, particles, p, velocities[p]);
-        forces[p] = (forces[p] + probe.mass * field.gravity) + sumContacts(field.obstacles, probe).force;
-    }
-}
-
-}  // namespace
-
 void addExternalForces(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                        std::size_t begin, std::size_t end, std::vector<Vec3>& forces) {
     if (begin == end) return;
-    if (!field.obstacles.index.solids.isEmpty()) return addAmongMany(field, particles, velocities, begin, end, forces);
     HWY_DYNAMIC_DISPATCH(addExternalForcesHere)(field, particles, velocities, begin, end, forces);
 }
 

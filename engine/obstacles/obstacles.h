@@ -75,15 +75,13 @@ enum class WallLaw {
     scaled  ///< stiffness and damping follow the particle's material, mass and radius; no center passes the surface
 };
 
-/// Finds the obstacles near a point; empty where there are so few that looking at all of them is faster.
+/// Finds the obstacles near a point. Empty for the paper's walls, whose scenes have few, and where looking at all is
+/// faster.
 struct ObstacleIndex {
     BoundingBoxTree solids;                  ///< of the boxes and spheres
     std::vector<std::uint32_t> solidAt;      ///< the obstacles that the boxes of that tree stand for
     std::vector<std::uint32_t> unavoidable;  ///< planes and containers, which are near every point
 };
-
-/// The index of obstacles, which are named by their positions in the vector.
-ObstacleIndex indexOf(const std::vector<Obstacle>& shapes);
 
 struct Obstacles {
     std::vector<Obstacle> shapes;
@@ -94,6 +92,9 @@ struct Obstacles {
         surfaces;          ///< of the shapes, in their order, for scaled walls; default where there is none
     double gravity = 0.0;  ///< size of the gravity under which particles lie on scaled walls, m/s^2
 };
+
+/// The index of these shapes, which are named by their positions in the vector.
+ObstacleIndex indexOf(const Obstacles& obstacles);
 
 /// Number of particles that a thread processes at a time in loops over the contacts of each particle.
 std::size_t contactGrain(const Obstacles& obstacles);

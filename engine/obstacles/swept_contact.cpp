@@ -128,9 +128,9 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particl
             visit(surface, contact);
         });
     if (std::isinf(beyond)) return bounds;
-    // The forces of obstacles that have not been looked at change over these lengths at least.
+    // There is an index for scaled walls alone; see scaledScale().
     bounds.gap = std::min(bounds.gap, beyond - largestContactReach(radius));
-    bounds.scale = std::min(bounds.scale, obstacles.wall == WallLaw::paper ? radius : 2.0 * radius);
+    bounds.scale = std::min(bounds.scale, 2.0 * radius);
     return bounds;
 }
 

@@ -14,7 +14,7 @@ namespace engine {
 Simulation start(const Setup& setup) {
     Simulation simulation;
     simulation.setup = setup;
-    simulation.setup.obstacles.index = indexOf(setup.obstacles.shapes);
+    simulation.setup.obstacles.index = indexOf(setup.obstacles);
     simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
     simulation.cache->evaluator = ForceEvaluator(forceFieldOf(simulation.setup), setup.forces, setup.precision);
     simulation.particles = setup.initial;

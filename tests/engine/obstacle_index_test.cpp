@@ -33,9 +33,9 @@ std::vector<BoundingBox> randomBoxes(std::size_t count) {
 }
 
 /// A plane, a container and 300 boxes and spheres, with their index.
-Obstacles manyObstacles(WallLaw wall) {
+Obstacles manyObstacles() {
     Obstacles obstacles;
-    obstacles.wall = wall;
+    obstacles.wall = WallLaw::scaled;
     obstacles.gravity = 9.8;
     obstacles.shapes = {Plane{Vec3(0, -4, 0), Vec3::UnitY()}, Container{Vec3(-5, -5, -5), Vec3(5, 5, 5)}};
     for (std::uint64_t k = 0; k < 300; ++k) {
@@ -48,7 +48,7 @@ Obstacles manyObstacles(WallLaw wall) {
     }
     for (std::size_t k = 0; k < obstacles.shapes.size(); ++k)
         obstacles.surfaces.push_back({.rebound = reboundWith(0.5), .adhesion = k % 5 == 0 ? 10.0 : 0.0});
-    obstacles.index = indexOf(obstacles.shapes);
+    obstacles.index = indexOf(obstacles);
     return obstacles;
 }
 
@@ -102,76 +102,75 @@ TEST_CASE("A tree of boxes finds each box that is near a point once", "[obstacle
 }
 
 TEST_CASE("Few obstacles have no index, many have one of all", "[obstacle-index]") {
-    const Obstacles many = manyObstacles(WallLaw::scaled);
-    CHECK(indexOf({many.shapes.begin(), many.shapes.begin() + 12}).solids.isEmpty());
+    const Obstacles many = manyObstacles();
+    Obstacles few = many;
+    few.shapes.resize(5);
+    CHECK(indexOf(few).solids.isEmpty());
+    Obstacles ofPaper = many;
+    ofPaper.wall = WallLaw::paper;
+    CHECK(indexOf(ofPaper).solids.isEmpty());
     CHECK(many.index.unavoidable == std::vector<std::uint32_t>{0, 1});
     CHECK(many.index.solidAt.size() == 300);
-    const Setup setup = [&] {
-        Setup fresh;
-        fresh.obstacles.shapes = many.shapes;
-        return fresh;
-    }();
+    Setup setup;
+    setup.obstacles.shapes = many.shapes;
+    setup.obstacles.wall = WallLaw::scaled;
     CHECK_FALSE(start(setup).setup.obstacles.index.solids.isEmpty());
 }
 
 TEST_CASE("Contacts and motion among many obstacles are those without the index", "[obstacle-index]") {
-    for (const WallLaw wall : {WallLaw::scaled, WallLaw::paper}) {
-        const Obstacles many = manyObstacles(wall);
-        const Obstacles all = withoutIndex(many);
-        std::size_t touched = 0, swept = 0, held = 0;
-        for (std::uint64_t number = 0; number < 3000; ++number) {
-            const Probe probe = randomProbe(number);
-            INFO("particle " << number);
-            const std::vector<double> heights = touchedHeights(all, probe);
-            CHECK(touchedHeights(many, probe) == heights);
-            touched += heights.size();
-            // Only the order of the sums differs.
-            const ContactSums sums = sumContacts(many, probe);
-            const ContactSums expected = sumContacts(all, probe);
-            CHECK((sums.force - expected.force).norm() <= 1e-12 * expected.force.norm());
-            CHECK(std::abs(sums.energy - expected.energy) <= 1e-12 * std::abs(expected.energy));
-            for (const double duration : {0.0, 0.001, 0.1}) {
-                const Contacts contacts = contactsInStep(many, probe, duration, true);
-                const Contacts exact = contactsInStep(all, probe, duration, true);
-                CHECK(contacts.needsSweep == exact.needsSweep);
-                CHECK((contacts.force - exact.force).norm() <= 1e-12 * exact.force.norm());
-                CHECK(contacts.gap <= exact.gap);
-                const double path = duration * probe.velocity.norm();
-                CHECK(contacts.gap >= std::min(exact.gap, std::max(path, 5.0 * probe.radius)));
-                swept += exact.needsSweep ? 1 : 0;
-            }
-            Probe moved = probe;
-            Probe reference = probe;
-            const int hits = moveAmongBarriers(many, moved, 0.1, Arrival::rebounds);
-            CHECK(hits == moveAmongBarriers(all, reference, 0.1, Arrival::rebounds));
-            CHECK(moved.position == reference.position);
-            CHECK(moved.velocity == reference.velocity);
-            held += static_cast<std::size_t>(hits);
+    const Obstacles many = manyObstacles();
+    const Obstacles all = withoutIndex(many);
+    std::size_t touched = 0, swept = 0, held = 0;
+    for (std::uint64_t number = 0; number < 3000; ++number) {
+        const Probe probe = randomProbe(number);
+        INFO("particle " << number);
+        const std::vector<double> heights = touchedHeights(all, probe);
+        CHECK(touchedHeights(many, probe) == heights);
+        touched += heights.size();
+        // Only the order of the sums differs.
+        const ContactSums sums = sumContacts(many, probe);
+        const ContactSums expected = sumContacts(all, probe);
+        CHECK((sums.force - expected.force).norm() <= 1e-12 * expected.force.norm());
+        CHECK(std::abs(sums.energy - expected.energy) <= 1e-12 * std::abs(expected.energy));
+        for (const double duration : {0.0, 0.001, 0.1}) {
+            const Contacts contacts = contactsInStep(many, probe, duration, true);
+            const Contacts exact = contactsInStep(all, probe, duration, true);
+            CHECK(contacts.needsSweep == exact.needsSweep);
+            CHECK((contacts.force - exact.force).norm() <= 1e-12 * exact.force.norm());
+            CHECK(contacts.gap <= exact.gap);
+            const double path = duration * probe.velocity.norm();
+            CHECK(contacts.gap >= std::min(exact.gap, std::max(path, 5.0 * probe.radius)));
+            swept += exact.needsSweep ? 1 : 0;
         }
-        CHECK(touched > 500);
-        CHECK(swept > 500);
-        CHECK(held > 500);
+        Probe moved = probe;
+        Probe reference = probe;
+        const int hits = moveAmongBarriers(many, moved, 0.1, Arrival::rebounds);
+        CHECK(hits == moveAmongBarriers(all, reference, 0.1, Arrival::rebounds));
+        CHECK(moved.position == reference.position);
+        CHECK(moved.velocity == reference.velocity);
+        held += static_cast<std::size_t>(hits);
     }
+    CHECK(touched > 500);
+    CHECK(swept > 500);
+    CHECK(held > 500);
 }
 
 TEST_CASE("A swept contact among many obstacles is that without the index", "[obstacle-index]") {
-    for (const WallLaw wall : {WallLaw::scaled, WallLaw::paper}) {
-        const Obstacles many = manyObstacles(wall);
-        const Obstacles all = withoutIndex(many);
-        std::size_t compared = 0;
-        for (std::uint64_t number = 0; number < 1000; ++number) {
-            Probe moved = randomProbe(number);
-            if (!touchedHeights(all, moved).empty()) continue;
-            Probe reference = moved;
-            // Short, so that a particle meets few obstacles: each multiplies the difference between two ways.
-            advanceThroughContacts(many, moved, 0.03);
-            advanceThroughContacts(all, reference, 0.03);
-            INFO("particle " << number);
-            CHECK((moved.position - reference.position).norm() <= 0.01 * moved.radius);
-            ++compared;
-        }
-        CHECK(compared > 300);
+    const Obstacles many = manyObstacles();
+    const Obstacles all = withoutIndex(many);
+    std::size_t compared = 0;
+    for (std::uint64_t number = 0; number < 1000; ++number) {
+        Probe moved = randomProbe(number);
+        if (!touchedHeights(all, moved).empty()) continue;
+        Probe reference = moved;
+        // Short, so that a particle meets few obstacles: each multiplies the difference between two ways.
+        advanceThroughContacts(many, moved, 0.03);
+        advanceThroughContacts(all, reference, 0.03);
+        INFO("particle " << number);
+        CHECK((moved.position - reference.position).norm() <= 0.01 * moved.radius);
+        ++compared;
     }
+    CHECK(compared > 300);
 }
 
 TEST_CASE("Particles that fall among many boxes stay outside of them", "[obstacle-index]") {
