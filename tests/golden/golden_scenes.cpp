@@ -13,7 +13,7 @@ std::string goldenName(const GoldenScene& scene, const std::string& style, int f
 const std::vector<GoldenScene>& scenes() {
     static const std::vector<GoldenScene> kScenes = {
         {"cascade", 30, 130, {}},
-        {"fountain", 20, 75, {}, true},
+        {"fountain", 20, 60, {}, true},
         {"honey", 30, 90, {}},
         {"jam", 5, 30, {"physics.stepper=linearly-implicit", "physics.step=0.01"}},
         {"lava", 30, 90, {}},
