@@ -23,12 +23,12 @@ bool isFacing(const Section& section) {
 }
 
 void checkPositions(Section& section, BuildContext& context) {
-    if (reportConflict(section, "position", "positions", context)) return;
+    if (settleConflict(section, "position", "positions", context)) return;
     if (!section.isGiven("position") && !section.isGiven("positions")) reportMissing(section, "position", context);
 }
 
 void checkSchedule(Section& section, BuildContext& context) {
-    reportConflict(section, "interval", "rate", context);
+    settleConflict(section, "interval", "rate", context);
     if (section.has("start") && section.has("until") && section.number("until") <= section.number("start"))
         report(section, "until", context, "until is {}, must be after start, {} (seconds)", section.canonical("until"),
                section.canonical("start"));

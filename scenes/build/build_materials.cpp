@@ -124,10 +124,18 @@ std::string chooseRepulsion(Section& section, const engine::Material& material, 
                        *repulsion);
 }
 
+/// Chooses between b1 and compression where both are given. Without compression there is no depth.
+void settleRepulsion(Section& section, BuildContext& context) {
+    const bool isCompressed = section.isGiven("compression");
+    settleConflict(section, "b1", "compression", context);
+    if (isCompressed && !section.isGiven("compression")) section.erase("depth");
+}
+
 void appendMaterial(Section& section, Materials& materials, BuildContext& context) {
     // An invalid material keeps its name, so that no body that uses it is reported for an undefined material.
     engine::Material material;
     engine::Vec3 color = engine::Vec3::Zero();
+    settleRepulsion(section, context);
     completeMaterial(section, context.resolution);
     if (section.has("name")) {
         checkName(section, materials, context);

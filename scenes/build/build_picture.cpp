@@ -56,25 +56,6 @@ CameraPlacement placementFrom(const Section& section) {
     return camera;
 }
 
-/// Whether an override of the command line gives `key` while the scene file gives `other`.
-bool overrides(const Section& section, std::string_view key, std::string_view other) {
-    return section.isGiven(key) && section.position(key).overrideIndex >= 0 &&
-           section.position(other).overrideIndex < 0;
-}
-
-/// Chooses between the keys colors and color_map where both are given. If one of them comes from the command line, it
-/// takes precedence, and the one in the scene file is removed from the values of the scene; otherwise a problem is
-/// recorded.
-void chooseRamp(Section& section, BuildContext& context) {
-    if (!section.isGiven("colors") || !section.isGiven("color_map")) return;
-    if (overrides(section, "color_map", "colors"))
-        section.erase("colors");
-    else if (overrides(section, "colors", "color_map"))
-        section.erase("color_map");
-    else
-        reportConflict(section, "colors", "color_map", context);
-}
-
 void readColors(Section& section, const BuildContext& context, Look& look) {
     const std::string& colorBy = section.string("color_by");
     look.colorBy = colorBy == "speed" ? ColorBy::speed : colorBy == "age" ? ColorBy::age : ColorBy::material;
@@ -175,7 +156,7 @@ CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
 Look buildLook(Section& section, const CameraPath& camera, BuildContext& context) {
     Look look;
     const auto toLight = directionFrom(section, "light_direction", context);
-    chooseRamp(section, context);
+    settleConflict(section, "colors", "color_map", context);
     if (!section.isValid()) return look;
     readColors(section, context, look);
     // 30 m suits pictures that are a few meters high.

@@ -25,8 +25,13 @@ void reportMissing(Section& section, std::string_view name, BuildContext& contex
         context.problems.add(section.position(), missingText(section, *findKey(section.table().name, name)));
 }
 
-bool reportConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context) {
+bool settleConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context) {
     if (!section.isGiven(one) || !section.isGiven(other)) return false;
+    const auto isOverride = [&](std::string_view name) { return section.position(name).overrideIndex >= 0; };
+    if (isOverride(one) != isOverride(other)) {
+        section.erase(isOverride(one) ? other : one);
+        return false;
+    }
     const std::string_view later = section.position(other) < section.position(one) ? one : other;
     report(section, later, context, "{} and {} exclude each other, give one", one, other);
     return true;

@@ -89,8 +89,9 @@ void checkWithinWorld(Section& section, std::string_view name, std::span<const e
 /// Records that a key is missing from a section, and marks the section as invalid.
 void reportMissing(Section& section, std::string_view name, BuildContext& context);
 
-/// Records a problem if two keys that exclude each other were both written. Returns whether they were.
-bool reportConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context);
+/// Settles the matter if two keys that exclude each other were both written: one of the command line takes precedence
+/// over one of the scene file, which is erased; otherwise a problem is recorded. Returns whether there is a problem.
+bool settleConflict(Section& section, std::string_view one, std::string_view other, BuildContext& context);
 
 /// Adds to the number of particles that the scene will have, and records a problem with a key of the section if that
 /// number exceeds the limit.

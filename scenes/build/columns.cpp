@@ -43,7 +43,7 @@ bool checkCompression(Section& material, BuildContext& context) {
         report(material, "depth", context, "depth does nothing without compression, which chooses b1 for that depth");
         return false;
     }
-    if (!material.has("compression") || reportConflict(material, "b1", "compression", context)) return false;
+    if (!material.has("compression")) return false;
     if (gravityOf(context) == 0.0)
         report(material, "compression", context, "compression needs gravity: without it nothing is compressed");
     return material.isValid();

@@ -175,6 +175,16 @@ TEST_CASE("a compression chooses b1 for the tallest body of the material, or for
     CHECK(engine::settledShare(emitted, {.height = 2.0, .spacing = 0.3}) == Approx(0.9));
 }
 
+TEST_CASE("a b1 or a compression of the command line takes the place of the other one in the file") {
+    const std::string compressed = kBall + "[material]\ncompression = 0.1\ndepth = 2\n";
+    CHECK(sceneOf(compressed, {"material.b1=3"}).setup.materials.at(0).repulsion == 3.0);
+    CHECK(noteOf(compressed, {"material.b1=3"}) == "");
+    CHECK(sceneOf(kBall + "[material]\nb1 = 3\n", {"material.compression=0.1", "material.depth=2"})
+              .setup.materials.at(0)
+              .repulsion == sceneOf(compressed).setup.materials.at(0).repulsion);
+    CHECK(problemsOf(kBall, {"material.b1=3", "material.compression=0.1"}).size() == 1);
+}
+
 TEST_CASE("contradictory keys of a compression are reported") {
     CHECK(problemsOf(kBall + "[material]\nb1 = 1\ncompression = 0.1\n") ==
           Lines{"pile.toml:8:15: b1 and compression exclude each other, give one"});

@@ -158,7 +158,7 @@ TEST_CASE("check describes a scene that becomes unstable at once", "[tools]") {
 }
 
 TEST_CASE("check says what follows from the size of particles, and how far bodies sink", "[tools]") {
-    const auto outcome = run("check liquid --set resolution=0.5");
+    const auto outcome = run("check liquid --set resolution=0.5 --set material.b1=0.04");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("b1 2.56, bd 0.3, cr 1, cd 2, radius 0.3 m, mass 0.8 kg") != std::string::npos);
